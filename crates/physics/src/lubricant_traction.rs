@@ -425,7 +425,7 @@ impl<R: Real> LubricantTraction<R> {
     /// Formula: min(2.2 [s_f + ξ_2 μ_b/u_b], 1.16 s_e)
     ///
     /// s_f is the film's part of [`LubricantTraction::slope_at_rest`]; it and the share ξ_2 are taken with the film at
-    /// slide-to-roll 2, where it is thinnest.
+    /// slide-to-roll 2, where it is thinnest, the slope of creep s_e with the pressure at rest, where it is least.
     ///
     /// - `load`: Q, N
     /// - `entrainment`: v, m/s
@@ -439,7 +439,9 @@ impl<R: Real> LubricantTraction<R> {
         let slow = entrainment.abs().max(R::splat(SLOWEST));
         let at = self.conditions(slow + slow, load, entrainment);
         let (film, boundary) = self.initial_slopes(&at);
-        let creep = (at.pressure * at.entrainment * self.creep).recip();
+        // the pressure is least at rest, where the film is thickest and the oil beside the contact carries most
+        let rest = self.conditions(R::zero(), load, entrainment);
+        let creep = (rest.pressure * rest.entrainment * self.creep).recip();
         (R::splat(2.2) * (film + at.share * boundary)).min(R::splat(1.16) * creep)
     }
 

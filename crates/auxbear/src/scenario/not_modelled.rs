@@ -34,7 +34,8 @@ impl Absent {
 /// What a path asks for, where the system does not describe it.
 pub(crate) fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
     let path = path.to_lowercase();
-    if system == SystemName::CoastDown && path.starts_with("heat") {
+    let warms = system == SystemName::CoastDown || system.falls();
+    if warms && (path == "heat" || path.starts_with("heat.")) {
         return None;
     }
     let name = path.rsplit('.').next().unwrap_or(&path);
@@ -175,7 +176,7 @@ mod tests {
         for path in [
             "rotor.axial_gap",
             "rotor.transverse_inertia",
-            "heat.enabled",
+            "thermal.enabled",
             "levitation.controller",
             "Levitation.Kp",
             "bearing.rows",
@@ -193,7 +194,13 @@ mod tests {
         ] {
             assert!(of(path, SystemName::Drop).is_some(), "{path}");
         }
-        for path in ["rotor.mas", "heating", "bearing.counts", "levitation.kpa"] {
+        for path in [
+            "rotor.mas",
+            "heat.enabled",
+            "heating",
+            "bearing.counts",
+            "levitation.kpa",
+        ] {
             assert!(of(path, SystemName::Drop).is_none(), "{path}");
         }
     }

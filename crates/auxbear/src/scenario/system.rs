@@ -92,6 +92,9 @@ pub(crate) const MOVING: &[SystemName] = &[
 
 /// Systems in which a levitated rotor falls.
 pub(crate) const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machine];
+/// Systems that run out, by themselves or after a drop.
+pub(crate) const RUNNING_OUT: &[SystemName] =
+    &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
 
 /// Systems whose runs have a choice of steps.
 pub(crate) const STEPPED: &[SystemName] =

@@ -202,7 +202,10 @@ fn what_the_model_would_compute_as_something_else_is_refused_or_told() {
     assert!(told("drop", "AB1095", &[]).is_empty());
     for (set, parts) in [
         ("rotor.axial_gap=1 mm", ["AB0212", "point 10"]),
-        ("heat.enabled=true", ["AB0212", "bearing.lubricant_state"]),
+        (
+            "thermal.enabled=true",
+            ["AB0212", "bearing.lubricant_state"],
+        ),
         ("bearing.paired=true", ["AB0212", "rotor.planes = 4"]),
         ("levitation.controller=pid", ["AB0212", "until time 0"]),
         ("bearing_2.name=6005", ["AB0101", "[[auxiliary_bearing]]"]),

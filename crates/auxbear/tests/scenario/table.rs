@@ -348,9 +348,11 @@ fn choices_of(system: SystemName, path: &str) -> Vec<String> {
     let beside = beside.flat_map(|(_, sets)| sets.iter().map(|set| (*set).to_string()));
     let own = format!("{path}=");
     let runs_out = path.starts_with("coast_down.") || path == "run.until";
+    let of_network = path == "bearing.dynamic_load_rating"
+        || path.starts_with("heat.") && path != "heat.network";
     let warms: &[&str] = match runs_out {
         true => RUN_OUT,
-        false if path.starts_with("heat.") && path != "heat.network" => &RUN_OUT[..1],
+        false if of_network => &RUN_OUT[..1],
         false => &[],
     };
     let warms = (warms.iter()).filter(|_| system != SystemName::CoastDown);

@@ -9,12 +9,10 @@ use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::separation::SeparationKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::scenario::system::{
-    FALLING, FREE_RACE, MOVING, RACE_MASS, SystemName, WITH_BALLS as LOADED, WITH_CAGE, WITH_MOMENT,
+    FALLING, FREE_RACE, MOVING, RACE_MASS, RUNNING_OUT, WITH_BALLS as LOADED, WITH_CAGE,
+    WITH_MOMENT,
 };
 use crate::scenario::words::Words;
-
-/// Where a life is given.
-const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing",
@@ -198,7 +196,7 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .optional("no life is given")
-    .only(COAST_DOWN),
+    .only(RUNNING_OUT),
     Key::new(
         "bearing.limiting_speed",
         Kind::Quantity("rad/s"),

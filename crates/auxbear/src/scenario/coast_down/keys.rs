@@ -1,13 +1,10 @@
 //! The part of the table of keys that describes a run-out: how long it lasts.
 
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Presence, Range, Section};
-use crate::scenario::system::SystemName;
+use crate::scenario::system::{RUNNING_OUT, SystemName};
 
 /// The systems of this page.
 const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
-/// Systems that run out, by themselves or after a drop.
-pub(crate) const RUNNING_OUT: &[SystemName] =
-    &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
 
 const UNTIL_STANDSTILL: &[Condition] = &[Condition {
     path: "run.until",

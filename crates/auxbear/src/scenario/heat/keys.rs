@@ -1,9 +1,8 @@
 //! The part of the table of keys that describes what warms of a bearing, and what the heat passes through.
 
-use crate::scenario::coast_down::keys::RUNNING_OUT;
 use crate::scenario::heat::{Atmosphere, CageMaterial, Feedback, Network};
-use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
-use crate::scenario::system::{FALLING, SystemName};
+use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
+use crate::scenario::system::{FALLING, RUNNING_OUT, SystemName};
 use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
@@ -206,6 +205,15 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .assumed("0 W/K", "the rotor gives its heat to the bearings alone, as in vacuum")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.contamination",
+        Kind::Coefficient,
+        "0.3",
+        "Contamination factor e_C of the lubricant, for the life with lubricant: 1 extremely clean, 0.8 to 0.6 filtered, 0.5 to 0.3 usual, below 0.1 dirty.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .assumed("0.3", "a greased bearing without a filter, ISO 281 from memory")
     .when(FOLLOWED),
     Key::new(
         "heat.race_limit",

@@ -157,6 +157,8 @@ pub struct Heat {
     pub surroundings: Option<f64>,
     /// Rotor to its surroundings, W/K.
     pub rotor_surroundings: f64,
+    /// Contamination factor e_C.
+    pub contamination: f64,
     /// Limit of the races, K.
     pub race_limit: f64,
     /// Limit of the cage, K.
@@ -227,6 +229,7 @@ impl Heat {
             outer_seat: heat.number("outer_seat"),
             surroundings: heat.maybe("surroundings"),
             rotor_surroundings: heat.number("rotor_surroundings"),
+            contamination: heat.number("contamination"),
             race_limit: heat.number("race_limit"),
             cage_limit: heat.number("cage_limit"),
             lubricant_limit: heat.number("lubricant_limit"),

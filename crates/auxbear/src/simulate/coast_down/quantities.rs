@@ -7,9 +7,10 @@ use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{
-    RatedBearing, bearing_damage, passages_per_turn, reference_viscosity, repetitions, ring_damage,
+    RatedBearing, bearing_damage, iso_life_factor, passages_per_turn, reference_viscosity,
+    repetitions, ring_damage, temperature_factor,
 };
-use thermal::bearing_network::{LUBRICANT, NODES};
+use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
 
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
@@ -166,19 +167,27 @@ fn clearance(ran: &Ran, k: usize, list: &mut List) {
 
 fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     let of = |words: &str| of_part(&part.name, words);
-    let ratio = |row: &Row| {
-        let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
-        let rpm = row.speed * 60.0 / std::f64::consts::TAU;
-        1e6 * part.losses.oil.viscosity(kelvin)
-            / reference_viscosity(rpm, 1e3 * part.warm.pitch_diameter)
-    };
-    let least = ran.free.rows.iter().map(ratio);
+    let least = (ran.free.rows.iter()).map(|row| viscosity_ratio(k, part, row));
     let least = least.fold(f64::INFINITY, f64::min);
     list.number(&of("smallest_viscosity_ratio"), "1", Ok(least), &KAPPA);
     let share = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
-        .map(|rating| used(ran, k, part, rating));
+        .map(|rating| used(ran, k, part, rating, &|_| 1.0));
     list.number(&of("life_share"), "1", share.clone(), &LIFE);
+    let lubricated = (part.warm.dynamic_load_rating)
+        .zip(part.warm.static_load_rating)
+        .ok_or_else(|| format!("bearing.dynamic_load_rating or static_load_rating{NOT_GIVEN}"))
+        .map(|(rating, still)| {
+            used(ran, k, part, rating, &|row| {
+                life_factor(k, part, still, row)
+            })
+        });
+    list.number(
+        &of("life_share_with_lubricant"),
+        "1",
+        lubricated,
+        &LUBRICATED,
+    );
     for (name, survival) in [
         ("runs_until_one_percent_fail", 0.99),
         ("runs_until_ten_percent_fail", 0.9),
@@ -189,8 +198,30 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     }
 }
 
-/// Share of the rating life of one bearing that the run-out uses.
-fn used(ran: &Ran, k: usize, part: &Part, rating: f64) -> f64 {
+/// Pitch diameter up to which C_u = C0/22, m. Source: ISO 281:2007 (from memory).
+const SMALL: f64 = 0.1;
+
+/// Life factor of lubricant and cleanliness at a row, a_ISO, with the rating of a hot ring in it.
+fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row) -> f64 {
+    let warm = &part.warm;
+    let fatigue = static_rating / 22.0 * (SMALL / warm.pitch_diameter.max(SMALL)).sqrt();
+    let ratio = warm.heat.contamination * fatigue / warm.radial_load;
+    let kappa = viscosity_ratio(k, part, row);
+    let races = [INNER_RACE, OUTER_RACE].map(|node| row.temperatures[k * NODES.len() + node]);
+    let hot = temperature_factor(races[0].max(races[1]));
+    iso_life_factor(kappa, ratio) * hot.powi(3)
+}
+
+/// κ at a row.
+fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
+    let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
+    let rpm = row.speed * 60.0 / std::f64::consts::TAU;
+    1e6 * part.losses.oil.viscosity(kelvin)
+        / reference_viscosity(rpm, 1e3 * part.warm.pitch_diameter)
+}
+
+/// Share of the rating life of one bearing that the run-out uses, with a life factor at each row.
+fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> f64) -> f64 {
     let warm = &part.warm;
     let gamma = warm.ball_diameter / warm.pitch_diameter;
     let bearing = RatedBearing {
@@ -206,6 +237,7 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64) -> f64 {
     let mut inner = 0.0;
     let mut outer = vec![0.0; PLACES];
     for (before, after, turned) in pairs(&ran.free.rows) {
+        let turned = turned * 0.5 * (1.0 / factor(before) + 1.0 / factor(after));
         let clearance = [before, after].map(|row| row.bearings[k].clearance);
         let zone = (part.zone).all_round(0.5 * (clearance[0] + clearance[1]), PLACES);
         for (sum, load) in outer.iter_mut().zip(zone) {
@@ -283,6 +315,11 @@ const KAPPA: Origin = Origin {
     law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above",
     source: "ISO 281:2007 (from memory)",
     valid: "below 0.1 no life factor holds",
+};
+const LUBRICATED: Origin = Origin {
+    law: "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22",
+    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; heat-and-life, section 8",
+    valid: "below κ = 0.1 no factor holds, and 0.1 is taken; e_C = heat.contamination decides within a factor of ten",
 };
 const LIFE: Origin = Origin {
     law: "Σ turns Q³ at each place of both rings over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",

@@ -12,8 +12,9 @@
 //! Source: heat-and-life, section 6.
 
 use crate::scenario::{Drop, Feedback, Moment};
-use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start};
 use crate::simulate::coast_down::course::BEYOND;
+use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
@@ -87,14 +88,7 @@ struct Way<'a> {
 
 /// Follows the rotor until it rolls, or until there is a reason to end; `built` starts there afterwards.
 pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBool) -> Bounced {
-    let mut way = Way {
-        context,
-        interrupt,
-        machine: Arc::new(context.machine.clone()),
-        state: context.finished.ending.state.clone(),
-        time: context.finished.ending.time,
-        steps: 0,
-    };
+    let mut way = Way::from_end_of(context, interrupt);
     let mut scatter = Vec::new();
     let mut before: Option<Window> = None;
     let mut agreeing = 0;
@@ -149,8 +143,46 @@ pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBoo
     }
 }
 
+/// Speeds around a natural frequency at which the rotor is looked at, over it.
+const AROUND: [f64; 3] = [1.03, 1.0, 0.97];
+
+/// What the bearings take beside what the laws of a rotor that rolls say, less 1, around natural frequencies that a run-out by laws has
+/// passed: the largest of a few windows at each. Not a number where a window did not end.
+pub(super) fn looked_at(
+    context: &Context,
+    found: &Ran,
+    frequencies: &[f64],
+    interrupt: &AtomicBool,
+) -> (Vec<f64>, u64) {
+    let mut way = Way::from_end_of(context, interrupt);
+    let mut at = |frequency: f64| {
+        let mut worst = 0.0f64;
+        for ratio in AROUND {
+            let speed = ratio * frequency;
+            let Some(row) = found.free.rows.iter().find(|row| row.speed <= speed) else {
+                continue;
+            };
+            let mut built = found.built.clone();
+            built.start = Start::at(row.time, speed, row.temperatures.clone(), built.parts.len());
+            match way.window(&built) {
+                Ok(Some(window)) => worst = worst.max(excess(&built, &window)),
+                Ok(None) => {}
+                Err(_) => return f64::NAN,
+            }
+        }
+        worst
+    };
+    let list = frequencies.iter().map(|frequency| at(*frequency)).collect();
+    (list, way.steps)
+}
+
 /// Whether the bearings take what the laws of a rotor that rolls say.
 fn rolling(built: &Built, window: &Window) -> bool {
+    excess(built, window).abs() < AGREES
+}
+
+/// What the bearings take beside what these laws say, less 1.
+fn excess(built: &Built, window: &Window) -> f64 {
     let start = &built.start;
     let (_, bearings) = window.powers.split_last().unwrap_or((&0.0, &[]));
     let found = f64::from(built.sides) * bearings.iter().sum::<f64>();
@@ -161,10 +193,22 @@ fn rolling(built: &Built, window: &Window) -> bool {
     let law: f64 = parts
         .flat_map(|(part, temperatures)| part.losses.on_rotor(start.speed, temperatures))
         .sum();
-    (found / (law * start.speed) - 1.0).abs() < AGREES
+    found / (law * start.speed) - 1.0
 }
 
-impl Way<'_> {
+impl<'a> Way<'a> {
+    /// From where the drop ended.
+    fn from_end_of(context: &'a Context<'a>, interrupt: &'a AtomicBool) -> Self {
+        Way {
+            context,
+            interrupt,
+            machine: Arc::new(context.machine.clone()),
+            state: context.finished.ending.state.clone(),
+            time: context.finished.ending.time,
+            steps: 0,
+        }
+    }
+
     /// Means at the speed and the temperatures that the run-out has come to; none where the rotor rolls.
     fn window(&mut self, built: &Built) -> Result<Option<Window>, &'static str> {
         let speed = built.start.speed;
