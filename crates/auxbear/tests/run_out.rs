@@ -39,7 +39,11 @@ fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
 
 #[test]
 fn the_network_changes_nothing_of_the_motion_and_loses_no_heat() {
-    let short = ["run.until=duration", "run.duration=0.3 s"];
+    let short = [
+        "run.until=duration",
+        "run.duration=0.3 s",
+        "heat.feedback=none",
+    ];
     let with = ran(&short);
     let without = ran(&[short[0], short[1], "heat.network=off"]);
     for column in &without.history {
@@ -68,7 +72,7 @@ fn the_network_changes_nothing_of_the_motion_and_loses_no_heat() {
 fn slow_time_goes_on_as_ball_by_ball_would() {
     // without feedback both have one moment: the rotor loses as much in the seconds that follow
     let slow = ran(&["heat.feedback=none"]);
-    let motion = ran(&["run.until=duration"]);
+    let motion = ran(&["heat.feedback=none", "run.until=duration"]);
     let (start, first) = (
         number(&slow, "run_out.start_time"),
         number(&slow, "run_out.start_speed"),

@@ -7,6 +7,7 @@ mod catalogue_file;
 mod drop_method;
 mod extremes;
 mod exudyn_cage_spin_up;
+mod feedback;
 mod machine;
 mod machine_supports;
 mod measurement_file;

@@ -66,9 +66,9 @@ pub struct AuxiliaryBearingConstants {
     pub mount: Mount<f64>,
     /// What the mount has besides.
     pub mount_parts: MountParts,
-    /// Surfaces of rotor and race, where their heat is followed; it acts on nothing.
+    /// Surfaces of rotor and race, where their heat is followed.
     pub surfaces: Option<Surfaces>,
-    /// What warms of it, where that is followed; it acts on nothing.
+    /// What warms of it, where that is followed.
     pub warm: Option<Box<WarmBearing>>,
 }
 

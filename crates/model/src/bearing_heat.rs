@@ -1,4 +1,4 @@
-//! How warm an auxiliary bearing becomes in a run: an observer, which changes nothing of it.
+//! How warm an auxiliary bearing becomes in a run: an observer. What follows the temperatures is not its matter.
 //!
 //! ```text
 //!   heats of the ledger ──shares──► nodes of the bearing's network ──► surroundings
@@ -227,6 +227,11 @@ impl Warmth {
             heats: [0.0; HEATS],
             taken: [0.0; 2],
         }
+    }
+
+    /// Until when its temperatures are known, s.
+    pub fn known_until(&self) -> f64 {
+        self.until
     }
 
     /// Whether a span is over.

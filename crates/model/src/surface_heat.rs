@@ -48,6 +48,8 @@ pub struct SurfaceHeat {
     known: (f64, f64),
     /// ∫N dt since, N s.
     impulse: f64,
+    /// Rise of the patch in the last span of a touch, K; once it is over the mean of both surfaces.
+    pub rise: f64,
     /// Largest rise of the patch, K.
     pub contact: Peak,
     /// Largest rise of the patch in this touch, K.
@@ -93,6 +95,7 @@ impl SurfaceHeat {
             touched: None,
             known: (0.0, 0.0),
             impulse: 0.0,
+            rise: 0.0,
             contact: Peak::NONE,
             of_touch: 0.0,
             surfaces: [Peak::NONE; 2],
@@ -168,6 +171,10 @@ impl SurfaceHeat {
             let shared = touch.advance(&surfaces.layers, &mut self.states, &halves);
             let middle = 0.5 * (from + end);
             self.contact.raise(shared.contact, middle);
+            self.rise = match seen.forces[1] > 0.0 {
+                true => shared.contact,
+                false => 0.5 * (shared.surfaces[0] + shared.surfaces[1]),
+            };
             self.of_touch = self.of_touch.max(shared.contact);
             for (peak, rise) in self.surfaces.iter_mut().zip(shared.surfaces) {
                 peak.raise(rise, middle);

@@ -41,6 +41,8 @@ pub struct Settings {
 pub enum Flow {
     /// Go on.
     Continue,
+    /// Go on with the machine that [`Observer::renewed`] gives.
+    Renew,
     /// This machine is done; the text says why.
     Halt(&'static str),
 }
@@ -49,11 +51,19 @@ pub enum Flow {
 pub trait Observer<M: Machine> {
     /// Called once for each accepted step, in order.
     fn step(&mut self, step: &mut Step<M>) -> Flow;
+    /// The machine with other constants, from the time and state of the step after which it was wanted: slow values that
+    /// are no states. It has the same channels, probes and landings. None where this machine goes on.
+    fn renewed(&mut self, _machine: &M, _time: f64, _state: &[f64]) -> Option<Box<M>> {
+        None
+    }
 }
 
 impl<M: Machine> Observer<M> for &mut (dyn Observer<M> + '_) {
     fn step(&mut self, step: &mut Step<M>) -> Flow {
         (**self).step(step)
+    }
+    fn renewed(&mut self, machine: &M, time: f64, state: &[f64]) -> Option<Box<M>> {
+        (**self).renewed(machine, time, state)
     }
 }
 
@@ -118,6 +128,8 @@ const HOPELESS_FACTOR: u64 = 10;
 struct Lane<M: Machine> {
     /// The machine on it, by its place among all.
     member: usize,
+    /// The same with other constants, once its observer has renewed it.
+    renewed: Option<Box<M>>,
     /// Whether the machine's ending was taken down, or the lane never had one of its own.
     empty: bool,
     time: f64,
@@ -204,7 +216,7 @@ where
     let mut endings: Vec<Option<Ending>> = vec![None; count];
     let mut scratch = Scratch::new(dimension, probes);
     let mut work = Workspace::<R>::of(machines[0]);
-    let mut batch = B::gather(&|lane| machines[lanes[lane].member]);
+    let mut batch = B::gather(&|lane| lanes[lane].machine(machines));
     for (lane, own) in lanes.iter().enumerate() {
         load(
             &mut work,
@@ -242,7 +254,7 @@ where
         iteration += 1;
         for (index, lane) in lanes.iter_mut().enumerate() {
             if lane.stop.is_none() {
-                aim(lane, machines[lane.member], settings, &work, index);
+                aim(lane, machines, settings, &work, index);
             }
         }
         let mut refilled: u64 = 0;
@@ -260,7 +272,7 @@ where
             }
         }
         if refilled != 0 {
-            batch = B::gather(&|lane| machines[lanes[lane].member]);
+            batch = B::gather(&|lane| lanes[lane].machine(machines));
             mode = B::gather_mode(&|lane| lanes[lane].mode);
             work.time = R::from_lanes(|i| lanes[i].time);
             let place = Place {
@@ -287,6 +299,7 @@ where
         let judgement = method.attempt(place, &mut work);
 
         let mut jumped: u64 = 0;
+        let mut wanted: u64 = 0;
         for (index, lane) in lanes.iter_mut().enumerate() {
             if lane.stop.is_some() {
                 continue;
@@ -297,7 +310,7 @@ where
             }
             scratch.copied = 0;
             let flow = observers[lane.member].step(&mut Step {
-                machine: machines[lane.member],
+                machine: lane.machine(machines),
                 mode: &lane.mode,
                 start: lane.time,
                 end: lane.step_end,
@@ -310,8 +323,10 @@ where
                 scratch: &mut scratch,
             });
             lane.time = lane.step_end;
-            if let Flow::Halt(why) = flow {
-                lane.stop = Some(Stop::Halted(why));
+            match flow {
+                Flow::Continue => {}
+                Flow::Renew => wanted |= 1 << index,
+                Flow::Halt(why) => lane.stop = Some(Stop::Halted(why)),
             }
         }
         let accepted = R::Mask::from_lanes(|i| {
@@ -324,13 +339,27 @@ where
             logarithm: judgement.logarithm,
         });
         work.time = R::from_lanes(|i| lanes[i].time);
+        let mut renewed = false;
+        for (index, lane) in lanes.iter_mut().enumerate() {
+            if wanted & (1 << index) == 0 {
+                continue;
+            }
+            scratch.take(&work, index);
+            let machine = lane.machine(machines);
+            let new = observers[lane.member].renewed(machine, lane.time, &scratch.state);
+            if new.is_some() {
+                lane.renewed = new;
+                renewed = true;
+            }
+        }
+        if renewed {
+            batch = B::gather(&|lane| lanes[lane].machine(machines));
+        }
         for (index, lane) in lanes.iter_mut().enumerate() {
             let machine = machines[lane.member];
             let landings = machine.landings();
             while lane.next_landing < landings.len() && landings[lane.next_landing] <= lane.time {
-                for (channel, value) in scratch.state.iter_mut().enumerate() {
-                    *value = work.state[channel].lane(index);
-                }
+                scratch.take(&work, index);
                 machine.transition(lane.next_landing, &mut lane.mode, &mut scratch.state);
                 for (channel, value) in scratch.state.iter().enumerate() {
                     let old = work.state[channel];
@@ -341,12 +370,13 @@ where
                 jumped |= 1 << index;
             }
         }
-        if jumped != 0 {
+        if jumped != 0 || renewed {
             mode = B::gather_mode(&|lane| lanes[lane].mode);
             let place = Place {
                 batch: &batch,
                 mode: &mode,
             };
+            // a renewed machine goes on from its earlier points: slow values have moved, its state has not
             let fresh = R::Mask::from_lanes(|i| jumped & (1 << i) != 0);
             method.begin(place, fresh, &mut work);
         }
@@ -364,6 +394,7 @@ impl<M: Machine> Lane<M> {
         let machine = machines[member];
         Lane {
             member,
+            renewed: None,
             empty: spare,
             time: settings.start,
             length: settings.first_step,
@@ -375,6 +406,11 @@ impl<M: Machine> Lane<M> {
             work: Work::default(),
             stop: spare.then_some(Stop::Finished),
         }
+    }
+
+    /// The machine on it, as it is now.
+    fn machine<'a>(&'a self, machines: &[&'a M]) -> &'a M {
+        self.renewed.as_deref().unwrap_or(machines[self.member])
     }
 
     /// How its machine ended.
@@ -414,11 +450,12 @@ fn load<R: Real, M: Machine>(
 /// Chooses where the next step of a lane ends, or why there is none.
 fn aim<R: Real, M: Machine>(
     lane: &mut Lane<M>,
-    machine: &M,
+    machines: &[&M],
     settings: &Settings,
     work: &Workspace<R>,
     index: usize,
 ) {
+    let machine = machines[lane.member];
     let target = machine
         .landings()
         .get(lane.next_landing)

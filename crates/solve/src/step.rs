@@ -44,6 +44,12 @@ impl Scratch {
             copied: 0,
         }
     }
+    /// Takes the state of a lane.
+    pub fn take<R: Real>(&mut self, work: &Workspace<R>, lane: usize) {
+        for (value, lanes) in self.state.iter_mut().zip(&work.state) {
+            *value = lanes.lane(lane);
+        }
+    }
 }
 
 /// A lane's view of the workspace, whatever its number type.

@@ -303,6 +303,11 @@ impl Key {
                 let noun = noun(unit);
                 format!("{} {noun}{range} is needed, e.g. {example}", article(&noun))
             }
+            Kind::Table(first, "1") => format!(
+                "rows of {} {}, rising from row to row, and a bare number{range} are needed, e.g. {example}",
+                article(&noun(first)),
+                noun(first)
+            ),
             Kind::Table(first, second) => {
                 let (first, second) = (noun(first), noun(second));
                 format!(

@@ -79,9 +79,9 @@ const TABLE: &[Absent] = &[
     Absent {
         paths: "heat thermal temperature coolant cooling *.coolant *.heat rotor.temperature contact.temperature mount.temperature \
                 bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion",
-        what: "heat acts on nothing while the rotor falls: nothing fades or expands",
+        what: "no such value of heat is described",
         point: 5,
-        instead: "heat.network = \"on\" follows the temperatures of a drop or machine, run.until = \"standstill\" goes on until the rotor stands, and surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
+        instead: "heat.network = \"on\" follows the temperatures of a drop or machine, with viscosity and clearance (heat.feedback) and friction (contact.friction_over_temperature), run.until = \"standstill\" goes on until the rotor stands, and surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
     },
     Absent {
         paths: "life wear fatigue *.life *.wear *.l10 *.drops \

@@ -43,7 +43,7 @@ impl Values {
                         wrong(code, format!("{found}{}", where_in(number)), hint)
                     })?;
                     if !key.range.holds(si) {
-                        let found = format!("{}{}", quoted(text), where_in(number));
+                        let found = format!("{}{}", quoted(&text), where_in(number));
                         return Err(wrong(Code::OutOfRange, found, None));
                     }
                     numbers.push(si);
@@ -56,20 +56,20 @@ impl Values {
                         return Err(wrong(Code::UnknownWord, found, hint));
                     };
                     words.push(*word);
-                    text
+                    text.clone()
                 }
-                (Kind::Texts, Raw::Text(text)) => text,
+                (Kind::Texts, Raw::Text(text)) => text.clone(),
                 (_, other) => {
                     let found = format!("{}{}", other.text(), where_in(number));
                     return Err(wrong(Code::WrongType, found, None));
                 }
             };
-            let alike = texts.iter().position(|known| known == text);
+            let alike = texts.iter().position(|known| *known == text);
             if let Some(first) = alike.filter(|_| !matches!(key.kind, Kind::Series(_))) {
-                let found = format!("{} as entries {} and {number}", quoted(text), first + 1);
+                let found = format!("{} as entries {} and {number}", quoted(&text), first + 1);
                 return Err(wrong(Code::Conflict, found, None));
             }
-            texts.push(text.to_string());
+            texts.push(text);
         }
         let listed: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
         let value = match key.kind {

@@ -30,7 +30,7 @@ impl Values {
             return Err(problem);
         }
         let mut values: Vec<[f64; 2]> = Vec::new();
-        let mut texts: Vec<[&str; 2]> = Vec::new();
+        let mut texts: Vec<[String; 2]> = Vec::new();
         for (number, row) in rows.iter().enumerate().map(|(i, row)| (i + 1, row)) {
             let Raw::List(cells) = row else {
                 return Err(wrong(
@@ -57,13 +57,13 @@ impl Values {
             if !key.range.holds(y) {
                 return Err(wrong(
                     Code::OutOfRange,
-                    format!("{} in row {number}", quoted(y_text)),
+                    format!("{} in row {number}", quoted(&y_text)),
                 ));
             }
             if x < 0.0 {
                 return Err(wrong(
                     Code::OutOfRange,
-                    format!("{}, below 0, in row {number}", quoted(x_text)),
+                    format!("{}, below 0, in row {number}", quoted(&x_text)),
                 ));
             }
             if let (Some(last), Some([last_text, _])) = (values.last(), texts.last())
@@ -73,7 +73,7 @@ impl Values {
                     Code::TableOrder,
                     format!(
                         "{} in row {number}, which is not above {} in row {}",
-                        quoted(x_text),
+                        quoted(&x_text),
                         quoted(last_text),
                         number - 1
                     ),
@@ -84,17 +84,30 @@ impl Values {
         }
         let rows: Vec<String> = texts
             .iter()
-            .map(|[x, y]| format!("[{}, {}]", quoted(x), quoted(y)))
+            .map(|row| {
+                let written = |k: usize| match units[k] {
+                    BARE => row[k].clone(),
+                    _ => quoted(&row[k]),
+                };
+                format!("[{}, {}]", written(0), written(1))
+            })
             .collect();
         Ok((Value::Rows(values), format!("[{}]", rows.join(", "))))
     }
 }
 
+/// The unit of what has none: a bare number.
+const BARE: &str = "1";
+
 /// One quantity of a row, in SI and as written; else code, what was found and a hint.
-pub(crate) fn cell<'a>(
-    raw: &'a Raw,
-    unit: &str,
-) -> Result<(f64, &'a str), (Code, String, Option<String>)> {
+pub(crate) fn cell(raw: &Raw, unit: &str) -> Result<(f64, String), (Code, String, Option<String>)> {
+    if unit == BARE {
+        return match raw {
+            Raw::Float(value) if value.is_finite() => Ok((*value, format!("{value:?}"))),
+            Raw::Integer(_, Some(value)) => Ok((*value as f64, format!("{:?}", *value as f64))),
+            _ => Err((Code::WrongType, raw.text(), None)),
+        };
+    }
     let Raw::Text(text) = raw else {
         let code = match raw {
             Raw::Integer(..) | Raw::Float(_) => Code::BareNumber,
@@ -109,5 +122,5 @@ pub(crate) fn cell<'a>(
         let found = format!("{}, {},", quoted(text), described(quantity.dimension));
         return Err((Code::WrongDimension, found, None));
     }
-    Ok((quantity.value_si, text))
+    Ok((quantity.value_si, text.to_string()))
 }

@@ -452,6 +452,11 @@ fn plain(key: &Key, system: SystemName) -> Value {
         Kind::Quantities(_) | Kind::Series(_) => one_or_several(&quantity),
         Kind::Words(words) => one_or_several(&json!({ "enum": words })),
         Kind::Texts => one_or_several(&json!({ "type": "string" })),
+        Kind::Table(_, "1") => json!({
+            "type": "array",
+            "minItems": 2,
+            "items": { "type": "array", "prefixItems": [quantity, { "type": "number" }], "minItems": 2, "maxItems": 2 },
+        }),
         Kind::Table(..) => json!({
             "type": "array",
             "minItems": 2,

@@ -136,6 +136,7 @@ fn simulate(
     tolerance: f64,
 ) -> Result<Finished, String> {
     let member = Member {
+        following: None,
         kind: 0,
         start: start.unwrap_or_else(|| machine.start()),
         machine: machine.into(),

@@ -11,6 +11,10 @@ struct Trace {
     steps: Vec<f64>,
     crossings: Vec<f64>,
     halt_after: Option<usize>,
+    /// Steps between which the stiffness grows by one.
+    renew_every: Option<usize>,
+    /// Time and state of every growth.
+    renewals: Vec<(f64, Vec<f64>)>,
 }
 
 impl Observer<VanDerPol> for Trace {
@@ -22,8 +26,21 @@ impl Observer<VanDerPol> for Trace {
         }
         match self.halt_after {
             Some(count) if self.steps.len() == count => Flow::Halt("seen enough"),
+            _ if self
+                .renew_every
+                .is_some_and(|every| self.steps.len().is_multiple_of(every)) =>
+            {
+                Flow::Renew
+            }
             _ => Flow::Continue,
         }
+    }
+    fn renewed(&mut self, machine: &VanDerPol, time: f64, state: &[f64]) -> Option<Box<VanDerPol>> {
+        self.renewals.push((time, state.to_vec()));
+        Some(Box::new(VanDerPol {
+            stiffness: machine.stiffness + 1.0,
+            ..machine.clone()
+        }))
     }
 }
 
@@ -65,6 +82,8 @@ fn crowd() -> (Vec<VanDerPol>, Vec<Vec<f64>>, Vec<Trace>) {
     let starts = (0..8).map(|i| vec![0.5 + 0.2 * f64::from(i), -0.1 * f64::from(i)]);
     let mut traces = vec![Trace::default(); 8];
     traces[2].halt_after = Some(17);
+    traces[4].renew_every = Some(40);
+    traces[6].renew_every = Some(60);
     (machines.to_vec(), starts.collect(), traces)
 }
 
@@ -112,6 +131,48 @@ fn every_lane_steps_by_its_own_error_and_gives_the_bits_of_the_run_alone() {
         assert_eq!(bits(&endings), bits(&alone), "{level:?}");
         assert_eq!(endings, alone, "{level:?}");
         assert_eq!(traces, alone_traces, "{level:?}");
+    }
+}
+
+#[test]
+fn a_renewed_machine_goes_on_as_the_other_one_from_there() {
+    let settings = |start: f64| Settings {
+        start,
+        end: 6.0,
+        tolerance: 1e-9,
+        first_step: 1e-3,
+        largest_step: 0.5,
+        step_limit: 1_000_000,
+    };
+    let run = |machine: &VanDerPol, start: &[f64], trace: &mut Trace, from: f64| {
+        let mut endings = solve::run::<f64, VanDerPols<f64>, Trace>(
+            &[machine],
+            &[start.to_vec()],
+            std::slice::from_mut(trace),
+            &settings(from),
+            &AtomicBool::new(false),
+        );
+        endings.remove(0)
+    };
+    let machine = VanDerPol {
+        stiffness: 0.0,
+        landings: Vec::new(),
+    };
+    let mut trace = Trace {
+        renew_every: Some(200),
+        ..Trace::default()
+    };
+    let whole = run(&machine, &[2.0, 0.5], &mut trace, 0.0);
+    assert!(trace.renewals.len() >= 2, "{}", trace.steps.len());
+    // the last of them again, by itself
+    let (time, state) = trace.renewals.last().unwrap().clone();
+    let other = VanDerPol {
+        stiffness: trace.renewals.len() as f64,
+        ..machine
+    };
+    let rest = run(&other, &state, &mut Trace::default(), time);
+    for (a, b) in whole.state.iter().zip(&rest.state) {
+        assert!((a - b).abs() < 1e-6, "{a} {b}");
     }
 }
 

@@ -160,7 +160,8 @@ function runOutSection(runs) {
 
 // How warm the bodies of a bearing become while the rotor still bounces and slides.
 function warmingSection(runs) {
-  return section("warming", "Temperatures during the drop", runs.map((run) => temperatureFigures(run, runs)[0]));
+  const figures = (run) => [temperatureFigures(run, runs)[0], columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null];
+  return section("warming", "Temperatures during the drop", runs.map(figures));
 }
 
 const WARM_SECTIONS = (runs) => [[82, warmingSection, runs.filter((run) => nodesOf(run).length)], [83, runOutSection, runs.filter(asksForRunOut)]];

@@ -83,7 +83,7 @@ function rigVerdict(run) {
     }),
     quantityTile(run, "Largest moment t_O", "peak_outer_race_moment", () => null),
     quantityTile(run, "Cage slip at the end", "cage_slip_at_end", () => null),
-    quantityTile(run, "Energy residual", "energy_residual", () => "share of the energies that the ledger leaves unexplained", (residual) => verdictState(run, Math.abs(residual) > RESIDUAL_TO_DOUBT)),
+    quantityTile(run, "Energy residual", "energy_residual", () => "share of the energies that the ledger leaves unexplained", () => residualState(run)),
     quantityTile(run, "Angular momentum residual", "angular_momentum_residual", () => "t_I − t_O − dL/dt of balls and cage, over the whole test", (residual) => verdictState(run, Math.abs(residual) > 1e-8)),
   );
 }

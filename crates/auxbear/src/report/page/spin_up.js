@@ -167,7 +167,7 @@ function spinUpVerdict(run) {
       "Energy residual",
       "energy_residual",
       () => "share of the energies that the ledger leaves unexplained",
-      (residual) => verdictState(run, Math.abs(residual) > RESIDUAL_TO_DOUBT),
+      () => residualState(run),
     ),
   );
 }

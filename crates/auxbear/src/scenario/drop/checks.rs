@@ -54,6 +54,12 @@ impl Context<'_> {
             }
             self.warm(warm)?;
         }
+        let known = part.warm.is_some() && part.contact.width.is_some();
+        if !known && !part.contact.friction_over_temperature.is_empty() {
+            let needed = "contact.width and heat.network = \"on\" are needed beside it: without them the temperature of the contact is not known";
+            let path = "contact.friction_over_temperature";
+            return refuse(path, self.text(path), needed);
+        }
         let Some(end) = &drop.run_out else {
             return Ok(());
         };

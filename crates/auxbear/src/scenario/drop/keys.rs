@@ -398,6 +398,14 @@ pub(crate) const KEYS: &[Key] = &[
     .within(LANDING_FRICTION)
     .assumed("0.15", "arbitrary; it decides the spin-up time, so give the value of the pair"),
     Key::new(
+        "contact.friction_over_temperature",
+        Kind::Table("K", "1"),
+        "[[\"20 degC\", 0.15], [\"300 degC\", 0.25]]",
+        "Friction coefficient of rotor and inner race over the temperature of their contact, straight between the rows and constant beyond them. Its shape counts: at the start it is contact.friction_coefficient. It needs contact.width and heat.network = \"on\", by which the contact's temperature is known.",
+    )
+    .positive()
+    .optional("contact.friction_coefficient holds at every temperature: nothing general is published for landing surfaces"),
+    Key::new(
         "contact.friction_reference_speed",
         Kind::Quantity("m/s"),
         "0.05 m/s",

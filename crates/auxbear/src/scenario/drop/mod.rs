@@ -134,6 +134,8 @@ pub struct Contact {
     pub damping: f64,
     /// Coefficient of sliding friction.
     pub friction_coefficient: f64,
+    /// Temperatures of the contact, K, with coefficients of friction; their ratio to that of the start counts.
+    pub friction_over_temperature: Vec<[f64; 2]>,
     /// Slip speed that regularises the friction, m/s.
     pub friction_reference_speed: f64,
     /// Metal below the landing surface of the rotor, and below that of the race.
@@ -356,6 +358,9 @@ fn contact(contact: &Section<'_>) -> Contact {
         exponent: contact.number("exponent"),
         damping: contact.number("damping"),
         friction_coefficient: contact.number("friction_coefficient"),
+        friction_over_temperature: (contact.values)
+            .rows("contact.friction_over_temperature")
+            .unwrap_or_default(),
         friction_reference_speed: contact.number("friction_reference_speed"),
         metals: ["rotor", "race"].map(|body| metal(contact, body)),
         modulus: contact.number("surface.modulus"),

@@ -39,7 +39,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.network",
         Kind::Word(Network::WORDS),
         "on",
-        "Whether the temperatures of rotor, races, balls, cage, lubricant and housing are followed. They change nothing of the motion.",
+        "Whether the temperatures of rotor, races, balls, cage, lubricant and housing are followed; heat.feedback says what follows them.",
     )
     .default_when(
         Condition {
@@ -89,7 +89,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.feedback",
         Kind::Word(Feedback::WORDS),
         "viscosity",
-        "What follows the temperatures in a run-out: viscosity and clearance of the bearing, viscosity alone, or nothing.",
+        "What follows the temperatures: viscosity and clearance of the bearing, viscosity alone, or nothing.",
     )
     .default("viscosity and clearance", "a warm bearing brakes less, and one that closes brakes more")
     .when(FOLLOWED),

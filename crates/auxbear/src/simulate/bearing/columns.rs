@@ -291,7 +291,7 @@ impl<'a> Table<'a> {
     }
 
     /// What is stored, and what the ledger misses.
-    pub fn energies(&mut self, balance: impl Fn(&[f64]) -> Balance) {
+    pub fn energies(&mut self, balance: impl Fn(&Row) -> Balance) {
         self.add(
             "energy.kinetic",
             "J",
@@ -308,13 +308,13 @@ impl<'a> Table<'a> {
             "energy.residual",
             "J",
             "what the energy ledger misses: works less heats less change of energy",
-            |row| balance(row.state).energy_residual(),
+            |row| balance(row).energy_residual(),
         );
         self.add(
             "angular_momentum.residual",
             "N m s",
             "external impulse less the change of angular momentum about the origin",
-            |row| balance(row.state).angular_momentum_residual(),
+            |row| balance(row).angular_momentum_residual(),
         );
     }
 }

@@ -10,6 +10,7 @@ use physics::materials::{BEARING_STEEL, contact_modulus};
 pub(crate) const SCENARIO: &str = UNNAMED;
 
 /// The Hertz contacts of a ball, and its mass.
+#[derive(Debug)]
 pub(crate) struct BallContacts {
     pub inner: PointContact,
     pub outer: PointContact,

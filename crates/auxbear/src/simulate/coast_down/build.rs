@@ -334,10 +334,7 @@ pub(crate) fn losses(
     };
     let load = match run.heat.feedback {
         Feedback::Full => BearingLoad::Zone {
-            unpreloaded: zone
-                .loads(zone.clearance.at_reference.max(0.0))
-                .iter()
-                .sum(),
+            unpreloaded: unpreloaded(zone),
             zone: zone.clone(),
         },
         Feedback::Viscosity | Feedback::None => BearingLoad::Radial(run.radial_load),
@@ -365,6 +362,13 @@ pub(crate) fn losses(
         lubricant: LUBRICANT,
         shares: [viscous, sliding],
     })
+}
+
+/// Sum of the loads of the balls at the start, as if no ring pressed on them, N.
+pub(crate) fn unpreloaded(zone: &LoadZone) -> f64 {
+    zone.loads(zone.clearance.at_reference.max(0.0))
+        .iter()
+        .sum()
 }
 
 /// Turns of a speed over a time.

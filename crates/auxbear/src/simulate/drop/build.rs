@@ -179,7 +179,7 @@ fn around(
     }
 }
 
-fn gravity(drop: &Drop) -> Vec2<f64> {
+pub(super) fn gravity(drop: &Drop) -> Vec2<f64> {
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     Vec2::new(cosine, sine) * drop.gravity.acceleration
 }

@@ -8,6 +8,7 @@ use crate::simulate::drop::{shaft_results, warm};
 use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
+use model::system::energy::Balance;
 use model::system::layout::of_part;
 use model::system::sampling::Row;
 
@@ -29,13 +30,16 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
         );
     }
     columns.extend(shaft_results::columns(context, &runs[0]));
-    let start = &context.finished.start;
+    let start = context.at_start();
     let mut table = Table::over(&runs[0]);
     table.flows("release", machine.layout(), |part| {
         let k = context.parts().position(|name| name == part);
         runs[k.unwrap_or(0)].bearing
     });
-    table.energies(|state| machine.balance(start, state));
+    table.energies(|row| Balance {
+        start,
+        end: context.booked(row.time, row.content, row.state),
+    });
     columns.extend(table.columns);
     columns
 }

@@ -5,6 +5,7 @@ use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::ensemble::Finished;
 use model::auxiliary_bearing::probe;
+use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
 
@@ -29,6 +30,35 @@ impl<'a> Context<'a> {
     }
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]
+    }
+    /// Energies and flows at the release.
+    pub fn at_start(&self) -> (Content, Flows) {
+        let start = &self.finished.start;
+        (self.machine.content(start), self.machine.flows(start))
+    }
+    /// The same at an instant of the run; rings that have closed on their balls have done work.
+    pub fn booked(&self, time: f64, content: Content, state: &[f64]) -> (Content, Flows) {
+        let mut flows = self.machine.flows(state);
+        let work = self.work_of_rings(time);
+        flows.work += work;
+        flows.work_size += work.abs();
+        (content, flows)
+    }
+    /// Energy and angular momentum from the release to the end.
+    pub fn balance(&self) -> Balance {
+        let ending = &self.finished.ending;
+        let warmed = self.finished.warmed.as_ref();
+        let machine = warmed.map_or(self.machine, |warmed| warmed.machine(self.machine));
+        let content = machine.content(&ending.state);
+        Balance {
+            start: self.at_start(),
+            end: self.booked(f64::INFINITY, content, &ending.state),
+        }
+    }
+    /// Work of rings that close on their balls as they warm, until an instant, J.
+    pub fn work_of_rings(&self, time: f64) -> f64 {
+        let warmed = self.finished.warmed.as_ref();
+        warmed.map_or(0.0, |warmed| warmed.work_until(time))
     }
     pub fn bearing(&self, bearing: usize) -> BearingRun<'a> {
         let at = self.machine.layout().bearings[bearing];

@@ -7,6 +7,7 @@ use crate::scenario::{Drop, Scenario};
 use crate::simulate::drop::build::{self, Built};
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::feedback::Following;
 use crate::simulate::drop::members::{Kind, kind_of, share_lanes};
 use crate::simulate::drop::method::stepping;
 use crate::simulate::drop::{quantities, run_out, warnings};
@@ -134,6 +135,7 @@ fn member(one: &One) -> Member {
     };
     Member {
         machine: one.machine.clone(),
+        following: Following::of(&one.drop).map(Arc::new),
         start,
         keep_rows: false,
         kind: 0,

@@ -3,6 +3,7 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
+use crate::simulate::drop::feedback::{Following, Now, Warmed};
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
@@ -17,6 +18,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 pub struct Member {
     /// The machine, which members that differ in their start alone share.
     pub machine: Arc<RotorMachine>,
+    /// What of it follows its temperatures.
+    pub(crate) following: Option<Arc<Following>>,
     /// Its state at the start.
     pub start: Vec<f64>,
     /// Whether its history is kept.
@@ -32,6 +35,8 @@ pub struct Finished {
     pub start: Vec<f64>,
     /// What was watched and kept.
     pub record: Record,
+    /// What has followed its temperatures.
+    pub(crate) warmed: Option<Box<Warmed>>,
     /// How it ended.
     pub ending: Ending,
 }
@@ -163,13 +168,17 @@ struct Report<'a> {
 /// A record that also reports progress.
 struct Watched<'a> {
     record: Record,
+    following: Option<&'a Following>,
+    warmed: Option<Box<Warmed>>,
+    /// Until when temperatures were known when they were last looked at, s.
+    looked: f64,
     report: &'a Report<'a>,
     reported: u64,
     end: f64,
 }
 
 impl<'a> Watched<'a> {
-    fn of(member: &Member, plan: &Plan, report: &'a Report<'a>) -> Self {
+    fn of(member: &'a Member, plan: &Plan, report: &'a Report<'a>) -> Self {
         let end = plan.settings.end;
         let record = Record::new(&member.machine, end, plan.interval, member.keep_rows);
         Watched {
@@ -177,6 +186,9 @@ impl<'a> Watched<'a> {
                 true => record.until_rolling(),
                 false => record,
             },
+            following: member.following.as_deref(),
+            warmed: (member.following.is_some()).then(Box::default),
+            looked: 0.0,
             report,
             reported: 0,
             end,
@@ -187,10 +199,13 @@ impl<'a> Watched<'a> {
             self.advance(1000);
         }
         let mut record = self.record;
-        record.finish(&member.machine, ending.time, &ending.state);
+        let machine =
+            (self.warmed.as_ref()).map_or(&*member.machine, |w| w.machine(&member.machine));
+        record.finish(machine, ending.time, &ending.state);
         Finished {
             start: member.start.clone(),
             record,
+            warmed: self.warmed,
             ending,
         }
     }
@@ -209,6 +224,40 @@ impl Observer<RotorMachine> for Watched<'_> {
             self.advance(thousandths);
             self.reported = thousandths;
         }
-        self.record.step(step)
+        let flow = self.record.step(step);
+        let (Flow::Continue, Some(following), Some(warmed)) = (flow, self.following, &self.warmed)
+        else {
+            return flow;
+        };
+        let now = |k| now(&self.record, step.machine, k);
+        let known = (self.record.bearings.iter())
+            .filter_map(|bearing| Some(bearing.warmth.as_ref()?.known_until()));
+        let known = known.fold(0.0, f64::max);
+        let is_new = known > self.looked;
+        self.looked = known;
+        match is_new && following.is_due(warmed, &now) || following.rubs(&now) {
+            true => Flow::Renew,
+            false => Flow::Continue,
+        }
     }
+    fn renewed(
+        &mut self,
+        machine: &RotorMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<RotorMachine>> {
+        let (following, warmed) = (self.following?, self.warmed.as_mut()?);
+        let now = |k| now(&self.record, machine, k);
+        following.renewed(warmed, machine, (time, state), &now)
+    }
+}
+
+/// Temperatures of a bearing, where they are followed.
+fn now<'a>(record: &'a Record, machine: &RotorMachine, bearing: usize) -> Option<Now<'a>> {
+    let kept = &record.bearings[bearing];
+    Some(Now {
+        nodes: &kept.warmth.as_ref()?.temperatures,
+        contact: kept.heat.as_ref().map_or(0.0, |heat| heat.rise),
+        friction: machine.constants.bearings[bearing].contact.friction,
+    })
 }

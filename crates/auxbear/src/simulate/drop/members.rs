@@ -4,6 +4,7 @@ use crate::problem::{Place, Problem};
 use crate::scenario::{Drop, Scenario, System};
 use crate::simulate::drop::build::{self, Built};
 use crate::simulate::drop::ensemble::Member;
+use crate::simulate::drop::feedback::Following;
 use measure::random::Random;
 use model::bearing::BearingConstants;
 use model::system::machine::RotorMachine;
@@ -97,6 +98,7 @@ fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) ->
 pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
     let count = drop.repeat.count.max(1) as usize;
     let given = Arc::new(RotorMachine::new(built.constants.clone()));
+    let following = Following::of(drop).map(Arc::new);
     (0..count)
         .map(|k| {
             let other = k.checked_sub(1).and_then(|k| varied.get(k));
@@ -114,6 +116,10 @@ pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
             }
             Member {
                 kind: other.map_or(0, |varied| varied.kind),
+                following: match other {
+                    Some(varied) => Following::of(&varied.drop).map(Arc::new),
+                    None => following.clone(),
+                },
                 machine,
                 start,
                 keep_rows: k == 0,

@@ -5,6 +5,7 @@ pub(crate) mod columns;
 pub(crate) mod context;
 pub(crate) mod each;
 pub mod ensemble;
+mod feedback;
 mod layers;
 pub(crate) mod members;
 pub(crate) mod method;

@@ -41,6 +41,10 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
         Ok(planes * heat),
         &ALL_BEARINGS,
     );
+    if context.finished.warmed.is_some() {
+        let work = context.work_of_rings(f64::INFINITY);
+        list.number("work_of_warm_rings", "J", Ok(work), &RINGS);
+    }
     let (energy, momentum) = residuals(context);
     list.number("energy_residual", "1", energy, &RESIDUAL);
     list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
@@ -212,9 +216,8 @@ const ROUNDING: f64 = 1e-12;
 pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
     let machine = context.machine;
     let record = &context.finished.record;
-    let ending = &context.finished.ending;
     let start = &context.finished.start;
-    let balance = machine.balance(start, &ending.state);
+    let balance = context.balance();
     let scale = (balance.heat())
         .max(balance.end.1.work_size)
         .max(record.largest_translation);
@@ -236,6 +239,11 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
     )
 }
 
+const RINGS: Origin = Origin {
+    law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",
+    source: LEDGER,
+    valid: "a source of the ledger; the heat that expands the rings is not made smaller by it",
+};
 const FIRST_CONTACT: Origin = Origin {
     law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",
     source: EVENT,

@@ -2,24 +2,34 @@
 
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Warning, warning};
-use crate::scenario::Warm;
+use crate::scenario::{Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::drop::context::Context;
+use crate::simulate::drop::feedback::Follows;
 use model::bearing_heat::{WarmBearing, Warmth};
 use thermal::bearing_network::{CAGE, NODES};
 
 /// A bearing whose temperatures were followed.
 struct Followed<'a> {
     given: &'a Warm,
+    /// What follows them.
+    follows: Option<Follows>,
+    /// Whether its clearance does.
+    closes: bool,
     part: &'a WarmBearing,
     warmth: &'a Warmth,
 }
 
 impl<'a> Followed<'a> {
     fn of(context: &Context<'a>, k: usize) -> Option<Self> {
+        let part = context.given(k);
+        let follows = Follows::of(part);
         Some(Followed {
-            given: context.given(k).warm.as_deref()?,
+            given: part.warm.as_deref()?,
+            closes: (follows.iter().zip(&part.bearing))
+                .any(|(follows, bearing)| follows.closes(bearing)),
+            follows,
             part: context.machine.constants.bearings[k].warm.as_deref()?,
             warmth: context.record(k).warmth.as_deref()?,
         })
@@ -44,6 +54,27 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
         list.number(&name, "K", Ok(peak + ICE_POINT), &PEAK);
     }
     let stored = followed.part.stored(&warmth.temperatures);
+    if followed.closes {
+        let bearing = context.given(k).bearing.as_ref();
+        let at_start = bearing.map_or(0.0, |bearing| bearing.operating_diametral_clearance);
+        let warmed = context.finished.warmed.as_ref();
+        let closing = warmed.and_then(|warmed| warmed.closing(k));
+        let at_end =
+            (followed.follows.iter()).map(|follows| follows.clearance(&warmth.temperatures));
+        let least = closing.map_or(at_start, |(least, _)| least.min(at_start));
+        let least = at_end.fold(least, f64::min);
+        list.number("smallest_clearance", "m", Ok(least), &CLEARANCE);
+        let closed = closing.and_then(|(_, closed)| closed);
+        let why = match at_start < 0.0 {
+            true => "the balls are preloaded from the start",
+            false => "the bearing stays open",
+        };
+        list.awaited(
+            "closing_time",
+            closed.ok_or_else(|| why.to_string()),
+            &CLEARANCE,
+        );
+    }
     list.number("heat_made", "J", Ok(warmth.made), &HEAT);
     list.number("stored_heat", "J", Ok(stored), &HEAT);
     list.number("heat_to_surroundings", "J", Ok(warmth.given), &HEAT);
@@ -71,13 +102,73 @@ pub(crate) fn columns<'a>(context: &Context<'a>, k: usize, table: &mut Table<'a>
             move |row| warmth.at(part, node, row.time) + ICE_POINT,
         );
     }
+    if let (true, Some(follows)) = (followed.closes, followed.follows) {
+        table.add(
+            "bearing.clearance",
+            "m",
+            "diametral clearance; negative is preload",
+            move |row| {
+                let all: Vec<f64> = (0..NODES.len())
+                    .map(|node| warmth.at(part, node, row.time))
+                    .collect();
+                follows.clearance(&all)
+            },
+        );
+    }
 }
 
-/// What became hotter than it may.
+/// What became hotter than it may, closed, or does not follow.
 pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
     let Some(followed) = Followed::of(context, k) else {
         return Vec::new();
     };
+    let mut list: Vec<(f64, Warning)> = too_hot(&followed).into_iter().collect();
+    list.extend(closed(context, k));
+    list.extend(not_followed(context, &followed, k).map(|warning| (0.0, warning)));
+    list
+}
+
+/// A clearance that closes.
+fn closed(context: &Context, k: usize) -> Option<(f64, Warning)> {
+    let (least, closed) = context.finished.warmed.as_ref()?.closing(k)?;
+    let text = format!(
+        "The clearance closes after {:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' \
+         temperatures is known within a factor of two; so is the clearance that is needed.",
+        closed?,
+        -1e6 * least
+    );
+    Some((-least, warning("AB2312", text)))
+}
+
+/// What of a bearing does not follow its temperatures, though it is asked to.
+fn not_followed(context: &Context, followed: &Followed, k: usize) -> Option<Warning> {
+    let bearing = context.given(k).bearing.as_ref()?;
+    let feedback = followed.given.heat.feedback;
+    let broken = context
+        .finished
+        .warmed
+        .as_ref()
+        .and_then(|warmed| warmed.broken());
+    let text = match broken {
+        Some((time, why)) => format!(
+            "From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}."
+        ),
+        None if feedback == Feedback::Full && !followed.closes => "The preload of an angular contact bearing does not follow its temperatures: \
+             a rigid one rises as the inner ring warms."
+            .to_string(),
+        None if feedback != Feedback::None
+            && !(followed.follows.iter()).any(|follows| follows.thins(bearing)) =>
+        {
+            "No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their \
+             viscosities, are not given, or its law knows no viscosity."
+                .to_string()
+        }
+        None => return None,
+    };
+    Some(warning("AB2320", text))
+}
+
+fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
     let heat = &followed.given.heat;
     let limit = |name: &str| match name {
         "inner_race" | "balls" | "outer_race" => Some(heat.race_limit - ICE_POINT),
@@ -94,19 +185,24 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
     let told = |(above, name, peak, time): (f64, &str, f64, f64)| {
         let text = format!(
             "Too hot: {} at {peak:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. \
-             Hardness, size, cage and lubricant may change there; this run does not follow that.",
+             Hardness, cage and lubricant may change there; this run does not follow that.",
             name.replace('_', " ")
         );
         (above, warning("AB2310", text))
     };
-    hottest.map(told).into_iter().collect()
+    hottest.map(told)
 }
 
 const PEAK: Origin = Origin {
     law: "C Ṫ = P + Σ G (T_other − T), P the heats of the ledger over the nodes",
     source: "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; heat-and-life, sections 2 and 3",
     valid: "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
-            factor of two. Nothing of the motion follows the temperature",
+            factor of two. What of the motion follows: heat.feedback",
+};
+const CLEARANCE: Origin = Origin {
+    law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
+    source: "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/drop/feedback.rs; heat-and-life, section 5",
+    valid: "rings free to grow, each of one temperature: from about 0.1 s on",
 };
 const HEAT: Origin = Origin {
     law: "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes; ∫G (T − T_ambient) dt",

@@ -312,6 +312,10 @@ fn hot(context: &Context, k: usize) -> Option<Graded> {
         layout: context.machine.layout(),
         state: &context.finished.ending.state,
     };
+    if context.given(k).warm.is_some() {
+        // its temperatures say more
+        return None;
+    }
     let rise = inner_race_rise(&end, context.given(k).bearing.as_ref()?)
         .filter(|rise| *rise > HOT_RACE)?;
     let text = format!(

@@ -11,7 +11,7 @@
 //!
 //! Source: heat-and-life, section 6.
 
-use crate::scenario::{Drop, Feedback, Moment};
+use crate::scenario::Drop;
 use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start};
 use crate::simulate::coast_down::course::BEYOND;
 use crate::simulate::coast_down::ran::Ran;
@@ -19,6 +19,7 @@ use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::feedback::Follows;
 use crate::simulate::drop::method;
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::HEATS;
@@ -319,6 +320,7 @@ impl<'a> Way<'a> {
 fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
     let member = Member {
         machine: machine.clone(),
+        following: None,
         start: state.to_vec(),
         keep_rows: false,
         kind: 0,
@@ -361,18 +363,11 @@ fn mean(batches: &[Batch]) -> Window {
 fn conditioned(drop: &Drop, built: &Built) -> Drop {
     let mut warm = drop.clone();
     warm.rotor.speed = built.start.speed * drop.rotor.speed.signum();
-    let parts = warm.auxiliary_bearings.iter_mut().zip(&built.parts);
-    for ((bearing, part), temperatures) in parts.zip(built.start.temperatures.chunks(NODES.len())) {
-        let Some(bearing) = &mut bearing.bearing else {
-            continue;
-        };
-        if let Moment::Palmgren { viscosity, .. } = &mut bearing.moment {
-            *viscosity = (part.losses.oil)
-                .viscosity(temperatures[LUBRICANT] + ICE_POINT)
-                .max(2e-6);
-        }
-        if part.warm.heat.feedback == Feedback::Full {
-            bearing.operating_diametral_clearance = part.zone.clearance_at(temperatures);
+    let temperatures = built.start.temperatures.chunks(NODES.len());
+    for (part, temperatures) in warm.auxiliary_bearings.iter_mut().zip(temperatures) {
+        let follows = Follows::of(part);
+        if let (Some(follows), Some(bearing)) = (follows, &mut part.bearing) {
+            follows.condition(bearing, temperatures);
         }
     }
     warm

@@ -48,6 +48,6 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     table.bearing();
     table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("inner race", "race", layout);
-    table.energies(|state| machine.balance(context.start, state));
+    table.energies(|row| machine.balance(context.start, row.state));
     table.columns
 }

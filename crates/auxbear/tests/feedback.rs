@@ -1,0 +1,127 @@
+//! What follows the temperatures of a bearing while it is computed ball by ball.
+
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, run};
+use auxbear::scenario::{BuiltIn, Scenario};
+use std::sync::atomic::AtomicBool;
+
+const SHIPPED: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
+
+/// The first of the shipped drop.
+fn ran(sets: &[&str]) -> Outcome {
+    let common = ["run.until=duration", "run.duration=0.3 s"];
+    let sets: Vec<String> = (common.iter().chain(sets))
+        .map(ToString::to_string)
+        .collect();
+    let scenario = Scenario::parse(SHIPPED, "drop.toml", &sets, &BuiltIn).unwrap();
+    let never = AtomicBool::new(false);
+    run(&scenario, &Options::unwatched(&never)).unwrap()
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    let found = outcome.quantities.iter().find(|q| q.name == name);
+    match &found.unwrap_or_else(|| panic!("{name}")).value {
+        Value::Number(value) => *value,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn column<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
+    let found = outcome.history.iter().find(|column| column.name == name);
+    &found.unwrap_or_else(|| panic!("{name}")).values
+}
+
+#[test]
+fn one_run_and_a_lane_of_many_follow_alike() {
+    let alone = ran(&[]);
+    let many = ran(&["repeat.count=9"]);
+    for name in [
+        "rotor_final_speed",
+        "smallest_clearance",
+        "heat_made",
+        "peak_hertz_pressure",
+    ] {
+        let of_lane = many.members.values(name)[0].unwrap();
+        assert_eq!(of_lane.to_bits(), number(&alone, name).to_bits(), "{name}");
+    }
+    // the others fell otherwise, and followed their own temperatures
+    let least = many.members.values("smallest_clearance");
+    assert!(least.iter().flatten().all(|least| *least < 10e-6));
+    assert!(least[1] != least[0]);
+}
+
+/// Bearings preloaded as mounted, on which a light rotor rolls at once.
+const PRELOADED: [&str; 3] = [
+    "bearing.operating_diametral_clearance=-5 um",
+    "rotor.unbalance_eccentricity=0.5 um",
+    "rotor.speed=24000 rpm",
+];
+
+#[test]
+fn rings_that_close_on_their_balls_do_the_work_that_the_balls_store() {
+    let design = [
+        "run.accuracy=design",
+        "rotor.first_bending_frequency=6000 rad/s",
+    ];
+    let changes: Vec<&str> = PRELOADED.iter().chain(&design).copied().collect();
+    let outcome = ran(&changes);
+    let clearance = column(&outcome, "bearing.clearance");
+    assert!(clearance[0] == -5e-6 && clearance.last().unwrap() < &-5.05e-6);
+    let least = clearance.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!((number(&outcome, "smallest_clearance") - least).abs() < 1e-12);
+    let turned_over = number(&outcome, "dissipated_energy");
+    let residual = number(&outcome, "energy_residual").abs();
+    let work = number(&outcome, "work_of_warm_rings") / turned_over;
+    assert!(residual < 1e-6, "{residual}");
+    // it would be missed
+    assert!(work > 5.0 * residual, "{work} {residual}");
+    // and in every row
+    let missed = column(&outcome, "energy.residual")
+        .iter()
+        .copied()
+        .map(f64::abs);
+    assert!(missed.fold(0.0, f64::max) < 1e-6 * turned_over);
+}
+
+#[test]
+fn ball_by_ball_and_slow_time_brake_alike_where_rings_press_on_the_balls() {
+    let further = ["run.until=standstill", "run.duration=1 s"];
+    let outcome = ran(&[&PRELOADED[..], &further].concat());
+    let (times, heats) = (
+        column(&outcome, "time"),
+        column(&outcome, "energy.heat.steady_moment"),
+    );
+    // the last hundredths of a second before it counts as rolling
+    let last = times.len() - 1;
+    let from = times.partition_point(|time| *time < times[last] - 0.03);
+    let power = (heats[last] - heats[from]) / (times[last] - times[from]);
+    let first = |name: &str| {
+        let found = outcome.quantities.iter().find(|q| q.name == name).unwrap();
+        let Value::List(values) = &found.value else {
+            panic!("{name}")
+        };
+        values[0]
+    };
+    let moment = first("run_out.over_time.speed_dependent.moment")
+        + first("run_out.over_time.load_dependent.moment");
+    // one of two bearings
+    let law = 0.5 * moment * first("run_out.over_time.rotor.speed");
+    assert!((power / law - 1.0).abs() < 0.01, "{power} {law}");
+}
+
+#[test]
+fn friction_that_rises_with_the_temperature_brings_the_race_to_speed_sooner() {
+    let with = |table: &str| ran(&[&format!("contact.friction_over_temperature={table}")]);
+    let (given, flat) = (ran(&[]), with("[[\"20 degC\", 0.3], [\"200 degC\", 0.3]]"));
+    let speed = "inner_race_time_to_95_percent";
+    // its shape counts, not its size
+    assert_eq!(
+        number(&given, speed).to_bits(),
+        number(&flat, speed).to_bits()
+    );
+    let rising = with("[[\"20 degC\", 0.1], [\"60 degC\", 0.2]]");
+    assert!(number(&rising, speed) < 0.95 * number(&given, speed));
+    assert!(number(&rising, "relative_heat_residual") < 1e-9);
+    let most = number(&rising, "energy_residual");
+    assert!(most.abs() < 2e-4, "{most}");
+}
