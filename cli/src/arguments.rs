@@ -62,6 +62,8 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Add up the drops of a service, so many of each run: rolling fatigue, wear, and the worst of what does not add up
+    Service(Service),
     /// Write results and histories of a run as tables for other programs
     Export {
         /// Run directory
@@ -153,6 +155,13 @@ pub struct Measured {
     /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Service {
+    /// Number of drops and the directory of a run of one, e.g. 40:runs/full_speed
+    #[arg(required = true, value_name = "COUNT:DIR")]
+    pub occasions: Vec<String>,
 }
 
 #[derive(Debug, Args)]

@@ -13,6 +13,7 @@ mod measured;
 mod progress;
 mod run;
 mod schema;
+mod service;
 mod start;
 mod study;
 mod summary;
@@ -124,6 +125,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
                 return Ok(Exit::Failed);
             }
         }
+        Command::Service(wish) => service::perform(wish)?,
         Command::Explain { code } => console::print(&explain(code)?)?,
         Command::Bearings { command } => bearings::perform(command)?,
     }

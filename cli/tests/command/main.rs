@@ -10,6 +10,7 @@ mod place;
 mod rig;
 mod run_directory;
 mod schema;
+mod service;
 mod signals;
 mod spin_up;
 mod stopped;

@@ -207,3 +207,38 @@ fn what_cannot_run_out_is_refused() {
     let said = parsed(&unknown, &[]).unwrap_err();
     assert!(said.contains("viscosity_points"), "{said}");
 }
+
+#[test]
+fn the_life_of_a_drop_counts_the_cube_of_its_load_over_its_turns() {
+    let sets = [
+        "run.until=duration",
+        "run.duration=0.2 s",
+        "run.output_interval=0.02 ms",
+        "bearing.dynamic_load_rating=11.9 kN",
+    ];
+    let drop = ran(&sets);
+    let column = |name: &str| {
+        let found = drop.history.iter().find(|column| column.name == name);
+        &found.unwrap_or_else(|| panic!("{name}")).values
+    };
+    let (times, loads) = (column("time"), column("bearing.load"));
+    let speeds = column("bearing.inner_race.speed");
+    let (mut turns, mut sum) = (0.0, 0.0);
+    for k in 1..times.len() {
+        let part = |k: usize| speeds[k].abs() * (times[k.max(1)] - times[k.max(1) - 1]);
+        let turned = part(k) / std::f64::consts::TAU;
+        turns += turned;
+        sum += turned * loads[k].powi(3);
+    }
+    let near = |name: &str, value: f64, within: f64| {
+        let found = number(&drop, name);
+        assert!(
+            (found / value - 1.0).abs() < within,
+            "{name}: {found} {value}"
+        );
+    };
+    near("inner_race_turns", turns, 1e-3);
+    near("cubic_mean_load", (sum / turns).cbrt(), 1e-2);
+    let mean = number(&drop, "cubic_mean_load");
+    near("life_share", turns * (mean / 11.9e3).powi(3) / 1e6, 2e-3);
+}

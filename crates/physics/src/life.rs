@@ -83,6 +83,14 @@ pub fn repetitions(damage: f64, survival: f64) -> f64 {
     weibull(survival, WEIBULL_SLOPE) / damage
 }
 
+/// Share of bearings that outlive a damage, in shares of L10: 0.9^(D^(10/9)).
+///
+/// Source: as [`repetitions`].
+/// Valid: D of 0 and more.
+pub fn survival(damage: f64) -> f64 {
+    0.9f64.powf(damage.powf(WEIBULL_SLOPE))
+}
+
 fn weibull(survival: f64, slope: f64) -> f64 {
     (survival.ln() / 0.9f64.ln()).powf(1.0 / slope)
 }

@@ -1,5 +1,4 @@
-//! | [`study`] | a study directory: parts of members, summary, page |
-//! | `summary`Reports: what a run leaves behind, and the page that shows it.
+//! Reports: what a run leaves behind, and the page that shows it.
 //!
 //! | page | subject |
 //! |---|---|
@@ -10,6 +9,8 @@
 //! | [`page`] | one run or several as an HTML page |
 //! | [`picture`] | one run as a picture |
 //! | [`export`] | results and histories as CSV files or a workbook |
+//! | [`study`] | a study directory: parts of members, summary, page |
+//! | [`service`] | many drops of several kinds, and what they do to the bearings together |
 
 mod closely;
 pub mod directory;
@@ -18,6 +19,7 @@ mod history;
 pub mod page;
 mod page_summary;
 pub mod picture;
+pub mod service;
 pub mod study;
 mod summary;
 mod table;

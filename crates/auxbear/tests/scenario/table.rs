@@ -297,7 +297,7 @@ fn choices(path: &str) -> Vec<String> {
 }
 
 /// What stands together in a mount.
-const MOUNT: [(&str, &[&str]); 5] = [
+const MOUNT: [(&str, &[&str]); 6] = [
     (
         "mount.branch_",
         &[
@@ -319,6 +319,10 @@ const MOUNT: [(&str, &[&str]); 5] = [
             "mount.stop_gap=1 um",
             "mount.stop_stiffness=1e9 N/m",
         ],
+    ),
+    (
+        "contact.friction_over_temperature",
+        &["contact.width=12 mm"],
     ),
     (
         "mount.stop_",
@@ -348,8 +352,8 @@ fn choices_of(system: SystemName, path: &str) -> Vec<String> {
     let beside = beside.flat_map(|(_, sets)| sets.iter().map(|set| (*set).to_string()));
     let own = format!("{path}=");
     let runs_out = path.starts_with("coast_down.") || path == "run.until";
-    let of_network = path == "bearing.dynamic_load_rating"
-        || path.starts_with("heat.") && path != "heat.network";
+    let of_contact = path == "contact.friction_over_temperature";
+    let of_network = path.starts_with("heat.") && path != "heat.network" || of_contact;
     let warms: &[&str] = match runs_out {
         true => RUN_OUT,
         false if of_network => &RUN_OUT[..1],
@@ -401,8 +405,12 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
         }
         Kind::Table(first, second) => {
             let si = 1.234567e-5;
-            let text =
-                format!("[[\"0 {first}\", \"1e-6 {second}\"], [\"1 {first}\", \"{si} {second}\"]]");
+            let cell = |value: &str| match second {
+                "1" => value.to_string(),
+                unit => format!("\"{value} {unit}\""),
+            };
+            let (first_cell, second_cell) = (cell("1e-6"), cell(&si.to_string()));
+            let text = format!("[[\"0 {first}\", {first_cell}], [\"1 {first}\", {second_cell}]]");
             Some((text, si))
         }
         Kind::Coefficient => {

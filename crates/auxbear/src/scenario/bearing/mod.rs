@@ -67,6 +67,8 @@ pub struct Bearing {
     pub ball_material: BallMaterial,
     /// Static load rating, N.
     pub static_load_rating: Option<f64>,
+    /// Dynamic load rating, N.
+    pub dynamic_load_rating: Option<f64>,
     /// Limiting speed in continuous running, rad/s.
     pub limiting_speed: Option<f64>,
     /// Mass of the inner race with its sleeve, kg; 0 where it sits on a shaft.
@@ -230,6 +232,7 @@ pub(crate) fn bearing(values: &Values) -> Bearing {
         outer_groove_curvature: bearing.number("outer_groove_curvature"),
         ball_material: ball_material(&bearing),
         static_load_rating: bearing.maybe("static_load_rating"),
+        dynamic_load_rating: bearing.maybe("dynamic_load_rating"),
         limiting_speed: bearing.maybe("limiting_speed"),
         inner_race_mass: bearing.maybe("inner_race_mass").unwrap_or(0.0),
         inner_race_inertia: bearing.number("inner_race_inertia"),

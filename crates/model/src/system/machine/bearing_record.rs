@@ -61,6 +61,10 @@ pub struct BearingRecord {
     pub mount_displacement: Peak,
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
+    /// Turns of the inner race, of either sense.
+    pub turns: f64,
+    /// Sum of the cube of the load on the bearing over them, N³.
+    pub cubed_load_turns: f64,
     pub(super) rises: Vec<Rise>,
     /// The watched forces at the start of the last step, N, and its length, s.
     last_forces: ([f64; WATCHED.len()], f64),
@@ -97,6 +101,9 @@ const WATCHED: [usize; 6] = [
     LARGEST_POCKET_FORCE,
     LAND_FORCE,
 ];
+
+/// The load on the bearing among them.
+const LOAD: usize = 2;
 
 /// So many of the first of them are searched for between the steps as well. The load on the bearing peaks with that of a ball, a
 /// mount swings slowly against the steps, and the forces on a cage are chaotic.
@@ -140,6 +147,8 @@ impl BearingRecord {
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
             whirl_turns: 0.0,
+            turns: 0.0,
+            cubed_load_turns: 0.0,
             rises,
             last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
             clearance: part.contact.radial_clearance,
@@ -331,6 +340,13 @@ impl BearingRecord {
             }
         }
         self.last_forces = (start, length);
+        let spins = [step.start_state(at.inner + 5), step.end_state(at.inner + 5)];
+        let share = length / (4.0 * PI);
+        for (spin, forces) in spins.into_iter().zip([start, end]) {
+            let (turned, load) = (share * spin.abs(), forces[LOAD]);
+            self.turns += turned;
+            self.cubed_load_turns += turned * load * load * load;
+        }
         if search {
             for theta in [0.25, 0.5, 0.75] {
                 let time = step.time(theta);

@@ -1,0 +1,247 @@
+//! A service: so many drops of this kind, so many of that, and what they do to the bearings together.
+//!
+//! ```text
+//!   fatigue    D = Σ n_k (D_drop + D_run-out)            share of L10; each run gives its own
+//!   survival   0.9^(D^(10/9)) of each bearing, of which all have to survive
+//!   wear       Σ n_k depth_k
+//!   the rest   does not add up: the worst of all drops
+//! ```
+//! Damage is added where the load stands at one place of the outer ring, as under weight; where the load goes round that is too much.
+//! Of a repeated run the mean of its members counts, with the spread that so many drops of it leave; of what does not add up the worst
+//! member. Every drop begins as its run
+//! did: lubricant and temperatures have recovered.
+//!
+//! Source: heat-and-life, sections 7 and 8.
+
+use super::directory::read;
+use crate::problem::{Code, Problem};
+use physics::life::{bearing_damage, repetitions, survival};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// Drops of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Occasion {
+    /// How many of them.
+    pub count: u64,
+    /// Directory of a run of one.
+    pub directory: PathBuf,
+}
+
+/// What a service does to one bearing in one way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Name of the bearing; empty where it is the only one.
+    pub bearing: String,
+    /// What, in words.
+    pub what: &'static str,
+    /// Whether drops add up; else the worst of them counts.
+    pub adds: bool,
+    /// Of the whole service, or why it is not known.
+    pub value: Result<f64, String>,
+    /// Half of the width within which 90 % of such services lie, by the spread between drops.
+    pub band: Option<f64>,
+    /// Unit; "1" of shares, of which 1 is the limit.
+    pub unit: &'static str,
+    /// What each kind of drop contributes, in the order of the occasions.
+    pub parts: Vec<f64>,
+}
+
+/// What a service does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Service {
+    /// Ways in which bearings are used up.
+    pub modes: Vec<Mode>,
+    /// Share of machines none of whose bearings has failed by rolling fatigue; none where its share is not known.
+    pub survival: Option<f64>,
+    /// Such services after which 10 % of machines have lost a bearing by fatigue.
+    pub services: Option<f64>,
+}
+
+const FATIGUE: &str = "rolling fatigue, of L10";
+const KINDS: [(&str, &[&[&str]], bool, &str); 5] = [
+    (
+        FATIGUE,
+        &[
+            &["life_share"],
+            &["run_out.life_share_with_lubricant", "run_out.life_share"],
+        ],
+        true,
+        "1",
+    ),
+    ("wear depth", &[&["wear_depth"]], true, "m"),
+    ("dents by ball loads", &[&["indentation_index"]], false, "1"),
+    ("inner race too hot", &[&["heat_index"]], false, "1"),
+    (
+        "contact of rotor and race too hot",
+        &[&["contact_temperature_index"]],
+        false,
+        "1",
+    ),
+];
+
+/// 90 % of a normal distribution lie within so many deviations.
+const BAND: f64 = 1.645;
+
+/// What is read of a run.
+struct Run<'a> {
+    count: f64,
+    directory: &'a Path,
+    summary: Value,
+}
+
+/// Mean, largest value, standard deviation and number of members of a quantity; one member of a single run.
+struct Found {
+    mean: f64,
+    largest: f64,
+    deviation: f64,
+    members: f64,
+}
+
+/// Adds up the drops of a service.
+pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
+    let mut runs = Vec::new();
+    for occasion in occasions {
+        let run = read(&occasion.directory)?;
+        runs.push(Run {
+            count: occasion.count as f64,
+            directory: &occasion.directory,
+            // it was read as a summary already
+            summary: serde_json::from_str(&run.summary_json).unwrap_or_default(),
+        });
+    }
+    let bearings = runs.first().map(Run::bearings).unwrap_or_default();
+    for run in &runs {
+        if run.bearings() != bearings {
+            let found = format!("a run with the bearings {}", listed(&run.bearings()));
+            let needed = format!(
+                "a drop of the same machine is needed, with the bearings {}",
+                listed(&bearings)
+            );
+            let (code, path) = (Code::Conflict, run.directory);
+            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+        }
+    }
+    let each = bearings
+        .iter()
+        .flat_map(|bearing| KINDS.iter().map(move |kind| (bearing, kind)));
+    let modes: Vec<Mode> = each
+        .map(|(bearing, kind)| mode(&runs, bearing, kind))
+        .collect();
+    let equal = runs.first().map_or(1, Run::planes);
+    let damages: Option<Vec<f64>> = (modes.iter())
+        .filter(|mode| mode.what == FATIGUE)
+        .map(|mode| mode.value.as_ref().ok().copied())
+        .collect();
+    // bearings in series, as the rings of one
+    let together = damages.map(|list| {
+        let each = list.iter().flat_map(|damage| (0..equal).map(|_| *damage));
+        each.fold(0.0, bearing_damage)
+    });
+    Ok(Service {
+        survival: together.map(survival),
+        services: together.map(|damage| repetitions(damage, 0.9)),
+        modes,
+    })
+}
+
+fn listed(names: &[String]) -> String {
+    match names {
+        [only] if only.is_empty() => "of one name less bearing".to_string(),
+        names => names.join(", "),
+    }
+}
+
+fn mode(
+    runs: &[Run],
+    bearing: &str,
+    (what, sums, adds, unit): &(&'static str, &[&[&str]], bool, &'static str),
+) -> Mode {
+    let mut parts = Vec::new();
+    let mut why = None;
+    let mut variance = 0.0;
+    for run in runs {
+        let (mut part, mut known) = (0.0, 0);
+        for names in *sums {
+            match run.first(bearing, names) {
+                Ok(Some(found)) => {
+                    part += if *adds { found.mean } else { found.largest };
+                    known += 1;
+                    let square = found.deviation * found.deviation;
+                    variance +=
+                        run.count * square + (run.count * run.count) * square / found.members;
+                }
+                // a drop that does not go on until the rotor stands has no run-out
+                Ok(None) => {}
+                Err(reason) => why = Some(reason),
+            }
+        }
+        if known == 0 && why.is_none() {
+            why = Some(format!("{} has no such result", run.directory.display()));
+        }
+        parts.push(if *adds { run.count * part } else { part });
+    }
+    let total = match adds {
+        true => parts.iter().sum(),
+        false => parts.iter().copied().fold(0.0, f64::max),
+    };
+    Mode {
+        bearing: bearing.to_string(),
+        what,
+        adds: *adds,
+        value: why.map_or(Ok(total), Err),
+        band: (*adds && variance > 0.0).then(|| BAND * variance.sqrt()),
+        unit,
+        parts,
+    }
+}
+
+impl Run<'_> {
+    /// Names of its bearings, of those that a drop has alone: an only one has none.
+    fn bearings(&self) -> Vec<String> {
+        const OF_BEARING: &str = "indentation_index";
+        let all = self.summary["quantities"].as_object();
+        let names = all.into_iter().flat_map(|all| all.keys());
+        names
+            .filter_map(|name| match name.strip_suffix(OF_BEARING)? {
+                "" => Some(String::new()),
+                part => part.strip_suffix('.').map(str::to_string),
+            })
+            .collect()
+    }
+    /// Equal planes of which one was computed.
+    fn planes(&self) -> u32 {
+        let inputs = self.summary["inputs"].as_array();
+        let all = inputs.into_iter().flatten();
+        let planes = all
+            .filter(|input| input["path"] == "rotor.planes")
+            .find_map(|input| input["value"].as_str()?.parse().ok());
+        planes.unwrap_or(1)
+    }
+    /// The first of these results that there is; the reason why it has no value.
+    fn first(&self, bearing: &str, names: &[&str]) -> Result<Option<Found>, String> {
+        for name in names {
+            let name = match bearing {
+                "" => (*name).to_string(),
+                bearing => format!("{bearing}.{name}"),
+            };
+            let found = &self.summary["quantities"][&name];
+            if found.is_null() {
+                continue;
+            }
+            let spread = &found["spread"];
+            let alone = found["value"].as_f64();
+            if let Some(mean) = spread["mean"].as_f64().or(alone) {
+                return Ok(Some(Found {
+                    mean,
+                    largest: spread["max"].as_f64().unwrap_or(mean),
+                    deviation: spread["sd"].as_f64().unwrap_or(0.0),
+                    members: spread["members"].as_f64().unwrap_or(1.0),
+                }));
+            }
+            let why = found["why"].as_str().unwrap_or("no value");
+            return Err(format!("{name} of {}: {why}", self.directory.display()));
+        }
+        Ok(None)
+    }
+}
