@@ -125,3 +125,57 @@ fn friction_that_rises_with_the_temperature_brings_the_race_to_speed_sooner() {
     let most = number(&rising, "energy_residual");
     assert!(most.abs() < 2e-4, "{most}");
 }
+
+const WARMING: &str = include_str!("../../../scenarios/spin_up_warming.toml");
+
+fn spun(sets: &[&str]) -> Outcome {
+    let sets: Vec<String> = (["run.duration=2 s"].iter().chain(sets))
+        .map(ToString::to_string)
+        .collect();
+    let scenario = Scenario::parse(WARMING, "spin_up.toml", &sets, &BuiltIn).unwrap();
+    let never = AtomicBool::new(false);
+    run(&scenario, &Options::unwatched(&never)).unwrap()
+}
+
+#[test]
+fn the_torque_of_a_spin_up_falls_with_the_viscosity_of_its_oil() {
+    let warm = spun(&[]);
+    let (torque, oil) = (
+        column(&warm, "bearing.outer_race.moment"),
+        column(&warm, "lubricant.temperature"),
+    );
+    let times = column(&warm, "time");
+    let at = |time: f64| times.partition_point(|known| *known < time);
+    // M0 ~ ν^(2/3) along the line of the oil; M1 is small and stays
+    let nu = |kelvin: f64| {
+        let double = |nu: f64| (nu + 0.7).log10().log10();
+        let (x0, x1) = (313.15f64.log10(), 373.15f64.log10());
+        let slope = (double(11.0) - double(100.0)) / (x1 - x0);
+        10f64.powf(10f64.powf(double(100.0) + slope * (kelvin.log10() - x0))) - 0.7
+    };
+    let (first, last) = (at(0.1), at(1.9));
+    let steady = 0.0007 * 200.0 * 36e-3 * (200.0f64 / 6550.0).sqrt();
+    let law = (nu(oil[last]) / nu(oil[first])).powf(2.0 / 3.0);
+    let found = (torque[last] - steady) / (torque[first] - steady);
+    assert!(found < 0.95, "{found}");
+    assert!((found / law - 1.0).abs() < 3e-3, "{found} {law}");
+    // all that the ledger has made
+    assert!(number(&warm, "relative_heat_residual") < 1e-9);
+    assert!((number(&warm, "heat_made") / number(&warm, "dissipated_energy") - 1.0).abs() < 1e-12);
+    assert!(number(&warm, "energy_residual").abs() < 1e-6);
+}
+
+#[test]
+fn a_spin_up_without_feedback_is_the_one_without_network() {
+    let (with, without) = (spun(&["heat.feedback=none"]), spun(&["heat.network=off"]));
+    for known in &without.history {
+        let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
+        assert_eq!(
+            bits(column(&with, &known.name)),
+            bits(&known.values),
+            "{}",
+            known.name
+        );
+    }
+    assert!(number(&with, "peak_lubricant_temperature") > 298.5);
+}

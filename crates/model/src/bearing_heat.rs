@@ -86,7 +86,7 @@ pub struct Warmth {
 }
 
 /// What a run shows at an instant.
-pub(crate) struct Seen {
+pub struct Seen {
     /// s.
     pub time: f64,
     /// Heats of the ledger so far, J.
@@ -235,12 +235,12 @@ impl Warmth {
     }
 
     /// Whether a span is over.
-    pub(crate) fn is_due(&self, time: f64) -> bool {
+    pub fn is_due(&self, time: f64) -> bool {
         time >= self.until + SPAN
     }
 
     /// Lets the network take the heat since the last span.
-    pub(crate) fn take(&mut self, part: &WarmBearing, seen: &Seen) {
+    pub fn take(&mut self, part: &WarmBearing, seen: &Seen) {
         let span = seen.time - self.until;
         if span <= 0.0 {
             return;

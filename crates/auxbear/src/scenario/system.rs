@@ -96,6 +96,17 @@ pub(crate) const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machin
 pub(crate) const RUNNING_OUT: &[SystemName] =
     &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
 
+/// Systems whose bearings may warm in time, where that is wanted.
+pub(crate) const WARMING: &[SystemName] =
+    &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
+/// All systems with a network of heat.
+pub(crate) const WITH_NETWORK: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::SpinUp,
+    SystemName::Machine,
+    SystemName::CoastDown,
+];
+
 /// Systems whose runs have a choice of steps.
 pub(crate) const STEPPED: &[SystemName] =
     &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];

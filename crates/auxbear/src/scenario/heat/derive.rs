@@ -2,6 +2,7 @@
 
 use crate::problem::Problem;
 use crate::scenario::heat::Atmosphere;
+use crate::scenario::spin_up::DriveKind;
 use crate::scenario::system::SystemName;
 use crate::scenario::values::{Value, Values};
 use physics::heat_conduction::STEEL_HEAT;
@@ -17,6 +18,16 @@ const GREASE: f64 = 5.0;
 const FIT_PRESSURE: f64 = 1e6;
 /// Radial clearance of the rotor over the bore of the race.
 const AIR_CLEARANCE: f64 = 0.01;
+
+/// Widths of the bearing that the shaft of a rig is long.
+const SHAFT_WIDTHS: f64 = 4.0;
+
+/// Conductance of a pressed seat, W/(m² K).
+fn pressed_seat() -> f64 {
+    let (roughness, slope, hardness) = GROUND_STEEL;
+    let metal = [STEEL_HEAT.conductivity; 2];
+    pressed_joint(metal, roughness, slope, FIT_PRESSURE, hardness)
+}
 
 type Done = Result<(), Box<Problem>>;
 
@@ -57,16 +68,17 @@ impl Values {
             ring * STEEL_HEAT.specific_heat,
             how,
         )?;
+        if self.system() == SystemName::SpinUp {
+            self.shaft_of_a_rig([bore, width])?;
+        }
         let with_clearance = self.system() == SystemName::CoastDown;
         if with_clearance && self.number("heat.rotor_contact").is_none() {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }
-        let (roughness, slope, hardness) = GROUND_STEEL;
-        let metal = [STEEL_HEAT.conductivity; 2];
-        let joint = pressed_joint(metal, roughness, slope, FIT_PRESSURE, hardness);
         let how = "ground steel pressed with 1 MPa on π outer_diameter width; assumed";
-        self.fill("heat.outer_seat", joint * PI * outside * width, how)?;
+        let seat = pressed_seat() * PI * outside * width;
+        self.fill("heat.outer_seat", seat, how)?;
         if self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum) {
             let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";
             self.fill(
@@ -76,6 +88,23 @@ impl Values {
             )?;
         }
         Ok(())
+    }
+
+    /// The shaft that stands in the inner race of a rig.
+    fn shaft_of_a_rig(&mut self, [bore, width]: [f64; 2]) -> Done {
+        let volume = 0.25 * PI * bore * bore * SHAFT_WIDTHS * width;
+        let capacity = volume * STEEL_HEAT.density * STEEL_HEAT.specific_heat;
+        let how = "a steel shaft of the bore, four widths long; assumed";
+        self.fill("heat.rotor_capacity", capacity, how)?;
+        if self.chosen("drive.kind") == Some(DriveKind::SlidingRotor) {
+            return Ok(());
+        }
+        let how = "ground steel pressed with 1 MPa on π bore_diameter width; assumed";
+        self.fill(
+            "heat.rotor_contact",
+            pressed_seat() * PI * bore * width,
+            how,
+        )
     }
 
     fn fill(&mut self, path: &'static str, value: f64, how: &str) -> Done {

@@ -2,13 +2,13 @@
 
 use crate::scenario::heat::{Atmosphere, CageMaterial, Feedback, Network};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
-use crate::scenario::system::{FALLING, RUNNING_OUT, SystemName};
+use crate::scenario::system::{SystemName, WARMING, WITH_NETWORK};
 use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "heat",
     doc: "What warms and where the heat goes, of one bearing with its part of the rotor and its housing. What is not given follows from geometry and common surfaces, within a factor of two.",
-    systems: RUNNING_OUT,
+    systems: WITH_NETWORK,
 }];
 
 const IS_FOLLOWED: Condition = Condition {
@@ -54,11 +54,11 @@ pub(crate) const KEYS: &[Key] = &[
         },
         Otherwise::Fallback(Fallback {
             text: "off",
-            reason: "a drop onto bearings that roll warms nothing to speak of",
+            reason: "seconds of rolling warm nothing to speak of",
             assumed: false,
         }),
     )
-    .only(FALLING),
+    .only(WARMING),
     Key::new(
         "heat.ambient_temperature",
         Kind::Quantity("K"),
@@ -148,7 +148,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Heat capacity of the part of the rotor that warms with one bearing.",
     )
     .positive()
-    .derived("rotor.mass over rotor.planes at 460 J/(kg K): all of it")
+    .derived("rotor.mass over rotor.planes at 460 J/(kg K): all of it; in a spin-up a steel shaft of the bore, four widths long, assumed")
     .when(FOLLOWED),
     Key::new(
         "heat.housing_capacity",
@@ -163,7 +163,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.rotor_contact",
         Kind::Quantity("W/K"),
         "0.15 W/K",
-        "Conductance from rotor to inner race.",
+        "Conductance from rotor to inner race; in a spin-up without a sliding rotor that of the seat on the shaft.",
     )
     .not_negative()
     .optional("that of two rough ground surfaces of steel along the width of the bearing, rolling on each other with heat.radial_air_clearance")

@@ -16,6 +16,9 @@ impl Context<'_> {
         };
         let loaded = spin_up.radial_load.largest() > 0.0;
         self.bearing(&spin_up.bearing, bore, loaded)?;
+        if let Some(warm) = &spin_up.warm {
+            self.warm(warm)?;
+        }
         self.some_speed(spin_up)?;
         self.some_drive(spin_up)?;
         self.step(spin_up)?;

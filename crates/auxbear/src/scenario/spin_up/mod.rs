@@ -4,6 +4,7 @@ pub(crate) mod checks;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::{Bearing, bearing};
+use crate::scenario::heat::{Network, Warm};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
@@ -20,6 +21,8 @@ pub struct SpinUp {
     pub load_direction: f64,
     /// The bearing.
     pub bearing: Bearing,
+    /// What warms of it, where that is followed.
+    pub warm: Option<Box<Warm>>,
     /// The simulation.
     pub run: Run,
 }
@@ -107,12 +110,17 @@ impl SpinUp {
             values,
             path: "drive",
         };
+        let radial_load = course(&section, "radial_load", "load_history");
+        let run = Run::from_values(values);
+        let load = radial_load.at(run.duration);
+        let followed = values.chosen("heat.network") == Some(Network::On);
         SpinUp {
-            radial_load: course(&section, "radial_load", "load_history"),
+            warm: followed.then(|| Box::new(Warm::from_values(values, load))),
+            radial_load,
             load_direction: section.number("load_direction"),
             drive: drive(&section),
             bearing: bearing(values),
-            run: Run::from_values(values),
+            run,
         }
     }
 

@@ -3,7 +3,9 @@
 pub mod build;
 pub(crate) mod columns;
 pub mod contacts;
+pub(crate) mod feedback;
 pub(crate) mod film;
+pub(crate) mod networks;
 pub mod pressure;
 pub(crate) mod quantities;
 pub(crate) mod run;
@@ -11,4 +13,5 @@ pub(crate) mod severity;
 pub(crate) mod skid;
 pub mod steady;
 pub(crate) mod traction;
+pub(crate) mod warm;
 pub(crate) mod warnings;

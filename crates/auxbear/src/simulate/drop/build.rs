@@ -8,7 +8,6 @@ use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::simulate::drop::layers;
 use crate::simulate::drop::mount;
-use crate::simulate::drop::networks;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::{BearingConstants, RollingConstants};
@@ -122,7 +121,7 @@ fn auxiliary_bearing(
         torque: given.inner_race_torque,
     };
     let around = AuxiliaryBearingConstants {
-        warm: networks::built(part)?,
+        warm: bearing::networks::built(part.warm.as_deref(), given)?,
         ..around(part, inner_race, constants)
     };
     Ok((around, built))

@@ -3,8 +3,9 @@
 use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::{shaft_results, warm};
+use crate::simulate::drop::shaft_results;
 use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
@@ -144,6 +145,8 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
         at.probe(MOUNT_FORCE),
     );
     table.bearing();
-    warm::columns(context, k, &mut table);
+    if let Some(followed) = context.followed(k) {
+        warm::columns(&followed, &mut table);
+    }
     table.columns
 }

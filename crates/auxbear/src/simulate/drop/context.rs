@@ -1,9 +1,12 @@
 //! What the pages that name results need to know.
 
 use crate::scenario::{AuxiliaryBearing, Drop};
+use crate::simulate::bearing::feedback::Renewals;
 use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::warm::Followed;
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::ensemble::Finished;
+use crate::simulate::drop::feedback::Warmed;
 use model::auxiliary_bearing::probe;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::RotorMachine;
@@ -31,6 +34,19 @@ impl<'a> Context<'a> {
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]
     }
+    /// A bearing whose temperatures were followed.
+    pub fn followed(&self, k: usize) -> Option<Followed<'a>> {
+        let given = self.given(k);
+        let warmed = self.finished.warmed.as_deref();
+        Some(Followed {
+            given: given.warm.as_deref()?,
+            bearing: given.bearing.as_ref()?,
+            part: self.machine.constants.bearings[k].warm.as_deref()?,
+            warmth: self.record(k).warmth.as_deref()?,
+            state: warmed.and_then(|warmed| warmed.state(k)),
+            broken: warmed.and_then(Warmed::broken),
+        })
+    }
     /// Energies and flows at the release.
     pub fn at_start(&self) -> (Content, Flows) {
         let start = &self.finished.start;
@@ -38,27 +54,27 @@ impl<'a> Context<'a> {
     }
     /// The same at an instant of the run; rings that have closed on their balls have done work.
     pub fn booked(&self, time: f64, content: Content, state: &[f64]) -> (Content, Flows) {
-        let mut flows = self.machine.flows(state);
-        let work = self.work_of_rings(time);
-        flows.work += work;
-        flows.work_size += work.abs();
-        (content, flows)
+        let found = (content, self.machine.flows(state));
+        match self.renewals() {
+            Some(renewals) => renewals.booked(time, found),
+            None => found,
+        }
     }
     /// Energy and angular momentum from the release to the end.
     pub fn balance(&self) -> Balance {
         let ending = &self.finished.ending;
-        let warmed = self.finished.warmed.as_ref();
-        let machine = warmed.map_or(self.machine, |warmed| warmed.machine(self.machine));
+        let renewals = self.renewals();
+        let machine = renewals.map_or(self.machine, |renewals| renewals.machine(self.machine));
         let content = machine.content(&ending.state);
         Balance {
             start: self.at_start(),
             end: self.booked(f64::INFINITY, content, &ending.state),
         }
     }
-    /// Work of rings that close on their balls as they warm, until an instant, J.
-    pub fn work_of_rings(&self, time: f64) -> f64 {
-        let warmed = self.finished.warmed.as_ref();
-        warmed.map_or(0.0, |warmed| warmed.work_until(time))
+    /// The machines that it has been; none where nothing follows.
+    pub fn renewals(&self) -> Option<&'a Renewals<RotorMachine>> {
+        let warmed = self.finished.warmed.as_deref();
+        warmed.map(|warmed| &warmed.renewals)
     }
     pub fn bearing(&self, bearing: usize) -> BearingRun<'a> {
         let at = self.machine.layout().bearings[bearing];

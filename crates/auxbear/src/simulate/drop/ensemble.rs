@@ -199,8 +199,8 @@ impl<'a> Watched<'a> {
             self.advance(1000);
         }
         let mut record = self.record;
-        let machine =
-            (self.warmed.as_ref()).map_or(&*member.machine, |w| w.machine(&member.machine));
+        let machine = (self.warmed.as_ref())
+            .map_or(&*member.machine, |w| w.renewals.machine(&member.machine));
         record.finish(machine, ending.time, &ending.state);
         Finished {
             start: member.start.clone(),

@@ -10,14 +10,12 @@ mod layers;
 pub(crate) mod members;
 pub(crate) mod method;
 mod mount;
-mod networks;
 pub(crate) mod orders;
 pub(crate) mod quantities;
 pub(crate) mod run_out;
 pub mod shaft;
 pub(crate) mod shaft_results;
 pub(crate) mod surfaces;
-pub(crate) mod warm;
 pub(crate) mod warnings;
 mod windows;
 

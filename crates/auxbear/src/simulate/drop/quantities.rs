@@ -5,8 +5,9 @@ use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::StaticLoad;
 use crate::simulate::bearing::quantities::{End, LargestForces};
+use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::{shaft_results, surfaces, warm};
+use crate::simulate::drop::{shaft_results, surfaces};
 use model::system::layout::of_part;
 use physics::life::basic_life;
 use std::f64::consts::PI;
@@ -42,9 +43,8 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
         Ok(planes * heat),
         &ALL_BEARINGS,
     );
-    if context.finished.warmed.is_some() {
-        let work = context.work_of_rings(f64::INFINITY);
-        list.number("work_of_warm_rings", "J", Ok(work), &RINGS);
+    if let Some(renewals) = context.renewals() {
+        warm::work_of_rings(renewals.work_until(f64::INFINITY), &mut list);
     }
     let (energy, momentum) = residuals(context);
     list.number("energy_residual", "1", energy, &RESIDUAL);
@@ -220,7 +220,9 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         &PER_AREA,
     );
     surfaces::name(context, k, list);
-    warm::name(context, k, list);
+    if let Some(followed) = context.followed(k) {
+        warm::name(&followed, list);
+    }
 }
 
 /// What is turned over must exceed this share of the kinetic energy at the start to be compared with.
@@ -267,11 +269,6 @@ const LIFE: Origin = Origin {
     law: "n/(10⁶ (C/P)³), P the cubic mean load: share of the rating life L10, which 10 % of bearings do not reach",
     source: "ISO 281, crates/physics/src/life.rs",
     valid: "P ≤ 0.5 C, one place of the outer ring loaded all the time, which overrates a whirl; blows that dent count by largest_indentation",
-};
-const RINGS: Origin = Origin {
-    law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",
-    source: LEDGER,
-    valid: "a source of the ledger; the heat that expands the rings is not made smaller by it",
 };
 const FIRST_CONTACT: Origin = Origin {
     law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",

@@ -6,11 +6,12 @@ use crate::result::outcome::warning;
 use crate::scenario::{Fidelity, Moment, Scenario};
 use crate::simulate::bearing::quantities::End;
 use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
+use crate::simulate::bearing::warm;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::drop::{method, shaft_results, surfaces, warm};
+use crate::simulate::drop::{method, shaft_results, surfaces};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -102,7 +103,9 @@ pub(crate) fn of(
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));
-        list.extend(judged(contexts, |member| warm::judged(member, k)));
+        list.extend(judged(contexts, |member| {
+            (member.followed(k).as_ref()).map_or(Vec::new(), warm::judged)
+        }));
         list
     }));
     // of repeated runs those of the unperturbed run-out

@@ -12,6 +12,7 @@
 //! Source: heat-and-life, section 6.
 
 use crate::scenario::Drop;
+use crate::simulate::bearing::feedback::Follows;
 use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start};
 use crate::simulate::coast_down::course::BEYOND;
 use crate::simulate::coast_down::ran::Ran;
@@ -19,7 +20,6 @@ use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
-use crate::simulate::drop::feedback::Follows;
 use crate::simulate::drop::method;
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::HEATS;
@@ -365,8 +365,10 @@ fn conditioned(drop: &Drop, built: &Built) -> Drop {
     warm.rotor.speed = built.start.speed * drop.rotor.speed.signum();
     let temperatures = built.start.temperatures.chunks(NODES.len());
     for (part, temperatures) in warm.auxiliary_bearings.iter_mut().zip(temperatures) {
-        let follows = Follows::of(part);
-        if let (Some(follows), Some(bearing)) = (follows, &mut part.bearing) {
+        let (Some(heat), Some(bearing)) = (&part.warm, &mut part.bearing) else {
+            continue;
+        };
+        if let Some(follows) = Follows::of(heat, bearing) {
             follows.condition(bearing, temperatures);
         }
     }

@@ -6,6 +6,8 @@ use crate::scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint, refused};
+use crate::simulate::spin_up::warming;
+use model::bearing_heat::WarmBearing;
 use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use number::Vec2;
@@ -19,6 +21,8 @@ pub struct Built {
     pub pressure_factors: PressureFactors,
     /// What traction can carry at the target speed under the last load; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
+    /// The network of its heat; none where temperatures are not followed.
+    pub warm: Option<Box<WarmBearing>>,
 }
 
 /// Builds the machine of a spin-up. The weight of the balls is left out: it is a thousandth of any load.
@@ -52,6 +56,7 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
         machine,
         pressure_factors: contacts.pressure_factors(),
         steady,
+        warm: warming::network(spin_up)?,
     })
 }
 

@@ -3,6 +3,7 @@
 use crate::result::outcome::Column;
 use crate::scenario::Drive;
 use crate::simulate::bearing::columns::Table;
+use crate::simulate::bearing::warm;
 use crate::simulate::spin_up::context::Context;
 use model::system::spin_up::layout::{INNER, LARGEST_POCKET_FORCE, PROBES, ROTOR};
 
@@ -48,6 +49,9 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     table.bearing();
     table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("inner race", "race", layout);
-    table.energies(|row| machine.balance(context.start, row.state));
+    table.energies(|row| context.balance(row.time, row.content, row.state));
+    if let Some(followed) = context.warming.and_then(|warming| warming.followed()) {
+        warm::columns(&followed, &mut table);
+    }
     table.columns
 }

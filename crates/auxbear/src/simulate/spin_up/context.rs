@@ -3,7 +3,9 @@
 use crate::scenario::SpinUp;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::spin_up::build::Built;
+use crate::simulate::spin_up::warming::Warming;
 use crate::simulate::stepping::Asked;
+use model::system::energy::{Balance, Content};
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
@@ -19,11 +21,32 @@ pub(crate) struct Context<'a> {
     pub start: &'a [f64],
     pub record: &'a Record,
     pub ending: &'a Ending,
+    /// How warm the bearing became; none where that is not followed.
+    pub warming: Option<&'a Warming<'a>>,
 }
 
 impl<'a> Context<'a> {
     pub fn machine(&self) -> &'a SpinUpMachine {
         &self.built.machine
+    }
+    /// What must close between the start and a row, or the end.
+    pub fn balance(&self, time: f64, content: Content, state: &[f64]) -> Balance {
+        let machine = self.machine();
+        let end = (content, machine.flows(state));
+        Balance {
+            start: (machine.content(self.start), machine.flows(self.start)),
+            end: match self.warming {
+                Some(warming) => warming.renewals.booked(time, end),
+                None => end,
+            },
+        }
+    }
+    /// The same until the end.
+    pub fn whole_balance(&self) -> Balance {
+        let (machine, state) = (self.machine(), &self.ending.state);
+        let renewals = self.warming.map(|warming| &warming.renewals);
+        let machine = renewals.map_or(machine, |renewals| renewals.machine(machine));
+        self.balance(f64::INFINITY, machine.content(state), state)
     }
     pub fn bearing(&self) -> BearingRun<'a> {
         BearingRun {

@@ -4,6 +4,7 @@ pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
 pub(crate) mod quantities;
+pub(crate) mod warming;
 pub(crate) mod warnings;
 
 use crate::options::Options;
@@ -12,6 +13,7 @@ use crate::scenario::{Scenario, SpinUp};
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::spin_up::build::Built;
 use crate::simulate::spin_up::context::{Context, asked};
+use crate::simulate::spin_up::warming::Warming;
 use crate::simulate::stepping::Stepping;
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
@@ -29,7 +31,7 @@ pub(crate) fn run(
     let start = built.machine.start();
     let clock = Instant::now();
     let stepping = asked(spin_up, built).stepping(|| false);
-    let (record, ending) = integrate(&built.machine, &start, (spin_up, stepping), options);
+    let (record, ending, warming) = integrate(built, &start, (spin_up, stepping), options);
     let seconds = clock.elapsed().as_secs_f64();
     let context = Context {
         spin_up,
@@ -37,6 +39,7 @@ pub(crate) fn run(
         start: &start,
         record: &record,
         ending: &ending,
+        warming: warming.as_ref(),
     };
     let quantities = quantities::name(&context);
     Outcome {
@@ -72,42 +75,64 @@ pub(crate) fn run(
     }
 }
 
-fn integrate(
-    machine: &SpinUpMachine,
+fn integrate<'a>(
+    built: &'a Built,
     start: &[f64],
-    (spin_up, stepping): (&SpinUp, Stepping),
+    (spin_up, stepping): (&'a SpinUp, Stepping),
     options: &Options,
-) -> (Record, Ending) {
+) -> (Record, Ending, Option<Warming<'a>>) {
+    let machine = &built.machine;
     let settings = settings_at(&spin_up.run, stepping.tolerance);
     let end = settings.end;
     let mut watched = Watched {
         record: Record::new(machine, end, spin_up.run.output_interval, true),
+        warming: Warming::of(spin_up, built.warm.as_deref()),
         progress: options.progress,
         reported: 0,
         end,
     };
     let (steps, interrupt) = (stepping.steps, options.interrupt);
     let ending = simulate(machine, start, &settings, steps, &mut watched, interrupt);
-    let mut record = watched.record;
-    record.finish(machine, ending.time, &ending.state);
-    (record, ending)
+    let (mut record, mut warming) = (watched.record, watched.warming);
+    if let Some(warming) = &mut warming {
+        let state = |channel: usize| ending.state[channel];
+        warming.take(machine, ending.time, &state);
+    }
+    let renewals = warming.as_ref().map(|warming| &warming.renewals);
+    let at_end = renewals.map_or(machine, |renewals| renewals.machine(machine));
+    record.finish(at_end, ending.time, &ending.state);
+    (record, ending, warming)
 }
 
 /// A record that also reports progress.
-struct Watched<'a> {
+struct Watched<'a, 'b> {
     record: Record,
+    warming: Option<Warming<'b>>,
     progress: &'a (dyn Fn(f64) + Sync),
     reported: u64,
     end: f64,
 }
 
-impl Observer<SpinUpMachine> for Watched<'_> {
+impl Observer<SpinUpMachine> for Watched<'_, '_> {
     fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.reported {
             (self.progress)(thousandths as f64 * 1e-3);
             self.reported = thousandths;
         }
-        self.record.step(step)
+        let flow = self.record.step(step);
+        let warms = (self.warming.as_mut()).is_some_and(|warming| warming.step(step));
+        match flow {
+            Flow::Continue if warms => Flow::Renew,
+            flow => flow,
+        }
+    }
+    fn renewed(
+        &mut self,
+        machine: &SpinUpMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<SpinUpMachine>> {
+        self.warming.as_mut()?.renewed(machine, time, state)
     }
 }

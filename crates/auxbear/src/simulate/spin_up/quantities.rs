@@ -6,6 +6,7 @@ use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
 use crate::scenario::{Drive, Fidelity};
 use crate::simulate::bearing::quantities::{End, LargestForces};
+use crate::simulate::bearing::warm;
 use crate::simulate::spin_up::context::Context;
 use model::system::spin_up::layout::{
     CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
@@ -225,8 +226,14 @@ fn loads(list: &mut List, context: &Context) {
 fn energies(list: &mut List, context: &Context) {
     let machine = context.machine();
     let (start, state) = (context.start, &context.ending.state);
-    let balance = machine.balance(start, state);
+    let balance = context.whole_balance();
     let heat = balance.heat();
+    if let Some(followed) = context.warming.and_then(|warming| warming.followed()) {
+        warm::name(&followed, list);
+    }
+    if let Some(warming) = context.warming {
+        warm::work_of_rings(warming.renewals.work_until(f64::INFINITY), list);
+    }
     list.losses(&context.bearing(), &end(context), &ENERGY);
     list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
     let forms = machine.outer_race_energy(start, state);

@@ -4,6 +4,7 @@ use crate::result::assumptions::speed_rating;
 use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Bearing, Scenario};
+use crate::simulate::bearing::warm;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::spin_up::context::{Context, asked};
 use crate::simulate::spin_up::quantities::rolling_start_to_end;
@@ -28,6 +29,13 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let speed = largest(&|row| row.state[INNER + 5]);
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
     list.extend(shared::skids(context.built.steady.as_ref()));
+    if let Some(followed) = context.warming.and_then(|warming| warming.followed()) {
+        list.extend(
+            warm::judged(&followed)
+                .into_iter()
+                .map(|(_, warning)| warning),
+        );
+    }
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     let (run, record) = (context.bearing(), context.record);

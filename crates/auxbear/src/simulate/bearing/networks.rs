@@ -1,7 +1,7 @@
-//! The networks of auxiliary bearings that warm.
+//! The networks of bearings that warm.
 
 use crate::problem::Problem;
-use crate::scenario::{AuxiliaryBearing, BallMaterial, Guidance, Moment, Separation};
+use crate::scenario::{BallMaterial, Bearing, Guidance, Moment, Separation, Warm};
 use crate::simulate::coast_down::build::{ICE_POINT, losses, network};
 use model::bearing_heat::{WarmBearing, shares};
 use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
@@ -12,8 +12,11 @@ use thermal::bearing_network::{INNER_RACE, OUTER_RACE};
 const ASSUMED_VISCOSITY: f64 = 50e-6;
 
 /// A bearing that warms; none where its temperatures are not followed.
-pub(crate) fn built(part: &AuxiliaryBearing) -> Result<Option<Box<WarmBearing>>, Box<Problem>> {
-    let (Some(warm), Some(bearing)) = (&part.warm, &part.bearing) else {
+pub(crate) fn built(
+    warm: Option<&Warm>,
+    bearing: &Bearing,
+) -> Result<Option<Box<WarmBearing>>, Box<Problem>> {
+    let Some(warm) = warm else {
         return Ok(None);
     };
     let (network, zone) = network(warm)?;

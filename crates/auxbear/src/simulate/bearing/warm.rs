@@ -1,38 +1,38 @@
-//! Temperatures of the auxiliary bearings: named results, columns, and what is too hot.
+//! Temperatures of a bearing: named results, columns, and what is too hot.
 
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Warning, warning};
-use crate::scenario::{Feedback, Warm};
+use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
+use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::drop::context::Context;
-use crate::simulate::drop::feedback::Follows;
 use model::bearing_heat::{WarmBearing, Warmth};
 use thermal::bearing_network::{CAGE, NODES};
 
 /// A bearing whose temperatures were followed.
-struct Followed<'a> {
-    given: &'a Warm,
-    /// What follows them.
-    follows: Option<Follows>,
-    /// Whether its clearance does.
-    closes: bool,
-    part: &'a WarmBearing,
-    warmth: &'a Warmth,
+pub(crate) struct Followed<'a> {
+    /// What is given of it.
+    pub given: &'a Warm,
+    /// It at the start.
+    pub bearing: &'a Bearing,
+    /// Its network.
+    pub part: &'a WarmBearing,
+    /// What became of it.
+    pub warmth: &'a Warmth,
+    /// As which it was made last; none where nothing has moved.
+    pub state: Option<State>,
+    /// Why it went on without following, and from when on, s.
+    pub broken: Option<&'a (f64, String)>,
 }
 
 impl<'a> Followed<'a> {
-    fn of(context: &Context<'a>, k: usize) -> Option<Self> {
-        let part = context.given(k);
-        let follows = Follows::of(part);
-        Some(Followed {
-            given: part.warm.as_deref()?,
-            closes: (follows.iter().zip(&part.bearing))
-                .any(|(follows, bearing)| follows.closes(bearing)),
-            follows,
-            part: context.machine.constants.bearings[k].warm.as_deref()?,
-            warmth: context.record(k).warmth.as_deref()?,
-        })
+    fn follows(&self) -> Option<Follows> {
+        Follows::of(self.given, self.bearing)
+    }
+
+    /// Whether its clearance follows.
+    fn closes(&self) -> bool {
+        (self.follows().iter()).any(|follows| follows.closes(self.bearing))
     }
 
     /// The nodes that are there: a full complement has no cage.
@@ -43,10 +43,7 @@ impl<'a> Followed<'a> {
 }
 
 /// Names the results of a bearing.
-pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
-    let Some(followed) = Followed::of(context, k) else {
-        return;
-    };
+pub(crate) fn name(followed: &Followed, list: &mut List) {
     let warmth = followed.warmth;
     for (node, name) in followed.nodes() {
         let (peak, _) = warmth.peaks[node];
@@ -54,17 +51,14 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
         list.number(&name, "K", Ok(peak + ICE_POINT), &PEAK);
     }
     let stored = followed.part.stored(&warmth.temperatures);
-    if followed.closes {
-        let bearing = context.given(k).bearing.as_ref();
-        let at_start = bearing.map_or(0.0, |bearing| bearing.operating_diametral_clearance);
-        let warmed = context.finished.warmed.as_ref();
-        let closing = warmed.and_then(|warmed| warmed.closing(k));
-        let at_end =
-            (followed.follows.iter()).map(|follows| follows.clearance(&warmth.temperatures));
-        let least = closing.map_or(at_start, |(least, _)| least.min(at_start));
-        let least = at_end.fold(least, f64::min);
+    if followed.closes() {
+        let at_start = followed.bearing.operating_diametral_clearance;
+        let at_end = followed.follows();
+        let at_end = (at_end.iter()).map(|follows| follows.clearance(&warmth.temperatures));
+        let least = followed.state.map_or(at_start, |state| state.least);
+        let least = at_end.fold(least.min(at_start), f64::min);
         list.number("smallest_clearance", "m", Ok(least), &CLEARANCE);
-        let closed = closing.and_then(|(_, closed)| closed);
+        let closed = followed.state.and_then(|state| state.closed);
         let why = match at_start < 0.0 {
             true => "the balls are preloaded from the start",
             false => "the bearing stays open",
@@ -87,11 +81,13 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
     );
 }
 
+/// Names the work of rings that close on their balls, J.
+pub(crate) fn work_of_rings(work: f64, list: &mut List) {
+    list.number("work_of_warm_rings", "J", Ok(work), &RINGS);
+}
+
 /// Temperatures over time.
-pub(crate) fn columns<'a>(context: &Context<'a>, k: usize, table: &mut Table<'a>) {
-    let Some(followed) = Followed::of(context, k) else {
-        return;
-    };
+pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
     let (part, warmth) = (followed.part, followed.warmth);
     for (node, name) in followed.nodes() {
         let words = name.replace('_', " ");
@@ -102,7 +98,7 @@ pub(crate) fn columns<'a>(context: &Context<'a>, k: usize, table: &mut Table<'a>
             move |row| warmth.at(part, node, row.time) + ICE_POINT,
         );
     }
-    if let (true, Some(follows)) = (followed.closes, followed.follows) {
+    if let (true, Some(follows)) = (followed.closes(), followed.follows()) {
         table.add(
             "bearing.clearance",
             "m",
@@ -118,19 +114,16 @@ pub(crate) fn columns<'a>(context: &Context<'a>, k: usize, table: &mut Table<'a>
 }
 
 /// What became hotter than it may, closed, or does not follow.
-pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
-    let Some(followed) = Followed::of(context, k) else {
-        return Vec::new();
-    };
-    let mut list: Vec<(f64, Warning)> = too_hot(&followed).into_iter().collect();
-    list.extend(closed(context, k));
-    list.extend(not_followed(context, &followed, k).map(|warning| (0.0, warning)));
+pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
+    let mut list: Vec<(f64, Warning)> = too_hot(followed).into_iter().collect();
+    list.extend(closed(followed));
+    list.extend(not_followed(followed).map(|warning| (0.0, warning)));
     list
 }
 
 /// A clearance that closes.
-fn closed(context: &Context, k: usize) -> Option<(f64, Warning)> {
-    let (least, closed) = context.finished.warmed.as_ref()?.closing(k)?;
+fn closed(followed: &Followed) -> Option<(f64, Warning)> {
+    let State { least, closed, .. } = followed.state?;
     let text = format!(
         "The clearance closes after {:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' \
          temperatures is known within a factor of two; so is the clearance that is needed.",
@@ -141,23 +134,17 @@ fn closed(context: &Context, k: usize) -> Option<(f64, Warning)> {
 }
 
 /// What of a bearing does not follow its temperatures, though it is asked to.
-fn not_followed(context: &Context, followed: &Followed, k: usize) -> Option<Warning> {
-    let bearing = context.given(k).bearing.as_ref()?;
+fn not_followed(followed: &Followed) -> Option<Warning> {
     let feedback = followed.given.heat.feedback;
-    let broken = context
-        .finished
-        .warmed
-        .as_ref()
-        .and_then(|warmed| warmed.broken());
-    let text = match broken {
+    let text = match followed.broken {
         Some((time, why)) => format!(
             "From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}."
         ),
-        None if feedback == Feedback::Full && !followed.closes => "The preload of an angular contact bearing does not follow its temperatures: \
+        None if feedback == Feedback::Full && !followed.closes() => "The preload of an angular contact bearing does not follow its temperatures: \
              a rigid one rises as the inner ring warms."
             .to_string(),
         None if feedback != Feedback::None
-            && !(followed.follows.iter()).any(|follows| follows.thins(bearing)) =>
+            && !(followed.follows().iter()).any(|follows| follows.thins(followed.bearing)) =>
         {
             "No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their \
              viscosities, are not given, or its law knows no viscosity."
@@ -199,9 +186,14 @@ const PEAK: Origin = Origin {
     valid: "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
             factor of two. What of the motion follows: heat.feedback",
 };
+const RINGS: Origin = Origin {
+    law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",
+    source: "content of the ledger before and after, crates/auxbear/src/simulate/bearing/feedback.rs",
+    valid: "a source of the ledger; the heat that expands the rings is not made smaller by it",
+};
 const CLEARANCE: Origin = Origin {
     law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
-    source: "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/drop/feedback.rs; heat-and-life, section 5",
+    source: "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/bearing/feedback.rs; heat-and-life, section 5",
     valid: "rings free to grow, each of one temperature: from about 0.1 s on",
 };
 const HEAT: Origin = Origin {
