@@ -224,11 +224,11 @@ fn the_life_of_a_drop_counts_the_cube_of_its_load_over_its_turns() {
     let (times, loads) = (column("time"), column("bearing.load"));
     let speeds = column("bearing.inner_race.speed");
     let (mut turns, mut sum) = (0.0, 0.0);
-    for k in 1..times.len() {
-        let part = |k: usize| speeds[k].abs() * (times[k.max(1)] - times[k.max(1) - 1]);
-        let turned = part(k) / std::f64::consts::TAU;
+    let rows = times.windows(2).zip(speeds[1..].iter().zip(&loads[1..]));
+    for (span, (speed, load)) in rows {
+        let turned = speed.abs() * (span[1] - span[0]) / std::f64::consts::TAU;
         turns += turned;
-        sum += turned * loads[k].powi(3);
+        sum += turned * load.powi(3);
     }
     let near = |name: &str, value: f64, within: f64| {
         let found = number(&drop, name);
