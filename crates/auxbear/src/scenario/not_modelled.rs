@@ -34,7 +34,7 @@ impl Absent {
 /// What a path asks for, where the system does not describe it.
 pub(crate) fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
     let path = path.to_lowercase();
-    let warms = system == SystemName::CoastDown || system.falls();
+    let warms = system.falls() || matches!(system, SystemName::CoastDown | SystemName::SpinUp);
     if warms && (path == "heat" || path.starts_with("heat.")) {
         return None;
     }

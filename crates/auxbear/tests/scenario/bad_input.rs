@@ -64,7 +64,7 @@ fn an_unknown_key_names_the_near_one() {
     );
     assert_eq!(
         message("bore_diameter", "bearing.bore"),
-        "error[AB0101]: drop.toml:16: contact.bearing: found an unknown section; [contact] takes radial_air_clearance, bore_diameter, width, exponent, stiffness, damping, friction_coefficient, friction_reference_speed, surface. Did you mean \"bearing\"?"
+        "error[AB0101]: drop.toml:16: contact.bearing: found an unknown section; [contact] takes radial_air_clearance, bore_diameter, width, exponent, stiffness, damping, friction_coefficient, friction_over_temperature, friction_reference_speed, surface. Did you mean \"bearing\"?"
     );
     assert_eq!(
         set_message("bearing.bal_count=9"),
@@ -188,7 +188,7 @@ fn wrong_kinds_of_value_are_refused() {
     );
     assert_eq!(
         message("[mount]", "gravity = \"9.81 m/s^2\"\n[mount]"),
-        "error[AB0101]: drop.toml:18: contact.gravity: found an unknown key; [contact] takes radial_air_clearance, bore_diameter, width, exponent, stiffness, damping, friction_coefficient, friction_reference_speed, surface. Gravity is gravity.acceleration with gravity.direction"
+        "error[AB0101]: drop.toml:18: contact.gravity: found an unknown key; [contact] takes radial_air_clearance, bore_diameter, width, exponent, stiffness, damping, friction_coefficient, friction_over_temperature, friction_reference_speed, surface. Gravity is gravity.acceleration with gravity.direction"
     );
     assert_eq!(
         message(
@@ -219,7 +219,7 @@ fn radial_and_diametral_are_distinguished() {
         assert_eq!(
             shown,
             format!(
-                "error[AB0101]: drop.toml:15: contact.{name}: found an unknown key; [contact] takes radial_air_clearance, bore_diameter, width, exponent, stiffness, damping, friction_coefficient, friction_reference_speed, surface. {both}"
+                "error[AB0101]: drop.toml:15: contact.{name}: found an unknown key; [contact] takes radial_air_clearance, bore_diameter, width, exponent, stiffness, damping, friction_coefficient, friction_over_temperature, friction_reference_speed, surface. {both}"
             )
         );
     }

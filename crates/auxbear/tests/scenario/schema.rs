@@ -65,6 +65,10 @@ fn right(schema: &Value, value: &Value) -> bool {
         "items" => value
             .as_array()
             .is_none_or(|items| items.iter().all(|item| right(rule, item))),
+        "prefixItems" => value.as_array().is_none_or(|items| {
+            let mut both = list(rule).into_iter().zip(items);
+            both.all(|(schema, item)| right(&schema, item))
+        }),
         "minItems" => value
             .as_array()
             .is_none_or(|items| items.len() as u64 >= rule.as_u64().unwrap()),
