@@ -6,8 +6,10 @@ use crate::machines::{
     inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass, vec2,
 };
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
+use model::rotor::TorqueTables;
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
 use model::system::machine::{MachineConstants, RotorMachine};
+use model::table::Table;
 use number::Level;
 use physics::palmgren::Palmgren;
 use physics::traction::{DryTraction, FourParameterTraction, Traction};
@@ -160,6 +162,11 @@ fn a_rotor_that_bends_has_the_same_bits() {
             constants.speed *= 1.0 - 0.05 * x;
             constants.unbalance_angle = 0.4 * x;
             constants.rotor.drag = 1e-5 * (1.0 + x);
+            let table = |points: Vec<(f64, f64)>| Table::through(points).unwrap();
+            constants.rotor.torque = Some(TorqueTables {
+                over_speed: table(vec![(0.0, 1.0), (900.0 - 10.0 * x, 0.1 * x - 0.4)]),
+                share_over_time: table(vec![(1e-3, 1.0), (4e-3 + 1e-4 * x, 0.1 * x)]),
+            });
             for own in &mut constants.rotor.coordinates {
                 own.frequency *= 1.0 - 0.01 * x;
                 own.weight *= 1.0 + 0.02 * x;

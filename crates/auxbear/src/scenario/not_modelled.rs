@@ -129,10 +129,10 @@ const TABLE: &[Absent] = &[
     },
     Absent {
         paths: "motor generator drive_motor rotor.motor_torque seal seals windage gas process rotor.brake_curve rotor.braking_curve \
-                rotor.speed_curve rotor.load_torque",
-        what: "forces of seals and gas on a rigid rotor, and tables of torque over speed or time, are not described",
+                rotor.speed_curve rotor.load_torque rotor.torque_curve rotor.torque_table rotor.torque_over_time",
+        what: "forces of seals and gas on a rigid rotor are not described",
         point: 5,
-        instead: "A constant torque is rotor.brake_torque with rotor.spin = \"braked\"; a machine has [[rotor.seal]], rotor.drive_torque, drive_slope, drag and windage",
+        instead: "Torques are rotor.brake_torque with rotor.spin = \"braked\", and rotor.torque_over_speed with rotor.torque_share_over_time; a machine has [[rotor.seal]], rotor.drive_torque, drive_slope, drag and windage",
     },
 ];
 

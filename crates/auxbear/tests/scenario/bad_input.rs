@@ -56,7 +56,7 @@ fn the_good_file_is_good() {
 fn an_unknown_key_names_the_near_one() {
     assert_eq!(
         message("mass = \"8 kg\"", "mas = \"8 kg\""),
-        "error[AB0101]: drop.toml:5: rotor.mas: found an unknown key; [rotor] takes mass, polar_inertia, unbalance, unbalance_eccentricity, unbalance_angle, speed, spin, brake_torque, brake_start, planes, first_bending_frequency. Did you mean \"rotor.mass\"?"
+        "error[AB0101]: drop.toml:5: rotor.mas: found an unknown key; [rotor] takes mass, polar_inertia, unbalance, unbalance_eccentricity, unbalance_angle, speed, spin, brake_torque, brake_start, torque_over_speed, torque_share_over_time, planes, first_bending_frequency. Did you mean \"rotor.mass\"?"
     );
     assert_eq!(
         message("[rotor]", "[rotr]"),

@@ -72,6 +72,11 @@ fn choices(path: &str) -> Vec<String> {
     let list: &[&str] = match path {
         "rotor.brake_torque" => &["rotor.spin=braked"],
         "rotor.brake_start" => &["rotor.spin=braked", "rotor.brake_torque=1 N m"],
+        // its rows reach beyond the rotor's speed; a share is one of a torque
+        "rotor.torque_over_speed" => &["rotor.speed=1 rad/s"],
+        "rotor.torque_share_over_time" => {
+            &["rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"1e5 rpm\", \"-1 N m\"]]"]
+        }
         "drive.rotor_polar_inertia" => &["drive.rotor_spin=free"],
         "analysis.operating_to" => &["analysis.operating_from=1e-6 rad/s"],
         "analysis.map_to" => &["analysis.map_from=1e-6 N/m"],

@@ -1,5 +1,6 @@
 //! Constants of a rotor.
 
+use crate::table::Table;
 use number::Vec2;
 
 /// One modal coordinate, the same in both planes.
@@ -26,6 +27,15 @@ pub struct Unbalance {
     pub phase: f64,
 }
 
+/// A torque on the spin by tables: τ(|Ω|) s(t).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorqueTables {
+    /// τ over the size of the spin, N m: above 0 it drives, below 0 it brakes.
+    pub over_speed: Table,
+    /// s over the time.
+    pub share_over_time: Table,
+}
+
 /// Constants of a rotor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorConstants {
@@ -47,6 +57,8 @@ pub struct RotorConstants {
     pub drag: f64,
     /// Drag by its square, N m s², never negative.
     pub drag_square: f64,
+    /// Torque of a drive or of a load over speed and time; none where there is none.
+    pub torque: Option<TorqueTables>,
     /// Torque that brakes the spin once the brake is on, N m, never negative.
     pub brake_torque: f64,
     /// True where a drive holds the spin whatever it takes.
@@ -74,6 +86,7 @@ impl RotorConstants {
             drive_slope: 0.0,
             drag: 0.0,
             drag_square: 0.0,
+            torque: None,
             brake_torque: 0.0,
             spin_held: false,
             places: Vec::new(),

@@ -24,10 +24,11 @@ pub mod constants;
 pub mod motion;
 pub mod shaft;
 
-pub use constants::{Coordinate, RotorConstants, Unbalance};
+pub use constants::{Coordinate, RotorConstants, TorqueTables, Unbalance};
 pub use motion::{GeometricCentre, Node, RotorAt, RotorMotion};
 
-use number::{Real, Vec2};
+use crate::table::Lines;
+use number::{Gather, Real, Vec2};
 use shaft::{Shaft, ShaftReaction};
 
 /// Spin below which the brake fades out, rad/s: a brake stops, it does not reverse.
@@ -56,6 +57,8 @@ pub struct Rotor<R: Real> {
     inverse_polar_inertia: R,
     drive: [R; 2],
     drag: [R; 2],
+    /// Torque over speed, its share over time.
+    torque: Option<[Lines<R>; 2]>,
     brake_torque: R,
     /// True where a drive holds the spin whatever it takes.
     pub(crate) spin_held: bool,
@@ -107,14 +110,40 @@ impl<R: Real> Rotor<R> {
                 lanes(&|rotor| rotor.drag),
                 lanes(&|rotor| rotor.drag_square),
             ],
+            torque: Self::gather_torque(constants),
             brake_torque: lanes(&|rotor| rotor.brake_torque),
             spin_held: constants(0).spin_held,
         }
+    }
+    fn gather_torque<'a>(constants: &dyn Fn(usize) -> &'a RotorConstants) -> Option<[Lines<R>; 2]> {
+        let there = |lane: usize| constants(lane).torque.is_some();
+        let same = (0..R::LANES).all(|lane| there(lane) == there(0));
+        assert!(same, "lanes share the presence of a torque over speed");
+        let own = |lane: usize| constants(lane).torque.as_ref().expect("lanes share it");
+        there(0).then(|| {
+            [
+                Gather::<R>::gather(&|lane| &own(lane).over_speed),
+                Gather::<R>::gather(&|lane| &own(lane).share_over_time),
+            ]
+        })
     }
     /// Moment of the brake when it is on, N m.
     #[inline(always)]
     pub fn brake_moment(&self, spin: R) -> R {
         -(self.brake_torque * (spin * R::splat(1.0 / BRAKE_FADE)).tanh())
+    }
+    /// Moment of the torque by tables, N m: what drives acts in the positive sense, what brakes against the spin and fades out
+    /// with it.
+    ///
+    /// Formula: τ = max(τ(|Ω|) s, 0) + min(τ(|Ω|) s, 0) tanh(Ω/Ω_f),  s = s(t)
+    #[inline(always)]
+    pub fn torque_by_tables(&self, time: R, spin: R) -> R {
+        let Some([over_speed, share]) = &self.torque else {
+            return R::zero();
+        };
+        let torque = over_speed.value(spin.abs()) * share.value(time);
+        let fading = (spin * R::splat(1.0 / BRAKE_FADE)).tanh();
+        torque.max(R::zero()) + torque.min(R::zero()) * fading
     }
     /// N, entry of a coordinate.
     #[inline(always)]
@@ -149,13 +178,13 @@ impl<R: Real> Rotor<R> {
     }
 
     /// From all forces on the coordinates to accelerations, in their place; `spinning` holds p, then the rates of the
-    /// coordinates. `moment` is that about G at the nodes, `brake` that of the brake. Returns Ω̇ and the torques.
+    /// coordinates. `moment` is that about G at the nodes, `outside` that of the brake and of tables. Returns Ω̇ and the torques.
     #[inline(always)]
     pub fn accelerate(
         &self,
         motion: &RotorMotion<R>,
         gravity: Vec2<R>,
-        (moment, brake): (R, R),
+        (moment, outside): (R, R),
         shaft: &ShaftReaction<R>,
         [ax, ay]: [&mut [R]; 2],
         [px, py]: [&mut [R]; 2],
@@ -181,7 +210,7 @@ impl<R: Real> Rotor<R> {
         let (driving, spin_rate) = if self.spin_held {
             (-others, R::zero())
         } else {
-            let driving = brake + (self.drive[0] - self.drive[1] * motion.spin);
+            let driving = outside + (self.drive[0] - self.drive[1] * motion.spin);
             let all = others + driving;
             let rate = if turns {
                 all / (self.polar_inertia + shaft.inertia)

@@ -4,9 +4,11 @@ use crate::machines::bent::bent;
 use crate::machines::{Blind, by, settings, vec2};
 use model::levitation::{Fade, FadingMagnet};
 use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
+use model::rotor::TorqueTables;
 use model::seal::SealConstants;
 use model::system::machine::simulate::Steps;
 use model::system::machine::{MachineConstants, RotorMachine};
+use model::table::Table;
 use solve::Stop;
 
 /// A drop with everything that a rotor may have, gyroscopic moments, both dampings, drive, drag, magnets that fade, a seal, gravity, and
@@ -15,6 +17,11 @@ fn loaded() -> (MachineConstants, Vec<f64>) {
     let (mut constants, start) = bent(3e4);
     constants.rotor.drive_torque = 1.0;
     constants.rotor.drive_slope = 2e-4;
+    let table = |points: Vec<(f64, f64)>| Table::through(points).unwrap();
+    constants.rotor.torque = Some(TorqueTables {
+        over_speed: table(vec![(0.0, 2.0), (700.0, 0.5), (2000.0, -3.0)]),
+        share_over_time: table(vec![(0.004, 1.0), (0.009, 0.3), (0.012, 1.5)]),
+    });
     constants.rotor.drag = 1e-4;
     constants.rotor.drag_square = 1e-7;
     constants.magnets = vec![FadingMagnet {

@@ -4,9 +4,11 @@ use crate::machines::{
     G, INNER, balance_mount, heat_of, let_roll, observe, planar, reference, run, settings, vec2,
 };
 use model::auxiliary_bearing::probe::{NORMAL_FORCE, PENETRATION, PENETRATION_SPEED};
+use model::rotor::TorqueTables;
 use model::schedule::Schedule;
 use model::system::machine::layout::ROTOR;
 use model::system::machine::{Event, MachineConstants, RotorMachine};
+use model::table::Table;
 use solve::{Flow, Observer, Step, watch};
 use std::f64::consts::PI;
 
@@ -207,6 +209,54 @@ fn a_brake_comes_on_at_its_instant_and_takes_its_work_from_the_spin() {
     let lost = 0.5 * 0.01 * (start[ROTOR + 5].powi(2) - end[ROTOR + 5].powi(2));
     let work = end[machine.layout().source(1)];
     assert!((work / -lost - 1.0).abs() < 1e-9, "{work} {lost}");
+}
+
+/// I Ω̇ = -a Ω s(t), so Ω = Ω_0 exp(-(a/I) ∫s dt): a load over speed whose share falls on a line, lifts at once, then stays.
+#[test]
+fn a_torque_by_tables_follows_speed_and_time() {
+    let mut c = reference();
+    let slope = 2e-3;
+    let fastest = 2.0 * c.speed;
+    c.rotor.torque = Some(TorqueTables {
+        over_speed: Table::through(vec![(0.0, 0.0), (fastest, -slope * fastest)]).unwrap(),
+        share_over_time: Table::through(vec![(1e-3, 1.0), (2e-3, 0.5), (2.001e-3, 3.0)]).unwrap(),
+    });
+    let knots = [1e-3, 2e-3, 2.001e-3];
+    c.schedule = Schedule::of(knots.map(|time| (time, Event::Knot)));
+    let inertia = c.rotor.polar_inertia;
+    for sense in [1.0, -1.0] {
+        c.speed = sense * c.speed.abs();
+        let machine = RotorMachine::new(c.clone());
+        let start = machine.start();
+        let end = run(&machine, &start, &settings(5e-3, 1e-6));
+        let shares = 1e-3 + 0.75e-3 + 1.75e-6 + 3.0 * 2.999e-3;
+        let expected = start[ROTOR + 5] * (-slope / inertia * shares).exp();
+        let found = end[ROTOR + 5];
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        let lost = 0.5 * inertia * (start[ROTOR + 5].powi(2) - found.powi(2));
+        let work = end[machine.layout().source(1)];
+        assert!((work / -lost - 1.0).abs() < 1e-9, "{work} {lost}");
+    }
+}
+
+#[test]
+fn what_drives_by_a_table_starts_a_rotor_and_what_brakes_only_stops_it() {
+    let spin_after = |torque: f64, speed: f64| {
+        let mut c = reference();
+        c.speed = speed;
+        c.rotor.torque = Some(TorqueTables {
+            over_speed: Table::constant(torque),
+            share_over_time: Table::constant(1.0),
+        });
+        let machine = RotorMachine::new(c);
+        run(&machine, &machine.start(), &settings(5e-3, 1e-6))[ROTOR + 5]
+    };
+    // 200 N m on 0.01 kg m²
+    assert!((spin_after(200.0, 20.0) - 120.0).abs() < 1e-6);
+    for sense in [1.0, -1.0] {
+        let left = sense * spin_after(-200.0, sense * 20.0);
+        assert!((0.0..1e-3).contains(&left), "{left}");
+    }
 }
 
 #[test]

@@ -15,6 +15,7 @@ const SPREAD: f64 = 6.0;
 impl Context<'_> {
     pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
         self.planes(drop)?;
+        self.torques(drop)?;
         for (k, (part, values)) in drop.auxiliary_bearings.iter().zip(all).enumerate() {
             let own = Context {
                 values,
@@ -79,6 +80,46 @@ impl Context<'_> {
                 refuse("run.until", self.text("run.until"), needed)
             }
         }
+    }
+
+    /// A share has something to be a share of; what drives or follows the time is none of the laws of a run-out.
+    fn torques(&self, drop: &Drop) -> Check {
+        const OVER_SPEED: &str = "rotor.torque_over_speed";
+        const SHARE: &str = "rotor.torque_share_over_time";
+        let rotor = &drop.rotor;
+        if rotor.torque_over_speed.is_empty() && !rotor.torque_share_over_time.is_empty() {
+            let needed = format!("{OVER_SPEED} beside it is needed");
+            let problem = self.problem(Code::MissingKey, SHARE, "this alone".to_string(), needed);
+            return Err(Box::new(problem));
+        }
+        if let Some([fastest, _]) = rotor.torque_over_speed.last()
+            && *fastest < rotor.speed.abs()
+        {
+            let needed = "a last row at the size of rotor.speed or above is needed: beyond it the torque is not known";
+            let found = self.text(OVER_SPEED);
+            let problem = self.problem(Code::Conflict, OVER_SPEED, found, needed.to_string());
+            return Err(Box::new(problem));
+        }
+        if drop.run_out.is_none() {
+            return Ok(());
+        }
+        let driven = drop
+            .shaft
+            .as_ref()
+            .is_some_and(|shaft| shaft.drive_torque > 0.0);
+        let path = match rotor.torque_over_speed.is_empty() {
+            false => OVER_SPEED,
+            true if driven => "rotor.drive_torque",
+            true => return Ok(()),
+        };
+        let needed = "a rotor that only rotor.brake_torque, drag, windage and its bearings brake is needed beside run.until = \"standstill\"";
+        let found = self.text(path);
+        Err(Box::new(self.problem(
+            Code::Conflict,
+            path,
+            found,
+            needed.to_string(),
+        )))
     }
 
     /// Planes count bearings that are alike; bearings with names are counted by their names.

@@ -67,6 +67,12 @@ const BRAKED: Condition = Condition {
     reason: "",
 };
 
+const TURNS: Condition = Condition {
+    path: "rotor.spin",
+    values: &["free", "braked"],
+    reason: "a spin that is held feels no other torque",
+};
+
 pub(crate) const KEYS: &[Key] = &[
     Key::new("rotor.mass", Kind::Quantity("kg"), "8 kg", "Mass of the whole rotor.").positive()
     .only(RIGID),
@@ -174,6 +180,25 @@ pub(crate) const KEYS: &[Key] = &[
     .not_negative()
     .default("0 N m s^2", "a rotor in vacuum")
     .only(IN_GAS),
+    Key::new(
+        "rotor.torque_over_speed",
+        Kind::Table("rad/s", "N m"),
+        "[[\"0 rpm\", \"-0.1 N m\"], [\"30000 rpm\", \"-8 N m\"]]",
+        "Torque of a drive or a load over the size of the speed, straight between the rows and constant beyond them. Above 0 it drives in the sense of positive speeds; below 0 it brakes, whatever the sense, and fades out below 1 rad/s.",
+    )
+    .when(&[TURNS])
+    .optional("no torque besides those of the other keys")
+    .only(FALLING),
+    Key::new(
+        "rotor.torque_share_over_time",
+        Kind::Table("s", "1"),
+        "[[\"0 s\", 1.0], [\"0.5 s\", 0.2]]",
+        "Share of rotor.torque_over_speed that acts, over the time from the release: of a drive that fades, or of a gas whose pressure falls after the trip. Straight between the rows and constant beyond them.",
+    )
+    .not_negative()
+    .when(&[TURNS])
+    .optional("all of rotor.torque_over_speed acts")
+    .only(FALLING),
     Key::new(
         "rotor.cutoff",
         Kind::Quantity("rad/s"),

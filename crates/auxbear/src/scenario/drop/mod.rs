@@ -73,6 +73,10 @@ pub struct Rotor {
     pub speed: f64,
     /// What happens to the spin after the release.
     pub spin: Spin,
+    /// Torque of a drive or a load over the size of the speed, rows of rad/s and N m; empty where there is none.
+    pub torque_over_speed: Vec<[f64; 2]>,
+    /// The share of it that acts, over the time from the release, rows of s and share; empty where all of it does.
+    pub torque_share_over_time: Vec<[f64; 2]>,
     /// Number of identical auxiliary bearings that share the rotor.
     pub planes: u32,
     /// First free-free bending natural frequency, rad/s.
@@ -223,6 +227,8 @@ impl Drop {
             unbalance_angle: rotor.number("unbalance_angle"),
             speed: rotor.number("speed"),
             spin: spin(&rotor),
+            torque_over_speed: rows(&rotor, "torque_over_speed"),
+            torque_share_over_time: rows(&rotor, "torque_share_over_time"),
             planes: 1,
             first_bending_frequency: None,
         };
@@ -333,9 +339,17 @@ fn rotor(rotor: &Section<'_>) -> Rotor {
         unbalance_angle: rotor.number("unbalance_angle"),
         speed: rotor.number("speed"),
         spin: spin(rotor),
+        torque_over_speed: rows(rotor, "torque_over_speed"),
+        torque_share_over_time: rows(rotor, "torque_share_over_time"),
         planes: rotor.count("planes") as u32,
         first_bending_frequency: rotor.maybe("first_bending_frequency"),
     }
+}
+
+/// The rows of a table; none where it is not given.
+fn rows(section: &Section<'_>, name: &str) -> Vec<[f64; 2]> {
+    let path = format!("{}.{name}", section.path);
+    section.values.rows(&path).unwrap_or_default()
 }
 
 fn spin(rotor: &Section<'_>) -> Spin {
@@ -358,9 +372,7 @@ fn contact(contact: &Section<'_>) -> Contact {
         exponent: contact.number("exponent"),
         damping: contact.number("damping"),
         friction_coefficient: contact.number("friction_coefficient"),
-        friction_over_temperature: (contact.values)
-            .rows("contact.friction_over_temperature")
-            .unwrap_or_default(),
+        friction_over_temperature: rows(contact, "friction_over_temperature"),
         friction_reference_speed: contact.number("friction_reference_speed"),
         metals: ["rotor", "race"].map(|body| metal(contact, body)),
         modulus: contact.number("surface.modulus"),

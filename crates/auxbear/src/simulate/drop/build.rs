@@ -9,14 +9,14 @@ use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::simulate::drop::layers;
 use crate::simulate::drop::mount;
 use crate::simulate::drop::shaft::{self, BuiltShaft};
+use crate::simulate::drop::torque;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
 use model::mount::Mount;
 use model::rotor::RotorConstants;
-use model::schedule::Schedule;
-use model::system::machine::{Event, MachineConstants};
+use model::system::machine::MachineConstants;
 use model::system::spin_up::InnerRace;
 use number::Vec2;
 
@@ -194,8 +194,10 @@ fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineCo
         Spin::Braked { torque, start } => (torque * share, start),
         Spin::Free | Spin::Held => (0.0, f64::INFINITY),
     };
+    let torque = torque::tables(drop);
     let mut constants = MachineConstants {
         rotor: RotorConstants {
+            torque: torque.clone(),
             brake_torque,
             spin_held: drop.rotor.spin == Spin::Held,
             ..RotorConstants::point(
@@ -217,7 +219,7 @@ fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineCo
         gravity,
         speed: drop.rotor.speed,
         unbalance_angle: drop.rotor.unbalance_angle,
-        schedule: Schedule::of([(brake_start, Event::Brake)]),
+        schedule: torque::schedule(brake_start, torque.as_ref()),
     };
     constants.balance_mounts();
     constants

@@ -16,6 +16,7 @@ pub(crate) mod run_out;
 pub mod shaft;
 pub(crate) mod shaft_results;
 pub(crate) mod surfaces;
+mod torque;
 pub(crate) mod warnings;
 mod windows;
 

@@ -4,6 +4,7 @@ use crate::catalogue::geometry::millimetres;
 use crate::problem::{Code, Problem};
 use crate::scenario::several::path_of;
 use crate::scenario::{Drop, RotorModel, Shaft, Spin, UNNAMED};
+use crate::simulate::drop::torque;
 use crate::simulate::levitated;
 use levitation::response::{equilibrium, start};
 use levitation::{ClosedLoop, Plant, weight};
@@ -188,6 +189,7 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
         drive_slope: shaft.drive_slope,
         drag: shaft.drag,
         drag_square: shaft.windage,
+        torque: torque::tables(drop),
         brake_torque,
         spin_held: drop.rotor.spin == Spin::Held,
         ..in_coordinates(&shaft.model.rotor, matrices, basis)

@@ -35,6 +35,8 @@ pub struct MachineConstants {
 pub enum Event {
     /// The brake of the rotor comes on.
     Brake,
+    /// A row of the rotor's torque over time: a step ends there and nothing else happens.
+    Knot,
 }
 
 impl MachineConstants {

@@ -59,6 +59,7 @@ impl Mode<f64> {
     fn happen(&mut self, event: Event) {
         match event {
             Event::Brake => self.brake = 1.0,
+            Event::Knot => {}
         }
     }
 }

@@ -97,13 +97,14 @@ impl<R: Real> Machines<R> {
         } else {
             zero
         };
+        let from_outside = brake + self.rotor.torque_by_tables(time, rotor.spin);
 
         // rotor
         let [x, y, acceleration_x, acceleration_y] = blocks(rate, count);
         let (spin_rate, torques) = self.rotor.accelerate(
             &rotor,
             self.gravity,
-            (moment, brake),
+            (moment, from_outside),
             &shaft,
             [acceleration_x, acceleration_y],
             [x, y],
