@@ -29,7 +29,7 @@ pub fn number(outcome: &Outcome, name: &str) -> f64 {
     }
 }
 
-fn near(ours: f64, expected: f64, share: f64) {
+pub fn near(ours: f64, expected: f64, share: f64) {
     assert!((ours / expected - 1.0).abs() < share, "{ours} {expected}");
 }
 
@@ -222,59 +222,6 @@ fn currents_that_decay_hold_the_rotor_a_while() {
 }
 
 /// Before it touches anything: I_p dΩ/dt is drive less drag, at a speed that hardly changes.
-#[test]
-fn drag_and_drive_act_on_the_spin() {
-    let final_speed = |sets: &[&str]| {
-        let mut all = vec!["run.duration=5 ms"];
-        all.extend(sets);
-        number(&ran(STIFF, &all), "rotor_final_speed")
-    };
-    let free = final_speed(&[]);
-    let inertia = {
-        let braked = final_speed(&["rotor.spin=braked", "rotor.brake_torque=1 N m"]);
-        5e-3 / (free - braked)
-    };
-    let change = |torque: f64| torque * 5e-3 / inertia;
-    let drag = final_speed(&["rotor.drag=1e-3 N m s"]);
-    near(free - drag, change(1e-3 * free), 0.02);
-    let windage = final_speed(&["rotor.windage=1e-6 N m s^2"]);
-    near(free - windage, change(1e-6 * free * free), 0.02);
-    let driven = final_speed(&["rotor.drive_torque=2 N m", "rotor.drive_slope=1e-3 N m s"]);
-    near(driven - free, change(2.0 - 1e-3 * free), 0.02);
-    let fast = format!("{} rad/s", 1.5 * free);
-    let rows =
-        format!("rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"{fast}\", \"-3 N m\"]]");
-    near(final_speed(&[&rows]) - free, change(-2.0), 0.02);
-    let share = "rotor.torque_share_over_time=[[\"0 s\", 1.0], [\"5 ms\", 0.0]]";
-    near(final_speed(&[&rows, share]) - free, change(-1.0), 0.02);
-}
-
-#[test]
-fn torques_by_tables_that_cannot_be_followed_are_refused() {
-    let refused = |sets: &[&str]| parsed(STIFF, sets).unwrap_err();
-    let rows = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"90000 rpm\", \"-3 N m\"]]";
-    let share = "rotor.torque_share_over_time=[[\"0 s\", 1.0], [\"5 ms\", 0.0]]";
-    let alone = refused(&[share]);
-    assert!(
-        alone.contains("rotor.torque_over_speed beside it is needed"),
-        "{alone}"
-    );
-    let slow = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"3 rpm\", \"-3 N m\"]]";
-    assert!(refused(&[slow]).contains("a last row at the size of rotor.speed"));
-    for torque in [rows, "rotor.drive_torque=1 N m"] {
-        let until = refused(&[torque, "run.until=standstill", "heat.network=on"]);
-        assert!(
-            until.contains("beside run.until = \"standstill\""),
-            "{until}"
-        );
-    }
-    let held = refused(&[rows, "rotor.spin=held"]);
-    assert!(
-        held.contains("a spin that is held feels no other torque"),
-        "{held}"
-    );
-}
-
 /// A film that hardly moves is a damper: its force at the middle is known in closed form. A stop and a soft ring do not act.
 #[test]
 fn parts_of_a_mount_reach_the_model() {

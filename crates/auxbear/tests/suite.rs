@@ -14,6 +14,7 @@ mod measurement_file;
 mod reference_scenario;
 mod rig_to_verdict;
 mod rotor_friction;
+mod rotor_torque;
 mod run_out;
 mod scenario;
 mod signals;

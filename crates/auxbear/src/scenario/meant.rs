@@ -7,7 +7,7 @@ use crate::scenario::table;
 use units::nearest_names;
 
 /// Most names of a section that a message lists.
-const MOST_NAMES: usize = 12;
+const MOST_NAMES: usize = 14;
 
 /// What may stand where the unknown key stands.
 pub(crate) fn allowed_near(path: &[String], system: SystemName) -> String {
