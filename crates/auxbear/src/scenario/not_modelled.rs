@@ -129,8 +129,8 @@ const TABLE: &[Absent] = &[
     },
     Absent {
         paths: "motor generator drive_motor rotor.motor_torque seal seals windage gas process rotor.brake_curve rotor.braking_curve \
-                rotor.speed_curve rotor.load_torque rotor.torque_curve rotor.torque_table rotor.torque_over_time",
-        what: "forces of seals and gas on a rigid rotor are not described",
+                rotor.speed_curve rotor.load_torque",
+        what: "what drives or loads a rotor is a torque under another name, and forces of seals and gas on a rigid rotor are not described",
         point: 5,
         instead: "Torques are rotor.brake_torque with rotor.spin = \"braked\", and rotor.torque_over_speed with rotor.torque_share_over_time; a machine has [[rotor.seal]], rotor.drive_torque, drive_slope, drag and windage",
     },

@@ -144,6 +144,9 @@ pub(super) fn inputs_of(
             .map_err(|mut problem| {
                 problem.file = page.file.to_string();
                 problem.key = Some(format!("input.{word} of {path}"));
+                if problem.code == Code::UnknownKey {
+                    (problem.key, problem.place) = (Some("input.path".to_string()), place);
+                }
                 problem
             })?;
         let levelled = ["factorial", "sweep", "selection"].contains(&kind);

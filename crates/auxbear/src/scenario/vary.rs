@@ -11,7 +11,7 @@
 //! z is a standard normal number. A path names any key of the file; of several auxiliary bearings `contact.…` is that of
 //! all, `auxiliary_bearing.drive_end.contact.…` that of one. Every drawn value is read and checked like an override.
 
-use crate::problem::{Code, Place, Problem};
+use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::Raw;
 use crate::scenario::drop::Repeat;
 use crate::scenario::key::{Key, Kind, quoted};
@@ -296,11 +296,13 @@ pub(crate) fn one(
     let key = table::keys_of(system).find(|key| key.path == plain);
     let (Some(key), false) = (key, of.is_empty()) else {
         let found = format!("{}, which is no key of this file", quoted(path));
-        return Err(problem(
+        let unknown = problem(
             Code::UnknownKey,
             found,
             "the dotted path of a key is needed",
-        ));
+        );
+        let known = table::keys_of(system).map(|key| key.path);
+        return Err(Box::new(unknown.with_hint(did_you_mean(plain, known))));
     };
     if ["format", "system", "title", "description", "catalogue"].contains(&plain)
         || ["run.", "repeat."]

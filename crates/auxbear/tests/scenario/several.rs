@@ -369,6 +369,10 @@ fn what_cannot_be_varied_is_refused() {
             "no key of this file",
         ),
         (
+            "vary.contact.friction_coeficient={ lognormal = 0.2 }",
+            "Did you mean \"contact.friction_coefficient\"",
+        ),
+        (
             "vary.run.duration={ normal = \"1 s\" }",
             "no property of the machine",
         ),
