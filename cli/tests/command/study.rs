@@ -148,7 +148,11 @@ fn what_a_study_refuses() {
     refused(
         "rotor.mass",
         "rotor.mas",
-        &["AB0101", "study.toml:16", "rotor.mas"],
+        &[
+            "AB0101",
+            "study.toml:15: input.path",
+            "Did you mean \"rotor.mass\"",
+        ],
     );
     refused("0.2 kg", "0.2 m", &["AB0105", "study.toml"]);
     refused(
@@ -271,6 +275,10 @@ fn the_starting_file_is_a_study_of_the_starting_drop() {
     place.call(&["study", "study.toml"]).done();
     let page = fs::read_to_string(place.path("runs/study/report.html")).unwrap();
     assert!(page.contains("<svg") && !page.contains("NaN") && !page.contains("inf"));
+    // as written, in its units; and a limit far beyond the members is told at the edge
+    assert!(page.contains("<td>normal 100 rpm</td>"));
+    assert!(page.contains("<td>uniform 1e7 N/m, 3e7 N/m</td>"));
+    assert!(page.contains("at most 20 kN →"));
 }
 
 /// Bearings of one bore and two clearances, each with the same four draws.

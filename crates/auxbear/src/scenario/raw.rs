@@ -36,6 +36,16 @@ impl Raw {
             Raw::Other(words) => words.to_string(),
         }
     }
+
+    /// The value alone, as somebody wrote it, for a page.
+    pub(crate) fn shown(&self) -> String {
+        match self {
+            Raw::Text(text) | Raw::Integer(text, _) => text.clone(),
+            Raw::Float(value) => units::number_text(*value),
+            Raw::List(list) => list.iter().map(Raw::shown).collect::<Vec<_>>().join(", "),
+            other => other.text(),
+        }
+    }
 }
 
 /// A key or path, what stands there, and where.

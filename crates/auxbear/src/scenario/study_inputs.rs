@@ -23,6 +23,8 @@ const SAME: f64 = 1e-6;
 pub struct StudyInput {
     /// Its path and distribution.
     pub vary: Vary,
+    /// The distribution as the file has it, in its units.
+    pub written: String,
     /// Levels in a factorial, a sweep or a selection; 0 of what a selection draws.
     pub levels: usize,
     /// Whether the file gives them.
@@ -189,6 +191,7 @@ pub(super) fn inputs_of(
         };
         inputs.push(StudyInput {
             vary,
+            written: format!("{word} {}", value.shown()),
             levels,
             levels_given: given.is_some(),
         });

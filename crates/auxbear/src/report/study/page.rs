@@ -107,7 +107,7 @@ fn inputs(study: &Study) -> String {
             .and_then(|value| value.text.clone());
         vec![
             format!("<code>{}</code>", plain(&input.vary.path)),
-            plain(&input.vary.distribution_toml()),
+            plain(&input.written),
             plain(&given.unwrap_or_default()),
         ]
     };
@@ -321,6 +321,9 @@ fn label(column: &Column) -> (f64, String) {
     )
 }
 
+/// Where words begin beside the title of a histogram, px.
+const BESIDE_TITLE: f64 = 80.0;
+
 fn histogram(column: &Column, limits: &[&Limit]) -> String {
     let (factor, label) = label(column);
     let values: Vec<f64> = column
@@ -329,7 +332,6 @@ fn histogram(column: &Column, limits: &[&Limit]) -> String {
         .filter(|v| v.is_finite())
         .map(|v| v * factor)
         .collect();
-    let bounds = limits.iter().map(|limit| limit.bound * factor);
     let (low, high) = room(values.iter().copied());
     let bins = ((values.len() as f64).sqrt().ceil() as usize).clamp(5, 40);
     let mut counts = vec![0.0; bins];
@@ -337,7 +339,12 @@ fn histogram(column: &Column, limits: &[&Limit]) -> String {
         counts[(((value - low) / (high - low) * bins as f64) as usize).min(bins - 1)] += 1.0;
     }
     let most = counts.iter().copied().fold(1.0, f64::max);
-    let axes = panel(room(bounds.clone().chain([low, high])), (0.0, 1.08 * most));
+    // a limit far beyond would press all members into a line: it is told at the edge
+    let width = high - low;
+    let near = |bound: f64| (low - 2.0 * width..=high + 2.0 * width).contains(&bound);
+    let bounds = limits.iter().map(|limit| limit.bound * factor);
+    let bounds = bounds.filter(|bound| near(*bound));
+    let axes = panel(room(bounds.chain([low, high])), (0.0, 1.08 * most));
     picture(HEIGHT, |svg| {
         axes.axes(svg, "Histogram", &label, "members");
         for (k, count) in counts.iter().enumerate() {
@@ -352,7 +359,21 @@ fn histogram(column: &Column, limits: &[&Limit]) -> String {
             );
         }
         for limit in limits {
-            let at = axes.place(limit.bound * factor, axes.y.0);
+            let bound = limit.bound * factor;
+            if !near(bound) {
+                let words = format!(
+                    "{} {}",
+                    bound_word(limit),
+                    amount(limit.bound, &column.unit)
+                );
+                let (x, anchor, words) = match bound > high {
+                    true => (axes.left + axes.width, "end", format!("{words} →")),
+                    false => (axes.left + BESIDE_TITLE, "start", format!("← {words}")),
+                };
+                text(svg, x, axes.top - 12.0, anchor, &words);
+                continue;
+            }
+            let at = axes.place(bound, axes.y.0);
             line(
                 svg,
                 at,
