@@ -1,6 +1,7 @@
 //! What drives and brakes a rotor besides its bearings, as files say it.
 
 use crate::machine::{STIFF, near, number, parsed, ran};
+use auxbear::scenario::template;
 
 #[test]
 fn drag_and_drive_act_on_the_spin() {
@@ -41,7 +42,11 @@ fn torques_by_tables_that_cannot_be_followed_are_refused() {
     );
     let slow = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"3 rpm\", \"-3 N m\"]]";
     assert!(refused(&[slow]).contains("a last row at the size of rotor.speed"));
-    for torque in [rows, "rotor.drive_torque=1 N m"] {
+    for torque in [
+        rows,
+        "rotor.drive_torque=1 N m",
+        "rotor.drive_slope=1e-3 N m s",
+    ] {
         let until = refused(&[torque, "run.until=standstill", "heat.network=on"]);
         assert!(
             until.contains("beside run.until = \"standstill\""),
@@ -53,4 +58,18 @@ fn torques_by_tables_that_cannot_be_followed_are_refused() {
         held.contains("a spin that is held feels no other torque"),
         "{held}"
     );
+}
+
+/// Of equal planes one is computed with its share of rotor and torque: -1 N m at half the table's speed on 0.01 kg m², until 4 ms.
+#[test]
+fn planes_share_the_torque() {
+    let text = template("drop").unwrap();
+    for planes in ["rotor.planes=1", "rotor.planes=2"] {
+        let speed = |sets: &[&str]| {
+            let all = [&[planes, "run.duration=4 ms"], sets].concat();
+            number(&ran(&text, &all), "rotor_final_speed")
+        };
+        let rows = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"24000 rpm\", \"-2 N m\"]]";
+        near(speed(&[]) - speed(&[rows]), 1.0 * 4e-3 / 0.01, 1e-3);
+    }
 }

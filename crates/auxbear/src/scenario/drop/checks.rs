@@ -103,14 +103,12 @@ impl Context<'_> {
         if drop.run_out.is_none() {
             return Ok(());
         }
-        let driven = drop
-            .shaft
-            .as_ref()
-            .is_some_and(|shaft| shaft.drive_torque > 0.0);
-        let path = match rotor.torque_over_speed.is_empty() {
-            false => OVER_SPEED,
-            true if driven => "rotor.drive_torque",
-            true => return Ok(()),
+        let drive = (drop.shaft.as_ref()).map_or([0.0; 2], |s| [s.drive_torque, s.drive_slope]);
+        let path = match (rotor.torque_over_speed.is_empty(), drive) {
+            (false, _) => OVER_SPEED,
+            (true, [torque, _]) if torque > 0.0 => "rotor.drive_torque",
+            (true, [_, slope]) if slope > 0.0 => "rotor.drive_slope",
+            _ => return Ok(()),
         };
         let needed = "a rotor that only rotor.brake_torque, drag, windage and its bearings brake is needed beside run.until = \"standstill\"";
         let found = self.text(path);
