@@ -158,10 +158,10 @@ function runOutSection(runs) {
   return section("run-out", "Run-out until standstill", lead, runs.map((run) => runOutFigures(run, runs)));
 }
 
-// How warm the bodies of a bearing become while the rotor still bounces and slides.
+// How warm the bodies of a bearing become while it is computed ball by ball or rolling.
 function warmingSection(runs) {
   const figures = (run) => [temperatureFigures(run, runs)[0], columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null];
-  return section("warming", "Temperatures during the drop", runs.map(figures));
+  return section("warming", "Temperatures during the run", runs.map(figures));
 }
 
 const WARM_SECTIONS = (runs) => [[82, warmingSection, runs.filter((run) => nodesOf(run).length)], [83, runOutSection, runs.filter(asksForRunOut)]];

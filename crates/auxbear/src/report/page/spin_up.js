@@ -63,7 +63,7 @@ function slipSection(runs) {
     ...largestLine(runs, "inner_slip", "inner race [m/s]", { colour: SERIES_COLOURS.race }),
     ...largestLine(runs, "outer_slip", "outer race [m/s]", { colour: SERIES_COLOURS.rotor, dash: runs.length > 1 ? [4, 3] : undefined }),
   ];
-  const still = runs.filter((run) => !largestOverBalls(run, "inner_slip")).map((run) => notInThisRun("slip: the rolling fidelity takes the balls to roll", run));
+  const still = () => runs.filter((run) => !largestOverBalls(run, "inner_slip")).map((run) => notInThisRun("slip: the rolling fidelity takes the balls to roll", run));
   const loads = [
     ...lines(runs, "bearing.inner_race.largest_ball_load", 1, { label: "inner race [N]", colour: SERIES_COLOURS.race }),
     ...lines(runs, "bearing.outer_race.largest_ball_load", 1, { label: "outer race [N]", colour: SERIES_COLOURS.rotor, dash: runs.length > 1 ? [4, 3] : undefined }),
@@ -76,9 +76,9 @@ function slipSection(runs) {
       "Slip of the cage",
       slip.length ? ["1 less the cage speed over the speed at which the balls would roll: 100 % at rest, 0 % where they roll.", ...words].join(" ") : null,
       slip.length ? timePlot({ series: slip, label: "slip [%]", include: () => [0], height: 200 }) : null,
-      still,
+      still(),
     ),
-    figure("Fastest sliding of any ball", sliding.length ? "Loaded and unloaded balls alike; the maps below separate them." : null, sliding.length ? timePlot({ series: sliding, label: "slip speed [m/s]", height: 190 }) : null, still),
+    figure("Fastest sliding of any ball", sliding.length ? "Loaded and unloaded balls alike; the maps below separate them." : null, sliding.length ? timePlot({ series: sliding, label: "slip speed [m/s]", height: 190 }) : null, still()),
     history("Largest ball load", "The outer race also carries the centrifugal force of the balls.", runs, ["bearing.inner_race.largest_ball_load"], loads, { label: "load [N]", height: 200 }),
   );
 }
@@ -200,5 +200,5 @@ register("spin_up", {
   verdict: spinUpVerdict,
   time: "time since the start",
   facts: true,
-  sections: (runs) => [[50, speedSection, runs], [55, momentSection, runs], [56, slipSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [70, outerRaceSection, runs], [80, energySection, runs]],
+  sections: (runs) => [[50, speedSection, runs], [55, momentSection, runs], [56, slipSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [70, outerRaceSection, runs], [80, energySection, runs], ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
 });
