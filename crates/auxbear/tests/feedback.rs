@@ -179,3 +179,68 @@ fn a_spin_up_without_feedback_is_the_one_without_network() {
     }
     assert!(number(&with, "peak_lubricant_temperature") > 298.5);
 }
+
+const RIG: &str = include_str!("../../../scenarios/rig_test_3_warming.toml");
+
+fn tested(sets: &[&str]) -> Outcome {
+    let sets: Vec<String> = (["run.duration=4 s"].iter().chain(sets))
+        .map(ToString::to_string)
+        .collect();
+    let scenario = Scenario::parse(RIG, "rig.toml", &sets, &BuiltIn).unwrap();
+    let never = AtomicBool::new(false);
+    run(&scenario, &Options::unwatched(&never)).unwrap()
+}
+
+#[test]
+fn the_oil_of_a_rig_warms_and_the_torque_falls() {
+    let warm = tested(&[]);
+    assert!(number(&warm, "relative_heat_residual") < 1e-9);
+    assert!(number(&warm, "energy_residual").abs() < 1e-6);
+    // the clutch, the belt and the shaft's own bearings warm something else
+    let of_bearing = number(&warm, "bearing_dissipated_energy");
+    assert!((number(&warm, "heat_made") / of_bearing - 1.0).abs() < 1e-12);
+    let torque = column(&warm, "bearing.outer_race.moment");
+    let cold = tested(&["heat.feedback=none"]);
+    let times = column(&warm, "time");
+    let at = times.partition_point(|known| *known < 3.9);
+    let fall = torque[at] / column(&cold, "bearing.outer_race.moment")[at];
+    // as of spin_up_warming.toml, to 4 s
+    assert!((0.7..0.95).contains(&fall), "{fall}");
+}
+
+#[test]
+fn a_rig_without_feedback_is_the_one_without_network_but_for_its_temperatures() {
+    let (with, without) = (
+        tested(&["heat.feedback=none"]),
+        tested(&["heat.network=off"]),
+    );
+    for known in &without.history {
+        let bits = |values: &[f64]| -> Vec<u64> { values.iter().map(|v| v.to_bits()).collect() };
+        let same = bits(column(&with, &known.name)) == bits(&known.values);
+        assert_eq!(
+            same,
+            !known.name.ends_with("temperature_rise"),
+            "{}",
+            known.name
+        );
+    }
+}
+
+#[test]
+fn the_thermocouple_of_a_rig_reads_the_outer_race_of_its_network() {
+    let warm = tested(&["rig.temperature.lag=0.5 s"]);
+    let (times, race, reading) = (
+        column(&warm, "time"),
+        column(&warm, "outer_race.temperature"),
+        column(&warm, "thermocouple.temperature_rise"),
+    );
+    // Ṫ_m = (T − T_m)/τ by small steps of its own
+    let mut own = 0.0;
+    for k in 1..times.len() {
+        let step = times[k] - times[k - 1];
+        let middle = 0.5 * (race[k] + race[k - 1]) - race[0];
+        own += (middle - own) * (1.0 - f64::exp(-step / 0.5));
+        assert!((reading[k] - own).abs() < 1e-6, "{} {own}", reading[k]);
+    }
+    assert!(own > 0.01, "{own}");
+}

@@ -97,12 +97,12 @@ pub(crate) const RUNNING_OUT: &[SystemName] =
     &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
 
 /// Systems whose bearings may warm in time, where that is wanted.
-pub(crate) const WARMING: &[SystemName] =
-    &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
+pub(crate) const WARMING: &[SystemName] = MOVING;
 /// All systems with a network of heat.
 pub(crate) const WITH_NETWORK: &[SystemName] = &[
     SystemName::Drop,
     SystemName::SpinUp,
+    SystemName::Rig,
     SystemName::Machine,
     SystemName::CoastDown,
 ];

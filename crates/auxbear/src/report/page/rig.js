@@ -51,7 +51,7 @@ function rigWarmthSection(runs) {
   return section(
     "rig-warmth",
     "Temperature and grease",
-    history("Rise of the bearing's temperature", "One node for the outer race; the thermocouple lags.", runs, ["bearing.temperature_rise"], [
+    history("Rise of the outer race's temperature", "The thermocouple lags.", runs, ["bearing.temperature_rise"], [
       ...lines(runs, "bearing.temperature_rise", 1, { label: "outer race [K]", colour: SERIES_COLOURS.race, width: 1.25 }),
       ...lines(runs, "thermocouple.temperature_rise", 1, { label: "thermocouple [K]", colour: SERIES_COLOURS.quiet, width: 1.25, dash: [7, 4] }),
     ], { label: "rise [K]", height: 190 }),
@@ -109,5 +109,5 @@ register("rig", {
   verdict: rigVerdict,
   time: "time since the start",
   facts: true,
-  sections: (runs) => [[39.5, engagementSection, runs.filter(closeWindow)], [40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs]].filter(([, , part]) => part.length),
+  sections: (runs) => [[39.5, engagementSection, runs.filter(closeWindow)], [40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], ...WARM_SECTIONS(runs)].filter(([, , part]) => part.length),
 });

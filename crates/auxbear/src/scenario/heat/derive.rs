@@ -68,7 +68,7 @@ impl Values {
             ring * STEEL_HEAT.specific_heat,
             how,
         )?;
-        if self.system() == SystemName::SpinUp {
+        if matches!(self.system(), SystemName::SpinUp | SystemName::Rig) {
             self.shaft_of_a_rig([bore, width])?;
         }
         let with_clearance = self.system() == SystemName::CoastDown;

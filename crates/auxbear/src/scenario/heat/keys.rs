@@ -11,7 +11,7 @@ pub(crate) const SECTIONS: &[Section] = &[Section {
     systems: WITH_NETWORK,
 }];
 
-const IS_FOLLOWED: Condition = Condition {
+pub(crate) const IS_FOLLOWED: Condition = Condition {
     path: "heat.network",
     values: &["on"],
     reason: "",
@@ -148,7 +148,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Heat capacity of the part of the rotor that warms with one bearing.",
     )
     .positive()
-    .derived("rotor.mass over rotor.planes at 460 J/(kg K): all of it; in a spin-up a steel shaft of the bore, four widths long, assumed")
+    .derived("rotor.mass over rotor.planes at 460 J/(kg K): all of it; in a spin-up and on a rig a steel shaft of the bore, four widths long, assumed")
     .when(FOLLOWED),
     Key::new(
         "heat.housing_capacity",
@@ -163,7 +163,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.rotor_contact",
         Kind::Quantity("W/K"),
         "0.15 W/K",
-        "Conductance from rotor to inner race; in a spin-up without a sliding rotor that of the seat on the shaft.",
+        "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft.",
     )
     .not_negative()
     .optional("that of two rough ground surfaces of steel along the width of the bearing, rolling on each other with heat.radial_air_clearance")

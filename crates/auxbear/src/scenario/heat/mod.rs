@@ -172,6 +172,7 @@ impl Warm {
     pub(crate) fn from_values(values: &Values, radial_load: f64) -> Warm {
         let section = |path| Section { values, path };
         let bearing = section("bearing");
+        let heat = Heat::from_values(&section("heat"));
         Warm {
             name: values.text("bearing.name"),
             kind: bearing.choice("type"),
@@ -185,7 +186,8 @@ impl Warm {
             static_load_rating: bearing.maybe("static_load_rating"),
             dynamic_load_rating: bearing.maybe("dynamic_load_rating"),
             limiting_speed: bearing.maybe("limiting_speed"),
-            inner_race_mass: bearing.number("inner_race_mass"),
+            inner_race_mass: (bearing.maybe("inner_race_mass"))
+                .unwrap_or_else(|| heat.ring_of(bearing.number("inner_race_inertia"), &bearing)),
             cage_mass: bearing.maybe("cage_mass").unwrap_or(0.0),
             ball_mass: bearing.maybe("ball_mass"),
             moment: Moment::from_values(values),
@@ -194,7 +196,7 @@ impl Warm {
                 .rows("bearing.moment.viscosity_points")
                 .unwrap_or_default(),
             radial_load,
-            heat: Heat::from_values(&section("heat")),
+            heat,
         }
     }
 
@@ -209,7 +211,18 @@ impl Warm {
     }
 }
 
+/// Depth of a shoulder below the pitch circle, over the diameter of a ball.
+pub(crate) const SHOULDER: f64 = 0.3;
+
 impl Heat {
+    /// Mass of an inner ring of this inertia between bore and shoulder, kg.
+    fn ring_of(&self, inertia: f64, bearing: &Section<'_>) -> f64 {
+        let depth = 2.0 * SHOULDER * bearing.number("ball_diameter");
+        let shoulder = bearing.number("pitch_diameter") - depth;
+        // I = m (r₁² + r₂²)/2
+        8.0 * inertia / (self.bore_diameter.powi(2) + shoulder.powi(2))
+    }
+
     fn from_values(heat: &Section<'_>) -> Heat {
         Heat {
             ambient_temperature: heat.number("ambient_temperature"),

@@ -10,6 +10,9 @@ const MOST_VALUES: f64 = 1e8;
 impl Context<'_> {
     pub(crate) fn rig(&self, rig: &Rig) -> Check {
         self.bearing(&rig.bearing, None, rig.load.hanging_mass.is_some())?;
+        if let Some(warm) = &rig.warm {
+            self.warm(warm)?;
+        }
         match rig.program {
             RigProgram::SpinUp {
                 engage_at,

@@ -13,6 +13,13 @@ use crate::scenario::words::Words;
 /// The systems of this page.
 const RIG: &[SystemName] = &[SystemName::Rig];
 
+/// Where no network follows the temperatures.
+const ONE_NODE: &[Condition] = &[Condition {
+    path: "heat.network",
+    values: &["off"],
+    reason: "the network of [heat] follows them",
+}];
+
 /// What a rig does without keys that it shares with other systems.
 pub(crate) const PRESENCES: &[(&str, Presence)] = &[
     (
@@ -79,7 +86,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     },
     Section {
         path: "rig.temperature",
-        doc: "Temperature of the bearing's outer race, one node, and the thermocouple on it.",
+        doc: "Temperature of the bearing's outer race and the thermocouple on it: one node where heat.network = \"off\", else the outer race of that network.",
         systems: RIG,
     },
     Section {
@@ -396,22 +403,6 @@ pub(crate) const KEYS: &[Key] = &[
     .positive()
     .assumed("0.2 N m", "several times the torque of a small greased bearing"),
     Key::new(
-        "rig.temperature.heat_capacity",
-        Kind::Quantity("J/K"),
-        "100 J/K",
-        "Heat capacity of what warms with the outer race.",
-    )
-    .positive()
-    .assumed("100 J/K", "200 g of steel"),
-    Key::new(
-        "rig.temperature.conductance",
-        Kind::Quantity("W/K"),
-        "0.5 W/K",
-        "Heat that leaves it per kelvin above the ambient.",
-    )
-    .not_negative()
-    .assumed("0.5 W/K", "a small housing in still air"),
-    Key::new(
         "rig.temperature.lag",
         Kind::Quantity("s"),
         "2 s",
@@ -419,14 +410,6 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .positive()
     .assumed("2 s", "a bead under a screw"),
-    Key::new(
-        "rig.temperature.ambient",
-        Kind::Quantity("K"),
-        "25 degC",
-        "Temperature at the start, and around.",
-    )
-    .positive()
-    .default("25 degC", "a laboratory"),
     Key::new(
         "rig.temperature.noise",
         Kind::Quantity("K"),
@@ -545,4 +528,35 @@ pub(crate) const GIVEN: &[&str] = &[
     "rig.arm.damping_ratio",
     "rig.arm.synchronous_amplitude",
     "rig.arm.noise",
+];
+
+/// Temperature of one node, after the keys that say whether a network follows it.
+pub(crate) const NODE: &[Key] = &[
+    Key::new(
+        "rig.temperature.heat_capacity",
+        Kind::Quantity("J/K"),
+        "100 J/K",
+        "Heat capacity of what warms with the outer race.",
+    )
+    .positive()
+    .assumed("100 J/K", "200 g of steel")
+    .when(ONE_NODE),
+    Key::new(
+        "rig.temperature.conductance",
+        Kind::Quantity("W/K"),
+        "0.5 W/K",
+        "Heat that leaves it per kelvin above the ambient.",
+    )
+    .not_negative()
+    .assumed("0.5 W/K", "a small housing in still air")
+    .when(ONE_NODE),
+    Key::new(
+        "rig.temperature.ambient",
+        Kind::Quantity("K"),
+        "25 degC",
+        "Temperature at the start, and around.",
+    )
+    .positive()
+    .default("25 degC", "a laboratory")
+    .when(ONE_NODE),
 ];

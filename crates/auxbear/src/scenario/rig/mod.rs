@@ -4,6 +4,7 @@ pub(crate) mod checks;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::{Bearing, bearing};
+use crate::scenario::heat::{Network, Warm};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::signals::PickupOutput;
@@ -83,6 +84,8 @@ pub struct Rig {
     pub logger: Logger,
     /// The bearing under test.
     pub bearing: Bearing,
+    /// What warms of it, where that is followed by a network.
+    pub warm: Option<Box<Warm>>,
     /// The simulation.
     pub run: Run,
 }
@@ -205,14 +208,12 @@ pub struct RigArm {
 /// Temperature of the outer race and the thermocouple on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigTemperature {
-    /// Heat capacity, J/K.
-    pub heat_capacity: f64,
-    /// Conductance to the ambient, W/K.
-    pub conductance: f64,
+    /// Heat capacity, J/K, and conductance to the ambient, W/K, of one node; none where a network follows the temperatures.
+    pub node: Option<[f64; 2]>,
     /// Time constant of the thermocouple, s.
     pub lag: f64,
-    /// Temperature around, K.
-    pub ambient: f64,
+    /// Temperature at the start, K; around one node too.
+    pub start: f64,
     /// Standard deviation of the noise of a value, K.
     pub noise: f64,
 }
@@ -333,10 +334,11 @@ impl Rig {
                 range: arm.number("range"),
             },
             temperature: RigTemperature {
-                heat_capacity: temperature.number("heat_capacity"),
-                conductance: temperature.number("conductance"),
+                node: (temperature.maybe("heat_capacity"))
+                    .map(|capacity| [capacity, temperature.number("conductance")]),
                 lag: temperature.number("lag"),
-                ambient: temperature.number("ambient"),
+                start: (temperature.maybe("ambient"))
+                    .unwrap_or_else(|| section("heat").number("start_temperature")),
                 noise: temperature.number("noise"),
             },
             pickup: pickup(&section("rig.pickup")),
@@ -347,6 +349,8 @@ impl Rig {
                 bits: logger.count("bits") as u32,
                 seed: logger.count("seed"),
             },
+            warm: (values.chosen("heat.network") == Some(Network::On))
+                .then(|| Box::new(Warm::from_values(values, load.number("radial_load")))),
             bearing: bearing(values),
             run: Run::from_values(values),
         }

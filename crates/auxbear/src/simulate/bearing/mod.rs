@@ -14,4 +14,5 @@ pub(crate) mod skid;
 pub mod steady;
 pub(crate) mod traction;
 pub(crate) mod warm;
+pub(crate) mod warming;
 pub(crate) mod warnings;

@@ -1,6 +1,7 @@
 //! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
 
 use crate::problem::{Code, Problem};
+use crate::scenario::heat::SHOULDER;
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use crate::simulate::coast_down::rows::{End, Row};
 use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
@@ -243,7 +244,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
     };
     // rings share the annulus between bore and outside at the pitch circle's shoulders
-    let shoulder = |side: f64| run.pitch_diameter + side * 0.6 * run.ball_diameter;
+    let shoulder = |side: f64| run.pitch_diameter + side * 2.0 * SHOULDER * run.ball_diameter;
     let annulus = |outer: f64, inner: f64| outer * outer - inner * inner;
     let outer_mass = run.inner_race_mass * annulus(heat.outer_diameter, shoulder(1.0))
         / annulus(shoulder(-1.0), heat.bore_diameter);

@@ -6,6 +6,7 @@ use crate::simulate::bearing;
 use crate::simulate::bearing::contacts::SCENARIO;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint};
+use model::bearing_heat::WarmBearing;
 use model::system::rig::{
     Action, Arm, Disturbance, Drag, Engagement, Flywheel, HeatNode, Housing, Motor, Program,
     RigConstants, RigMachine, Shaft, engagement_ramp,
@@ -13,6 +14,7 @@ use model::system::rig::{
 use model::system::spin_up::InnerRace;
 use number::Vec2;
 use std::f64::consts::PI;
+use thermal::bearing_network::OUTER_RACE;
 
 /// Speed at which the drag of the shaft's bearings reaches 76 % of its constant part, rad/s: small against any test.
 const FADING: f64 = 0.5;
@@ -26,6 +28,8 @@ pub struct Built {
     pub torque_rate: Option<f64>,
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
+    /// The network of its temperatures, where that is followed.
+    pub warm: Option<Box<WarmBearing>>,
     /// What traction can carry at the speed of the test; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
@@ -49,6 +53,11 @@ pub(crate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
         load: rig.load.radial_load,
     };
     let steady = bearing::steady::steady(&bearing, &rig.bearing, &race, at)?;
+    let warm = bearing::networks::built(rig.warm.as_deref(), &rig.bearing)?;
+    // where a network follows the temperatures nothing reads the one node
+    let outer_race = |warm: &WarmBearing| [warm.network.capacities[OUTER_RACE], 0.0];
+    let lumped = rig.temperature.node.or(warm.as_deref().map(outer_race));
+    let [capacity, conductance] = lumped.unwrap_or([1.0, 0.0]);
     let arm = &rig.arm;
     let mut constants = RigConstants {
         flywheel: Flywheel {
@@ -82,8 +91,8 @@ pub(crate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
             },
         },
         heat: HeatNode {
-            capacity: rig.temperature.heat_capacity,
-            conductance: rig.temperature.conductance,
+            capacity,
+            conductance,
             thermocouple_lag: rig.temperature.lag,
         },
         program: program(rig, 1.0),
@@ -96,6 +105,7 @@ pub(crate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
     let machine = RigMachine::new(constants).map_err(refused)?;
     Ok(Built {
         machine,
+        warm,
         torque_rate,
         pressure_factors: contacts.pressure_factors(),
         steady,

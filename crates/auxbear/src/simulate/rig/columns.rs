@@ -2,11 +2,13 @@
 
 use crate::result::outcome::Column;
 use crate::simulate::bearing::columns::Table;
+use crate::simulate::bearing::warm::{self, Followed};
 use crate::simulate::rig::context::Context;
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
     ARM, BEARING, FLYWHEEL, HOUSING, PROBES, SHAFT, TEMPERATURE, THERMOCOUPLE,
 };
+use thermal::bearing_network::OUTER_RACE;
 
 /// What the probes of the model are, in their order; empty where another column has it.
 const MEANINGS: [&str; PROBES.len()] = [
@@ -60,20 +62,30 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
             "torque that the swinging arm indicates, before its gauges",
             ARM,
         ),
-        (
-            "bearing.temperature_rise",
-            "K",
-            "temperature of the bearing above the ambient",
-            TEMPERATURE,
-        ),
-        (
-            "thermocouple.temperature_rise",
-            "K",
-            "what the thermocouple has of it",
-            THERMOCOUPLE,
-        ),
     ] {
         table.channel(name, unit, meaning, channel);
+    }
+    let (rise, of_bearing) = (
+        "bearing.temperature_rise",
+        "temperature of the outer race above that at the start",
+    );
+    let (reading, of_bead) = (
+        "thermocouple.temperature_rise",
+        "what the thermocouple has of it",
+    );
+    match (context.warming, context.bead) {
+        (Some(warming), Some(bead)) => {
+            let Followed { part, warmth, .. } = warming.followed();
+            table.add(rise, "K", of_bearing, move |row| {
+                warmth.at(part, OUTER_RACE, row.time) - part.start
+            });
+            let start = bead.at(0.0);
+            table.add(reading, "K", of_bead, move |row| bead.at(row.time) - start);
+        }
+        _ => {
+            table.channel(rise, "K", of_bearing, TEMPERATURE);
+            table.channel(reading, "K", of_bead, THERMOCOUPLE);
+        }
     }
     if !machine.constants.housing.centre_held {
         for (k, (name, meaning)) in [
@@ -97,6 +109,9 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     table.bearing();
     table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("shaft", "shaft", layout);
-    table.energies(|row| machine.balance(context.start, row.state));
+    table.energies(|row| context.balance(row.time, row.content, row.state));
+    if let Some(warming) = context.warming {
+        warm::columns(&warming.followed(), &mut table);
+    }
     table.columns
 }

@@ -3,12 +3,15 @@
 use crate::scenario::Rig;
 use crate::simulate::bearing::pressure::Pressures;
 use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::warming::Warming;
 use crate::simulate::rig::build::Built;
-use model::system::rig::Record;
+use crate::simulate::rig::thermocouple::Bead;
+use model::system::energy::{Balance, Content};
 use model::system::rig::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
 };
 use model::system::rig::rate::race_motion;
+use model::system::rig::{Record, RigMachine};
 use solve::Ending;
 
 /// Everything the pages that name results need to know.
@@ -19,11 +22,32 @@ pub(crate) struct Context<'a> {
     pub record: &'a Record,
     pub ending: &'a Ending,
     pub mode: model::system::rig::Mode,
+    /// How warm the bearing became; none where no network follows that.
+    pub warming: Option<&'a Warming<'a, RigMachine>>,
+    /// What the thermocouple reads of that.
+    pub bead: Option<&'a Bead>,
     /// Values that the converter could not hold, with the channel's name.
     pub clipped: Vec<(&'static str, usize)>,
 }
 
 impl<'a> Context<'a> {
+    /// What must close between the start and a row, or the end.
+    pub fn balance(&self, time: f64, content: Content, state: &[f64]) -> Balance {
+        let machine = &self.built.machine;
+        let end = (content, machine.flows(state));
+        Balance {
+            start: (machine.content(self.start), machine.flows(self.start)),
+            end: match self.warming {
+                Some(warming) => warming.renewals.booked(time, end),
+                None => end,
+            },
+        }
+    }
+    /// The machine as it is at the end.
+    pub fn machine_at_end(&self) -> &'a RigMachine {
+        let machine = &self.built.machine;
+        (self.warming).map_or(machine, |warming| warming.renewals.machine(machine))
+    }
     /// Largest Hertz pressures.
     pub fn pressures(&self) -> Pressures {
         let record = self.record;

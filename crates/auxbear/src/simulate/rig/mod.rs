@@ -5,6 +5,7 @@
 //! | [`build`] | scenario → constants of the model |
 //! | `chain` | from what happened to what the logger writes |
 //! | `raw_file` | the raw file, and the file that says what its channels are |
+//! | `thermocouple` | its reading of an outer race whose temperature a network gives |
 //! | `columns`, `quantities`, `warnings` | what happened, by names |
 
 pub mod build;
@@ -13,11 +14,14 @@ mod columns;
 mod context;
 mod quantities;
 mod raw_file;
+mod thermocouple;
 pub(crate) mod warnings;
 
 use crate::options::Options;
 use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
+use crate::simulate::bearing::warm::Followed;
+use crate::simulate::bearing::warming::Warming;
 use crate::simulate::ending::{settings, stop};
 use crate::simulate::rig::context::Context;
 use crate::simulate::stepping;
@@ -25,8 +29,11 @@ use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
-use model::system::rig::{Record, simulate_with_progress};
+use model::system::rig::{self as rig_model, Record, RigMachine, simulate_warming};
+use std::iter;
 use std::time::Instant;
+use thermal::bearing_network::OUTER_RACE;
+use thermocouple::Bead;
 
 /// Runs a test.
 pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
@@ -40,15 +47,27 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         taps: &taps,
     };
     let mut record = Record::new(machine, &keep);
-    let run = simulate_with_progress(
+    let mut warming: Option<Warming<RigMachine>> =
+        Warming::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
+    let mut idle = ();
+    let follower: &mut dyn rig_model::Warming = match &mut warming {
+        Some(warming) => warming,
+        None => &mut idle,
+    };
+    let run = simulate_warming(
         machine,
         &settings(&rig.run),
-        &mut record,
+        (&mut record, follower),
         options.interrupt,
         options.progress,
     );
+    if let Some(warming) = &mut warming {
+        let state = |channel: usize| run.ending.state[channel];
+        warming.take(machine, run.ending.time, &state);
+    }
     let seconds = clock.elapsed().as_secs_f64();
-    let happened = happened(rig, &record);
+    let bead = warming.as_ref().map(|warming| bead(rig, warming));
+    let happened = happened(rig, &record, bead.as_ref());
     let raw = chain::raw(rig, &happened);
     let context = Context {
         rig,
@@ -57,6 +76,8 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
         record: &record,
         ending: &run.ending,
         mode: run.mode,
+        warming: warming.as_ref(),
+        bead: bead.as_ref(),
         clipped: raw
             .iter()
             .filter(|channel| channel.clipped > 0)
@@ -116,7 +137,17 @@ fn rested(rig: &Rig, happened: &Happened) -> Option<f64> {
 /// Angle within which a shaft counts as standing, rad: no mark of a pickup is as fine.
 const STANDING: f64 = 1e-3;
 
-fn happened(rig: &Rig, record: &Record) -> Happened {
+/// The thermocouple on an outer race of a network.
+fn bead(rig: &Rig, warming: &Warming<RigMachine>) -> Bead {
+    let Followed { part, warmth, .. } = warming.followed();
+    let course = (warmth.course.iter()).map(|(time, nodes)| (*time, nodes[OUTER_RACE]));
+    Bead::new(
+        rig.temperature.lag,
+        iter::once((0.0, part.start)).chain(course),
+    )
+}
+
+fn happened(rig: &Rig, record: &Record, bead: Option<&Bead>) -> Happened {
     // a logger keeps whole scans
     let scans = record.taps.iter().map(|(_, values)| values.len()).min();
     let sampled = |channel: usize| {
@@ -127,12 +158,20 @@ fn happened(rig: &Rig, record: &Record) -> Happened {
             values: values[..scans.unwrap_or(0)].to_vec(),
         })
     };
+    let mut thermocouple = sampled(THERMOCOUPLE);
+    if let Some(bead) = bead {
+        let start = bead.at(0.0);
+        for (k, value) in thermocouple.values.iter_mut().enumerate() {
+            let time = thermocouple.first + k as f64 * thermocouple.interval;
+            *value = bead.at(time) - start;
+        }
+    }
     Happened {
         shaft_angle: sampled(SHAFT),
         shaft_speed: sampled(SHAFT + 1),
         arm: sampled(ARM),
         cage_angle: sampled(CAGE_ANGLE),
-        thermocouple: sampled(THERMOCOUPLE),
+        thermocouple,
         begin: chain::begin(rig),
     }
 }

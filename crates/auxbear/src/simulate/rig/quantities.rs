@@ -4,10 +4,14 @@ use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
 use crate::scenario::{Fidelity, RigProgram};
+use crate::simulate::bearing::warm::{self, Followed};
+use crate::simulate::bearing::warming::Warming;
 use crate::simulate::rig::context::Context;
+use model::system::rig::RigMachine;
 use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };
+use thermal::bearing_network::OUTER_RACE;
 
 const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
@@ -114,12 +118,20 @@ fn moments(list: &mut List, context: &Context) {
         },
         &SLIP,
     );
+    let of_network = |warming: &Warming<RigMachine>| {
+        let Followed { part, warmth, .. } = warming.followed();
+        warmth.peaks[OUTER_RACE].0 - part.start
+    };
     list.number(
         "peak_temperature_rise",
         "K",
-        Ok(record.temperature.value),
+        Ok(context.warming.map_or(record.temperature.value, of_network)),
         &TEMPERATURE,
     );
+    if let Some(warming) = context.warming {
+        warm::name(&warming.followed(), list);
+        warm::work_of_rings(warming.renewals.work_until(f64::INFINITY), list);
+    }
 }
 
 fn loads(list: &mut List, context: &Context) {
@@ -140,7 +152,8 @@ fn energies(list: &mut List, context: &Context) {
     let machine = &context.built.machine;
     let (start, end) = (context.start, &context.ending.state);
     let layout = machine.layout();
-    let balance = machine.balance(start, end);
+    let at_end = context.machine_at_end();
+    let balance = context.balance(f64::INFINITY, at_end.content(end), end);
     list.number("dissipated_energy", "J", Ok(balance.heat()), &ENERGY);
     list.number(
         "clutch_heat",
@@ -184,7 +197,7 @@ fn energies(list: &mut List, context: &Context) {
 
 /// The probes at the end.
 fn probes(context: &Context) -> Vec<f64> {
-    let machine = &context.built.machine;
+    let machine = context.machine_at_end();
     (machine.inspect(&context.mode, context.ending.time, &context.ending.state)).1
 }
 
@@ -234,9 +247,9 @@ const SLIP: Origin = Origin {
     valid: "as it happened; what a sensor measures has its own band",
 };
 const TEMPERATURE: Origin = Origin {
-    law: "C Ṫ = heats of the bearing - G T",
+    law: "of the outer race: C Ṫ = heats of the bearing - G T of one node, or of the network where heat.network = \"on\"",
     source: EQUATIONS,
-    valid: "one node; the moment does not depend on it unless bearing.lubricant_state says so",
+    valid: "one node: the moment does not depend on it unless bearing.lubricant_state says so; network: heat.feedback",
 };
 const ENERGY: Origin = Origin {
     law: "time integral of every loss: force or couple times the relative speed",

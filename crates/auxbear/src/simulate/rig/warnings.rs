@@ -4,6 +4,7 @@ use crate::result::assumptions::speed_rating;
 use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{Rig, Scenario};
+use crate::simulate::bearing::warm;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::rig::chain::{self, taps};
 use crate::simulate::rig::context::Context;
@@ -23,6 +24,10 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let speeds = context.record.rows().map(|row| row.state[SHAFT + 1].abs());
     let speed = speeds.fold(0.0, f64::max);
     list.extend(shared::skids(context.built.steady.as_ref()));
+    if let Some(warming) = context.warming {
+        let judged = warm::judged(&warming.followed());
+        list.extend(judged.into_iter().map(|(_, warning)| warning));
+    }
     for (name, count) in &context.clipped {
         list.push(warning(
             "AB1050",

@@ -6,7 +6,6 @@ use crate::scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 use crate::simulate::bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::steady::{SteadyFinding, SteadyPoint, refused};
-use crate::simulate::spin_up::warming;
 use model::bearing_heat::WarmBearing;
 use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
@@ -56,7 +55,7 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
         machine,
         pressure_factors: contacts.pressure_factors(),
         steady,
-        warm: warming::network(spin_up)?,
+        warm: bearing::networks::built(spin_up.warm.as_deref(), &spin_up.bearing)?,
     })
 }
 

@@ -50,7 +50,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     table.flows("the start", layout, |_| run.bearing);
     table.outer_race_works("inner race", "race", layout);
     table.energies(|row| context.balance(row.time, row.content, row.state));
-    if let Some(followed) = context.warming.and_then(|warming| warming.followed()) {
+    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
         warm::columns(&followed, &mut table);
     }
     table.columns

@@ -2,8 +2,8 @@
 
 use crate::scenario::SpinUp;
 use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::warming::Warming;
 use crate::simulate::spin_up::build::Built;
-use crate::simulate::spin_up::warming::Warming;
 use crate::simulate::stepping::Asked;
 use model::system::energy::{Balance, Content};
 use model::system::spin_up::SpinUpMachine;
@@ -22,7 +22,7 @@ pub(crate) struct Context<'a> {
     pub record: &'a Record,
     pub ending: &'a Ending,
     /// How warm the bearing became; none where that is not followed.
-    pub warming: Option<&'a Warming<'a>>,
+    pub warming: Option<&'a Warming<'a, SpinUpMachine>>,
 }
 
 impl<'a> Context<'a> {

@@ -4,16 +4,15 @@ pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
 pub(crate) mod quantities;
-pub(crate) mod warming;
 pub(crate) mod warnings;
 
 use crate::options::Options;
 use crate::result::outcome::{Members, Outcome, Picture, Work};
 use crate::scenario::{Scenario, SpinUp};
+use crate::simulate::bearing::warming::Warming;
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::spin_up::build::Built;
 use crate::simulate::spin_up::context::{Context, asked};
-use crate::simulate::spin_up::warming::Warming;
 use crate::simulate::stepping::Stepping;
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
@@ -80,13 +79,17 @@ fn integrate<'a>(
     start: &[f64],
     (spin_up, stepping): (&'a SpinUp, Stepping),
     options: &Options,
-) -> (Record, Ending, Option<Warming<'a>>) {
+) -> (Record, Ending, Option<Warming<'a, SpinUpMachine>>) {
     let machine = &built.machine;
     let settings = settings_at(&spin_up.run, stepping.tolerance);
     let end = settings.end;
     let mut watched = Watched {
         record: Record::new(machine, end, spin_up.run.output_interval, true),
-        warming: Warming::of(spin_up, built.warm.as_deref()),
+        warming: Warming::of(
+            spin_up.warm.as_deref(),
+            &spin_up.bearing,
+            built.warm.as_deref(),
+        ),
         progress: options.progress,
         reported: 0,
         end,
@@ -107,7 +110,7 @@ fn integrate<'a>(
 /// A record that also reports progress.
 struct Watched<'a, 'b> {
     record: Record,
-    warming: Option<Warming<'b>>,
+    warming: Option<Warming<'b, SpinUpMachine>>,
     progress: &'a (dyn Fn(f64) + Sync),
     reported: u64,
     end: f64,
@@ -121,7 +124,9 @@ impl Observer<SpinUpMachine> for Watched<'_, '_> {
             self.reported = thousandths;
         }
         let flow = self.record.step(step);
-        let warms = (self.warming.as_mut()).is_some_and(|warming| warming.step(step));
+        let warms = (self.warming.as_mut()).is_some_and(|warming| {
+            warming.step(step.machine, step.end, &|channel| step.end_state(channel))
+        });
         match flow {
             Flow::Continue if warms => Flow::Renew,
             flow => flow,

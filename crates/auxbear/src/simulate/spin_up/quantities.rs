@@ -228,7 +228,7 @@ fn energies(list: &mut List, context: &Context) {
     let (start, state) = (context.start, &context.ending.state);
     let balance = context.whole_balance();
     let heat = balance.heat();
-    if let Some(followed) = context.warming.and_then(|warming| warming.followed()) {
+    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
         warm::name(&followed, list);
     }
     if let Some(warming) = context.warming {

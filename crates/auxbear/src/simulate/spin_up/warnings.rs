@@ -29,7 +29,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let speed = largest(&|row| row.state[INNER + 5]);
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
     list.extend(shared::skids(context.built.steady.as_ref()));
-    if let Some(followed) = context.warming.and_then(|warming| warming.followed()) {
+    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
         list.extend(
             warm::judged(&followed)
                 .into_iter()

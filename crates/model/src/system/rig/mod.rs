@@ -57,5 +57,5 @@ pub use program::{Action, Engagement, Program, Start};
 pub use ramp::{RampError, engagement_ramp};
 pub use record::Record;
 pub use refusal::RigRefusal;
-pub use simulate::{RigRun, simulate, simulate_with_progress};
+pub use simulate::{RigRun, Warming, simulate, simulate_warming};
 pub use taps::{Tap, Taps};

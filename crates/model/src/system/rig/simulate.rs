@@ -8,6 +8,8 @@
 //!   locks        ω_f - Ω = 0       bisection on dense output, then Newton's method on steps that end there
 //!   gives way    |T| = T_c         bisection on the torque between both ends of the step
 //! ```
+//! What follows the temperatures of the bearing asks for another machine ([`Warming`]): a segment ends with the step in which it
+//! is asked for, and the run goes on with that machine.
 
 use super::clutch::slip_speed;
 use super::layout::{
@@ -40,11 +42,39 @@ pub fn simulate(
     simulate_on(Level::detect(), machine, settings, record, interrupt)
 }
 
-/// The same; `progress` is called with the fraction done, 0 to 1, at each thousandth.
-pub fn simulate_with_progress(
+/// What follows the temperatures of the bearing while a rig runs.
+pub trait Warming {
+    /// Takes note of the end of a step; whether the machine is to go on as another one.
+    fn is_due(&mut self, machine: &RigMachine, time: f64, state: &dyn Fn(usize) -> f64) -> bool;
+    /// That machine; none where it goes on as it is.
+    fn renewed(
+        &mut self,
+        machine: &RigMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<RigMachine>>;
+}
+
+/// Nothing follows.
+impl Warming for () {
+    fn is_due(&mut self, _machine: &RigMachine, _time: f64, _state: &dyn Fn(usize) -> f64) -> bool {
+        false
+    }
+    fn renewed(
+        &mut self,
+        _machine: &RigMachine,
+        _time: f64,
+        _state: &[f64],
+    ) -> Option<Box<RigMachine>> {
+        None
+    }
+}
+
+/// The same with what follows its temperatures; `progress` is called with the fraction done, 0 to 1, at each thousandth.
+pub fn simulate_warming(
     machine: &RigMachine,
     settings: &Settings,
-    record: &mut Record,
+    (record, warming): (&mut Record, &mut dyn Warming),
     interrupt: &AtomicBool,
     progress: &dyn Fn(f64),
 ) -> RigRun {
@@ -54,7 +84,11 @@ pub fn simulate_with_progress(
         interrupt,
         progress,
     };
-    Level::detect().run_one(ToTheEnd { run, record })
+    Level::detect().run_one(ToTheEnd {
+        run,
+        record,
+        warming,
+    })
 }
 
 /// The same on a level of the vector unit: every one gives the same bits.
@@ -74,19 +108,25 @@ pub fn simulate_on(
         interrupt,
         progress: &|_| {},
     };
-    level.run_one(ToTheEnd { run, record })
+    let warming = &mut ();
+    level.run_one(ToTheEnd {
+        run,
+        record,
+        warming,
+    })
 }
 
 /// A run as a task.
 struct ToTheEnd<'a, 'r> {
     run: Run<'a>,
     record: &'r mut Record,
+    warming: &'r mut dyn Warming,
 }
 
 impl Task for ToTheEnd<'_, '_> {
     type Output = RigRun;
     fn run<R: Real>(self) -> RigRun {
-        self.run.to_the_end::<R>(self.record, false)
+        self.run.to_the_end::<R>(self.record, self.warming, false)
     }
 }
 
@@ -103,7 +143,7 @@ pub(super) fn until_locked(
         progress: &|_| {},
     };
     // balls that roll are few numbers: nothing is gained by several at a time
-    run.to_the_end::<f64>(record, true)
+    run.to_the_end::<f64>(record, &mut (), true)
 }
 
 /// What a run needs all along.
@@ -129,10 +169,15 @@ struct Found {
 
 /// Why a segment halts.
 const CHANGE: &str = "the clutch changes";
+/// Why it halts where its temperatures have moved.
+const WARMED: &str = "the bearing has warmed";
 
 /// Watches the clutch, and hands on every step before a change.
 struct Watch<'r> {
     record: &'r mut Record,
+    warming: &'r mut dyn Warming,
+    /// Length of the last step, s.
+    last: f64,
     found: Option<Found>,
     progress: &'r dyn Fn(f64),
     end: f64,
@@ -171,7 +216,14 @@ impl<'a> Observer<Segment<'a>> for Watch<'_> {
         if thousandths(step.end) > thousandths(step.start) {
             (self.progress)(thousandths(step.end) as f64 * 1e-3);
         }
-        self.record.step(step)
+        let flow = self.record.step(step);
+        self.last = step.end - step.start;
+        let rig = step.machine.rig;
+        let warmed = (self.warming).is_due(rig, step.end, &|channel| step.end_state(channel));
+        match flow {
+            Flow::Continue if warmed => Flow::Halt(WARMED),
+            flow => flow,
+        }
     }
 }
 
@@ -205,14 +257,22 @@ fn instant_of_change(step: &mut Step<Segment<'_>>) -> f64 {
 const NEWTON_STEPS: usize = 4;
 
 impl<'a> Run<'a> {
-    fn to_the_end<R: Real>(self, record: &mut Record, to_lock: bool) -> RigRun {
-        let machine = self.machine;
-        let start = machine.start();
+    fn to_the_end<R: Real>(
+        self,
+        record: &mut Record,
+        warming: &mut dyn Warming,
+        to_lock: bool,
+    ) -> RigRun {
+        let start = self.machine.start();
+        let mut warm: Option<Box<RigMachine>> = None;
+        let mut first_step = self.settings.first_step;
         let (mut time, mut state) = (self.settings.start, start.clone());
         let mut schedule = Progress::new();
         let mut work = Work::default();
-        let program = &machine.constants.program;
+        let program = &self.machine.constants.program;
         let stop = loop {
+            let machine = warm.as_deref().unwrap_or(self.machine);
+            let run = Run { machine, ..self };
             if schedule.due(program) <= time {
                 schedule.advance(machine, time, &state);
             }
@@ -226,25 +286,35 @@ impl<'a> Run<'a> {
             let next = schedule.due(program).min(self.settings.end);
             let mut watch = Watch {
                 record: &mut *record,
+                warming: &mut *warming,
+                last: first_step,
                 found: None,
                 progress: self.progress,
                 end: self.settings.end,
             };
-            let ending = self.segment::<R, _>(
+            let ending = run.segment::<R, _>(
                 &schedule.mode,
                 (time, next),
                 &state,
-                self.settings.first_step,
+                first_step,
                 work,
                 &mut watch,
             );
             add(&mut work, &ending.work);
-            let found = watch.found;
+            let (found, last) = (watch.found, watch.last);
+            first_step = self.settings.first_step;
             (time, state) = (ending.time, ending.state);
+            if ending.stop == Stop::Halted(WARMED) {
+                if let Some(new) = warming.renewed(machine, time, &state) {
+                    warm = Some(new);
+                }
+                first_step = last;
+                continue;
+            }
             match found {
                 None => {}
                 Some(found) => {
-                    let ending = self.change::<R>(&mut schedule.mode, &found, &mut work, record);
+                    let ending = run.change::<R>(&mut schedule.mode, &found, &mut work, record);
                     (time, state) = (ending.time, ending.state);
                     if ending.stop != Stop::Finished {
                         break ending.stop;
@@ -256,6 +326,7 @@ impl<'a> Run<'a> {
                 break ending.stop;
             }
         };
+        let machine = warm.as_deref().unwrap_or(self.machine);
         record.finish(machine, &schedule.mode, time, &state);
         RigRun {
             start,
