@@ -57,7 +57,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(RUN)
         .chain(crate::scenario::coast_down::keys::KEYS)
         .chain(crate::scenario::heat::keys::KEYS)
-        .chain(crate::scenario::rig::keys::NODE)
+        .chain(crate::scenario::rig::keys::TEMPERATURE)
         .chain(crate::scenario::drop::keys::REPEAT)
 }
 

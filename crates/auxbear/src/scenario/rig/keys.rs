@@ -403,22 +403,6 @@ pub(crate) const KEYS: &[Key] = &[
     .positive()
     .assumed("0.2 N m", "several times the torque of a small greased bearing"),
     Key::new(
-        "rig.temperature.lag",
-        Kind::Quantity("s"),
-        "2 s",
-        "Time constant of the thermocouple.",
-    )
-    .positive()
-    .assumed("2 s", "a bead under a screw"),
-    Key::new(
-        "rig.temperature.noise",
-        Kind::Quantity("K"),
-        "0.1 K",
-        "Standard deviation of the noise of one value.",
-    )
-    .not_negative()
-    .default("0.1 K", "a thermocouple behind an amplifier"),
-    Key::new(
         "rig.pickup.marks",
         Kind::Count,
         "60",
@@ -530,8 +514,8 @@ pub(crate) const GIVEN: &[&str] = &[
     "rig.arm.noise",
 ];
 
-/// Temperature of one node, after the keys that say whether a network follows it.
-pub(crate) const NODE: &[Key] = &[
+/// Temperature and thermocouple, after the keys that say whether a network follows the one.
+pub(crate) const TEMPERATURE: &[Key] = &[
     Key::new(
         "rig.temperature.heat_capacity",
         Kind::Quantity("J/K"),
@@ -559,4 +543,20 @@ pub(crate) const NODE: &[Key] = &[
     .positive()
     .default("25 degC", "a laboratory")
     .when(ONE_NODE),
+    Key::new(
+        "rig.temperature.lag",
+        Kind::Quantity("s"),
+        "2 s",
+        "Time constant of the thermocouple.",
+    )
+    .positive()
+    .assumed("2 s", "a bead under a screw"),
+    Key::new(
+        "rig.temperature.noise",
+        Kind::Quantity("K"),
+        "0.1 K",
+        "Standard deviation of the noise of one value.",
+    )
+    .not_negative()
+    .default("0.1 K", "a thermocouple behind an amplifier"),
 ];
