@@ -14,18 +14,21 @@ pub enum Explanation {
     HeatedSlip,
     /// Balls roll; the reading drifts, creeps, or settles more slowly than stated.
     Sensor,
+    /// Balls roll; the oil warms, and the viscous part falls with its viscosity.
+    WarmOil,
     /// Balls roll; the steady moment of the slow tests is not that of these tests.
     AnotherMoment,
 }
 
 impl Explanation {
     /// All explanations, in the order of the prior odds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Rolling,
         Self::Grease,
         Self::IsothermalSlip,
         Self::HeatedSlip,
         Self::Sensor,
+        Self::WarmOil,
         Self::AnotherMoment,
     ];
 
@@ -37,6 +40,7 @@ impl Explanation {
             Self::IsothermalSlip => "isothermal slip",
             Self::HeatedSlip => "slip with heating",
             Self::Sensor => "sensor artefact",
+            Self::WarmOil => "rolling in oil that warms",
             Self::AnotherMoment => "another steady moment",
         }
     }

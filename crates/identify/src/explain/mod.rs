@@ -280,10 +280,11 @@ fn usable(test: &Measurement) -> bool {
 }
 
 /// The explanations by the work that their predictions are.
-const QUICK_FIRST: [Explanation; 6] = [
+const QUICK_FIRST: [Explanation; 7] = [
     Explanation::Rolling,
     Explanation::AnotherMoment,
     Explanation::Sensor,
+    Explanation::WarmOil,
     Explanation::Grease,
     Explanation::IsothermalSlip,
     Explanation::HeatedSlip,

@@ -67,6 +67,7 @@ impl Hypothesis {
     pub fn left(self, rest: f64, recovery: f64, values: &[f64]) -> (f64, f64) {
         let film = match self {
             Self::HeatedSlip => (-rest / values[6]).exp(),
+            Self::WarmOil => (-rest / values[2]).exp(),
             _ => 0.0,
         };
         ((-rest / recovery).exp(), film)
@@ -133,6 +134,11 @@ impl Hypothesis {
                 "s",
                 priors.settling_time,
             )],
+            Self::WarmOil => vec![
+                share,
+                positive("softening of drag", "1", priors.oil_softening),
+                positive("time of the oil's heating", "s", priors.oil_time),
+            ],
             Self::AnotherMoment => vec![
                 positive(
                     "steady moment over that of the slow tests",

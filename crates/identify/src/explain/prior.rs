@@ -47,7 +47,7 @@ fn place(low: f64, high: f64, z: f64) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Priors {
     /// Prior weight of each explanation in the order of [`Explanation::ALL`]; only ratios matter. 0 rules one out.
-    pub odds: [f64; 6],
+    pub odds: [f64; 7],
     /// Share of M that depends on speed (M0/M) at the highest speed; none: from the curve itself, see
     /// [`Priors::share_of`].
     pub viscous_share: Option<Range>,
@@ -75,6 +75,10 @@ pub struct Priors {
     pub drag_softening: Range,
     /// Heating: time constant of the film temperature, s.
     pub film_time: Range,
+    /// Oil that warms: logarithm of the loss of viscous drag when it is in balance with the power M Ω.
+    pub oil_softening: Range,
+    /// Oil that warms: time constant of its temperature, s.
+    pub oil_time: Range,
     /// Sensor: size of a drift of the zero, over M at the highest speed; either sign.
     pub drift: Range,
     /// Sensor: size of the creep c; either sign.
@@ -93,7 +97,7 @@ impl Default for Priors {
     fn default() -> Self {
         let turn = std::f64::consts::TAU;
         Self {
-            odds: [1.0; 6],
+            odds: [1.0; 7],
             viscous_share: None,
             fresh_drag: Range::new(0.2, 0.95),
             worked_drag: Range::new(0.5, 0.95),
@@ -107,6 +111,8 @@ impl Default for Priors {
             traction_softening: Range::new(0.15, 1.5),
             drag_softening: Range::new(0.02, 0.3),
             film_time: Range::new(0.5, 5.0),
+            oil_softening: Range::new(0.1, 0.8),
+            oil_time: Range::new(0.5, 5.0),
             drift: Range::new(0.08, 0.6),
             creep: Range::new(0.08, 0.5),
             sensor_time: Range::new(0.3, 5.0),
@@ -150,6 +156,8 @@ impl Priors {
             ("traction_softening", self.traction_softening),
             ("drag_softening", self.drag_softening),
             ("film_time", self.film_time),
+            ("oil_softening", self.oil_softening),
+            ("oil_time", self.oil_time),
             ("drift", self.drift),
             ("creep", self.creep),
             ("sensor_time", self.sensor_time),

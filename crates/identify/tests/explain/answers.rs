@@ -223,7 +223,7 @@ fn what_cannot_be_used_is_refused() {
         Err(Refusal::BadPrior("drift"))
     );
     assert_eq!(
-        ask(&|_, p, _| p.odds = [0.0; 6]),
+        ask(&|_, p, _| p.odds = [0.0; 7]),
         Err(Refusal::BadPrior("odds"))
     );
     assert_eq!(

@@ -18,7 +18,7 @@ use super::{campaign, runs};
 /// Probability of the fit of the true explanation.
 fn fit(campaign: &Campaign, truth: Explanation) -> f64 {
     let mut priors = Priors {
-        odds: [0.0; 6],
+        odds: [0.0; 7],
         ..Priors::default()
     };
     priors.odds[truth as usize] = 1.0;

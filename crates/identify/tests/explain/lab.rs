@@ -152,6 +152,11 @@ impl Truth {
                     _ => Fault::Slow(chance.between(0.1, 0.5)),
                 };
             }
+            Explanation::WarmOil => {
+                // the film comes to the power of what is left
+                let softening = effect / (1.0 - effect).powi(2);
+                bearing.lubricant.heating = Some([0.0, softening, chance.between(0.8, 3.0)]);
+            }
             Explanation::AnotherMoment => {
                 let sign = if chance.uniform() < 0.5 { -1.0 } else { 1.0 };
                 slow = Slow {
