@@ -276,6 +276,40 @@ fn the_grease_of_three_tests_is_found() {
     }
 }
 
+/// Three tests of a bearing that rolls in oil that warms, whose slow test was at one temperature.
+#[test]
+fn oil_that_warms_is_told_from_slip_and_grease() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // the oil of the tests at their 25 degC
+    let oil = [
+        "bearing.moment.viscosity=250.8 mm^2/s",
+        "bearing.moment.f1_factor=0.0007",
+        "bearing.moment.f1_exponent=0.5",
+    ];
+    into_runs(folder.path(), "rig_coast_down", &oil);
+    let names = ["slow", "quick", "quickest"];
+    for (name, peak) in names.iter().zip([1300, 7200, 11_500]) {
+        let peak = format!("rig.peak_acceleration={peak} rad/s^2");
+        let scenario = shipped("rig_test_3_warming", &[&peak]);
+        let outcome = simulated(&scenario);
+        let place = folder.path().join("runs").join(name);
+        directory::write(&place, &scenario, &outcome).expect("it is written");
+    }
+    let found = identified(folder.path(), &names, "");
+    assert_eq!(
+        value(&found, "explanation"),
+        &Value::Text("rolling in oil that warms".to_string())
+    );
+    for other in [
+        "slip_with_heating",
+        "rolling_with_a_grease_state",
+        "rolling",
+    ] {
+        let probability = number(&found, &format!("probability_of_{other}"));
+        assert!(probability < 0.05, "{other}: {probability}");
+    }
+}
+
 /// The dissipation of a rolling bearing, as estimated from the outer race, beside the heat of the simulation.
 #[test]
 fn the_energy_of_a_spin_up_lies_in_its_band() {

@@ -14,10 +14,10 @@ pub enum Explanation {
     HeatedSlip,
     /// Balls roll; the reading drifts, creeps, or settles more slowly than stated.
     Sensor,
-    /// Balls roll; the oil warms, and the viscous part falls with its viscosity.
-    WarmOil,
     /// Balls roll; the steady moment of the slow tests is not that of these tests.
     AnotherMoment,
+    /// Balls roll; the oil warms, and the viscous part falls with its viscosity.
+    WarmOil,
 }
 
 impl Explanation {
@@ -28,8 +28,8 @@ impl Explanation {
         Self::IsothermalSlip,
         Self::HeatedSlip,
         Self::Sensor,
-        Self::WarmOil,
         Self::AnotherMoment,
+        Self::WarmOil,
     ];
 
     /// Name in words.

@@ -1,7 +1,7 @@
 //! Which explanation of a torque transient the data support, and which test would decide.
 //!
 //! After a quick spin-up t_O is low, reaches the steady curve M(Ω) after some tenths of a second and then falls below
-//! it within seconds. Six explanations are compared, over all tests of a bearing jointly:
+//! it within seconds. Seven explanations are compared, over all tests of a bearing jointly:
 //!
 //! | explanation | what it predicts |
 //! |---|---|
@@ -10,6 +10,7 @@
 //! | isothermal slip | balls and cage follow a limited traction; the cage stays behind, the missing inertia shows |
 //! | slip with heating | the same, traction and drag falling with the film's temperature |
 //! | sensor artefact | rolling, read with a drifting zero (it stays at rest), with creep, or too slowly |
+//! | rolling in oil that warms | rolling with M0 e^(-λθ), θ̇ = (M Ω/(M_0 Ω_0) - θ)/τ: the viscosity at the oil's temperature |
 //! | another steady moment | rolling, with k M(Ω) and another part without speed dependence: the slow tests had another bearing, load, temperature or scale |
 //!
 //! ```text

@@ -96,8 +96,8 @@ impl Proposal {
                  the traction limit."
             }
             Self::RepeatAfterSeconds => {
-                "Worked grease starts low and shows no build-up; a sensor that has drifted does not drift again; slip, \
-                 cold again after seconds, repeats itself."
+                "Worked grease starts low and shows no build-up; a sensor that has drifted does not drift again; slip and \
+                 oil, cold again after seconds, repeat themselves."
             }
             Self::RepeatAfterDay => {
                 "Rested grease and a recovered sensor repeat their course; what does not repeat was neither."

@@ -324,7 +324,7 @@ fn rotor(list: &mut List, found: &Found) {
 }
 
 const VERDICT: Origin = Origin {
-    law: "posterior probability among six explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
+    law: "posterior probability among seven explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
     source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/explain/mod.rs",
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };

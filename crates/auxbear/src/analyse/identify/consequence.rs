@@ -8,7 +8,10 @@ pub(crate) fn other_cause(conclusion: &Conclusion) -> Option<String> {
         return None;
     };
     match explanation {
-        Explanation::Grease | Explanation::Sensor | Explanation::AnotherMoment => Some(format!(
+        Explanation::Grease
+        | Explanation::Sensor
+        | Explanation::WarmOil
+        | Explanation::AnotherMoment => Some(format!(
             "the tests support \"{}\", by which t_O - M is not the friction and inertia of the balls alone",
             explanation.name()
         )),
@@ -43,60 +46,9 @@ pub(crate) fn slips(explanation: Explanation) -> bool {
     )
 }
 
-/// Probability from which on a cage signal shows that the balls slip.
-const SHOWN: f64 = 0.5;
-
-/// What speaks for oil that warms while the balls roll, where the conclusion is slip with heating: no explanation describes that.
-///
-/// - `slipped`: of each test with a cage signal that can show it, the probability that its cage slipped
-pub(crate) fn oil_may_warm(conclusion: &Conclusion, slipped: &[f64]) -> Option<String> {
-    let heated = Explanation::HeatedSlip;
-    let named = match conclusion {
-        Conclusion::Supported(explanation) => *explanation == heated,
-        Conclusion::Undecided(left) => left.contains(&heated),
-        Conclusion::NoneOfThese => false,
-    };
-    let most = slipped.iter().copied().fold(0.0, f64::max);
-    if !named || most > SHOWN {
-        return None;
-    }
-    let cage = match slipped {
-        [] => "no test shows its cage".to_string(),
-        _ => format!("no cage shows a slip (with a probability of {most:.2} at most)"),
-    };
-    Some(format!(
-        "\"{}\" may be balls that roll in oil that warms, which is none of the explanations: {cage}. Its heating is supported, its slip is \
-         not; a test at half the speed and one after 20 s at rest tell heat from the rest",
-        heated.name()
-    ))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_slip_with_heating_that_no_cage_shows_may_be_warm_oil() {
-        let heated = Explanation::HeatedSlip;
-        let supported = Conclusion::Supported(heated);
-        let open = Conclusion::Undecided(vec![Explanation::Sensor, heated]);
-        for conclusion in [&supported, &open] {
-            assert!(
-                oil_may_warm(conclusion, &[0.01, 0.2])
-                    .unwrap()
-                    .contains("0.20 at most")
-            );
-            assert!(
-                oil_may_warm(conclusion, &[])
-                    .unwrap()
-                    .contains("no test shows its cage")
-            );
-            assert_eq!(oil_may_warm(conclusion, &[0.01, 0.99]), None);
-        }
-        let grease = Conclusion::Supported(Explanation::Grease);
-        assert_eq!(oil_may_warm(&grease, &[0.01]), None);
-        assert_eq!(oil_may_warm(&Conclusion::NoneOfThese, &[0.01]), None);
-    }
 
     #[test]
     fn what_is_explained_otherwise_is_not_friction_of_balls() {
@@ -104,7 +56,10 @@ mod tests {
             let cause = other_cause(&Conclusion::Supported(explanation));
             let other = matches!(
                 explanation,
-                Explanation::Grease | Explanation::Sensor | Explanation::AnotherMoment
+                Explanation::Grease
+                    | Explanation::Sensor
+                    | Explanation::WarmOil
+                    | Explanation::AnotherMoment
             );
             assert_eq!(cause.is_some(), other, "{}", explanation.name());
             assert!(cause.is_none_or(|why| why.contains(explanation.name())));

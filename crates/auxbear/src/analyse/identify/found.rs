@@ -2,9 +2,7 @@
 
 use crate::analyse::heed::{INTERRUPTED, heed};
 use crate::analyse::identify::coast_down::{coasted, largest};
-use crate::analyse::identify::consequence::{
-    false_reading, oil_may_warm, other_cause, slip_is_open, slips,
-};
+use crate::analyse::identify::consequence::{false_reading, other_cause, slip_is_open, slips};
 use crate::analyse::identify::notes::{Note, grouped, noted};
 use crate::analyse::identify::read::{Asked, Test};
 use crate::analyse::signals;
@@ -306,10 +304,6 @@ impl Found {
         }));
         let unequal = moment.iter().filter_map(|moment| moment.unequal.as_ref());
         lines.extend(unequal.map(|unequal| Note::of_all("AB1061", &unequal.finding())));
-        let shown = tests.iter().filter_map(|test| test.slip.as_ref().ok());
-        let slipped: Vec<f64> = shown.filter_map(|slip| slip.slipped).collect();
-        let warms = conclusion.and_then(|conclusion| oil_may_warm(conclusion, &slipped));
-        lines.extend(warms.map(|text| Note::of_all("AB1063", &text)));
         let notes = (moment.iter().flat_map(|moment| &moment.notes))
             .chain(map.iter().flat_map(|map| &map.notes))
             .chain(rotor.iter().flat_map(|rotor| &rotor.notes));

@@ -1,7 +1,7 @@
 // The pictures of an identification, in the layout of the source paper's Figs 7 to 10: torque over speed from the slow tests,
 // then speed, acceleration and torque of each test with the steady torque laid over, with bands; and the verdict.
 
-const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact", "another steady moment"];
+const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact", "another steady moment", "rolling in oil that warms"];
 
 // A probability; what is hardly possible is not shown to its last digit.
 function chanceText(probability) {
