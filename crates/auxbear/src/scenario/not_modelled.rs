@@ -1,7 +1,7 @@
 //! Keys that users try and that nothing describes yet: the answer says so, with the page of the book, instead of a near name.
 
 use crate::catalogue::designation::PAIRS;
-use crate::scenario::system::SystemName;
+use crate::scenario::system::{SystemName, WITH_NETWORK};
 
 /// Something that no system describes.
 #[derive(Debug)]
@@ -34,8 +34,7 @@ impl Absent {
 /// What a path asks for, where the system does not describe it.
 pub(crate) fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
     let path = path.to_lowercase();
-    let warms = system.falls() || matches!(system, SystemName::CoastDown | SystemName::SpinUp);
-    if warms && (path == "heat" || path.starts_with("heat.")) {
+    if WITH_NETWORK.contains(&system) && (path == "heat" || path.starts_with("heat.")) {
         return None;
     }
     let name = path.rsplit('.').next().unwrap_or(&path);
@@ -81,7 +80,7 @@ const TABLE: &[Absent] = &[
                 bearing.temperature *.heat_capacity *.thermal_conductivity *.thermal_expansion",
         what: "no such value of heat is described",
         point: 5,
-        instead: "heat.network = \"on\" follows the temperatures of a drop or machine, with viscosity and clearance (heat.feedback) and friction (contact.friction_over_temperature), run.until = \"standstill\" goes on until the rotor stands, and surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
+        instead: "heat.network = \"on\" follows the temperatures of a drop, machine, spin-up or rig, with viscosity and clearance (heat.feedback) and friction (contact.friction_over_temperature), run.until = \"standstill\" goes on until the rotor stands, and surfaces that rub warm with contact.width and contact.surface; the temperature of the lubricant is bearing.moment.temperature; its slow state, with films that warm, is [bearing.lubricant_state]",
     },
     Absent {
         paths: "life wear fatigue *.life *.wear *.l10 *.drops \

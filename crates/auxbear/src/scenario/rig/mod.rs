@@ -208,12 +208,14 @@ pub struct RigArm {
 /// Temperature of the outer race and the thermocouple on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigTemperature {
-    /// Heat capacity, J/K, and conductance to the ambient, W/K, of one node; none where a network follows the temperatures.
-    pub node: Option<[f64; 2]>,
+    /// Heat capacity of one node, J/K; none where a network follows the temperatures.
+    pub heat_capacity: Option<f64>,
+    /// Its conductance to the ambient, W/K.
+    pub conductance: Option<f64>,
     /// Time constant of the thermocouple, s.
     pub lag: f64,
     /// Temperature at the start, K; around one node too.
-    pub start: f64,
+    pub ambient: f64,
     /// Standard deviation of the noise of a value, K.
     pub noise: f64,
 }
@@ -334,10 +336,10 @@ impl Rig {
                 range: arm.number("range"),
             },
             temperature: RigTemperature {
-                node: (temperature.maybe("heat_capacity"))
-                    .map(|capacity| [capacity, temperature.number("conductance")]),
+                heat_capacity: temperature.maybe("heat_capacity"),
+                conductance: temperature.maybe("conductance"),
                 lag: temperature.number("lag"),
-                start: (temperature.maybe("ambient"))
+                ambient: (temperature.maybe("ambient"))
                     .unwrap_or_else(|| section("heat").number("start_temperature")),
                 noise: temperature.number("noise"),
             },

@@ -56,8 +56,10 @@ pub(crate) fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
     let warm = bearing::networks::built(rig.warm.as_deref(), &rig.bearing)?;
     // where a network follows the temperatures nothing reads the one node
     let outer_race = |warm: &WarmBearing| [warm.network.capacities[OUTER_RACE], 0.0];
-    let lumped = rig.temperature.node.or(warm.as_deref().map(outer_race));
-    let [capacity, conductance] = lumped.unwrap_or([1.0, 0.0]);
+    let node = &rig.temperature;
+    let given = node.heat_capacity.zip(node.conductance).map(Into::into);
+    let [capacity, conductance] =
+        (given.or(warm.as_deref().map(outer_race))).unwrap_or([f64::NAN; 2]);
     let arm = &rig.arm;
     let mut constants = RigConstants {
         flywheel: Flywheel {

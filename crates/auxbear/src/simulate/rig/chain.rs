@@ -312,7 +312,7 @@ fn temperature(rig: &Rig, happened: &Happened) -> RawChannel {
         "thermocouple at the outer race".to_string(),
         &happened.thermocouple,
         Converter::over(COLDEST, HOTTEST, rig.logger.bits),
-        |_, rise| node.start + rise + node.noise * noise(),
+        |_, rise| node.ambient + rise + node.noise * noise(),
     )
 }
 
