@@ -1,16 +1,17 @@
 //! Does the comparison of explanations name the truth of a laboratory that is finer than its models?
 //!
-//! Of 100 campaigns per truth (three tests of the paper each, bearing and sensor finer than the models, effects of 15 to
+//! Of 24 campaigns per truth (three tests of the paper each, bearing and sensor finer than the models, effects of 15 to
 //! 40 % of M), judged in a release build; never wrong, never "none of these":
 //!
 //! | truth | right with cage | undecided | right without cage | undecided |
 //! |---|---|---|---|---|
-//! | rolling | 100 | 0 | 94 | 6 |
-//! | grease | 100 | 0 | 100 | 0 |
-//! | isothermal slip | 99 | 1 | 100 | 0 |
-//! | slip with heating | 100 | 0 | 99 | 1 |
-//! | sensor artefact | 98 | 2 | 98 | 2 |
-//! | another steady moment | 100 | 0 | 100 | 0 |
+//! | rolling | 24 | 0 | 21 | 3 |
+//! | grease | 24 | 0 | 24 | 0 |
+//! | isothermal slip | 24 | 0 | 23 | 1 |
+//! | slip with heating | 24 | 0 | 22 | 2 |
+//! | sensor artefact | 24 | 0 | 24 | 0 |
+//! | another steady moment | 24 | 0 | 24 | 0 |
+//! | rolling in oil that warms | 24 | 0 | 23 | 1 |
 //!
 //! What stays open is creep against grease (they differ by the load part of M) and, without a signal of the cage, rolling
 //! against a slip that a traction limit just below M leaves small.
