@@ -29,7 +29,7 @@ use super::ball_sums::BallSums;
 use super::planar_constants::{PlanarConstants, Separation};
 use crate::motion::Motion;
 use number::{Mask, Real, Vec2};
-use physics::traction::{SlidingContact, TractionLaw};
+use physics::traction::TractionLaw;
 
 /// Rows of the border that a bearing stands in: z of the page.
 pub const ROWS: usize = 6;
@@ -63,49 +63,103 @@ impl BearingConstants {
     }
 }
 
-/// What is kept of each ball, in lists over the balls; some are made ready for the solutions when the balls are eliminated.
-#[derive(Clone, Copy)]
-enum Of {
-    /// Direction e_r.
-    DirectionX,
-    DirectionY,
+/// What is kept of a group of balls; some of it is made ready for the solutions when the balls are eliminated.
+#[derive(Clone, Copy, Debug)]
+struct OfBalls<G> {
+    /// Direction e_r, and for a while the distances.
+    places: BallDistances<G>,
     /// ρ and 1/ρ.
-    Radius,
-    InverseRadius,
-    /// Stiffness k, damping c, ∂Q/∂θ and load at the inner race; then k/G, c*, (∂Q/∂θ)/G, Q/G.
-    InnerStiffness,
-    InnerDamping,
-    InnerTurn,
-    InnerForce,
-    /// The same at the outer race.
-    OuterStiffness,
-    OuterDamping,
-    OuterTurn,
-    OuterForce,
-    /// Slopes of both tractions over slip, N s/m.
-    InnerTraction,
-    OuterTraction,
+    radius: G,
+    inverse_radius: G,
+    inner: AtRace<G>,
+    outer: AtRace<G>,
     /// Pocket: stiffness, damping, slope of friction; then k R_p/G, c* R_p/ρ, slope times r_b²/(r R_p).
-    PocketStiffness,
-    PocketDamping,
-    PocketFriction,
+    pocket: Pressing<G>,
+    pocket_friction: G,
     /// Change of the heat of pocket damping by that of ṗ/side, and of pocket friction by that of σ - ω_c.
-    DampingHeat,
-    FrictionHeat,
+    damping_heat: G,
+    friction_heat: G,
     /// 1/a, and the inverse of the tangential block.
-    Inverse,
-    InverseTt,
-    InverseTs,
-    InverseSs,
+    inverse: G,
+    inverse_tt: G,
+    inverse_ts: G,
+    inverse_ss: G,
 }
-/// Number of them.
-const LISTS: usize = 23;
 
-/// The tangents of the balls of one bearing per lane.
+/// A contact of balls with a race.
+#[derive(Clone, Copy, Debug)]
+struct AtRace<G> {
+    pressing: Pressing<G>,
+    /// ∂Q/∂θ and load; then both over G.
+    turn: G,
+    force: G,
+    /// Slope of the traction over slip, N s/m.
+    traction: G,
+}
+
+/// What presses.
+#[derive(Clone, Copy, Debug)]
+struct Pressing<G> {
+    /// k; then k/G.
+    stiffness: G,
+    /// c; then c* = c + k/G.
+    damping: G,
+}
+
+impl<G: Real> Pressing<G> {
+    fn none() -> Self {
+        Pressing {
+            stiffness: G::zero(),
+            damping: G::zero(),
+        }
+    }
+    /// The spring joins its damper.
+    #[inline(always)]
+    fn joined(self, inverse_g: G) -> Self {
+        let spring = self.stiffness * inverse_g;
+        Pressing {
+            stiffness: spring,
+            damping: self.damping + spring,
+        }
+    }
+}
+
+impl<G: Real> OfBalls<G> {
+    fn none() -> Self {
+        let zero = G::zero();
+        let race = AtRace {
+            pressing: Pressing::none(),
+            turn: zero,
+            force: zero,
+            traction: zero,
+        };
+        OfBalls {
+            places: BallDistances {
+                e_r: Vec2::zero(),
+                inner: zero,
+                outer: zero,
+                inverse_product: zero,
+            },
+            radius: zero,
+            inverse_radius: zero,
+            inner: race,
+            outer: race,
+            pocket: Pressing::none(),
+            pocket_friction: zero,
+            damping_heat: zero,
+            friction_heat: zero,
+            inverse: zero,
+            inverse_tt: zero,
+            inverse_ts: zero,
+            inverse_ss: zero,
+        }
+    }
+}
+
+/// The tangents of the balls of one bearing per lane, in groups.
 #[derive(Clone, Debug)]
 pub struct BallTangents<R: Real> {
-    lists: Vec<R>,
-    balls: usize,
+    groups: Vec<OfBalls<R::Group>>,
 }
 
 /// What never changes: lengths that make spins speeds, and reciprocals, because a division costs as much as ten products.
@@ -169,19 +223,8 @@ impl<R: Real> BallTangents<R> {
     /// Room for so many balls.
     pub fn new(balls: usize) -> Self {
         BallTangents {
-            lists: vec![R::zero(); LISTS * balls],
-            balls,
+            groups: vec![OfBalls::none(); balls.div_ceil(R::GROUP)],
         }
-    }
-    #[inline(always)]
-    fn of(&self, list: Of, from: usize) -> R::Group {
-        let start = list as usize * self.balls;
-        R::load_group(&self.lists[start..start + self.balls], from)
-    }
-    #[inline(always)]
-    fn set(&mut self, list: Of, from: usize, value: R::Group) {
-        let start = list as usize * self.balls;
-        R::store_group(value, &mut self.lists[start..start + self.balls], from);
     }
     /// Takes the tangents of all balls at a state; `state` is the bearing's own.
     #[inline(always)]
@@ -197,62 +240,39 @@ impl<R: Real> BallTangents<R> {
         let lists = split(state, row.first, row.balls);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
         let b = &row.ball;
-        // roots and divisions of one ball keep no other waiting; distances stand for a while where stiffness will
-        let mut from = 0;
-        while from < row.balls {
-            let ball = load_ball(&lists, from);
-            let d = distances(&inner, &outer, &ball);
-            self.set(Of::DirectionX, from, d.e_r.x);
-            self.set(Of::DirectionY, from, d.e_r.y);
-            self.set(Of::InnerStiffness, from, d.inner);
-            self.set(Of::OuterStiffness, from, d.outer);
-            self.set(Of::InverseRadius, from, d.inverse_product);
-            from += R::GROUP;
+        // roots and divisions of one ball keep no other waiting
+        for (group, own) in self.groups.iter_mut().enumerate() {
+            let ball = load_ball(&lists, group * R::GROUP);
+            own.places = distances(&inner, &outer, &ball);
         }
-        let mut from = 0;
-        while from < row.balls {
+        for (group, own) in self.groups.iter_mut().enumerate() {
+            let from = group * R::GROUP;
             let ball = load_ball(&lists, from);
-            let e_r = Vec2::new(self.of(Of::DirectionX, from), self.of(Of::DirectionY, from));
-            let distances = BallDistances {
-                e_r,
-                inner: self.of(Of::InnerStiffness, from),
-                outer: self.of(Of::OuterStiffness, from),
-                inverse_product: self.of(Of::InverseRadius, from),
-            };
-            let at = b.between(&inner, &outer, &ball, &distances);
-            self.set(Of::Radius, from, ball.radius);
-            self.set(Of::InverseRadius, from, at.inverse_radius);
+            let at = b.between(&inner, &outer, &ball, &own.places);
+            let e_r = own.places.e_r;
+            own.radius = ball.radius;
+            own.inverse_radius = at.inverse_radius;
 
             // normal contacts
-            let [k_i, c_i] = contact(
-                b,
-                b.inner_stiffness,
-                at.inner.approach,
-                at.inner.normal.force,
-            );
-            let [k_o, c_o] = contact(
-                b,
-                b.outer_stiffness,
-                at.outer.approach,
-                at.outer.normal.force,
-            );
-            let turn_i = turn(&[k_i, c_i], &inner, e_r, ball.orbit_speed);
-            let turn_o = turn(&[k_o, c_o], &outer, e_r, ball.orbit_speed);
-            self.set(Of::InnerStiffness, from, k_i);
-            self.set(Of::InnerDamping, from, c_i);
-            self.set(Of::InnerTurn, from, turn_i);
-            self.set(Of::InnerForce, from, at.inner.normal.force);
-            self.set(Of::OuterStiffness, from, k_o);
-            self.set(Of::OuterDamping, from, c_o);
-            self.set(Of::OuterTurn, from, -turn_o);
-            self.set(Of::OuterForce, from, at.outer.normal.force);
-
+            let (normal_i, normal_o) = (at.inner.normal.force, at.outer.normal.force);
+            let pressing_i = contact(b, b.inner_stiffness, at.inner.approach, normal_i);
+            let pressing_o = contact(b, b.outer_stiffness, at.outer.approach, normal_o);
             // traction
             let in_ = b.on_inner(&at.inner, inner.spin, ball.spin).contact;
             let out = b.on_outer(&at.outer, outer.spin, ball.spin).contact;
             let (slope_i, slope_o) = traction.slopes_at_races(&in_, &out);
-            self.set(Of::InnerTraction, from, loaded(slope_i, &in_));
-            self.set(Of::OuterTraction, from, loaded(slope_o, &out));
+            own.inner = AtRace {
+                pressing: pressing_i,
+                turn: turn(&pressing_i, &inner, e_r, ball.orbit_speed),
+                force: normal_i,
+                traction: slope_i * in_.load,
+            };
+            own.outer = AtRace {
+                pressing: pressing_o,
+                turn: -turn(&pressing_o, &outer, e_r, ball.orbit_speed),
+                force: normal_o,
+                traction: slope_o * out.load,
+            };
 
             // pocket
             let pocket = PocketMotion {
@@ -288,12 +308,13 @@ impl<R: Real> BallTangents<R> {
                     *kept = <R::Group as Real>::select(pressed, value, zero);
                 }
             }
-            self.set(Of::PocketStiffness, from, of_pocket[0]);
-            self.set(Of::PocketDamping, from, of_pocket[1]);
-            self.set(Of::PocketFriction, from, of_pocket[2]);
-            self.set(Of::DampingHeat, from, of_pocket[3]);
-            self.set(Of::FrictionHeat, from, of_pocket[4]);
-            from += R::GROUP;
+            own.pocket = Pressing {
+                stiffness: of_pocket[0],
+                damping: of_pocket[1],
+            };
+            own.pocket_friction = of_pocket[2];
+            own.damping_heat = of_pocket[3];
+            own.friction_heat = of_pocket[4];
         }
     }
 
@@ -311,32 +332,24 @@ impl<R: Real> BallTangents<R> {
         let inertia = g.grouped() * constants.inertia[1];
         let arms = &constants.arms;
         let mut sums = BallSums::<R, ENTRIES>::new(row.balls);
-        let mut from = 0;
-        while from < row.balls {
-            let spring_i = self.of(Of::InnerStiffness, from) * inverse_g;
-            let spring_o = self.of(Of::OuterStiffness, from) * inverse_g;
-            let spring_p = self.of(Of::PocketStiffness, from) * inverse_g;
-            let inner = self.of(Of::InnerDamping, from) + spring_i;
-            let outer = self.of(Of::OuterDamping, from) + spring_o;
-            let pocket = self.of(Of::PocketDamping, from) + spring_p;
-            let (ti, to) = (
-                self.of(Of::InnerTraction, from),
-                self.of(Of::OuterTraction, from),
-            );
-            let friction = self.of(Of::PocketFriction, from);
-            let pr = b.pocket_radius * self.of(Of::InverseRadius, from);
+        for (group, own) in self.groups.iter_mut().enumerate() {
+            for race in [&mut own.inner, &mut own.outer] {
+                race.pressing = race.pressing.joined(inverse_g);
+                race.turn = race.turn * inverse_g;
+                race.force = race.force * inverse_g;
+            }
+            let (inner, outer) = (own.inner.pressing.damping, own.outer.pressing.damping);
+            let (ti, to) = (own.inner.traction, own.outer.traction);
+            let wall = own.pocket.joined(inverse_g);
+            let (pocket, friction) = (wall.damping, own.pocket_friction);
+            let pr = b.pocket_radius * own.inverse_radius;
             let push = pocket * pr;
             let cross = friction * arms[1];
-            self.set(Of::InnerStiffness, from, spring_i);
-            self.set(Of::OuterStiffness, from, spring_o);
-            self.set(Of::PocketStiffness, from, spring_p * b.pocket_radius);
-            self.set(Of::InnerDamping, from, inner);
-            self.set(Of::OuterDamping, from, outer);
-            self.set(Of::PocketDamping, from, push);
-            self.set(Of::PocketFriction, from, cross);
-            for list in [Of::InnerTurn, Of::InnerForce, Of::OuterTurn, Of::OuterForce] {
-                self.set(list, from, self.of(list, from) * inverse_g);
-            }
+            own.pocket = Pressing {
+                stiffness: wall.stiffness * b.pocket_radius,
+                damping: push,
+            };
+            own.pocket_friction = cross;
 
             let a = gm + inner + outer;
             let (tt, ts) = (gm + ti + to + push * pr, to - ti);
@@ -345,10 +358,10 @@ impl<R: Real> BallTangents<R> {
             let inverse = (a * determinant).recip();
             let (inverse_a, inverse_det) = (determinant * inverse, a * inverse);
             let (i_tt, i_ts, i_ss) = (ss * inverse_det, -(ts * inverse_det), tt * inverse_det);
-            self.set(Of::Inverse, from, inverse_a);
-            self.set(Of::InverseTt, from, i_tt);
-            self.set(Of::InverseTs, from, i_ts);
-            self.set(Of::InverseSs, from, i_ss);
+            own.inverse = inverse_a;
+            own.inverse_tt = i_tt;
+            own.inverse_ts = i_ts;
+            own.inverse_ss = i_ss;
 
             let n_ii = inner - inner.square() * inverse_a;
             let n_io = -(inner * outer * inverse_a);
@@ -366,10 +379,10 @@ impl<R: Real> BallTangents<R> {
             let t_oc = push - (to_t * x_c[0] + to * x_c[1]);
             let t_cc = pocket + friction * arms[2] - (push * x_c[0] + cross * x_c[1]);
 
-            let (x, y) = (self.of(Of::DirectionX, from), self.of(Of::DirectionY, from));
+            let Vec2 { x, y } = own.places.e_r;
             let (xx, xy, yy) = (x.square(), x * y, y.square());
             sums.add(
-                from,
+                group * R::GROUP,
                 &[
                     n_ii * xx + t_ii * yy,
                     (n_ii - t_ii) * xy,
@@ -399,7 +412,6 @@ impl<R: Real> BallTangents<R> {
                     t_cc,
                 ],
             );
-            from += R::GROUP;
         }
         sums.total()
     }
@@ -417,54 +429,42 @@ impl<R: Real> BallTangents<R> {
         let (inner, outer) = (grouped(known.inner), grouped(known.outer));
         let cage = known.cage.grouped();
         let mut sums = BallSums::<R, ROWS>::new(row.balls);
-        let mut from = 0;
-        while from < row.balls {
-            let given = {
-                let lists = split(side, row.first, row.balls);
-                load_ball::<R>(&lists, from)
-            };
-            let (ti, to) = (
-                self.of(Of::InnerTraction, from),
-                self.of(Of::OuterTraction, from),
-            );
-            let e_r = Vec2::new(self.of(Of::DirectionX, from), self.of(Of::DirectionY, from));
+        let [radius, radial, azimuth, orbit, spin] = split_mut(side, row.first, row.balls);
+        for (group, own) in self.groups.iter().enumerate() {
+            let from = group * R::GROUP;
+            let at_radius = R::load_group(radius, from);
+            let turned = R::load_group(azimuth, from);
+            let e_r = own.places.e_r;
             let e_t = e_r.turned();
-            let inverse_radius = self.of(Of::InverseRadius, from);
-            let pr = b.pocket_radius * inverse_radius;
-            let turned = given.azimuth;
-            let q_i = self.of(Of::InnerStiffness, from) * (e_r.dot(inner) - given.radius)
-                + self.of(Of::InnerTurn, from) * turned;
-            let q_o = self.of(Of::OuterStiffness, from) * (given.radius - e_r.dot(outer))
-                + self.of(Of::OuterTurn, from) * turned;
-            let q_p = self.of(Of::PocketStiffness, from)
-                * (turned - e_t.dot(outer) * inverse_radius - cage);
+            let pr = b.pocket_radius * own.inverse_radius;
+            let (at_i, at_o) = (&own.inner, &own.outer);
+            let q_i = at_i.pressing.stiffness * (e_r.dot(inner) - at_radius) + at_i.turn * turned;
+            let q_o = at_o.pressing.stiffness * (at_radius - e_r.dot(outer)) + at_o.turn * turned;
+            let q_p = own.pocket.stiffness * (turned - e_t.dot(outer) * own.inverse_radius - cage);
 
-            let n = (b.mass * given.radial_speed + q_i - q_o) * self.of(Of::Inverse, from);
-            let on_t = b.mass * given.orbit_speed * self.of(Of::Radius, from) - pr * q_p;
-            let on_s = constants.inertia[0] * given.spin;
-            let i_ts = self.of(Of::InverseTs, from);
-            let t = self.of(Of::InverseTt, from) * on_t + i_ts * on_s;
-            let s = i_ts * on_t + self.of(Of::InverseSs, from) * on_s;
+            let n = (b.mass * R::load_group(radial, from) + q_i - q_o) * own.inverse;
+            let on_t = b.mass * R::load_group(orbit, from) * own.radius - pr * q_p;
+            let on_s = constants.inertia[0] * R::load_group(spin, from);
+            let t = own.inverse_tt * on_t + own.inverse_ts * on_s;
+            let s = own.inverse_ts * on_t + own.inverse_ss * on_s;
 
-            let pull_i = ti * (t - s);
-            let pull_o = to * (t + s);
-            let on_inner = e_r * (self.of(Of::InnerDamping, from) * n - q_i)
-                + e_t * (pull_i - self.of(Of::InnerForce, from) * turned);
-            let wall = self.of(Of::PocketDamping, from) * t + q_p;
-            let on_outer = e_r * (self.of(Of::OuterDamping, from) * n + q_o)
-                + e_t * (pull_o + pr * wall + self.of(Of::OuterForce, from) * turned);
-            let on_cage = wall + self.of(Of::PocketFriction, from) * s;
+            let pull_i = at_i.traction * (t - s);
+            let pull_o = at_o.traction * (t + s);
+            let on_inner = e_r * (at_i.pressing.damping * n - q_i)
+                + e_t * (pull_i - at_i.force * turned);
+            let wall = own.pocket.damping * t + q_p;
+            let on_outer = e_r * (at_o.pressing.damping * n + q_o)
+                + e_t * (pull_o + pr * wall + at_o.force * turned);
+            let on_cage = wall + own.pocket_friction * s;
             sums.add(
                 from,
                 &[
                     on_inner.x, on_inner.y, pull_i, on_outer.x, on_outer.y, on_cage,
                 ],
             );
-            let [_, radial, _, orbit, spin] = split_mut(side, row.first, row.balls);
             R::store_group(n, radial, from);
             R::store_group(t, orbit, from);
             R::store_group(s, spin, from);
-            from += R::GROUP;
         }
         sums.total()
     }
@@ -484,36 +484,30 @@ impl<R: Real> BallTangents<R> {
         let inner = grouped(Vec2::new(z[0], z[1]));
         let outer = grouped(Vec2::new(z[3], z[4]));
         let (race_spin, cage) = (z[2].grouped(), z[5].grouped());
-        let mut from = 0;
-        while from < row.balls {
-            let given = {
-                let lists = split(side, row.first, row.balls);
-                load_ball::<R>(&lists, from)
-            };
-            let e_r = Vec2::new(self.of(Of::DirectionX, from), self.of(Of::DirectionY, from));
+        let [radius, radial, azimuth, orbit, spin] = split_mut(side, row.first, row.balls);
+        for (group, own) in self.groups.iter().enumerate() {
+            let from = group * R::GROUP;
+            let e_r = own.places.e_r;
             let e_t = e_r.turned();
-            let pull_i = self.of(Of::InnerTraction, from) * (e_t.dot(inner) + race_spin);
+            let (at_i, at_o) = (&own.inner, &own.outer);
+            let pull_i = at_i.traction * (e_t.dot(inner) + race_spin);
             let past_outer = e_t.dot(outer);
-            let pull_o = self.of(Of::OuterTraction, from) * past_outer;
-            let inverse_radius = self.of(Of::InverseRadius, from);
-            let pr = b.pocket_radius * inverse_radius;
-            let on_t =
-                pull_i + pull_o + self.of(Of::PocketDamping, from) * (cage + pr * past_outer);
-            let on_s = pull_o - pull_i + self.of(Of::PocketFriction, from) * cage;
-            let pressed = self.of(Of::InnerDamping, from) * e_r.dot(inner)
-                + self.of(Of::OuterDamping, from) * e_r.dot(outer);
-            let i_ts = self.of(Of::InverseTs, from);
-            let n = given.radial_speed + pressed * self.of(Of::Inverse, from);
-            let t = given.orbit_speed + (self.of(Of::InverseTt, from) * on_t + i_ts * on_s);
-            let s = given.spin + (i_ts * on_t + self.of(Of::InverseSs, from) * on_s);
-            let orbit_speed = t * inverse_radius;
-            let [radius, radial, azimuth, orbit, spin] = split_mut(side, row.first, row.balls);
-            R::store_group((given.radius + n) * inverse_g, radius, from);
+            let pull_o = at_o.traction * past_outer;
+            let pr = b.pocket_radius * own.inverse_radius;
+            let on_t = pull_i + pull_o + own.pocket.damping * (cage + pr * past_outer);
+            let on_s = pull_o - pull_i + own.pocket_friction * cage;
+            let pressed =
+                at_i.pressing.damping * e_r.dot(inner) + at_o.pressing.damping * e_r.dot(outer);
+            let n = R::load_group(radial, from) + pressed * own.inverse;
+            let t = R::load_group(orbit, from) + (own.inverse_tt * on_t + own.inverse_ts * on_s);
+            let s = R::load_group(spin, from) + (own.inverse_ts * on_t + own.inverse_ss * on_s);
+            let orbit_speed = t * own.inverse_radius;
+            let (r, angle) = (R::load_group(radius, from), R::load_group(azimuth, from));
+            R::store_group((r + n) * inverse_g, radius, from);
             R::store_group(n, radial, from);
-            R::store_group((given.azimuth + orbit_speed) * inverse_g, azimuth, from);
+            R::store_group((angle + orbit_speed) * inverse_g, azimuth, from);
             R::store_group(orbit_speed, orbit, from);
             R::store_group(s * constants.inverse_radius, spin, from);
-            from += R::GROUP;
         }
     }
 
@@ -523,19 +517,17 @@ impl<R: Real> BallTangents<R> {
         let b = &row.ball;
         let cage = vector[1].grouped();
         let mut sums = BallSums::<R, 2>::new(row.balls);
-        let lists = split(vector, row.first, row.balls);
-        let mut from = 0;
-        while from < row.balls {
-            let ball = load_ball::<R>(&lists, from);
-            let closing = b.pocket_radius * (ball.orbit_speed - cage);
+        let [.., orbit, spin] = split(vector, row.first, row.balls);
+        for (group, own) in self.groups.iter().enumerate() {
+            let from = group * R::GROUP;
+            let closing = b.pocket_radius * (R::load_group(orbit, from) - cage);
             sums.add(
                 from,
                 &[
-                    self.of(Of::DampingHeat, from) * closing,
-                    self.of(Of::FrictionHeat, from) * (ball.spin - cage),
+                    own.damping_heat * closing,
+                    own.friction_heat * (R::load_group(spin, from) - cage),
                 ],
             );
-            from += R::GROUP;
         }
         sums.total()
     }
@@ -543,23 +535,20 @@ impl<R: Real> BallTangents<R> {
 
 /// Stiffness and damping of a ball at a race; none where it does not press.
 #[inline(always)]
-fn contact<G: Real>(b: &BallConstants<G>, stiffness: G, approach: G, force: G) -> [G; 2] {
+fn contact<G: Real>(b: &BallConstants<G>, stiffness: G, approach: G, force: G) -> Pressing<G> {
     let zero = G::zero();
     let slope = G::splat(1.5) * stiffness * approach.max(zero).sqrt();
     let slope = G::select(force.greater(zero), slope, zero);
-    [slope, slope * b.damping_time]
+    Pressing {
+        stiffness: slope,
+        damping: slope * b.damping_time,
+    }
 }
 
 /// ∂Q/∂θ of a contact whose race stands aside of the origin.
 #[inline(always)]
-fn turn<G: Real>(contact: &[G; 2], race: &RaceMotion<G>, e_r: Vec2<G>, orbit_speed: G) -> G {
-    let [k, c] = *contact;
+fn turn<G: Real>(contact: &Pressing<G>, race: &RaceMotion<G>, e_r: Vec2<G>, orbit_speed: G) -> G {
     let e_t = e_r.turned();
-    k * race.position.dot(e_t) + c * (race.velocity.dot(e_t) - race.position.dot(e_r) * orbit_speed)
-}
-
-/// Slope of the traction force over slip.
-#[inline(always)]
-fn loaded<G: Real>(slope: G, at: &SlidingContact<G>) -> G {
-    slope * at.load
+    contact.stiffness * race.position.dot(e_t)
+        + contact.damping * (race.velocity.dot(e_t) - race.position.dot(e_r) * orbit_speed)
 }
