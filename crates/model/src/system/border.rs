@@ -3,45 +3,48 @@
 use crate::bearing::tangents::{ENTRIES, ROWS};
 use number::Real;
 
-/// L D Lᵀ of a symmetric positive matrix in its lower triangle, without pivots; the reciprocals of D on the diagonal.
+/// L D Lᵀ of a symmetric positive matrix in its lower triangle, without pivots: L below the diagonal and its transpose above, so
+/// that both substitutions go along rows; the reciprocals of D on the diagonal.
 #[inline(always)]
 pub(super) fn factor<R: Real>(a: &mut [R], n: usize) {
     for k in 0..n {
         let inverse = a[k * (n + 1)].recip();
-        for i in k + 1..n {
-            let below = a[i * n + k];
-            let factor = below * inverse;
-            // the columns behind still hold the unscaled entries
-            for j in k + 1..=i {
-                a[i * n + j] -= factor * a[j * n + k];
+        a[k * (n + 1)] = inverse;
+        for j in k + 1..n {
+            a[k * n + j] = a[j * n + k];
+        }
+        let (above, below) = a.split_at_mut((k + 1) * n);
+        let column = &mut above[k * (n + 1) + 1..];
+        for (i, row) in below.chunks_exact_mut(n).enumerate() {
+            let factor = column[i] * inverse;
+            row[k] = factor;
+            for (entry, unscaled) in row[k + 1..].iter_mut().zip(&column[..=i]) {
+                *entry -= factor * *unscaled;
             }
         }
-        for i in k + 1..n {
-            a[i * n + k] *= inverse;
+        for entry in column {
+            *entry *= inverse;
         }
-        a[k * (n + 1)] = inverse;
     }
 }
 
 /// Solves with those factors, in place.
 #[inline(always)]
 pub(super) fn solve<R: Real>(a: &[R], n: usize, side: &mut [R]) {
-    for i in 1..n {
-        let mut value = side[i];
-        for j in 0..i {
-            value -= a[i * n + j] * side[j];
+    for (k, row) in a.chunks_exact(n).enumerate() {
+        let (known, rest) = side.split_at_mut(k + 1);
+        let value = known[k];
+        known[k] = value * row[k];
+        for (entry, factor) in rest.iter_mut().zip(&row[k + 1..]) {
+            *entry -= *factor * value;
         }
-        side[i] = value;
     }
-    for i in 0..n {
-        side[i] *= a[i * (n + 1)];
-    }
-    for i in (0..n).rev() {
-        let mut value = side[i];
-        for j in i + 1..n {
-            value -= a[j * n + i] * side[j];
+    for (k, row) in a.chunks_exact(n).enumerate().rev() {
+        let (rest, known) = side.split_at_mut(k);
+        let value = known[0];
+        for (entry, factor) in rest.iter_mut().zip(row) {
+            *entry -= *factor * value;
         }
-        side[i] = value;
     }
 }
 
