@@ -56,6 +56,8 @@ impl Scratch {
 pub(crate) trait StepData {
     fn start_state(&self, channel: usize) -> f64;
     fn end_state(&self, channel: usize) -> f64;
+    /// Copies the leading channels at the end.
+    fn copy_end(&self, into: &mut [f64]);
     /// Copies the leading channels of state and rates at the start and at the end.
     fn copy(&self, channels: usize, ends: &mut [Vec<f64>; 4]);
 }
@@ -72,6 +74,11 @@ impl<R: Real> StepData for LaneOf<'_, R> {
     }
     fn end_state(&self, channel: usize) -> f64 {
         self.work.next[channel].lane(self.lane)
+    }
+    fn copy_end(&self, into: &mut [f64]) {
+        for (value, lanes) in into.iter_mut().zip(&self.work.next) {
+            *value = lanes.lane(self.lane);
+        }
     }
     fn copy(&self, channels: usize, ends: &mut [Vec<f64>; 4]) {
         let w = self.work;
@@ -145,9 +152,7 @@ impl<M: Machine> Step<'_, M> {
         let scratch = &mut *self.scratch;
         let state = &mut scratch.state[..channels];
         if theta == 1.0 {
-            for (channel, value) in state.iter_mut().enumerate() {
-                *value = self.data.end_state(channel);
-            }
+            self.data.copy_end(state);
         } else {
             if scratch.copied < channels {
                 self.data.copy(channels, &mut scratch.ends);

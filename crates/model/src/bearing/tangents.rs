@@ -450,8 +450,8 @@ impl<R: Real> BallTangents<R> {
 
             let pull_i = at_i.traction * (t - s);
             let pull_o = at_o.traction * (t + s);
-            let on_inner = e_r * (at_i.pressing.damping * n - q_i)
-                + e_t * (pull_i - at_i.force * turned);
+            let on_inner =
+                e_r * (at_i.pressing.damping * n - q_i) + e_t * (pull_i - at_i.force * turned);
             let wall = own.pocket.damping * t + q_p;
             let on_outer = e_r * (at_o.pressing.damping * n + q_o)
                 + e_t * (pull_o + pr * wall + at_o.force * turned);

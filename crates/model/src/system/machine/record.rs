@@ -87,27 +87,19 @@ impl Record {
             return;
         }
         self.next_look = step.end + self.look_interval;
-        self.largest_translation = self.largest_translation.max(translation_at_end(step));
-        let machine = step.machine;
-        let time = step.end;
-        for (k, peak) in self.places.iter_mut().enumerate() {
-            let state = step.leading_state(1.0, machine.layout().rotor.channels());
-            peak.raise(machine.place(k, state).length_squared().sqrt(), time);
+        let (machine, time) = (step.machine, step.end);
+        let rotor = machine.layout().rotor;
+        let motion = rotor.motion(step.leading_state(1.0, rotor.channels()));
+        let content = (machine.one.rotor).content(&motion, machine.constants.gravity);
+        self.largest_translation = self.largest_translation.max(content.translation);
+        for (peak, place) in self.places.iter_mut().zip(&machine.places) {
+            let position = place.centre(&motion).position;
+            peak.raise(position.length_squared().sqrt(), time);
         }
         for bearing in &mut self.bearings {
             bearing.whirl_of(step);
         }
     }
-}
-
-/// Kinetic energy of the rotor's mass centres at the end of a step.
-fn translation_at_end(step: &mut Step<RotorMachine>) -> f64 {
-    let machine = step.machine;
-    let rotor = machine.layout().rotor;
-    let motion = rotor.motion(step.leading_state(1.0, rotor.channels()));
-    (machine.one.rotor)
-        .content(&motion, machine.constants.gravity)
-        .translation
 }
 
 impl Observer<RotorMachine> for Record {
