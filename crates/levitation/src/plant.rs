@@ -17,6 +17,8 @@ pub trait Coordinates: ComplexField<RealField = f64> {
     fn eigenvalues(matrix: DMatrix<Self>) -> Result<Vec<C64>, Refused>;
     /// As a complex number.
     fn complex(self) -> C64;
+    /// A rotor in the coordinates of its analysis at a speed, rad/s; `None` where one number does not stand for both planes.
+    fn plant(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Plant<Self>>;
 }
 
 impl Coordinates for f64 {
@@ -40,6 +42,9 @@ impl Coordinates for f64 {
     fn complex(self) -> C64 {
         C64::from(self)
     }
+    fn plant(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Plant<f64>> {
+        Some(Plant::planes(analysis, nodes, speed))
+    }
 }
 
 impl Coordinates for C64 {
@@ -55,6 +60,9 @@ impl Coordinates for C64 {
     }
     fn complex(self) -> C64 {
         self
+    }
+    fn plant(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Plant<C64>> {
+        Plant::turning(analysis, nodes, speed)
     }
 }
 
