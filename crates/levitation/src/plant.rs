@@ -17,8 +17,8 @@ pub trait Coordinates: ComplexField<RealField = f64> {
     fn eigenvalues(matrix: DMatrix<Self>) -> Result<Vec<C64>, Refused>;
     /// As a complex number.
     fn complex(self) -> C64;
-    /// A rotor in the coordinates of its analysis at a speed, rad/s; `None` where one number does not stand for both planes.
-    fn plant(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Plant<Self>>;
+    /// From a complex number; over real coordinates it has no imaginary part.
+    fn of(value: C64) -> Self;
 }
 
 impl Coordinates for f64 {
@@ -42,8 +42,8 @@ impl Coordinates for f64 {
     fn complex(self) -> C64 {
         C64::from(self)
     }
-    fn plant(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Plant<f64>> {
-        Some(Plant::planes(analysis, nodes, speed))
+    fn of(value: C64) -> f64 {
+        value.re
     }
 }
 
@@ -61,8 +61,8 @@ impl Coordinates for C64 {
     fn complex(self) -> C64 {
         self
     }
-    fn plant(analysis: &Analysis, nodes: usize, speed: f64) -> Option<Plant<C64>> {
-        Plant::turning(analysis, nodes, speed)
+    fn of(value: C64) -> C64 {
+        value
     }
 }
 

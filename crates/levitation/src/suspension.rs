@@ -5,7 +5,7 @@
 use crate::plant::Coordinates;
 use crate::{C64, ClosedLoop, Levitation, Plant, Refused};
 use nalgebra::DMatrix;
-use rotor::{Analysis, Feedback, RotorError};
+use rotor::{Analysis, Dynamics, Feedback, RotorError};
 use std::sync::Arc;
 
 /// The levitation of a rotor in the coordinates of an analysis.
@@ -76,10 +76,11 @@ impl<T: Coordinates> Feedback for Suspension<T> {
         ))
     }
 
-    fn eigenvalues(&self, analysis: &Analysis, speed: f64) -> Result<Vec<C64>, RotorError> {
-        let nodes = self.closed.plant.nodes.nrows();
+    fn eigenvalues(&self, dynamics: &Dynamics<C64>) -> Result<Vec<C64>, RotorError> {
         let mut closed = self.closed.clone();
-        closed.plant = T::plant(analysis, nodes, speed).ok_or(RotorError::NotConverged)?;
+        closed.plant.mass = dynamics.mass.map(T::of);
+        closed.plant.damping = dynamics.damping.map(T::of);
+        closed.plant.stiffness = dynamics.stiffness.map(T::of);
         (closed.composed().and_then(T::eigenvalues)).map_err(|_| RotorError::NotConverged)
     }
 

@@ -1,6 +1,6 @@
 //! A rotor at a speed with everything that holds it: λ²M + λC + K and, where there are magnets, what their controllers add.
 
-use crate::{Analysis, C64, Dynamics, RotorError};
+use crate::{C64, Dynamics, RotorError};
 use nalgebra::{DMatrix, DVector};
 
 /// What holds a rotor by forces that follow from its motion through states of their own, as magnets and controllers do.
@@ -11,12 +11,12 @@ pub trait Feedback: std::fmt::Debug + Send + Sync {
     /// Dynamic stiffness at λ and its derivative by λ, over the coordinates of the analysis: complex ones where it [turns](Self::turns),
     /// else those of both planes.
     fn stiffness(&self, eigenvalue: C64) -> Option<(DMatrix<C64>, DMatrix<C64>)>;
-    /// All eigenvalues of a rotor with it at a speed, rad/s; over real coordinates conjugates count.
+    /// All eigenvalues of a rotor with it, in the coordinates of the analysis; over real ones conjugates count.
     ///
     /// # Errors
     ///
     /// Where the eigen-solver does not converge.
-    fn eigenvalues(&self, analysis: &Analysis, speed: f64) -> Result<Vec<C64>, RotorError>;
+    fn eigenvalues(&self, dynamics: &Dynamics<C64>) -> Result<Vec<C64>, RotorError>;
     /// Whether it treats every direction alike.
     fn turns(&self) -> bool;
 }

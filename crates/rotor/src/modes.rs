@@ -154,7 +154,7 @@ impl Analysis {
     /// Where the eigen-solver does not converge or the mass matrix is singular.
     pub fn eigenvalues(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
         if let Some(feedback) = &self.feedback {
-            let mut all = feedback.eigenvalues(self, speed)?;
+            let mut all = feedback.eigenvalues(&self.dynamics(speed).dynamics)?;
             all.retain(|z| self.turns || z.im >= 0.0);
             return Ok(all);
         }
