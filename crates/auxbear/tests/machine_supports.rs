@@ -91,7 +91,7 @@ fn energy_closes_with_a_support_that_stays() {
     assert!(number(&run, "angular_momentum_residual").abs() < 1e-6);
 }
 
-/// Supports that all stay: the rotor runs up on them through √(2k/m) = 499 rad/s, or hangs there where its drive is weak. A whirl at
+/// Supports that all stay: the rotor runs up on them through √(2k/m) = 499 rad/s, less what it bends, or hangs there where its drive is weak. A whirl at
 /// the critical speed has A = e/(2ζ) = 2.5 mm there and takes 2cωA² = 0.6 N m.
 #[test]
 fn a_weak_drive_hangs_at_a_critical_speed_and_a_strong_one_runs_through() {
@@ -102,10 +102,12 @@ fn a_weak_drive_hangs_at_a_critical_speed_and_a_strong_one_runs_through() {
         )
         .replace("damping = \"1000 N s/m\"", "damping = \"100 N s/m\"")
         .replace("40 g mm", "1000 g mm")
-        .replace("0.25 mm", "6 mm");
+        .replace("0.25 mm", "6 mm")
+        .replace("2e4 GPa", "200 GPa");
     let reached = |torque: f64, seconds: f64| {
         let sets = [
-            "rotor.speed=440 rad/s".to_string(),
+            "rotor.speed=460 rad/s".to_string(),
+            "run.accuracy=screening".to_string(),
             format!("rotor.drive_torque={torque} N m"),
             format!("run.duration={seconds} s"),
         ];
@@ -115,9 +117,9 @@ fn a_weak_drive_hangs_at_a_critical_speed_and_a_strong_one_runs_through() {
         assert!(number(&run, "energy_residual").abs() < 1e-6);
         number(&run, "rotor_final_speed")
     };
-    // without the whirl 0.3 N m give 30 rad/s² and would be at 545 rad/s
-    let hangs = reached(0.3, 3.5);
-    assert!(hangs > 470.0 && hangs < 499.0, "{hangs}");
+    // without the whirl 0.5 N m give 48 rad/s² and would be at 537 rad/s
+    let hangs = reached(0.5, 1.6);
+    assert!(hangs > 480.0 && hangs < 497.0, "{hangs}");
     let through = reached(3.0, 0.5);
-    assert!(through > 540.0, "{through}");
+    assert!(through > 580.0, "{through}");
 }
