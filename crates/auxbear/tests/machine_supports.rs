@@ -1,6 +1,6 @@
 //! What acts on a bent rotor before and after its release: seals, and supports that stay.
 
-use crate::machine::{STIFF, number, parsed, ran};
+use crate::machine::{STIFF, number, ran};
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
