@@ -302,11 +302,11 @@ function levitationFigures(run, runs) {
   const rows = magnetAxes(run).map(({ label, begin }) => {
     const at = (name) => numberOf(run, `${begin}.${name}`);
     const stiffness = at("static_stiffness");
-    return [label, stiffness === null ? quantityOf(run, `${begin}.static_stiffness`).why : siText(stiffness, "N/m"), engineeringText(at("static_current"), "A", 4), engineeringText(at("static_displacement"), "m", 4), engineeringText(at("unbalance_current"), "A", 4), numberText(at("standstill.sensitivity_peak"), 4), numberText(at("rated.sensitivity_peak"), 4), `${numberText(at("rated.sensitivity_peak_frequency"), 4)} Hz`, quantityOf(run, `${begin}.rated.zone`).value];
+    return [label, stiffness === null ? quantityOf(run, `${begin}.static_stiffness`).why : siText(stiffness, "N/m"), engineeringText(at("static_current"), "A", 4), engineeringText(at("static_displacement"), "m", 4), engineeringText(at("unbalance_current"), "A", 4), numberText(at("standstill.sensitivity_peak"), 4), numberText(at("rated.sensitivity_peak"), 4), `${numberText(at("rated.sensitivity_peak_frequency"), 4)} Hz`, ["standstill", "rated"].map((when) => quantityOf(run, `${begin}.${when}.zone`).value).sort().pop()];
   });
   const rated = speedText(numberOf(run, "rated_speed"));
   return [
-    figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone"], rows)),
+    figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone of both"], rows)),
     figure(shareOfRun(run, runs, "Sensitivity at standstill"), null, sensitivityCurves(run, "standstill")),
     figure(shareOfRun(run, runs, `Sensitivity at ${rated}`), null, sensitivityCurves(run, "rated")),
     figure(shareOfRun(run, runs, `Open loops at ${rated} (Nyquist)`), "One axis opened, all others closed: the distance from -1 is 1/|S|. A loop that stays outside a circle keeps the sensitivity below its bound.", nyquistCurves(run, "rated")),
