@@ -159,7 +159,7 @@ impl<T: Coordinates> ClosedLoop<T> {
         Ok(out)
     }
 
-    fn composed(&self) -> Result<DMatrix<T>, Refused> {
+    pub(crate) fn composed(&self) -> Result<DMatrix<T>, Refused> {
         let size = self.plant.size();
         let control = &self.control;
         let of = |m: &DMatrix<f64>| m.map(T::from_real);

@@ -8,6 +8,7 @@
 //! [`Levitation`] holds everything below the rotor and gives the rates of its states; [`LinearControl`] takes its matrices
 //! from those rates, so that analysis and time run have the same. [`ClosedLoop`] couples them with a [`Plant`]: M q̈ + D q̇ + K q = F
 //! at one speed, over complex coordinates w = x + jy where both directions are alike, else over real ones (x-plane, then y-plane).
+//! [`suspension`] is the same as what holds a rotor in its own analyses over speed.
 //!
 //! k_s > 0 pushes away from the magnet's centre. Signs and frames are those of NOTATION.md.
 //!
@@ -27,6 +28,7 @@ mod resolvent;
 pub mod response;
 pub mod sensitivity;
 mod state_space;
+mod suspension;
 
 pub use closed_loop::{ClosedLoop, Pole, Verdict, ZERO, verdict};
 pub use levitation::{Levitation, Signals};
@@ -36,6 +38,7 @@ pub use plant::{Coordinates, Plant, weight};
 pub use refused::Refused;
 pub use resolvent::{Resolvent, Transfer};
 pub use state_space::StateSpace;
+pub use suspension::suspension;
 
 /// A complex number in double precision.
 pub type C64 = nalgebra::Complex<f64>;

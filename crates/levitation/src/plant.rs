@@ -17,6 +17,8 @@ pub trait Coordinates: ComplexField<RealField = f64> {
     fn eigenvalues(matrix: DMatrix<Self>) -> Result<Vec<C64>, Refused>;
     /// As a complex number.
     fn complex(self) -> C64;
+    /// From a complex number; over real coordinates it has no imaginary part.
+    fn of(value: C64) -> Self;
 }
 
 impl Coordinates for f64 {
@@ -40,6 +42,9 @@ impl Coordinates for f64 {
     fn complex(self) -> C64 {
         C64::from(self)
     }
+    fn of(value: C64) -> f64 {
+        value.re
+    }
 }
 
 impl Coordinates for C64 {
@@ -55,6 +60,9 @@ impl Coordinates for C64 {
     }
     fn complex(self) -> C64 {
         self
+    }
+    fn of(value: C64) -> C64 {
+        value
     }
 }
 

@@ -9,8 +9,9 @@ mod reference;
 
 use levitation::response::{equilibrium, impulse, start, unbalance};
 use levitation::sensitivity::{Axes, Band, Sensitivity};
-use levitation::{C64, ClosedLoop, Verdict, verdict, weight};
+use levitation::{C64, ClosedLoop, Verdict, suspension, verdict, weight};
 use reference::{Basis, File, complex};
+use rotor::{Block, Coefficients, Place, Responder, Support, Whirl};
 use serde_json::Value;
 use std::f64::consts::TAU;
 
@@ -149,6 +150,65 @@ fn unbalance_response() {
                 .collect();
             println!("{speed}: {:.1e}, {:.1e}", share(&moved), share(&currents));
             assert!(share(&moved) < tolerance && share(&currents) < tolerance);
+        }
+    }
+}
+
+/// Magnets as a support of the rotor's own analyses, in one plane and in two: modes with their sense, response to unbalance and
+/// critical speeds are those of the closed loop.
+#[test]
+fn analyses_of_the_rotor_know_its_magnets() {
+    let (even, mut file) = (File::levitated(), File::levitated());
+    for equal in [true, false] {
+        if !equal {
+            let mut uneven = Block::default();
+            uneven.stiffness[1][1] = 1e-6;
+            file.rotor.supports.push(Support {
+                at: Place::Node(3),
+                on: None,
+                coefficients: Coefficients::constant(uneven),
+                seal: false,
+            });
+        }
+        let analysis = file.analysis(Basis::Reduced);
+        let count = file.rotor.nodes.len();
+        let held = suspension(&analysis, count, &file.levitation(0.3)).unwrap();
+        let analysis = analysis.held_by(held);
+        assert_eq!(analysis.turns(), equal);
+        let responder = Responder::within(&analysis);
+        for result in file.results() {
+            let speed = number(result, "speed_rad_s");
+            let known = list(result, "eigenvalues").iter().map(complex);
+            let known: Vec<C64> = known.collect();
+            for mode in analysis.modes(speed, 8).unwrap() {
+                let own = match mode.whirl {
+                    Whirl::Backward => mode.eigenvalue.conj(),
+                    _ => mode.eigenvalue,
+                };
+                let distance = known.iter().map(|z| (z - own).norm());
+                let nearest = distance.fold(f64::INFINITY, f64::min);
+                assert!(nearest < 1e-5 * own.norm(), "{speed}: {own} {nearest:.1e}");
+            }
+            let Some(reference) = result.get("unbalance_response") else {
+                continue;
+            };
+            let ours = responder.unbalance(&file.unbalance(), speed).unwrap();
+            let moved = nodes(reference).into_iter().zip(list(reference, "w"));
+            let moved: Vec<_> = moved
+                .map(|(node, w)| (ours.forward[2 * node], complex(w)))
+                .collect();
+            assert!(share(&moved) < 2e-5, "{speed}: {:.1e}", share(&moved));
+        }
+        let speeds: Vec<f64> = (0..=60).map(|k| 25.0 * f64::from(k)).collect();
+        let diagram = analysis.campbell(&speeds, 3000.0).unwrap();
+        let criticals = analysis.criticals(&diagram);
+        assert!(criticals.len() >= 4, "{}", criticals.len());
+        for critical in &criticals {
+            let poles = even.turning(Basis::Reduced, critical.speed).poles();
+            let nearest = (poles.unwrap().iter())
+                .map(|pole| (pole.value.im.abs() - critical.speed).abs())
+                .fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-7 * critical.speed, "{}", critical.speed);
         }
     }
 }

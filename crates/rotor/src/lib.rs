@@ -13,7 +13,7 @@
 //!
 //! M q̈ - jΩG q̇ + D_e q̇ + D_i(q̇ - jΩq) + K q = F,    q = (w₀, ψ₀, w₁, ψ₁, …, housings)
 //!
-//! Supports, seals and magnets may be anything; their forces are F_x + jF_y. Where they treat x and y differently the same
+//! Supports and seals may be anything; their forces are F_x + jF_y. Magnets are a [`Feedback`]. Where they treat x and y differently the same
 //! equation is written in real coordinates (x-plane first, then y-plane), twice as many.
 //!
 //! What it does not model: torsion and axial motion, stress stiffening, shafts that are not round, large tilt,
@@ -26,6 +26,7 @@ mod basis;
 mod campbell;
 mod element;
 mod error;
+mod feedback;
 mod material;
 mod mesh;
 mod modes;
@@ -40,12 +41,13 @@ pub use basis::{Basis, unit_forces};
 pub use campbell::{Branch, Campbell, Critical};
 pub use element::{Annulus, Element, ElementMatrices};
 pub use error::RotorError;
+pub use feedback::Feedback;
 pub use material::{MATERIALS, Material};
 pub use mesh::{Layer, Mesh, MeshError, mesh};
 pub use modes::{Analysis, Mode, Whirl};
 pub use parts::{Disk, Housing, PointMass, Rotor, Unbalance};
 pub use properties::{Properties, properties};
-pub use response::{Responder, Response, Sag, held, sag};
+pub use response::{Responder, Response, Sag, held, loads, sag};
 pub use stiffness_map::{MapPoint, stiffness_map};
 pub use support::{Block, Coefficients, Place, Support};
 

@@ -6,8 +6,10 @@
 //! turns with the spin (forward), Im λ < 0 against it. Else the real form, whose shapes tell the sense.
 
 use crate::assembly::Carried;
+use crate::feedback::{Feedback, Whole};
 use crate::{Basis, C64, Dynamics, Matrices, Rotor, RotorError};
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+use std::sync::Arc;
 
 /// Sense of whirl.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,12 +57,16 @@ pub struct Analysis {
     /// Matrices in those coordinates.
     pub(crate) matrices: Matrices,
     pub(crate) carried: Carried,
+    /// What holds the rotor besides its supports.
+    pub(crate) feedback: Option<Arc<dyn Feedback>>,
     turns: bool,
     nodes: usize,
 }
 
 /// Below this share of |λ| the imaginary part is no oscillation.
 const OSCILLATION: f64 = 0.01;
+/// The same where controllers hold the rotor: pairs of integrators and filters hardly oscillate.
+const OSCILLATION_OF_FILTERS: f64 = 0.1;
 /// Below this, rad/s, it is a rigid motion.
 const RIGID_BELOW: f64 = 0.01;
 /// Difference of the shares of both senses below which a whirl is planar.
@@ -77,10 +83,19 @@ impl Analysis {
         Self {
             matrices: own,
             carried: Carried::new(rotor).project(&basis.shapes),
+            feedback: None,
             turns: rotor.turns(),
             nodes: rotor.nodes.len(),
             basis,
         }
+    }
+
+    /// The same rotor held by magnets besides its supports.
+    #[must_use]
+    pub fn held_by(mut self, feedback: Arc<dyn Feedback>) -> Self {
+        self.turns &= feedback.turns();
+        self.feedback = Some(feedback);
+        self
     }
 
     /// A rotor in all its coordinates.
@@ -113,16 +128,22 @@ impl Analysis {
         self.matrices.real(&self.carried, speed)
     }
 
-    /// The system at a speed over complex numbers; in real coordinates where a support treats x and y differently.
-    pub(crate) fn dynamics(&self, speed: f64) -> Dynamics<C64> {
-        if self.turns {
-            return self.matrices.complex(&self.carried, speed);
-        }
-        let real = self.matrices.real(&self.carried, speed);
-        Dynamics {
-            mass: real.mass.map(C64::from),
-            damping: real.damping.map(C64::from),
-            stiffness: real.stiffness.map(C64::from),
+    /// The system at a speed over complex numbers; in real coordinates where something treats x and y differently.
+    pub(crate) fn dynamics(&self, speed: f64) -> Whole<'_> {
+        let dynamics = match self.turns {
+            true => self.matrices.complex(&self.carried, speed),
+            false => {
+                let real = self.matrices.real(&self.carried, speed);
+                Dynamics {
+                    mass: real.mass.map(C64::from),
+                    damping: real.damping.map(C64::from),
+                    stiffness: real.stiffness.map(C64::from),
+                }
+            }
+        };
+        Whole {
+            dynamics,
+            feedback: self.feedback.as_deref(),
         }
     }
 
@@ -132,6 +153,11 @@ impl Analysis {
     ///
     /// Where the eigen-solver does not converge or the mass matrix is singular.
     pub fn eigenvalues(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
+        if let Some(feedback) = &self.feedback {
+            let mut all = feedback.eigenvalues(&self.dynamics(speed).dynamics)?;
+            all.retain(|z| self.turns || z.im >= 0.0);
+            return Ok(all);
+        }
         if self.turns {
             let state = state_matrix(&self.matrices.complex(&self.carried, speed))?;
             let (_, triangle) = schur(state)?.unpack();
@@ -149,7 +175,11 @@ impl Analysis {
     /// As [`Analysis::eigenvalues`].
     pub fn oscillations(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
         let mut all = self.eigenvalues(speed)?;
-        all.retain(|z| z.im.abs() > OSCILLATION * z.norm() && z.im.abs() > RIGID_BELOW);
+        let least = match self.feedback {
+            Some(_) => OSCILLATION_OF_FILTERS,
+            None => OSCILLATION,
+        };
+        all.retain(|z| z.im.abs() > least * z.norm() && z.im.abs() > RIGID_BELOW);
         all.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()));
         Ok(all)
     }
@@ -247,68 +277,6 @@ pub(crate) fn split(x: &DVector<C64>, y: &DVector<C64>) -> (DVector<C64>, DVecto
         x.zip_map(y, |x, y| (x + j * y) * 0.5),
         x.zip_map(y, |x, y| (x - j * y) * 0.5),
     )
-}
-
-impl Dynamics<C64> {
-    /// λ²M + λC + K.
-    fn at(&self, eigenvalue: C64) -> DMatrix<C64> {
-        let square = eigenvalue * eigenvalue;
-        let mut out = self.stiffness.clone();
-        for ((to, m), c) in out.iter_mut().zip(&self.mass).zip(&self.damping) {
-            *to += square * m + eigenvalue * c;
-        }
-        out
-    }
-
-    /// A start vector that no mode is orthogonal to by symmetry; another for another `k`.
-    fn start(&self, k: usize) -> DVector<C64> {
-        DVector::from_fn(self.mass.nrows(), |i, _| {
-            let phase = (i as f64 + 1.0) * (1.0 + 0.37 * k as f64);
-            C64::new(phase.cos(), (1.7 * phase).sin())
-        })
-    }
-
-    /// The vector of an eigenvalue by inverse iteration.
-    fn vector(&self, eigenvalue: C64, start: &DVector<C64>) -> Result<DVector<C64>, RotorError> {
-        // Beside the eigenvalue, so that the factor exists: far below the distance to any other.
-        let beside = eigenvalue * C64::new(1.0 + 1e-11, 1e-11) + 1e-11;
-        let factor = self.at(beside).lu();
-        let mut vector = start.clone();
-        for _ in 0..3 {
-            let image = self.slope(eigenvalue, &vector);
-            vector = factor.solve(&image).ok_or(RotorError::NotConverged)?;
-            let length = vector.norm();
-            vector /= C64::from(length);
-        }
-        Ok(vector)
-    }
-
-    /// (2λM + C)x.
-    fn slope(&self, eigenvalue: C64, vector: &DVector<C64>) -> DVector<C64> {
-        (&self.mass * vector) * (eigenvalue * 2.0) + &self.damping * vector
-    }
-
-    /// The eigenvalue and vector that Newton's iteration finds from those of a system nearby; `None` where it finds none.
-    pub(crate) fn follow(&self, from: C64, vector: &DVector<C64>) -> Option<(C64, DVector<C64>)> {
-        const STEPS: usize = 12;
-        let (mut value, mut vector) = (from, vector.clone());
-        for _ in 0..STEPS {
-            let image = self.slope(value, &vector);
-            let next = match self.at(value).lu().solve(&image) {
-                Some(next) if next.iter().all(|z| z.re.is_finite() && z.im.is_finite()) => next,
-                // The value is exact to the last digit: its factor does not exist.
-                _ => return Some((value, vector)),
-            };
-            let share = vector.dotc(&next);
-            let step = C64::from(1.0) / share;
-            vector = &next / C64::from(next.norm());
-            value -= step;
-            if step.norm() <= 1e-13 * value.norm() {
-                return Some((value, vector));
-            }
-        }
-        None
-    }
 }
 
 /// The first-order form: ż₁ = Wη̇, η̈ = -M⁻¹(K W⁻¹z₁ + Cη̇) with z₁ = Wη and W the frequencies of the single coordinates.

@@ -4,9 +4,11 @@
 //! the angle of the rotor; b = 0 where every support turns with the rotor.
 
 use crate::assembly::Carried;
+use crate::feedback::{Feedback, Whole};
 use crate::modes::split;
-use crate::{Analysis, C64, Matrices, Place, Rotor, RotorError, Unbalance};
+use crate::{Analysis, C64, Dynamics, Matrices, Place, Rotor, RotorError, Unbalance};
 use nalgebra::{DMatrix, DVector};
+use std::sync::Arc;
 
 /// How a rotor whirls under its unbalance at one speed.
 #[derive(Debug, Clone)]
@@ -46,6 +48,7 @@ impl Response {
 pub struct Responder {
     matrices: Matrices,
     carried: Carried,
+    feedback: Option<Arc<dyn Feedback>>,
     turns: bool,
     /// The coordinates that it is solved in; the rotor's own without.
     basis: Option<DMatrix<f64>>,
@@ -54,11 +57,12 @@ pub struct Responder {
 impl Responder {
     /// Of a rotor in the coordinates of an analysis.
     #[must_use]
-    pub fn within(rotor: &Rotor, analysis: &Analysis) -> Self {
+    pub fn within(analysis: &Analysis) -> Self {
         Self {
             matrices: analysis.matrices.clone(),
             carried: analysis.carried.clone(),
-            turns: rotor.turns(),
+            feedback: analysis.feedback.clone(),
+            turns: analysis.turns(),
             basis: Some(analysis.basis.shapes.clone()),
         }
     }
@@ -69,6 +73,7 @@ impl Responder {
         Self {
             matrices: Matrices::new(rotor),
             carried: Carried::new(rotor),
+            feedback: None,
             turns: rotor.turns(),
             basis: None,
         }
@@ -93,14 +98,15 @@ impl Responder {
                 }
             }
         }
+        let answer = |dynamics: Dynamics<C64>, force: &DVector<C64>| {
+            let feedback = self.feedback.as_deref();
+            let whole = Whole { dynamics, feedback };
+            let (system, _) = whole.at(C64::i() * speed).ok_or(RotorError::NotHeld)?;
+            system.lu().solve(force).ok_or(RotorError::NotHeld)
+        };
         let (forward, backward) = if self.turns {
             let system = self.matrices.complex(&self.carried, speed);
-            let solution = dynamic(&system.mass, &system.damping, &system.stiffness, speed)
-                .lu()
-                .solve(&force)
-                .ok_or(RotorError::NotHeld)?;
-            let zero = DVector::zeros(size);
-            (solution, zero)
+            (answer(system, &force)?, DVector::zeros(size))
         } else {
             let system = self.matrices.real(&self.carried, speed);
             let [mass, damping, stiffness] =
@@ -109,10 +115,12 @@ impl Responder {
             both.rows_mut(0, size).copy_from(&force);
             both.rows_mut(size, size)
                 .copy_from(&force.map(|f| -C64::i() * f));
-            let solution = dynamic(&mass, &damping, &stiffness, speed)
-                .lu()
-                .solve(&both)
-                .ok_or(RotorError::NotHeld)?;
+            let system = Dynamics {
+                mass,
+                damping,
+                stiffness,
+            };
+            let solution = answer(system, &both)?;
             let part = |from: usize| solution.rows(from, size).into_owned();
             split(&part(0), &part(size))
         };
@@ -128,20 +136,6 @@ impl Responder {
             backward: lift(backward),
         })
     }
-}
-
-/// K - Ω²M + jΩC.
-fn dynamic(
-    mass: &DMatrix<C64>,
-    damping: &DMatrix<C64>,
-    stiffness: &DMatrix<C64>,
-    speed: f64,
-) -> DMatrix<C64> {
-    let mut out = stiffness.clone();
-    for ((to, m), c) in out.iter_mut().zip(mass).zip(damping) {
-        *to += C64::i() * speed * c - m * (speed * speed);
-    }
-    out
 }
 
 /// The rotor at rest under its weight.
@@ -188,6 +182,15 @@ pub fn sag(rotor: &Rotor, speed: f64, gravity: C64) -> Result<Sag, RotorError> {
         .copy_from(&(&weight * gravity.im));
     let solution = stiffness.lu().solve(&force).ok_or(RotorError::NotHeld)?;
     let shape = DVector::from_fn(size, |i, _| C64::new(solution[i], solution[size + i]));
+    Ok(Sag {
+        loads: loads(rotor, speed, &shape),
+        shape,
+    })
+}
+
+/// Force of each support on what it holds in a shape at rest, x + jy, N, with its stiffness at a speed, rad/s; zero of seals.
+#[must_use]
+pub fn loads(rotor: &Rotor, speed: f64, shape: &DVector<C64>) -> Vec<C64> {
     let loads = rotor.supports.iter().map(|support| {
         if support.seal {
             return C64::default();
@@ -202,10 +205,7 @@ pub fn sag(rotor: &Rotor, speed: f64, gravity: C64) -> Result<Sag, RotorError> {
             k[1][0] * across.re + k[1][1] * across.im,
         )
     });
-    Ok(Sag {
-        loads: loads.collect(),
-        shape,
-    })
+    loads.collect()
 }
 
 /// Refuses a rotor whose supports (without seals) leave a rigid motion of shaft or housings free at a speed, rad/s.

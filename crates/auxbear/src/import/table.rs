@@ -183,17 +183,24 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                 .disks
                 .push((format!("disk_{}", draft.disks.len() + 1), disk));
         }
+        let start = Annulus { outer, inner };
+        let end = Annulus {
+            outer: number("outer diameter end")?.unwrap_or(outer),
+            inner: number("inner diameter end")?.unwrap_or(inner),
+        };
+        if let Some(own) = [start, end].iter().find(|own| own.inner >= own.outer) {
+            let found = format!("an inner diameter of {} m in {} m", own.inner, own.outer);
+            let allowed = "an inner diameter below the outer one is needed";
+            return Err(Box::new(problem(line, found, allowed)));
+        }
         draft.nodes.push(draft.nodes[left] + length);
         draft.pieces.push((
             index,
             Element {
                 left,
                 length,
-                start: Annulus { outer, inner },
-                end: Annulus {
-                    outer: number("outer diameter end")?.unwrap_or(outer),
-                    inner: number("inner diameter end")?.unwrap_or(inner),
-                },
+                start,
+                end,
                 material,
                 carries: true,
                 damping_of_mass: 0.0,

@@ -14,7 +14,7 @@ pub(crate) fn holds(
     poles: &[Pole],
     speed: f64,
 ) -> Result<(), Box<Problem>> {
-    let at = format!("at {} rad/s", units::number_text(speed));
+    let at = format!("at {speed:.1} rad/s");
     let problem = match verdict(poles) {
         Verdict::Stable => return Ok(()),
         Verdict::Unstable(value) => {

@@ -382,6 +382,7 @@ fn a_table_of_sections_becomes_a_shaft() {
         ("length [mm]", "len [mm]", "a header without length"),
         ("100;40;0;steel", "100;-40;0;steel", "AB2006"),
         ("titanium", "wood", "a row without material"),
+        ("60;12", "60;70", "csv:3: found an inner diameter of 0.07 m"),
     ] {
         let told = import(&file("wrong.csv", &TABLE.replacen(old, new, 1)))
             .map(|_| ())

@@ -27,7 +27,7 @@ pub(crate) struct Asked<'a> {
     pub(crate) matrices: Matrices,
     /// The rotor in the coordinates of the diagrams.
     pub(crate) within: Analysis,
-    /// Whether supports hold it at rest.
+    /// Whether supports or magnets hold it at rest.
     pub(crate) held: bool,
     /// The closed loop with its magnets.
     pub(crate) levitated: Option<Levitated>,
@@ -60,20 +60,21 @@ impl<'a> Asked<'a> {
         let matrices = Matrices::new(rotor);
         let full = Basis::full(rotor, &matrices).map_err(|error| no_answer(error, "rotor"))?;
         let followed = analysis.frequency_to.max(analysis.speed_to);
-        let basis = match full.len() {
-            small if small <= SMALL => full.clone(),
+        let magnets = analysis.model.levitation.as_ref();
+        let basis = match (full.len(), magnets) {
+            (small, _) if small <= SMALL => full.clone(),
+            (_, Some(model)) => levitated::basis(analysis, model, &full, &matrices)?,
             _ => (full.for_analysis(rotor, &matrices, analysis.cutoff, followed))
                 .map_err(|error| no_answer(error, "rotor"))?,
         };
         let within = Analysis::new(rotor, &matrices, basis);
-        let held = rotor::held(rotor, analysis.speed).is_ok();
-        let supported = rotor.bearings().count() > 0;
-        let levitated = (analysis.model.levitation.as_ref())
-            .map(|model| levitated::find(analysis, model, &full, &matrices))
+        let levitated = magnets
+            .map(|model| levitated::find(analysis, model, &within))
             .transpose()?;
-        let needs = if levitated.is_some() {
-            None
-        } else if supported {
+        let within = levitated::on_magnets(within, &analysis.model)?;
+        let held = levitated.is_some() || rotor::held(rotor, analysis.speed).is_ok();
+        let supported = rotor.bearings().count() > 0;
+        let needs = if supported {
             Some("a rotor on supports that leave a motion free")
         } else if !rotor.unbalance.is_empty() {
             Some("unbalance, but no [[rotor.support]]")
@@ -116,7 +117,7 @@ impl<'a> Asked<'a> {
         self.within.modes(self.analysis.speed, self.analysis.modes)
     }
 
-    /// Places whose response is shown: named nodes, disks, supports, unbalances, a node once, by its first name; parts without
+    /// Places whose response is shown: named nodes, magnets, sensors, disks, supports, unbalances, a node once, by its first name; parts without
     /// a name where nothing has one.
     pub(crate) fn watched(&self) -> Vec<(String, usize)> {
         let all = self.places();
@@ -140,15 +141,20 @@ impl<'a> Asked<'a> {
         let mut out: Vec<(String, usize, bool)> = Vec::new();
         let mut add = |kind: &str, name: &str, node: usize| {
             let (label, named) = (word(kind, name), name.parse::<usize>().is_err());
-            if out
-                .iter()
-                .all(|(known, at, _)| *at != node && *known != label)
-            {
-                out.push((label, node, named));
+            let known = out.iter().any(|(known, _, _)| *known == label);
+            match out.iter_mut().find(|(_, at, _)| *at == node) {
+                // a name is better than a number
+                Some(other) if named && !other.2 && !known => *other = (label, node, true),
+                None if !known => out.push((label, node, named)),
+                _ => {}
             }
         };
         for (name, node) in &model.nodes {
             add("node", name, *node);
+        }
+        for (name, magnet, sensor) in model.levitation.iter().flat_map(|own| &own.magnets) {
+            add("", &format!("magnet_{name}"), *magnet);
+            add("", &format!("sensor_{name}"), *sensor);
         }
         for (name, disk) in model.disks.iter().zip(&rotor.disks) {
             add("disk", name, disk.node);
@@ -177,7 +183,7 @@ impl<'a> Asked<'a> {
             true => diagram.speeds.clone(),
             false => refined(&diagram, &criticals),
         };
-        let responder = Responder::within(rotor, &self.within);
+        let responder = Responder::within(&self.within);
         let respond = |speed: f64| responder.unbalance(&rotor.unbalance, speed).ok();
         let (responses, deflections) = match rotor.unbalance.is_empty() || !self.held {
             true => (Vec::new(), Vec::new()),
@@ -195,7 +201,10 @@ impl<'a> Asked<'a> {
             .map(|k| from * (to / from).powf(k as f64 / (count - 1) as f64))
             .collect();
         let map = match self.held {
-            true => rotor::stiffness_map(rotor, &self.within.basis, &stiffnesses, MAPPED)?,
+            true => {
+                let standing = levitated::on_springs(&asked.model);
+                rotor::stiffness_map(&standing, &self.within.basis, &stiffnesses, MAPPED)?
+            }
             false => Vec::new(),
         };
         let kept = rotor.kept();
@@ -210,6 +219,9 @@ impl<'a> Asked<'a> {
                 }
             };
             let whole = Analysis::new(rotor, &self.matrices, reference);
+            // magnets that held the rotor in other coordinates hold it in these
+            let whole =
+                levitated::on_magnets(whole, &asked.model).map_err(|_| RotorError::NotConverged)?;
             whole.error_of(&diagram, diagram.speeds.len() - 1, asked.frequency_to)
         };
         let reduction_error = reduced.then(error_of_reduction);
@@ -218,9 +230,15 @@ impl<'a> Asked<'a> {
             .then(|| (self.within.basis).receptance_error(&self.full, &kept, 0.01 * top, top));
         Ok(Found {
             modes: self.modes()?,
-            sag: (self.held)
-                .then(|| rotor::sag(rotor, asked.speed, asked.weight()))
-                .transpose()?,
+            sag: match &self.levitated {
+                Some(levitated) => Some(Sag {
+                    shape: levitated.sag.clone(),
+                    loads: rotor::loads(rotor, asked.speed, &levitated.sag),
+                }),
+                None => (self.held)
+                    .then(|| rotor::sag(rotor, asked.speed, asked.weight()))
+                    .transpose()?,
+            },
             reduction_error: reduction_error.transpose()?,
             receptance_error,
             criticals,

@@ -3,12 +3,15 @@
 use crate::problem::Problem;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
-use crate::scenario::{LevitationModel, RotorAnalysis};
+use crate::scenario::{LevitationModel, RotorAnalysis, RotorModel};
 use crate::simulate::levitated::{failed, holds, strong, weak};
 use levitation::response::{Equilibrium, Synchronous, equilibrium, unbalance};
 use levitation::sensitivity::{Band, Sensitivity, margins, open_loop, zone};
-use levitation::{C64, ClosedLoop, Coordinates, Plant, Pole, Refused, Verdict, verdict, weight};
-use rotor::{Analysis, Basis, Matrices, Rotor};
+use levitation::{
+    C64, ClosedLoop, Coordinates, Plant, Pole, Refused, Verdict, suspension, verdict, weight,
+};
+use nalgebra::DVector;
+use rotor::{Analysis, Basis, Block, Coefficients, Matrices, Place, Rotor, Support};
 
 /// Largest frequency of the coordinates over that of the band: residual flexibilities have the rest.
 const BEYOND: f64 = 4.0;
@@ -22,38 +25,53 @@ pub(crate) struct Levitated {
     rest: Equilibrium,
     turning: Option<Synchronous>,
     coordinates: usize,
+    /// x + jy of each coordinate of the rotor at rest under its weight.
+    pub(crate) sag: DVector<C64>,
+}
+
+/// A rotor in the coordinates of an analysis, held by its magnets too.
+pub(crate) fn on_magnets(within: Analysis, model: &RotorModel) -> Result<Analysis, Box<Problem>> {
+    let Some(levitation) = &model.levitation else {
+        return Ok(within);
+    };
+    let feedback = suspension(&within, model.rotor.nodes.len(), &levitation.levitation);
+    Ok(within.held_by(feedback.map_err(|error| failed(&error.to_string()))?))
+}
+
+/// The rotor on springs where its magnets act, whose stiffness stands for theirs.
+pub(crate) fn on_springs(model: &RotorModel) -> Rotor {
+    let mut out = model.rotor.clone();
+    let magnets = model.levitation.iter().flat_map(|own| &own.magnets);
+    out.supports.extend(magnets.map(|(_, at, _)| Support {
+        at: Place::Node(*at),
+        on: None,
+        coefficients: Coefficients::constant(Block::equal(1.0, 0.0)),
+        seal: false,
+    }));
+    out
 }
 
 /// Analyses the closed loop. Everything that keeps it from holding the rotor is told here.
 pub(crate) fn find(
     analysis: &RotorAnalysis,
     model: &LevitationModel,
-    full: &Basis,
-    matrices: &Matrices,
+    within: &Analysis,
 ) -> Result<Levitated, Box<Problem>> {
     let rotor = &analysis.model.rotor;
     let band = Band::of_speed(analysis.speed);
-    let basis = basis(
-        rotor,
-        model,
-        full,
-        matrices,
-        analysis.cutoff.max(BEYOND * band.to),
-    )?;
-    let within = Analysis::new(rotor, matrices, basis);
     let plane = model.levitation.one_plane().filter(|_| rotor.turns());
     let nodes = rotor.nodes.len();
     let told = |error: Refused| failed(&error.to_string());
     let loops = |speed: f64| -> Result<Looped, Refused> {
         let turning = plane.as_ref().and_then(|plane| {
-            let plant = Plant::turning(&within, nodes, speed)?;
+            let plant = Plant::turning(within, nodes, speed)?;
             Some(
                 ClosedLoop::new(plant, plane)
                     .and_then(|closed| looped(&closed, analysis, speed, band)),
             )
         });
         turning.unwrap_or_else(|| {
-            let closed = ClosedLoop::new(Plant::planes(&within, nodes, speed), &model.levitation)?;
+            let closed = ClosedLoop::new(Plant::planes(within, nodes, speed), &model.levitation)?;
             looped(&closed, analysis, speed, band)
         })
     };
@@ -67,15 +85,18 @@ pub(crate) fn find(
         return Err(failed("no speed"));
     };
     let gravity = [analysis.weight().re, analysis.weight().im];
-    let loads = weight(rotor, &within, gravity);
+    let loads = weight(rotor, within, gravity);
     let rest = equilibrium(
-        &Plant::planes(&within, nodes, 0.0),
+        &Plant::planes(within, nodes, 0.0),
         &model.levitation,
         &loads,
     )
     .map_err(|error| weak(&error.to_string()))?;
     strong(model, &rest)?;
+    let shapes = &within.basis.shapes;
+    let plane = |from: usize| shapes * rest.coordinates.rows(from, shapes.ncols());
     Ok(Levitated {
+        sag: plane(0).zip_map(&plane(shapes.ncols()), C64::new),
         poles: rated.poles,
         band,
         sensitivity: [still.sensitivity, rated.sensitivity],
@@ -102,7 +123,15 @@ fn looped<T: Coordinates>(
     let planes = &analysis.model.rotor.unbalance;
     let turning = (!planes.is_empty() && speed != 0.0).then(|| unbalance(closed, planes, speed));
     let mut sensitivity = match verdict(&poles) {
-        Verdict::Stable => Sensitivity::new(closed, &poles, band)?,
+        Verdict::Stable => {
+            // the open loops are large at frequencies of their own
+            let open = closed.open_loop()?.into_iter().map(|value| Pole {
+                value,
+                turning: 1.0,
+            });
+            let seen: Vec<Pole> = poles.iter().copied().chain(open).collect();
+            Sensitivity::new(closed, &seen, band)?
+        }
         _ => Sensitivity::default(),
     };
     let mut turning = turning.transpose()?;
@@ -121,13 +150,15 @@ fn looped<T: Coordinates>(
 }
 
 /// Free modes and residual flexibility of what carries supports, unbalances, magnets and sensors, and of gyroscopic moments.
-fn basis(
-    rotor: &Rotor,
+pub(crate) fn basis(
+    analysis: &RotorAnalysis,
     model: &LevitationModel,
     full: &Basis,
     matrices: &Matrices,
-    cut: f64,
 ) -> Result<Basis, Box<Problem>> {
+    let rotor = &analysis.model.rotor;
+    let band = Band::of_speed(analysis.speed);
+    let cut = analysis.cutoff.max(BEYOND * band.to);
     let mut kept = rotor.kept();
     let nodes = model
         .magnets

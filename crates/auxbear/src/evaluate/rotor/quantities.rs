@@ -5,7 +5,6 @@ use crate::evaluate::rotor::{levitated, warnings::grows};
 use crate::result::drawing::{self, GIVEN};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
-use crate::scenario::RotorAnalysis;
 use rotor::{C64, Critical, Mode, Place, Whirl};
 
 /// All named results, in the order of the report.
@@ -112,7 +111,7 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
             &SEPARATION,
         );
         if let Some(margin) = analysis.separation_margin {
-            let word = judged(one, separation, analysis, margin);
+            let word = judged(one, separation, asked, margin);
             if word != "no excitation" {
                 let failed = verdict == Some("fail") || word == "fail";
                 verdict = Some(if failed { "fail" } else { "pass" });
@@ -135,10 +134,10 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
     list.number("first_unstable_speed", "rad/s", unstable(found), &STABILITY);
 }
 
-/// The verdict on one critical speed. What whirls backward is not excited by unbalance of a rotor on equal supports.
-fn judged(one: &Critical, separation: f64, analysis: &RotorAnalysis, margin: f64) -> &'static str {
-    let exempt = analysis.exempt_amplification;
-    if one.mode.whirl == Whirl::Backward && analysis.model.rotor.turns() {
+/// The verdict on one critical speed. What whirls backward is not excited by unbalance where x and y are alike.
+fn judged(one: &Critical, separation: f64, asked: &Asked, margin: f64) -> &'static str {
+    let exempt = asked.analysis.exempt_amplification;
+    if one.mode.whirl == Whirl::Backward && asked.within.turns() {
         "no excitation"
     } else if separation >= margin {
         "pass"

@@ -51,18 +51,10 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             ),
         ));
     }
-    if !asked.held && asked.levitated.is_none() {
+    if !asked.held {
         out.push(warning(
             "AB2023",
             "The rotor has no support: modes are those of the free rotor, and there is no sag, no response and no stiffness map."
-                .to_string(),
-        ));
-    }
-    if asked.levitated.is_some() {
-        out.push(warning(
-            "AB2024",
-            "The Campbell diagram, critical speeds, modes and their damping are those of the shaft without its magnets. What the closed loop \
-             does stands in its poles at the rated speed and in its response to unbalance."
                 .to_string(),
         ));
     }

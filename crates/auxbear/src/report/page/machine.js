@@ -20,16 +20,26 @@ function shapeColumns(run) {
   return Object.fromEntries(SHAPE_WAYS.map(([way]) => [way, of(way)]));
 }
 
-// Where the shaft may move: the clearance of each bearing, counted from where it stands.
-function roomOfBearings(machine) {
+// Where the shaft may move: the clearance of each bearing, counted from where it stands, and of seals, sensors and magnets.
+function roomAlong(machine) {
   const [at, x, y] = ["positions", "offsets_x", "offsets_y"].map((what) => listAt(machine[0], `bearing_${what}`));
-  return machine.map((run, k) => ({ z: at[k], name: run.summary.name || "", clearance: run.summary.clearance_radius_m || 0, offset: { x: x[k] || 0, y: y[k] || 0 }, colour: run.colour }));
+  const bearings = machine.map((run, k) => ({ z: at[k], name: run.summary.name || "", clearance: run.summary.clearance_radius_m || 0, offset: { x: x[k] || 0, y: y[k] || 0 }, colour: run.colour }));
+  const [places, sizes] = ["clearance_positions", "clearances"].map((what) => listAt(machine[0], what));
+  return [...bearings, ...wordsAt(machine[0], "clearance_names").map((name, k) => ({ z: places[k], name, clearance: sizes[k], offset: { x: 0, y: 0 }, colour: "#8a4fae" }))];
+}
+
+// How near the shaft comes to what stands around it.
+function reachFigure(machine) {
+  const at = listAt(machine[0], "shape_positions").map((z) => 1e3 * z);
+  const gone = listAt(machine[0], "largest_displacements").map((value) => 1e6 * value);
+  const around = roomAlong(machine).map(({ z, name, clearance, colour }) => ({ label: name, x: [1e3 * z], y: [1e6 * clearance], colour, line: false, dots: true, radius: 5 }));
+  return curves({ series: [{ label: "largest displacement", x: at, y: gone, colour: "#22303c", dots: true }, ...around], across: "z [mm]", upright: "distance [µm]", level: { at: 0, words: "line of levitation" }, height: 260 });
 }
 
 function shapeDrawing(machine, shapes, row, width) {
   const run = machine[0];
   const z = listAt(run, "shape_positions");
-  const rooms = roomOfBearings(machine);
+  const rooms = roomAlong(machine);
   const reach = 1.25e6 * Math.max(...rooms.map((room) => room.clearance + Math.hypot(room.offset.x, room.offset.y)), 1e-6);
   const margin = { left: 74, right: 24, top: 12, between: 22, bottom: 46 };
   const tall = 150;
@@ -102,8 +112,9 @@ function machineSection(runs) {
     "machine",
     "The rotor on its bearings",
     machines.map((machine) => [
-      figure(`${of(machine)}Rotor to scale`, "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; light blue: disks, sized by their mass where the file gives no diameter; orange: magnets; dark blue: auxiliary bearings; red: unbalance; dots: nodes.", rotorPicture(machine[0], [])),
-      columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest.", shapeFigure(machine)) : null,
+      figure(`${of(machine)}Rotor to scale`, "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; light blue: disks, sized by their mass where the file gives no diameter; orange: magnets, with sensors as black wedges; dark blue: auxiliary bearings; red: unbalance; dots: nodes.", rotorPicture(machine[0], [])),
+      columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets.", shapeFigure(machine)) : null,
+      listAt(machine[0], "largest_displacements").length ? figure(`${of(machine)}How far the shaft goes`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
     ]),
   );
 }

@@ -126,7 +126,7 @@ function rotorSection(runs) {
       figure(shareOfRun(run, runs, "Rotor to scale"), note, rotorPicture(run, [])),
       figure(shareOfRun(run, runs, "Mass properties"), null, plainTable(["", ""], rows)),
       sagging.length && numberOf(run, "largest_sag")
-        ? figure(shareOfRun(run, runs, "Sag under its weight"), `Largest ${engineeringText(numberOf(run, "largest_sag"), "m", 4)}, in the direction of gravity.`, curves({ series: [{ x: listAt(run, "node_positions").map((at) => 1e3 * at), y: sagging.map((value) => -1e6 * value), colour: LINE_COLOURS[0] }], across: "z [mm]", upright: "sag [µm]", height: 200 }), plainTable(["support", "load"], loads.map((name) => [name.slice(5), engineeringText(numberOf(run, name), "N", 4)])))
+        ? figure(shareOfRun(run, runs, "Sag under its weight"), `Largest ${engineeringText(numberOf(run, "largest_sag"), "m", 4)}, in the direction of gravity.`, curves({ series: [{ x: listAt(run, "node_positions").map((at) => 1e3 * at), y: sagging.map((value) => -1e6 * value), colour: LINE_COLOURS[0] }], across: "z [mm]", upright: "sag [µm]", height: 200 }), loads.length ? plainTable(["support", "load"], loads.map((name) => [name.slice(5), engineeringText(numberOf(run, name), "N", 4)])) : null)
         : null,
     ];
   }));
@@ -165,7 +165,7 @@ function campbellFigures(run, runs) {
     return [number, engineeringText(at("speed"), "rad/s", 5), `${numberText(at("speed"), 5)} rad/s`, wordsAt(run, "critical_whirls")[number - 1], amplification === null ? quantityOf(run, `critical_${number}.amplification`).why : numberText(amplification, 3), percentText(at("separation"), 3), verdict ? element("strong", { class: verdict === "fail" ? "failed" : null }, verdict) : "–"];
   });
   return [
-    figure(shareOfRun(run, runs, "Campbell diagram"), (isLevitated(run) ? "Of the shaft without its magnets. " : "") + "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
+    figure(shareOfRun(run, runs, "Campbell diagram"), "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
     any ? figure(shareOfRun(run, runs, "Damping of these modes"), "Below zero a mode grows.", curves({ series: damped, across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "damping ratio [%]", marks: rated ? [{ at: rated, words: "rated" }] : [], level: { at: 0, words: "grows below" }, height: 260 })) : null,
     figure(shareOfRun(run, runs, "Critical speeds and their separation"), "Amplification 1/(2ζ) of the mode. Separation from the operating speeds, as a share of the nearer one.", rows.length ? plainTable(["", "speed", "", "whirl", "amplification", "separation", "verdict"], rows) : notInThisRun("no mode whirls once a turn up to the highest speed", run)),
   ];
@@ -240,24 +240,60 @@ function magnetAxes(run) {
   return wordsAt(run, "levitation.axes").map((label, index) => ({ label, begin: `levitation.${label.replace(/[. ]/g, "_")}`, colour: LINE_COLOURS[index % LINE_COLOURS.length], dash: index % 2 ? "7 4" : null }));
 }
 
-const ZONE_BOUNDS = [[3, "A below"], [4, "B below"], [5, "C below"]];
+const ZONE_BOUNDS = [[3, "A below 3"], [4, "B below 4"], [5, "C below 5"]];
 
 function sensitivityCurves(run, at) {
   const x = listAt(run, `levitation.${at}.frequencies`);
-  const zones = ZONE_BOUNDS.map(([bound, label]) => ({ label, x: [x[0], x[x.length - 1]], y: [bound, bound], colour: "#8995a0", dash: "2 3" }));
+  const zones = ZONE_BOUNDS.map(([bound, label], k) => ({ label, x: [x[0], x[x.length - 1]], y: [bound, bound], colour: ["#2f8f5b", "#b58a00", "#b3261e"][k], dash: "2 3" }));
   const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => ({ label, x, y: listAt(run, `${begin}.${at}.sensitivity`), colour, dash }));
   return curves({ series: [...lines, ...zones], across: "frequency [Hz]", upright: "|S|", logarithmic: true, decades: true, height: 320 });
 }
 
-// Open loops near -1; what lies far outside is left out.
+function openLoop(run, begin, at) {
+  return ["real", "imaginary"].map((part) => listAt(run, `${begin}.${at}.open_loop_${part}`));
+}
+
+// Size and phase of the open loops; the phase from -360 to 0 degrees, broken where it leaves one end for the other.
+function bodeCurves(run, at) {
+  const x = listAt(run, `levitation.${at}.frequencies`);
+  const each = magnetAxes(run).map(({ label, begin, colour, dash }) => ({ label, colour, dash, x, parts: openLoop(run, begin, at) }));
+  const phase = ([re, im]) => {
+    const turned = re.map((value, k) => { const degrees = (180 / Math.PI) * Math.atan2(im[k], value); return degrees > 0 ? degrees - 360 : degrees; });
+    return turned.map((value, k) => (k && Math.abs(value - turned[k - 1]) > 180 ? null : value));
+  };
+  const size = each.map(({ parts: [re, im], ...line }) => ({ ...line, y: re.map((value, k) => Math.hypot(value, im[k])) }));
+  const turned = each.map(({ parts, ...line }) => ({ ...line, label: null, gaps: true, y: phase(parts) }));
+  return [
+    curves({ series: [...size, { x: [x[0], x[x.length - 1]], y: [1, 1], colour: "#8995a0", dash: "2 3" }], across: "frequency [Hz]", upright: "|L|", logarithmic: true, decades: true, height: 260 }),
+    curves({ series: turned, across: "frequency [Hz]", upright: "phase of L [°]", decades: true, height: 220, level: { at: -180, words: "-180°" } }),
+  ];
+}
+
+// Open loops near -1, with as much room upright as across; what lies far outside is left out. Circles: the zones of |S|.
 function nyquistCurves(run, at) {
-  const near = (value) => (isNumber(value) && Math.abs(value) <= 4 ? value : null);
-  const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => {
-    const [re, im] = ["real", "imaginary"].map((part) => listAt(run, `${begin}.${at}.open_loop_${part}`));
-    const kept = re.map((value, k) => (near(value) === null || near(im[k]) === null ? null : k)).filter((k) => k !== null);
-    return { label, x: kept.map((k) => re[k]), y: kept.map((k) => im[k]), colour, dash };
+  const [height, reach] = [460, 2];
+  const circles = ZONE_BOUNDS.map(([bound, label], k) => {
+    const round = Array.from({ length: 73 }, (_, n) => (n * Math.PI) / 36);
+    return { label: `zone ${label}`, x: round.map((a) => -1 + Math.cos(a) / bound), y: round.map((a) => Math.sin(a) / bound), colour: ["#2f8f5b", "#b58a00", "#b3261e"][k], dash: "2 3" };
   });
-  return curves({ series: [...lines, { label: "-1", x: [-1], y: [0], colour: "#b3261e", line: false, dots: true, radius: 5 }], across: "Re L", upright: "Im L", height: 380 });
+  const holder = element("div", { class: "curves" });
+  const lines = magnetAxes(run).map(({ label, begin, colour, dash }) => {
+    const [re, im] = openLoop(run, begin, at);
+    return { label, colour, dash, gaps: true, re, im };
+  });
+  const series = (wide) => lines.map((line) => {
+    const inside = (k) => isNumber(line.re[k]) && Math.abs(line.re[k] + 0.5) <= wide && Math.abs(line.im[k]) <= reach;
+    return { ...line, x: line.re, y: line.im.map((value, k) => (inside(k) ? value : null)) };
+  });
+  const draw = () => {
+    const width = holder.clientWidth || 900;
+    const wide = (reach * (width - CURVE_BOX.left - CURVE_BOX.right)) / (height - CURVE_BOX.top - CURVE_BOX.bottom);
+    const frame = { x: [-0.5 - wide, -0.5 + wide, -0.5, -0.5], y: [0, 0, -reach, reach], colour: "none", line: false };
+    holder.replaceChildren(curveDrawing({ series: [frame, ...circles, ...series(wide), { x: [-1], y: [0], colour: "#b3261e", line: false, dots: true, radius: 4 }], across: "Re L", upright: "Im L", height }, width));
+  };
+  resizable.push(draw);
+  const keys = [...lines, ...circles].map((line) => element("span", { class: "curve-key" }, curveSample(line), line.label));
+  return [holder, element("p", { class: "curve-keys" }, keys)];
 }
 
 function levitationFigures(run, runs) {
@@ -266,15 +302,16 @@ function levitationFigures(run, runs) {
   const rows = magnetAxes(run).map(({ label, begin }) => {
     const at = (name) => numberOf(run, `${begin}.${name}`);
     const stiffness = at("static_stiffness");
-    return [label, stiffness === null ? quantityOf(run, `${begin}.static_stiffness`).why : siText(stiffness, "N/m"), engineeringText(at("static_current"), "A", 4), engineeringText(at("static_displacement"), "m", 4), engineeringText(at("unbalance_current"), "A", 4), numberText(at("standstill.sensitivity_peak"), 4), numberText(at("rated.sensitivity_peak"), 4), `${numberText(at("rated.sensitivity_peak_frequency"), 4)} Hz`, quantityOf(run, `${begin}.rated.zone`).value];
+    return [label, stiffness === null ? quantityOf(run, `${begin}.static_stiffness`).why : siText(stiffness, "N/m"), engineeringText(at("static_current"), "A", 4), engineeringText(at("static_displacement"), "m", 4), engineeringText(at("unbalance_current"), "A", 4), numberText(at("standstill.sensitivity_peak"), 4), numberText(at("rated.sensitivity_peak"), 4), `${numberText(at("rated.sensitivity_peak_frequency"), 4)} Hz`, ["standstill", "rated"].map((when) => quantityOf(run, `${begin}.${when}.zone`).value).sort().pop()];
   });
   const rated = speedText(numberOf(run, "rated_speed"));
   return [
-    figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone"], rows)),
+    figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone of both"], rows)),
     figure(shareOfRun(run, runs, "Sensitivity at standstill"), null, sensitivityCurves(run, "standstill")),
     figure(shareOfRun(run, runs, `Sensitivity at ${rated}`), null, sensitivityCurves(run, "rated")),
-    figure(shareOfRun(run, runs, `Open loops at ${rated}`), "One axis opened, all others closed: the distance from -1 is 1/|S|.", nyquistCurves(run, "rated")),
-    figure(shareOfRun(run, runs, `Poles of the closed loop at ${rated}`), "Those of filters and integrators included, up to the highest frequency of the sensitivity.", curves({ series: [{ x: re.map((value) => -value), y: im, colour: LINE_COLOURS[0], line: false, dots: true, radius: 3 }], across: "decay -Re λ [1/s]", upright: "Im λ [rad/s]", height: 320 }), plainTable(["Re λ", "Im λ", "sense", "damping ratio"], poles)),
+    figure(shareOfRun(run, runs, `Open loops at ${rated} (Nyquist)`), "One axis opened, all others closed: the distance from -1 is 1/|S|. A loop that stays outside a circle keeps the sensitivity below its bound.", nyquistCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Open loops at ${rated} (Bode)`), "Size and phase of the same.", bodeCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Poles of the closed loop at ${rated}`), "Those of filters and integrators included, up to the highest frequency of the sensitivity.", curves({ series: [{ x: re.map((value) => -value), y: im, colour: LINE_COLOURS[0], line: false, dots: true, radius: 3 }], across: "decay -Re λ [1/s]", upright: "Im λ [rad/s]", decades: true, height: 320 }), plainTable(["Re λ", "Im λ", "sense", "damping ratio"], poles)),
   ];
 }
 
@@ -292,16 +329,14 @@ function rotorVerdict(run) {
   const unstable = quantityOf(run, "first_unstable_speed");
   const rated = numberOf(run, "rated_speed");
   const bending = numberOf(run, "first_bending_frequency");
-  // the diagrams know no controller
-  const without = isLevitated(run) ? "of the shaft without its magnets" : null;
   const grows = isNumber(unstable.value) && unstable.value <= Math.abs(rated);
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
-    tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why, without].filter(Boolean)),
+    tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why]),
     tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict === "fail") : null),
-    tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why, without].filter(Boolean), without ? null : verdictState(run, grows)),
+    tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows)),
     typeof quantityOf(run, "levitation.zone").value === "string" ? tile("Largest sensitivity", numberText(numberOf(run, "levitation.largest_sensitivity"), 3), [`zone ${quantityOf(run, "levitation.zone").value}, slowest eigenvalue ${numberText(numberOf(run, "levitation.slowest_eigenvalue"), 3)} 1/s`]) : null,
     tile("First free bending mode", isNumber(bending) ? `${numberText(bending, 5)} rad/s` : "–", ["of the free rotor at rest"]),
     tile("Largest sag", engineeringText(numberOf(run, "largest_sag"), "m", 4), ["under its weight"]),

@@ -84,21 +84,16 @@ impl Shaft {
         let is_support = |part: &&parts::Part| part.kind.word == "support";
         let lets_go =
             |part: &&parts::Part| is_support(part) && part.word("after_release") != Some(STAYS);
-        let first = parts.iter().find(is_support);
+        // supports that all stay release nothing: the rotor runs up or down on them
+        let stands = parts.iter().any(|part| is_support(&part));
         let support = parts.iter().find(lets_go);
-        if let (None, None, Some(part)) = (support, &model.levitation, first) {
-            let found = "supports that all stay";
-            let allowed = "one that lets go, or magnets, are needed: nothing else is released";
-            let problem = part.problem(Code::Conflict, "after_release", found, allowed);
-            return Err(Box::new(problem));
-        }
         match (support, &model.levitation) {
             (Some(part), Some(_)) => {
                 let found = "a support beside magnets";
                 let allowed = "one of the two is needed as what holds the rotor until the release and lets go; a support beside magnets has after_release = \"stays\"";
                 return Err(Box::new(part.problem(Code::Conflict, "", found, allowed)));
             }
-            (None, None) => {
+            (None, None) if !stands => {
                 let found = "nothing that holds the rotor until the release";
                 let allowed = "[[levitation.magnet]] with sensor and controller, or [[rotor.support]] as its springs and dampers, is needed";
                 let problem = Problem::new(Code::NotHeld, &values.file, found, allowed);

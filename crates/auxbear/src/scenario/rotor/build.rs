@@ -162,14 +162,20 @@ pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
 }
 
 /// The mean direct stiffness of the supports of the shaft at a speed, N/m; 1 MN/m without supports.
-pub(crate) fn typical_stiffness(rotor: &rotor::Rotor, speed: f64) -> f64 {
+pub(crate) fn typical_stiffness(model: &RotorModel, speed: f64) -> f64 {
     let stiffness = |support: &Support| {
         let k = support.coefficients.at(speed).stiffness;
         0.5 * (k[0][0] + k[1][1])
     };
-    let all: Vec<f64> = (rotor.bearings())
+    // a controller makes of a magnet a spring of about the size of its negative stiffness
+    let magnets = model
+        .levitation
+        .iter()
+        .flat_map(|own| own.levitation.actuators());
+    let all: Vec<f64> = (model.rotor.bearings())
         .filter(|support| matches!(support.at, Place::Node(_)))
         .map(stiffness)
+        .chain(magnets.map(|actuator| actuator.magnet.position_stiffness()))
         .filter(|k| *k > 0.0)
         .collect();
     match all.len() {

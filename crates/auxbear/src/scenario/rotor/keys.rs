@@ -116,7 +116,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Lowest stiffness of the map of critical speeds over support stiffness.",
     )
     .positive()
-    .derived("a hundredth of the mean stiffness of the supports"),
+    .derived("a hundredth of the mean stiffness of supports and magnets (position_stiffness)"),
     Key::new(
         "analysis.map_to",
         Kind::Quantity("N/m"),
@@ -124,7 +124,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Highest stiffness of the map.",
     )
     .positive()
-    .derived("100 times the mean stiffness of the supports"),
+    .derived("100 times the mean stiffness of supports and magnets (position_stiffness)"),
     Key::new(
         "analysis.map_count",
         Kind::Count,

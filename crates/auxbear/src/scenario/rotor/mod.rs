@@ -77,7 +77,7 @@ impl RotorAnalysis {
             .maybe("frequency_to")
             .unwrap_or(1.5 * speed_to.max(speed.abs()));
         let followed = frequency_to.max(speed_to);
-        let typical = build::typical_stiffness(&model.rotor, speed);
+        let typical = build::typical_stiffness(&model, speed);
         let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
         let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
         let this = RotorAnalysis {

@@ -345,8 +345,8 @@ fn on_supports(
     };
     let (x, y) = (sagging(0)?, sagging(size)?);
     let speed = drop.rotor.speed;
-    let held = hold(within, speed)?;
-    let turning = Responder::within(rotor, within).unbalance(&rotor.unbalance, speed);
+    let held = hold(rotor, within, speed)?;
+    let turning = Responder::within(within).unbalance(&rotor.unbalance, speed);
     let turning = turning.map_err(|_| not_held())?;
     let modal = |list: &DVector<C64>| -> DVector<C64> {
         let moved = matrices.mass.map(C64::from) * list;
@@ -513,19 +513,30 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
 }
 
 /// Refuses supports on which the rotor does not stay: a motion that grows, or one without stiffness.
-fn hold(within: &Analysis, speed: f64) -> Result<Vec<HeldMode>, Box<Problem>> {
+fn hold(rotor: &Rotor, within: &Analysis, speed: f64) -> Result<Vec<HeldMode>, Box<Problem>> {
     // beyond what rounding leaves of an undamped rotor
     const NOTHING: f64 = 1e-4;
     const ROUNDING: f64 = 1e-6;
     let found = within.eigenvalues(speed).map_err(|_| not_held())?;
-    let at = format!("at {} rad/s", units::number_text(speed));
+    let at = format!("at {speed:.1} rad/s");
+    let free = |axis: usize| {
+        let stiffness = |own: &rotor::Support| own.coefficients.at(speed).stiffness[axis][axis];
+        rotor.bearings().all(|own| stiffness(own) == 0.0)
+    };
+    let direction = match (free(0), free(1)) {
+        (true, false) => ": no support has stiffness in x",
+        (false, true) => ": no support has stiffness in y",
+        _ => "",
+    };
     let found = match found.iter().max_by(|a, b| a.re.total_cmp(&b.re)) {
         Some(value) if value.re > NOTHING + ROUNDING * value.norm() => format!(
             "a motion on the supports that grows {at}: eigenvalue {:.6} {:+.6}j 1/s",
             value.re, value.im
         ),
         _ if found.iter().any(|value| value.norm() < NOTHING) => {
-            format!("a motion without static stiffness {at}: an eigenvalue below 1e-4 1/s")
+            format!(
+                "a motion without static stiffness {at}{direction}, an eigenvalue below 1e-4 1/s"
+            )
         }
         _ => {
             let modes = within.oscillations(speed).map_err(|_| not_held())?;

@@ -88,16 +88,44 @@ pub(crate) fn name(context: &Context, list: &mut List) {
         let offsets = given.places.iter().map(|place| place.misalignment[axis]);
         list.push(name, "m", Value::List(offsets.collect()), &drawing::GIVEN);
     }
-    let magnets = given
-        .model
-        .levitation
-        .iter()
-        .flat_map(|model| &model.magnets);
-    let magnets = z(&mut magnets.map(|(_, at, _)| *at));
+    let magnets = || given.model.levitation.iter().flat_map(|own| &own.magnets);
+    let at = z(&mut magnets().map(|(_, at, _)| *at));
+    list.push("magnet_positions", "m", Value::List(at), &drawing::GIVEN);
+    let at = z(&mut magnets().map(|(_, _, sensed)| *sensed));
+    list.push("sensor_positions", "m", Value::List(at), &drawing::GIVEN);
+    along(list, context, given, built);
+}
+
+/// How far the shaft goes along it, and what stands around it.
+fn along(list: &mut List, context: &Context, given: &Shaft, built: &BuiltShaft) {
+    let peaks = context.finished.record.places.iter();
+    let peaks = Value::List(peaks.map(|peak| peak.value).collect());
+    list.push("largest_displacements", "m", peaks, &DISPLACEMENT);
+    let around: Vec<Named> = named(given, built)
+        .chain(magnets(given, built))
+        .filter(|own| own.clearance.is_some())
+        .collect();
+    let names: Vec<&str> = around.iter().map(|own| own.name).collect();
     list.push(
-        "magnet_positions",
+        "clearance_names",
+        "",
+        Value::Text(names.join("\n")),
+        &drawing::GIVEN,
+    );
+    let at = around
+        .iter()
+        .map(|own| given.model.rotor.nodes[built.places[own.place]]);
+    list.push(
+        "clearance_positions",
         "m",
-        Value::List(magnets),
+        Value::List(at.collect()),
+        &drawing::GIVEN,
+    );
+    let sizes = around.iter().filter_map(|own| own.clearance);
+    list.push(
+        "clearances",
+        "m",
+        Value::List(sizes.collect()),
         &drawing::GIVEN,
     );
 }
@@ -170,6 +198,39 @@ pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
     })
 }
 
+/// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
+pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
+    let given = context.drop.shaft.as_ref()?;
+    let z = given.model.rotor.nodes[given.places[k].node];
+    let side = |at: f64| {
+        let there = (given.model.pieces.iter()).map(|piece| &piece.layer);
+        let there = there.filter(|layer| layer.from < at && at < layer.to);
+        let outer = there.map(|layer| {
+            let share = (at - layer.from) / (layer.to - layer.from);
+            layer.start.outer + (layer.end.outer - layer.start.outer) * share
+        });
+        outer.fold(0.0, f64::max)
+    };
+    let sides = [z - BESIDE, z + BESIDE].map(side);
+    let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
+    let shaft = shaft.fold(f64::INFINITY, f64::min);
+    let bore = context.given(k).contact.bore_diameter;
+    (shaft.is_finite() && shaft > bore).then(|| {
+        warning(
+            "AB2033",
+            format!(
+                "The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and \
+                 friction acts at the radius of the bore.",
+                1e3 * shaft,
+                1e3 * bore
+            ),
+        )
+    })
+}
+
+/// Beside a node, m.
+const BESIDE: f64 = 1e-6;
+
 /// A mode of the levitated rotor near the speed at which it is released, with its amplification.
 pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
     let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
@@ -190,7 +251,8 @@ pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
         false => "no damping".to_string(),
     };
     let text = format!(
-        "The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({:.0} rad/s, {size}): it may turn with large          orbits before it falls, and small changes of speed or unbalance change the drop much.",
+        "The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({:.0} rad/s, {size}): it may turn with large \
+         orbits before it falls, and small changes of speed or unbalance change the drop much.",
         worst.frequency.abs()
     );
     Some((amplification, warning("AB2032", text)))

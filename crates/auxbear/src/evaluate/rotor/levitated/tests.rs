@@ -225,3 +225,23 @@ fn what_cannot_hold_the_rotor_is_told_with_its_code() {
         assert!(text.contains(words), "{changes:?}: {text}");
     }
 }
+
+/// On two springs of k_i K_p - k_s = 160 kN/m a rotor of 4.9 kg has a rigid motion at 255 rad/s without damping.
+#[test]
+fn diagrams_have_the_magnets_in_them() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let asked = Asked::of(analysis).unwrap();
+    let all = super::super::quantities::name(&asked, asked.found().as_ref().unwrap());
+    let found: Vec<_> = all.into_iter().map(|q| (q.name, q.value)).collect();
+    let first = number(&found, "first_critical_speed");
+    assert!(first > 100.0 && first < 255.0, "{first}");
+    // integrators hold the sensors where they are: the weight bends the shaft about them
+    let sag = number(&found, "largest_sag");
+    assert!(sag > 1e-7 && sag < 1e-4, "{sag}");
+    assert!(number(&found, "response.magnet_left.peak_amplitude") > 0.0);
+    assert!(number(&found, "response.sensor_right.rated_amplitude") > 0.0);
+    assert!(found.iter().any(|(name, _)| name == "map_forward_1"));
+}
