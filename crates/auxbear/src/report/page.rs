@@ -7,7 +7,7 @@
 
 use super::closely;
 use super::page_summary::for_page;
-use measure::file::parquet::arrow_schema::base64;
+use measure::file::parquet::arrow_schema::push_base64;
 use std::collections::BTreeSet;
 
 /// Largest number of rows of a history that the page carries.
@@ -95,9 +95,12 @@ pub fn html(runs: &[PageRun]) -> String {
     }
     script.push_str("})();\n");
     let (limit, with_balls) = room(runs);
-    let data: String = (runs.iter())
-        .map(|run| block(&run_json(run, limit, with_balls)))
-        .collect();
+    let mut data = String::new();
+    for run in runs {
+        data.push_str("<script type=\"application/json\" class=\"run\">");
+        push_run(&mut data, run, limit, with_balls);
+        data.push_str("</script>\n");
+    }
     let library = format!("/*\n{PLOT_LICENCE}\n*/\n{PLOT_LIBRARY}");
     fill(
         TEMPLATE,
@@ -125,15 +128,6 @@ pub(super) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
     }
     page.push_str(rest);
     page
-}
-
-fn block(json: &str) -> String {
-    // Inside a JSON string "<" may be written as an escape; it occurs nowhere else in JSON, and without it no text
-    // can close the script element.
-    format!(
-        "<script type=\"application/json\" class=\"run\">{}</script>\n",
-        json.replace('<', "\\u003c")
-    )
 }
 
 /// Rows that each run may have, and whether the columns of single balls are among them.
@@ -170,7 +164,8 @@ fn of_a_ball(column: &PageColumn) -> bool {
     })
 }
 
-fn run_json(run: &PageRun, limit: usize, with_balls: bool) -> String {
+/// Adds a run as JSON.
+fn push_run(json: &mut String, run: &PageRun, limit: usize, with_balls: bool) {
     let total = run
         .columns
         .iter()
@@ -183,67 +178,66 @@ fn run_json(run: &PageRun, limit: usize, with_balls: bool) -> String {
         limit,
         &windows.values().copied().collect::<Vec<_>>(),
     );
-    let columns: Vec<String> = run
-        .columns
-        .iter()
-        .filter(|column| with_balls || !of_a_ball(column))
-        .map(|column| column_json(column, &rows))
-        .collect();
     // The summary travels as text: should it not be JSON, only its own part of the page is missing.
-    format!(
-        "{{\"name\":{},\"directory\":{},\"summary\":{},\"scenario\":{},\"rows\":{},\"rows_total\":{total},\"balls\":{with_balls},\"closely\":{{{}}},\"columns\":[{}]}}",
-        json_text(&run.name),
-        json_text(&run.directory),
-        json_text(&for_page(&run.summary_json)),
-        json_text(&run.scenario_toml),
+    let summary = for_page(&run.summary_json);
+    let texts: [(&str, &str); 4] = [
+        ("name", &run.name),
+        ("directory", &run.directory),
+        ("summary", &summary),
+        ("scenario", &run.scenario_toml),
+    ];
+    json.push('{');
+    for (key, text) in texts {
+        push_text(json, key);
+        json.push(':');
+        push_text(json, text);
+        json.push(',');
+    }
+    let windows: Vec<String> = (windows.iter())
+        .map(|(bearing, [begin, end])| format!("{}:[{begin:e},{end:e}]", json_text(bearing)))
+        .collect();
+    json.push_str(&format!(
+        "\"rows\":{},\"rows_total\":{total},\"balls\":{with_balls},\"closely\":{{{}}},\"columns\":[",
         rows.len(),
-        windows
-            .iter()
-            .map(|(bearing, [begin, end])| format!("{}:[{begin:e},{end:e}]", json_text(bearing)))
-            .collect::<Vec<_>>()
-            .join(","),
-        columns.join(",\n")
-    )
+        windows.join(",")
+    ));
+    let columns = run.columns.iter();
+    let shown = columns.filter(|column| with_balls || !of_a_ball(column));
+    for (k, column) in shown.enumerate() {
+        json.push_str(if k > 0 { ",\n" } else { "" });
+        push_column(json, column, &rows);
+    }
+    json.push_str("]}");
 }
 
-fn column_json(column: &PageColumn, rows: &[usize]) -> String {
-    let values: Vec<f64> = rows
-        .iter()
-        .map(|&row| column.values.get(row).copied().unwrap_or(f64::NAN))
-        .collect();
-    let same = values
-        .windows(2)
-        .all(|pair| pair[0].to_bits() == pair[1].to_bits());
-    // what never changes is written once
-    let values = if same {
-        values.into_iter().take(1).collect()
-    } else {
-        values
+/// Adds a column as JSON.
+fn push_column(json: &mut String, column: &PageColumn, rows: &[usize]) {
+    let value = |&row: &usize| column.values.get(row).copied().unwrap_or(f64::NAN);
+    let mut values: Vec<f64> = rows.iter().map(value).collect();
+    let mut pairs = values.windows(2);
+    if pairs.all(|pair| pair[0].to_bits() == pair[1].to_bits()) {
+        // what never changes is written once
+        values.truncate(1);
+    }
+    let wide = column.name == "time" || single_precision_is_coarse(&values);
+    let bytes: Vec<u8> = match wide {
+        true => values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect(),
+        false => (values.iter())
+            .flat_map(|&value| (value as f32).to_le_bytes())
+            .collect(),
     };
-    let (kind, bytes) = if column.name == "time" || single_precision_is_coarse(&values) {
-        (
-            "f64",
-            values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect::<Vec<u8>>(),
-        )
-    } else {
-        (
-            "f32",
-            values
-                .iter()
-                .flat_map(|&value| (value as f32).to_le_bytes())
-                .collect(),
-        )
-    };
-    format!(
-        "{{\"name\":{},\"unit\":{},\"meaning\":{},\"type\":\"{kind}\",\"data\":\"{}\"}}",
+    json.push_str(&format!(
+        "{{\"name\":{},\"unit\":{},\"meaning\":{},\"type\":\"{}\",\"data\":\"",
         json_text(&column.name),
         json_text(&column.unit),
         json_text(&column.meaning),
-        base64(&bytes)
-    )
+        if wide { "f64" } else { "f32" },
+    ));
+    push_base64(json, &bytes);
+    json.push_str("\"}");
 }
 
 /// True when rounding to single precision would be visible in a picture of these values: more than 1e-5 of their
@@ -332,18 +326,25 @@ fn extreme(column: &PageColumn, begin: usize, end: usize, sign: f64) -> Option<u
 }
 
 fn json_text(text: &str) -> String {
-    let mut json = String::from("\"");
+    let mut json = String::new();
+    push_text(&mut json, text);
+    json
+}
+
+/// Adds a text as JSON. "<" is written as an escape; it occurs nowhere else in JSON, and without it no text can close the script element.
+fn push_text(json: &mut String, text: &str) {
+    json.push('"');
     for letter in text.chars() {
         match letter {
             '"' => json.push_str("\\\""),
             '\\' => json.push_str("\\\\"),
             '\n' => json.push_str("\\n"),
+            '<' => json.push_str("\\u003c"),
             control if control < ' ' => json.push_str(&format!("\\u{:04x}", control as u32)),
             other => json.push(other),
         }
     }
     json.push('"');
-    json
 }
 
 pub(super) fn escape_text(text: &str) -> String {

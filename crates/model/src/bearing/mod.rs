@@ -12,9 +12,9 @@
 //! ([`lubricant_state`]).
 //!
 //! A bearing owns the states of its cage and balls; the system owns the races.
-//! Besides its reaction it fills, where asked, a *detail* list with five values a ball:
+//! Besides its reaction it fills, where asked, a *detail* list with seven values a ball:
 //! inner load, outer load (N), inner slip, outer slip (m/s), pocket force (N; without a cage the force between a ball and
-//! the next), each value for all balls in turn; a shorter list takes the first of them.
+//! the next), inner traction, outer traction (N), each value for all balls in turn; a shorter list takes the first of them.
 
 pub mod acceleration_loss;
 pub mod ball;

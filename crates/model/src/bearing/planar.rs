@@ -418,6 +418,8 @@ impl<R: Real> Planar<R> {
                 r.inner_slip,
                 r.outer_slip,
                 r.pocket_force,
+                r.inner_traction,
+                r.outer_traction,
             ];
             for (list, value) in detail.chunks_exact_mut(n).zip(details) {
                 R::store_group(value, list, from);

@@ -4,7 +4,7 @@ use crate::motion::Wrench;
 use number::Real;
 
 /// Values a ball in a bearing's detail.
-pub const DETAIL_PER_BALL: usize = 5;
+pub const DETAIL_PER_BALL: usize = 7;
 
 /// Kinds of heat made in a bearing, in the order of [`BearingHeat::kinds`]: names as in results.
 pub const HEATS: [&str; 13] = [

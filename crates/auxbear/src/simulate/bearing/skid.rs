@@ -41,35 +41,37 @@ impl<'a> Skids<'a> {
             skids: [0; 2],
             work: [(); 2].map(|()| vec![0.0; self.bearing.balls]),
         };
-        let mut before: Option<(f64, Vec<[f64; 2]>)> = None;
+        let balls = self.bearing.balls;
+        let mut before = None;
+        let (mut then, mut now) = (vec![[0.0; 2]; balls], vec![[0.0; 2]; balls]);
         for row in &self.run.rows {
-            let motion = (self.run.motion)(row.state);
-            let own = self.run.own(row.state);
-            let turns = self.run.speed(row) > least;
-            let mut powers = Vec::with_capacity(self.bearing.balls);
-            for ball in 0..self.bearing.balls {
-                let r = self.bearing.ball_reaction(&motion, own, ball);
-                powers.push([
-                    r.inner_traction * r.inner_slip,
-                    r.outer_traction * r.outer_slip,
-                ]);
-                if turns && r.inner_load > 0.0 && r.outer_load > 0.0 {
+            let speed = self.run.speed(row);
+            let detail = &row.probe[self.run.detail..];
+            let of = |list: usize, ball: usize| detail[list * balls + ball];
+            for (ball, power) in now.iter_mut().enumerate() {
+                let slips = [2, 3].map(|list| of(list, ball));
+                *power = [of(5, ball) * slips[0], of(6, ball) * slips[1]];
+                if speed > least && of(0, ball) > 0.0 && of(1, ball) > 0.0 {
                     // what rolling balls carry past the contact: half the speed of the race's surface
-                    let surface = 0.5 * motion.inner.spin.abs() * self.bearing.ball.inner_track;
+                    let surface = 0.5 * speed * self.bearing.ball.inner_track;
                     found.judged += 1;
-                    found.skids[0] += usize::from(r.inner_slip.abs() > SKIDS * surface);
-                    found.skids[1] += usize::from(r.outer_slip.abs() > SKIDS * surface);
-                }
-            }
-            if let Some((time, last)) = &before {
-                let half = 0.5 * (row.time - time);
-                for (ball, (then, now)) in last.iter().zip(&powers).enumerate() {
-                    for race in 0..2 {
-                        found.work[race][ball] += half * (then[race] + now[race]);
+                    for (skids, slip) in found.skids.iter_mut().zip(slips) {
+                        *skids += usize::from(slip.abs() > SKIDS * surface);
                     }
                 }
             }
-            before = Some((row.time, powers));
+            if let Some(time) = before {
+                let half = 0.5 * (row.time - time);
+                for race in 0..2 {
+                    for (work, (then, now)) in
+                        found.work[race].iter_mut().zip(then.iter().zip(&now))
+                    {
+                        *work += half * (then[race] + now[race]);
+                    }
+                }
+            }
+            before = Some(row.time);
+            std::mem::swap(&mut then, &mut now);
         }
         found
     }

@@ -143,22 +143,25 @@ const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxy
 
 /// Bytes as a text in base64 (RFC 4648), padded.
 pub fn base64(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let word = group
-            .iter()
-            .fold(0u32, |word, &byte| word << 8 | u32::from(byte));
-        let word = word << (8 * (3 - group.len()));
-        for place in 0..4 {
-            if place <= group.len() {
-                let letter = LETTERS[(word >> (18 - 6 * place) & 63) as usize];
-                text.push(char::from(letter));
-            } else {
-                text.push('=');
-            }
-        }
-    }
+    let mut text = String::new();
+    push_base64(&mut text, bytes);
     text
+}
+
+/// The same behind a text.
+pub fn push_base64(text: &mut String, bytes: &[u8]) {
+    text.reserve(bytes.len().div_ceil(3) * 4);
+    let (groups, rest) = bytes.as_chunks::<3>();
+    let letters = |[a, b, c]: [u8; 3]| {
+        let word = u32::from(a) << 16 | u32::from(b) << 8 | u32::from(c);
+        [18, 12, 6, 0].map(|shift| char::from(LETTERS[(word >> shift & 63) as usize]))
+    };
+    text.extend(groups.iter().flat_map(|group| letters(*group)));
+    if !rest.is_empty() {
+        let last = letters([rest[0], rest.get(1).copied().unwrap_or(0), 0]);
+        text.extend(&last[..=rest.len()]);
+        text.push_str(&"=="[rest.len() - 1..]);
+    }
 }
 
 /// The bytes of a text in base64; none where it holds other letters.
