@@ -44,7 +44,7 @@ pub use lubricant_state::{LubricantAt, LubricantConstants};
 use number::Real;
 use physics::rolling::RollingSet;
 pub use planar::Planar;
-pub use planar_constants::{PlanarConstants, Separation};
+pub use planar_constants::{PlanarConstants, RaceContact, Separation};
 pub use reaction::{
     BearingEnergy, BearingHeat, BearingReaction, DETAIL_PER_BALL, HEATS, POCKET_FRICTION,
 };

@@ -10,6 +10,7 @@ use super::lubricant_state::{LubricantConstants, Warmed};
 use super::steady_moment::{Geometry, SharedMoment};
 use crate::motion::Motion;
 use number::Real;
+use physics::flash::SkiddingContact;
 use physics::inlet_rolling::ResistanceAtRaces;
 use physics::rolling::{RollingSet, ring_mass};
 use physics::traction::Traction;
@@ -39,6 +40,17 @@ pub struct PlanarConstants {
     pub inlet_rolling: Option<ResistanceAtRaces<f64>>,
     /// The slow state of the lubricant; none where it has none.
     pub lubricant: Option<LubricantConstants>,
+    /// What its balls do to the inner and to the outer race, for the record alone.
+    pub races: Option<[RaceContact; 2]>,
+}
+
+/// What a ball does to a race, for the record alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RaceContact {
+    /// What sliding heats.
+    pub skidding: SkiddingContact,
+    /// Load that dents, N.
+    pub denting_load: f64,
 }
 
 /// What keeps the balls apart.

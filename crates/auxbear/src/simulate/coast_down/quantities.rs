@@ -7,8 +7,8 @@ use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{
-    RatedBearing, bearing_damage, iso_life_factor, passages_per_turn, reference_viscosity,
-    repetitions, ring_damage, temperature_factor,
+    RatedBearing, iso_life_factor, passages_per_turn, reference_viscosity, repetitions,
+    temperature_factor,
 };
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
 
@@ -232,7 +232,6 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> 
         contact_angle: 0.0,
     };
     let passages = passages_per_turn(warm.ball_count as f64, gamma);
-    let loads = bearing.ball_rating_loads();
     // Σ turns of the mean cube, and of the cube at each place of the outer ring
     let mut inner = 0.0;
     let mut outer = vec![0.0; PLACES];
@@ -246,9 +245,8 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> 
             inner += cube / PLACES as f64;
         }
     }
-    let of_inner = ring_damage(&[inner * passages[0]], passages[0], loads[0]);
     let outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
-    bearing_damage(of_inner, ring_damage(&outer, passages[1], loads[1]))
+    bearing.damage([&[inner * passages[0]], &outer])
 }
 
 const STOP: Origin = Origin {

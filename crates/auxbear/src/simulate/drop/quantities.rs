@@ -9,7 +9,6 @@ use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::{shaft_results, surfaces};
 use model::system::layout::of_part;
-use physics::life::basic_life;
 use std::f64::consts::PI;
 
 const EQUATIONS: &str =
@@ -151,14 +150,8 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         let still = || "the inner race did not turn".to_string();
         let mean = (turns > 0.0).then_some(mean).ok_or_else(still);
         list.number("inner_race_turns", "", Ok(turns), &TURNS);
-        list.number("cubic_mean_load", "N", mean.clone(), &MEAN_LOAD);
-        let rating = (given.dynamic_load_rating)
-            .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"));
-        let used = |rating: f64| {
-            let mean = mean.as_ref().copied().unwrap_or(0.0);
-            turns / (1e6 * basic_life(rating, mean, 3.0))
-        };
-        list.number("life_share", "1", rating.map(used), &LIFE);
+        list.number("cubic_mean_load", "N", mean, &MEAN_LOAD);
+        list.life_share(given, record.races.as_ref());
     }
     let force = record.largest_mount_force.value;
     list.number("peak_mount_force", "N", Ok(force), &MOUNT_FORCE);
@@ -264,11 +257,6 @@ const MEAN_LOAD: Origin = Origin {
     law: "(∫W³ dn/n)^(1/3), W the load on the bearing, n the turns of the inner race",
     source: "ISO 281; crates/model/src/system/machine/bearing_record.rs",
     valid: "as inner_race_turns; balls that preload each other are not counted in W",
-};
-const LIFE: Origin = Origin {
-    law: "n/(10⁶ (C/P)³), P the cubic mean load: share of the rating life L10, which 10 % of bearings do not reach",
-    source: "ISO 281, crates/physics/src/life.rs",
-    valid: "P ≤ 0.5 C, one place of the outer ring loaded all the time, which overrates a whirl; blows that dent count by largest_indentation",
 };
 const FIRST_CONTACT: Origin = Origin {
     law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",

@@ -13,6 +13,7 @@ use crate::bearing::BearingConstants;
 use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
 use crate::contact::ContactReaction;
 use crate::surface_heat::{Motions, Seen, SurfaceHeat};
+use crate::system::race_record::{RaceRecord, Seen as BallsSeen};
 use crate::system::sampling::{Peak, Rise};
 use number::Vec2;
 use solve::Step;
@@ -65,6 +66,8 @@ pub struct BearingRecord {
     pub turns: f64,
     /// Sum of the cube of the load on the bearing over them, N³.
     pub cubed_load_turns: f64,
+    /// What its races have seen of their balls; none of a bushing.
+    pub races: Option<RaceRecord>,
     pub(super) rises: Vec<Rise>,
     /// The watched forces at the start of the last step, N, and its length, s.
     last_forces: ([f64; WATCHED.len()], f64),
@@ -149,6 +152,7 @@ impl BearingRecord {
             whirl_turns: 0.0,
             turns: 0.0,
             cubed_load_turns: 0.0,
+            races: (!part.is_bushing()).then(|| RaceRecord::new(speed)),
             rises,
             last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
             clearance: part.contact.radial_clearance,
@@ -426,6 +430,27 @@ impl BearingRecord {
         if let Some(contact) = self.contacts.last_mut() {
             contact.peak_rise = heat.of_touch;
         }
+    }
+
+    /// Looks at the balls of the bearing in a state with its probes.
+    pub(super) fn balls_of(
+        &mut self,
+        machine: &RotorMachine,
+        time: f64,
+        state: &[f64],
+        probe: &[f64],
+    ) {
+        let at = self.at;
+        let Some(races) = &mut self.races else {
+            return;
+        };
+        let seen = BallsSeen {
+            time,
+            motion: at.motion(state),
+            state: &state[at.own()],
+            detail: &probe[at.detail..],
+        };
+        races.look(&machine.constants.bearings[self.bearing].bearing, &seen);
     }
 
     /// Follows the temperatures of the bearing.
