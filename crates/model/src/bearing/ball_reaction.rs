@@ -95,17 +95,4 @@ impl<R: Real> BallReaction<R> {
             },
         ]
     }
-    /// What sliding at the inner and at the outer race heats: its power, W, and the speeds of the surfaces of ball and race past the
-    /// contact, m/s.
-    pub fn sliding(&self) -> [(R, [R; 2]); 2] {
-        let half = R::splat(0.5);
-        let tractions = [self.inner_traction, self.outer_traction];
-        let [inner, outer] = self.contacts();
-        [(tractions[0], inner), (tractions[1], outer)].map(|(traction, contact)| {
-            // slip is that of the race past the ball
-            let slip = half * contact.slip;
-            let speeds = [contact.entrainment - slip, contact.entrainment + slip];
-            (traction * contact.slip, speeds)
-        })
-    }
 }

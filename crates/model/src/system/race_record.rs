@@ -5,14 +5,16 @@
 //!   loads that rise above the one that dents                        indentation
 //!   flash of the hottest contact of ball and race                   where balls skid
 //! ```
-//! It looks a few times a turn. Between two looks a ball passes the points between its places with the cubes of its loads between
-//! those seen. Points of the inner ring turn with it, so that a load that goes round with the shaft stays where it is.
+//! It looks a few times a turn, and when the largest load has changed. Between two looks a ball passes the points between its places
+//! with the cubes of its loads between those seen. Points of the inner ring turn with it, so that a load that goes round with the
+//! shaft stays where it is.
 //!
-//! Source: heat-and-life, sections 4, 7 and 8. Range: a load or a flash that lasts shorter than a look may be missed.
+//! Source: heat-and-life, sections 4, 7 and 8. Range: a flash that lasts shorter than a look may be missed where no load changes.
 
 use super::sampling::Peak;
 use crate::bearing::{BearingConstants, PlanarConstants};
 use crate::motion::Motion;
+use physics::traction::SlidingContact;
 use solve::{Machine, Step};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -20,10 +22,12 @@ use std::ops::Range;
 /// Points of a ring.
 const POINTS: usize = 180;
 /// Looks a turn of the shaft.
-const LOOKS: f64 = 32.0;
-/// The hottest contact is searched for where slip times the root of the load comes this near to the record's: both make the flash,
-/// friction and entrainment change it little.
-const NEAR_RECORD: f64 = 0.8;
+const LOOKS: f64 = 8.0;
+/// Change of the largest ball load, over the largest so far, after which it looks again.
+const CHANGES: f64 = 0.1;
+/// The hottest contact is searched for where slip times the root of the load comes this near to the record's: the flash goes with
+/// both, and with the inverse root of the entrainment, which may be four times smaller there.
+const NEAR_RECORD: f64 = 0.5;
 
 /// The hottest contact of balls and one race.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,23 +62,25 @@ pub struct RaceRecord {
     last: Vec<[(f64, f64); 2]>,
     next: f64,
     interval: f64,
+    /// Largest ball load at the last look, and of all steps, N.
+    loads: [f64; 2],
 }
 
-/// What a look shows.
+/// A bearing at an instant.
 pub struct Seen<'a> {
+    /// The bearing.
+    pub bearing: &'a BearingConstants,
     /// s.
     pub time: f64,
     /// Of the races.
     pub motion: Motion<f64>,
     /// The bearing's own states.
     pub state: &'a [f64],
-    /// Its detail: see [`bearing`](crate::bearing).
-    pub detail: &'a [f64],
 }
 
 impl RaceRecord {
-    /// An empty record of a shaft of a speed, rad/s.
-    pub fn new(speed: f64) -> Self {
+    /// An empty record of a bearing with so many balls whose shaft has a speed, rad/s.
+    pub fn new(balls: usize, speed: f64) -> Self {
         let race = RaceSeen {
             sums: vec![0.0; POINTS],
             dents: 0,
@@ -87,89 +93,99 @@ impl RaceRecord {
         };
         RaceRecord {
             races: [race.clone(), race],
-            last: Vec::new(),
+            last: Vec::with_capacity(balls),
             next: 0.0,
             interval: 2.0 * PI / (LOOKS * speed.abs().max(1.0)),
+            loads: [0.0; 2],
         }
     }
 
-    /// Whether it is time to look; if so the next look is an interval later.
-    pub fn is_due(&mut self, time: f64) -> bool {
-        let due = time >= self.next;
+    /// The race with the hotter contact, 0 the inner one, and that contact.
+    pub fn hottest(&self) -> (usize, &Flash) {
+        let [inner, outer] = &self.races;
+        match outer.flash.rise.value > inner.flash.rise.value {
+            true => (1, &outer.flash),
+            false => (0, &inner.flash),
+        }
+    }
+
+    /// Whether it is time to look, with the largest ball load of the bearing, N.
+    pub fn is_due(&mut self, time: f64, load: f64) -> bool {
+        let [last, largest] = &mut self.loads;
+        *largest = largest.max(load);
+        let due = time >= self.next || (load - *last).abs() > CHANGES * *largest;
         if due {
-            self.next = time + self.interval;
+            (*last, self.next) = (load, time + self.interval);
         }
         due
     }
 
-    /// Looks at the only bearing of a system a few times a turn: the bearing, its own channels, the first probe of its detail, the
+    /// Looks at the only bearing of a system where it is time: the bearing, its own channels, the probe of its largest load, the
     /// motion of its races in a state.
     pub fn watch<M: Machine>(
         &mut self,
         step: &mut Step<M>,
-        (bearing, own, detail): (&BearingConstants, Range<usize>, usize),
+        (bearing, own, load): (&BearingConstants, Range<usize>, usize),
         motion: impl Fn(&[f64]) -> Motion<f64>,
     ) {
-        let time = step.end;
-        if !self.is_due(time) {
-            return;
+        let (time, load) = (step.end, step.end_probe(load));
+        if self.is_due(time, load) {
+            let state = step.state(1.0);
+            self.look(&Seen {
+                bearing,
+                time,
+                motion: motion(state),
+                state: &state[own],
+            });
         }
-        let (state, probe) = step.evaluate(1.0);
-        let seen = Seen {
-            time,
-            motion: motion(state),
-            state: &state[own],
-            detail: &probe[detail..],
-        };
-        self.look(bearing, &seen);
     }
 
     /// Looks at the balls.
-    pub fn look(&mut self, bearing: &BearingConstants, seen: &Seen) {
-        let balls = bearing.balls();
+    pub fn look(&mut self, seen: &Seen) {
         let first = self.last.is_empty();
-        let races = [&seen.motion.inner, &seen.motion.outer];
-        for ball in 0..balls {
-            let azimuth = bearing.azimuth(seen.state, ball);
+        let races = [&seen.motion.inner, &seen.motion.outer].map(|race| race.angle);
+        for ball in 0..seen.bearing.balls() {
+            let (azimuth, contacts) = seen.bearing.contacts(&seen.motion, seen.state, ball);
             let now = [0, 1].map(|race| {
-                let place = (azimuth - races[race].angle) * POINTS as f64 / (2.0 * PI);
-                (place, seen.detail[race * balls + ball])
+                let place = (azimuth - races[race]) * (POINTS as f64 / (2.0 * PI));
+                (place, contacts[race].load)
             });
             if first {
-                self.last.push(now);
-                continue;
+                self.last.push(now.map(|(place, _)| (place, 0.0)));
+            } else {
+                for (race, seen) in self.races.iter_mut().enumerate() {
+                    seen.pass(self.last[ball][race], now[race]);
+                }
             }
-            for (race, seen) in self.races.iter_mut().enumerate() {
-                seen.pass(self.last[ball][race], now[race]);
-            }
-            if let BearingConstants::Planar(planar) = bearing {
-                self.contacts(planar, seen, ball, now.map(|(_, load)| load));
+            if let BearingConstants::Planar(bearing) = seen.bearing {
+                self.dents_and_flashes(bearing, seen, ball, &contacts);
             }
             self.last[ball] = now;
         }
     }
 
-    /// Dents and flashes of a ball with these loads.
-    fn contacts(&mut self, bearing: &PlanarConstants, seen: &Seen, ball: usize, loads: [f64; 2]) {
-        let Some(contacts) = &bearing.races else {
+    fn dents_and_flashes(
+        &mut self,
+        bearing: &PlanarConstants,
+        seen: &Seen,
+        ball: usize,
+        contacts: &[SlidingContact<f64>; 2],
+    ) {
+        let Some(laws) = &bearing.races else {
             return;
         };
-        let mut reaction = None;
-        for (race, load) in loads.into_iter().enumerate() {
-            let (contact, of) = (&contacts[race], &mut self.races[race]);
-            let rises = self.last[ball][race].1 <= contact.denting_load;
-            of.dents += u64::from(rises && load > contact.denting_load);
-            let slip = seen.detail[(2 + race) * bearing.balls + ball].abs();
+        for (race, contact) in contacts.iter().enumerate() {
+            let (law, of) = (&laws[race], &mut self.races[race]);
+            let load = contact.load;
+            let rises = self.last[ball][race].1 <= law.denting_load;
+            of.dents += u64::from(rises && load > law.denting_load);
+            let slip = contact.slip.abs();
             let score = slip * load.sqrt();
             if score <= NEAR_RECORD * of.flash.score {
                 continue;
             }
-            let both = reaction.get_or_insert_with(|| {
-                let reaction = bearing.ball_reaction(&seen.motion, seen.state, ball);
-                reaction.sliding()
-            });
-            let (power, surfaces) = both[race];
-            let rise = contact.skidding.flash(power, load, surfaces);
+            let (power, surfaces) = bearing.sliding(seen.state, contacts)[race];
+            let rise = law.skidding.flash(power, load, surfaces);
             if rise > of.flash.rise.value {
                 let time = seen.time;
                 of.flash = Flash {
@@ -212,8 +228,8 @@ mod tests {
         // nine balls under a load that stands still; the inner ring turns 20 times, the cage as balls that roll make it
         let (balls, gamma, turns) = (9, 0.2, 20.0);
         let load = |angle: f64| 500.0 * angle.cos().max(0.0).powf(1.5);
-        let mut record = RaceRecord::new(100.0);
-        let looks = 32 * 20;
+        let mut record = RaceRecord::new(9, 100.0);
+        let looks = LOOKS as i32 * 20;
         for look in 0..=looks {
             let turned = 2.0 * PI * turns * f64::from(look) / f64::from(looks);
             let cage = 0.5 * (1.0 - gamma) * turned;
@@ -267,7 +283,7 @@ mod tests {
 
     #[test]
     fn a_load_that_goes_round_with_the_shaft_wears_one_place_of_the_inner_ring() {
-        let mut record = RaceRecord::new(100.0);
+        let mut record = RaceRecord::new(1, 100.0);
         // one ball that the load follows: it stands against the inner ring, and passes the whole outer one once
         record.races[0].pass((10.2, 300.0), (10.4, 300.0));
         for k in 0..POINTS {

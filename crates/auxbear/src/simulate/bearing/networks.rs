@@ -4,7 +4,6 @@ use crate::problem::Problem;
 use crate::scenario::{Bearing, Guidance, Moment, Separation, Warm};
 use crate::simulate::coast_down::build::{ICE_POINT, losses, network};
 use model::bearing_heat::{WarmBearing, shares};
-use physics::viscosity::Viscosity;
 use thermal::bearing_network::{INNER_RACE, OUTER_RACE};
 
 /// Viscosity of a lubricant of which nothing is given, m²/s: grease or oil of 50 mm²/s.
@@ -23,10 +22,7 @@ pub(crate) fn built(
         Separation::Cage(cage) if matches!(cage.guidance, Guidance::InnerLand(_)) => INNER_RACE,
         _ => OUTER_RACE,
     };
-    let oil = match warm.viscosity_points.as_slice() {
-        [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
-        _ => None,
-    };
+    let oil = warm.viscosity();
     let at_start = match &warm.moment {
         Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. } => *viscosity,
         Moment::None | Moment::Measured { .. } => ASSUMED_VISCOSITY,

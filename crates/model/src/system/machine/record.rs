@@ -74,7 +74,7 @@ impl Record {
         }
         let (_, probe) = machine.inspect(state);
         for bearing in &mut self.bearings {
-            bearing.balls_of(machine, time, state, &probe);
+            bearing.look(machine, time, state);
         }
         self.rows.finish(&Row {
             time,
@@ -82,24 +82,6 @@ impl Record {
             probe: &probe,
             content: machine.content(state),
         });
-    }
-
-    /// Looks at the balls of all bearings a few times a turn.
-    fn balls_of(&mut self, step: &mut Step<RotorMachine>) {
-        let time = step.end;
-        let races = self
-            .bearings
-            .iter_mut()
-            .filter_map(|bearing| bearing.races.as_mut());
-        // each of them takes note
-        if !races.fold(false, |due, races| races.is_due(time) | due) {
-            return;
-        }
-        let machine = step.machine;
-        let (state, probe) = step.evaluate(1.0);
-        for bearing in &mut self.bearings {
-            bearing.balls_of(machine, time, state, probe);
-        }
     }
 
     /// Follows the whirl, and the kinetic energy of the rotor's centre, at a few points of each turn.
@@ -142,9 +124,9 @@ impl Observer<RotorMachine> for Record {
             bearing.mount_of(step);
             bearing.heat_of(step);
             bearing.warmth_of(step);
+            bearing.balls_of(step);
         }
         self.rotor_of(step);
-        self.balls_of(step);
         self.rows.sample(step, RotorMachine::content);
         if self.halts_when_rolling {
             let mut rolling = self

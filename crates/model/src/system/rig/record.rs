@@ -5,7 +5,7 @@
 //! and at the end. Everything is allocated before the run but the changes of the clutch.
 
 use super::layout::{
-    ACCELERATION, BEARING, CAGE_SLIP, CLUTCH_TORQUE, DETAIL, INNER_MOMENT, LARGEST_INNER_LOAD,
+    ACCELERATION, BEARING, CAGE_SLIP, CLUTCH_TORQUE, INNER_MOMENT, LARGEST_INNER_LOAD,
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, TEMPERATURE,
 };
 use super::mode::ClutchEvent;
@@ -105,7 +105,7 @@ impl Record {
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
                 SHAFT + 1,
             ),
-            races: RaceRecord::new(speed),
+            races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(
                 &machine.segment(idle),
                 keep.end,
@@ -195,7 +195,7 @@ impl<'a> Observer<Segment<'a>> for Record {
         let bearing = (
             &machine.constants.bearing,
             machine.layout().bearing(),
-            DETAIL,
+            LARGEST_INNER_LOAD,
         );
         self.races.watch(step, bearing, race_motion);
         self.taps.sample(step);

@@ -6,7 +6,7 @@
 
 use super::SpinUpMachine;
 use super::layout::{
-    BEARING, CAGE_SLIP, DETAIL, DRIVE_MOMENT, INNER, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
+    BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, STEADY_MOMENT,
 };
 use super::rate::race_motion;
@@ -75,7 +75,7 @@ impl Record {
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
                 INNER + 5,
             ),
-            races: RaceRecord::new(speed),
+            races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(machine, end, interval, keep_rows),
         }
     }
@@ -141,7 +141,7 @@ impl Observer<SpinUpMachine> for Record {
         let bearing = (
             &machine.constants.bearing,
             machine.layout().bearing(),
-            DETAIL,
+            LARGEST_INNER_LOAD,
         );
         self.races.watch(step, bearing, race_motion);
         self.rows.sample(step, SpinUpMachine::content);
