@@ -253,10 +253,10 @@ fn the_life_of_a_drop_counts_the_cube_of_its_load_over_its_turns() {
     near("inner_race_turns", turns, 1e-3);
     near("cubic_mean_load", (sum / turns).cbrt(), 1e-2);
     let mean = number(&drop, "cubic_mean_load");
-    // C of the standard is that of half a load zone; the zone of a bearing with clearance is smaller and its balls carry more
+    // C of the standard is that of half a load zone; 10 µm leave 60 N a zone about half as wide, whose balls carry a third more
     let life = turns * (mean / 11.9e3).powi(3) / 1e6;
     let share = number(&drop, "life_share") / life;
-    assert!((1.0..2.0).contains(&share), "{share}");
+    assert!((1.2..3.0).contains(&share), "{share}");
     // clean and thick oil is better than that, dirty one worse
     let lubricated = |dirt: &str| {
         let contamination = format!("heat.contamination={dirt}");

@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Points of a ring.
-const POINTS: usize = 180;
+const POINTS: usize = 72;
 /// Looks a turn of the shaft.
 const LOOKS: f64 = 8.0;
 /// Change of the largest ball load, over the largest so far, after which it looks again.
@@ -211,9 +211,10 @@ impl RaceSeen {
         let each = distance.abs() / pieces;
         for piece in 0..pieces as usize {
             let share = (piece as f64 + 0.5) / pieces;
-            let point = (from.0 + share * distance).rem_euclid(POINTS as f64) as usize;
+            let turns = (from.0 + share * distance) * (1.0 / POINTS as f64);
+            let point = ((turns - turns.floor()) * POINTS as f64) as usize;
             // rounding may reach the end
-            self.sums[point % POINTS] += each * (cubes[0] + share * (cubes[1] - cubes[0]));
+            self.sums[point.min(POINTS - 1)] += each * (cubes[0] + share * (cubes[1] - cubes[0]));
         }
     }
 }

@@ -139,7 +139,6 @@ fn loads(list: &mut List, context: &Context) {
     let loads = [record.largest_inner_load, record.largest_outer_load];
     list.ball_loads(loads, &context.pressures(), &context.rig.bearing);
     list.races(&run);
-    list.life_share(&context.rig.bearing, Some(&record.races), None);
     list.lubricant(&run, &context.ending.state);
     let bearing = &context.rig.bearing;
     let load = StaticLoad {

@@ -214,7 +214,6 @@ fn loads(list: &mut List, context: &Context) {
     };
     let bearing = &context.spin_up.bearing;
     list.balls(&context.bearing(), &forces, bearing, &end(context));
-    list.life_share(bearing, Some(&record.races), None);
     let duration = context.spin_up.run.duration;
     let load = StaticLoad {
         radial: context.spin_up.radial_load.largest_until(duration),
