@@ -21,9 +21,9 @@ pub fn perform(wish: &Service) -> Result<(), Box<Problem>> {
     if let (Some(survival), Some(services)) = (found.survival, found.services) {
         let failed = 100.0 * (1.0 - survival);
         console::print(&format!(
-            "{} % of machines have lost a bearing by rolling fatigue after it, and 10 % after {} such services.\n",
+            "{} % of machines have lost a bearing by rolling fatigue after it; 1, 10 and 50 % after {} such services.\n",
             four_digits(failed),
-            four_digits(services)
+            services.map(four_digits).join(", ")
         ))?;
     }
     console::report(

@@ -40,6 +40,9 @@ fn one_run_and_a_lane_of_many_follow_alike() {
         "smallest_clearance",
         "heat_made",
         "peak_hertz_pressure",
+        "inner_flash_temperature_rise",
+        "outer_flash_time",
+        "life_share",
     ] {
         let of_lane = many.members.values(name)[0].unwrap();
         assert_eq!(of_lane.to_bits(), number(&alone, name).to_bits(), "{name}");

@@ -11,6 +11,7 @@ mod feedback;
 mod machine;
 mod machine_supports;
 mod measurement_file;
+mod races;
 mod reference_scenario;
 mod rig_to_verdict;
 mod rotor_friction;

@@ -38,6 +38,17 @@ impl RatedBearing {
             self.rating / (0.389 * share) * (1.0 + bracket.powf(-10.0 / 3.0)).powf(0.3),
         ]
     }
+
+    /// Share of L10 that the passages of a run use: S = Σ Q³ at the points of the inner and of the outer ring, N³.
+    ///
+    /// Source: [`ring_damage`] and [`bearing_damage`].
+    /// Valid: as these.
+    pub fn damage(&self, sums: [&[f64]; 2]) -> f64 {
+        let passages = passages_per_turn(self.ball_count, self.gamma);
+        let loads = self.ball_rating_loads();
+        let [inner, outer] = [0, 1].map(|k| ring_damage(sums[k], passages[k], loads[k]));
+        bearing_damage(inner, outer)
+    }
 }
 
 /// Balls that pass a fixed point of the inner and of the outer ring per turn of the inner ring: Z(1 ± γ)/2.

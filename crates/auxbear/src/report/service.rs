@@ -54,16 +54,16 @@ pub struct Service {
     pub modes: Vec<Mode>,
     /// Share of machines none of whose bearings has failed by rolling fatigue; none where its share is not known.
     pub survival: Option<f64>,
-    /// Such services after which 10 % of machines have lost a bearing by fatigue.
-    pub services: Option<f64>,
+    /// Such services after which 1, 10 and 50 % of machines have lost a bearing by fatigue.
+    pub services: Option<[f64; 3]>,
 }
 
 const FATIGUE: &str = "rolling fatigue, of L10";
-const KINDS: [(&str, &[&[&str]], bool, &str); 5] = [
+const KINDS: [(&str, &[&[&str]], bool, &str); 6] = [
     (
         FATIGUE,
         &[
-            &["life_share"],
+            &["life_share_with_lubricant", "life_share"],
             &["run_out.life_share_with_lubricant", "run_out.life_share"],
         ],
         true,
@@ -72,6 +72,12 @@ const KINDS: [(&str, &[&[&str]], bool, &str); 5] = [
     ("wear depth", &[&["wear_depth"]], true, "m"),
     ("dents by ball loads", &[&["indentation_index"]], false, "1"),
     ("inner race too hot", &[&["heat_index"]], false, "1"),
+    (
+        "balls that skid too hot",
+        &[&["skid_temperature_index"]],
+        false,
+        "1",
+    ),
     (
         "contact of rotor and race too hot",
         &[&["contact_temperature_index"]],
@@ -140,7 +146,7 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
     });
     Ok(Service {
         survival: together.map(survival),
-        services: together.map(|damage| repetitions(damage, 0.9)),
+        services: together.map(|damage| [0.99, 0.9, 0.5].map(|share| repetitions(damage, share))),
         modes,
     })
 }

@@ -217,6 +217,7 @@ pub(super) fn falling_machine(
         moment: None,
         inlet_rolling: None,
         lubricant: None,
+        races: None,
     };
     let mut constants = MachineConstants {
         rotor: RotorConstants::point(mass, 1e-2, 0.0),
@@ -357,6 +358,7 @@ pub(super) fn constants(
                 moment: None,
                 inlet_rolling: None,
                 lubricant: None,
+                races: None,
             }),
             outer_race_mass: machine.outer_race_mass,
             mount: Mount {

@@ -199,6 +199,14 @@ fn what_cannot_be_is_refused_with_its_key() {
     for (sets, words) in [
         (&["heat.atmosphere=vacuum"][..], "heat.surroundings"),
         (
+            &[
+                "heat.atmosphere=vacuum",
+                "heat.surroundings=1 W/K",
+                "rotor.windage=1e-8 N m s^2",
+            ],
+            "no gas brakes",
+        ),
+        (
             &["heat.race_limit=20 degC"],
             "more than heat.start_temperature",
         ),

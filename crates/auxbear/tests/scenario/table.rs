@@ -120,6 +120,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.contact_angle=15 deg",
         ],
         "heat.atmosphere" => &["heat.surroundings=0.8 W/K"],
+        "contact.surface.wear_coefficient" => &["contact.width=12 mm"],
         "bearing.inner_race_growth" => &["bearing.fits.bore_diameter=25 mm"],
         "bearing.unmounted_diametral_clearance" => &["bearing.fits.shaft_interference=5 um"],
         _ if path.starts_with("bearing.fits.housing_") || path == "bearing.fits.outer_diameter" => {

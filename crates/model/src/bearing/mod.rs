@@ -43,8 +43,9 @@ pub use ball_states::seat;
 pub use lubricant_state::{LubricantAt, LubricantConstants};
 use number::Real;
 use physics::rolling::RollingSet;
+use physics::traction::SlidingContact;
 pub use planar::Planar;
-pub use planar_constants::{PlanarConstants, Separation};
+pub use planar_constants::{PlanarConstants, RaceContact, Separation};
 pub use reaction::{
     BearingEnergy, BearingHeat, BearingReaction, DETAIL_PER_BALL, HEATS, POCKET_FRICTION,
 };
@@ -251,6 +252,18 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => state[0] + seat(ball, bearing.balls),
             BearingConstants::Planar(bearing) => bearing.motion(state, ball).azimuth,
+        }
+    }
+    /// Azimuth of a ball, rad, and its contacts at the inner and at the outer race; a ball that rolls has no slip.
+    pub fn contacts(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        ball: usize,
+    ) -> (f64, [SlidingContact<f64>; 2]) {
+        match self {
+            BearingConstants::Rolling(bearing) => bearing.contacts(motion, state, ball),
+            BearingConstants::Planar(bearing) => bearing.contacts(motion, state, ball),
         }
     }
     /// Cage speed, rad/s.

@@ -10,9 +10,10 @@ use super::lubricant_state::{LubricantConstants, Warmed};
 use super::steady_moment::{Geometry, SharedMoment};
 use crate::motion::Motion;
 use number::Real;
+use physics::flash::SkiddingContact;
 use physics::inlet_rolling::ResistanceAtRaces;
 use physics::rolling::{RollingSet, ring_mass};
-use physics::traction::Traction;
+use physics::traction::{SlidingContact, Traction, TractionLaw};
 
 /// Constants of one planar bearing.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,17 @@ pub struct PlanarConstants {
     pub inlet_rolling: Option<ResistanceAtRaces<f64>>,
     /// The slow state of the lubricant; none where it has none.
     pub lubricant: Option<LubricantConstants>,
+    /// What its balls do to the inner and to the outer race, for the record alone.
+    pub races: Option<[RaceContact; 2]>,
+}
+
+/// What a ball does to a race, for the record alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RaceContact {
+    /// What sliding heats.
+    pub skidding: SkiddingContact,
+    /// Load that dents, N.
+    pub denting_load: f64,
 }
 
 /// What keeps the balls apart.
@@ -165,6 +177,40 @@ impl PlanarConstants {
             &distances(&inner, &outer, &ball),
             &Slowing::none(),
         )
+    }
+    /// Azimuth of a ball, and its contacts at the inner and at the outer race.
+    pub(super) fn contacts(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        ball: usize,
+    ) -> (f64, [SlidingContact<f64>; 2]) {
+        let (inner, outer) = (race(&motion.inner), race(&motion.outer));
+        let (law, ball) = (&self.ball, self.motion(state, ball));
+        let between = law.between(&inner, &outer, &ball, &distances(&inner, &outer, &ball));
+        let inner = law.on_inner(&between.inner, inner.spin, ball.spin);
+        let outer = law.on_outer(&between.outer, outer.spin, ball.spin);
+        (ball.azimuth, [inner.contact, outer.contact])
+    }
+    /// What sliding at the contacts of a ball heats: its power, W, and the speeds of the surfaces of ball and race past the contact,
+    /// m/s.
+    pub fn sliding(
+        &self,
+        state: &[f64],
+        contacts: &[SlidingContact<f64>; 2],
+    ) -> [(f64, [f64; 2]); 2] {
+        let [inner, outer] = contacts;
+        let law = Warmed {
+            law: &self.traction,
+            factor: self.warmed_traction(state),
+        };
+        let (at_inner, at_outer) = law.at_races(inner, outer);
+        [(at_inner, inner), (at_outer, outer)].map(|(coefficient, contact)| {
+            // slip is that of the race past the ball
+            let half = 0.5 * contact.slip;
+            let speeds = [contact.entrainment - half, contact.entrainment + half];
+            (coefficient * contact.load * contact.slip, speeds)
+        })
     }
     /// Traction coefficient in a state of the bearing over that of the law, where the films warm.
     pub(super) fn warmed_traction(&self, state: &[f64]) -> Option<f64> {

@@ -17,7 +17,7 @@
 
 use super::acceleration_loss::{AccelerationLoss, Loss};
 use super::ball::gather_group;
-use super::ball_states::{seat, seats};
+use super::ball_states::{direction, seat, seats};
 use super::ball_sums::{BallSums, largest};
 use super::lubricant_state::{self, Lubricant, LubricantConstants};
 use super::planar_constants::PlanarConstants;
@@ -27,6 +27,7 @@ use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, constants};
 use physics::contact::{ball_race, ball_race_energy};
 use physics::rolling::RollingSet;
+use physics::traction::SlidingContact;
 
 /// Number of states, without those of a lubricant.
 pub const STATES: usize = 1;
@@ -298,15 +299,45 @@ impl RollingConstants {
     pub(super) fn rest(&self, state: &mut [f64]) {
         state[0] = self.first_ball_angle;
     }
+    /// Approach of both races at an azimuth, m.
+    fn approach(&self, motion: &Motion<f64>, azimuth: f64) -> f64 {
+        let grown = self.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
+        let offset = motion.inner.position - motion.outer.position;
+        self.ball.interference + grown + offset.dot(direction(azimuth))
+    }
+    /// Azimuth of a ball, and its contacts at both races.
+    pub(super) fn contacts(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        ball: usize,
+    ) -> (f64, [SlidingContact<f64>; 2]) {
+        let azimuth = state[0] + seat(ball, self.balls);
+        let cage_speed =
+            self.set.cage_speed(motion.inner.spin - motion.outer.spin) + motion.outer.spin;
+        let along = direction(azimuth);
+        let offset = motion.inner.position - motion.outer.position;
+        // as the balls see the races part: they turn with the cage
+        let closing = motion.inner.velocity - motion.outer.velocity - offset.turned() * cage_speed;
+        let load = ball_race(
+            self.ball.series_stiffness,
+            self.ball.damping_time,
+            self.approach(motion, azimuth),
+            closing.dot(along),
+        );
+        let outer = load.force + self.ball.mass_radius * cage_speed * cage_speed;
+        let contact = |force: f64| SlidingContact {
+            slip: 0.0,
+            load: force * self.ball.load_per_radial_force,
+            entrainment: 0.0,
+        };
+        (azimuth, [load.force, outer].map(contact))
+    }
     pub(super) fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
         let spin = motion.inner.spin - motion.outer.spin;
-        let offset = motion.inner.position - motion.outer.position;
         let elastic = (0..self.balls)
             .map(|j| {
-                let (sine, cosine) = (state[0] + seat(j, self.balls)).sin_cos();
-                let grown = self.ball.inner_track_growth * motion.inner.spin * motion.inner.spin;
-                let interference = self.ball.interference + grown;
-                let approach = interference + offset.dot(Vec2::new(cosine, sine));
+                let approach = self.approach(motion, state[0] + seat(j, self.balls));
                 ball_race_energy(self.ball.series_stiffness, approach)
             })
             .sum();

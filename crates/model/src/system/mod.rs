@@ -6,6 +6,7 @@ pub mod energy;
 pub mod layout;
 pub mod machine;
 pub mod outer_race;
+pub mod race_record;
 pub mod refusal;
 pub mod rig;
 pub mod sampling;

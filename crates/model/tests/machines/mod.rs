@@ -101,6 +101,7 @@ pub fn planar_bearing() -> PlanarConstants {
         moment: None,
         inlet_rolling: None,
         lubricant: None,
+        races: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a bearing carries a static load.
 
 use crate::machines::{
-    balance_mount, bearing_part, let_roll, planar, reference, run, settings, vec2,
+    balance_mount, bearing_part, let_roll, planar, race_motion, reference, run, settings, vec2,
 };
 use model::auxiliary_bearing::probe::COUNT as DETAIL;
 use model::bearing::BearingConstants;
@@ -70,6 +70,15 @@ fn rest(c: MachineConstants) -> (Vec<f64>, Vec<f64>, Vec2<f64>) {
     let azimuths: Vec<f64> = (0..10)
         .map(|j| machine.constants.bearings[0].bearing.azimuth(own, j))
         .collect();
+    for (j, load) in loads.iter().enumerate() {
+        // what is seen without a look at the whole machine
+        let seen = (machine.constants.bearings[0].bearing).contacts(
+            &race_motion(&machine, &state),
+            own,
+            j,
+        );
+        assert!(seen.0 == azimuths[j] && (seen.1[0].load - load).abs() <= 1e-12 * LOAD);
+    }
     let mut sum = vec2(0.0, 0.0);
     for (azimuth, load) in azimuths.iter().zip(&loads) {
         sum += vec2(azimuth.cos(), azimuth.sin()) * *load;

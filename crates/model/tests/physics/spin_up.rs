@@ -79,6 +79,12 @@ fn measure(machine: &RotorMachine, state: &[f64]) -> Measured {
         let (now, change) = (ball_of(machine, state, j), ball_of(machine, &rate, j));
         let reaction = b.ball_reaction(&motion, bearing_part(machine, state), j);
         let [at_inner, at_outer] = reaction.contacts();
+        let alone = (machine.constants.bearings[0].bearing).contacts(
+            &motion,
+            bearing_part(machine, state),
+            j,
+        );
+        assert_eq!(alone, (now.azimuth, [at_inner, at_outer]));
         let (of_inner, of_outer) = b.traction.at_races(&at_inner, &at_outer);
         inner += of_inner * reaction.inner_load;
         outer -= of_outer * reaction.outer_load;
@@ -93,8 +99,33 @@ fn measure(machine: &RotorMachine, state: &[f64]) -> Measured {
             * now.radius
             * (now.radius * change.orbit_speed + 2.0 * now.radial_speed * now.orbit_speed);
         radius += now.radius / count;
-        arm_inner += (r - 0.5 * (track + r - now.radius)) / count;
-        arm_outer += (r - 0.5 * (now.radius + r - b.ball.outer_track)) / count;
+        let a_i = r - 0.5 * (track + r - now.radius);
+        let a_o = r - 0.5 * (now.radius + r - b.ball.outer_track);
+        arm_inner += a_i / count;
+        arm_outer += a_o / count;
+        // what passes each contact, which goes round with the ball: surface of ball, surface of race
+        let turning = now.spin - now.orbit_speed;
+        let passing = [
+            [
+                -a_i * turning,
+                (now.radius - a_i) * (motion.inner.spin - now.orbit_speed),
+            ],
+            [a_o * turning, -(now.radius + a_o) * now.orbit_speed],
+        ];
+        for ((power, found), expected) in b
+            .sliding(bearing_part(machine, state), &reaction.contacts())
+            .into_iter()
+            .zip(passing)
+        {
+            assert!(power >= 0.0);
+            for (found, expected) in found.into_iter().zip(expected) {
+                // the outer race is pushed off the middle by rounding alone
+                assert!(
+                    (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
+                    "{found} {expected}"
+                );
+            }
+        }
     }
     // orbit and cage: ρ(T_I - T_O) - rF;  spin: a_i T_I + a_o T_O - rF
     let difference = (momentum_rate + r * friction) / radius;

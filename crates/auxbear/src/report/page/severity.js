@@ -3,6 +3,7 @@
 const INDICES = [
   ["indentation_index", "Dents of balls and races"],
   ["contact_temperature_index", "Contact of rotor and race too hot"],
+  ["skid_temperature_index", "Balls that skid too hot"],
   ["heat_index", "Inner race too warm"],
 ];
 

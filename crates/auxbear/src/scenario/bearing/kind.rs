@@ -1,6 +1,7 @@
 //! Kinds of a bearing: type, material of the balls, how it is modelled.
 
 use crate::scenario::words::words;
+use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT, ThermalMaterial};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
 use physics::skf_constants::SkfType;
@@ -78,6 +79,13 @@ impl BallMaterial {
         match self {
             BallMaterial::Steel => BEARING_STEEL,
             BallMaterial::SiliconNitride => SILICON_NITRIDE,
+        }
+    }
+    /// What it is as a body that conducts.
+    pub fn heat(self) -> ThermalMaterial {
+        match self {
+            BallMaterial::Steel => STEEL_HEAT,
+            BallMaterial::SiliconNitride => SILICON_NITRIDE_HEAT,
         }
     }
     /// Mass of a ball of this material, kg.

@@ -61,6 +61,12 @@ impl Context<'_> {
             let path = "contact.friction_over_temperature";
             return refuse(path, self.text(path), needed);
         }
+        if part.contact.wear_coefficient.is_some() && part.contact.width.is_none() {
+            let needed =
+                "contact.width is needed beside it: without a landing surface nothing is worn";
+            let path = "contact.surface.wear_coefficient";
+            return refuse(path, self.text(path), needed);
+        }
         let Some(end) = &drop.run_out else {
             return Ok(());
         };

@@ -4,7 +4,7 @@ use crate::problem::Code;
 use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::moment::Moment;
 use crate::scenario::checks::{Check, Context};
-use crate::scenario::heat::Warm;
+use crate::scenario::heat::{Atmosphere, Warm};
 
 impl Context<'_> {
     fn refuse_warm(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
@@ -27,7 +27,19 @@ impl Context<'_> {
         if heat.surroundings.is_none() {
             let path = "heat.surroundings";
             let needed = "a conductance is needed in vacuum, where no rule of the trade holds: through the housing's flange, or by radiation (about 6 W/(m² K) of its surface between black walls at room temperature)";
-            return self.refuse_warm(Code::MissingKey, path, "no value".to_string(), needed);
+            let place = self.values.place("heat.atmosphere");
+            let (values, needed) = (self.values, needed.to_string());
+            let code = Code::MissingKey;
+            return Err(Box::new(
+                values.problem(code, path, place, "no value", needed),
+            ));
+        }
+        let windage = self.values.number("rotor.windage").unwrap_or(0.0);
+        if heat.atmosphere == Atmosphere::Vacuum && windage > 0.0 {
+            let path = "rotor.windage";
+            let needed =
+                "0 is needed beside heat.atmosphere = \"vacuum\": no gas brakes the rotor there";
+            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
         }
         for (path, limit) in [
             ("heat.race_limit", heat.race_limit),

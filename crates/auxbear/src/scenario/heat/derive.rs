@@ -1,6 +1,7 @@
 //! What of a bearing that warms follows from other values.
 
-use crate::problem::Problem;
+use crate::problem::{Code, Problem};
+use crate::scenario::bearing::fits::{Fits, HOUSING_FIT};
 use crate::scenario::heat::Atmosphere;
 use crate::scenario::spin_up::DriveKind;
 use crate::scenario::system::SystemName;
@@ -22,11 +23,11 @@ const AIR_CLEARANCE: f64 = 0.01;
 /// Widths of the bearing that the shaft of a rig is long.
 const SHAFT_WIDTHS: f64 = 4.0;
 
-/// Conductance of a pressed seat, W/(m² K).
-fn pressed_seat() -> f64 {
+/// Conductance of a seat of ground steel pressed with so many Pa, W/(m² K).
+fn pressed_seat(pressure: f64) -> f64 {
     let (roughness, slope, hardness) = GROUND_STEEL;
     let metal = [STEEL_HEAT.conductivity; 2];
-    pressed_joint(metal, roughness, slope, FIT_PRESSURE, hardness)
+    pressed_joint(metal, roughness, slope, pressure, hardness)
 }
 
 type Done = Result<(), Box<Problem>>;
@@ -76,9 +77,15 @@ impl Values {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }
-        let how = "ground steel pressed with 1 MPa on π outer_diameter width; assumed";
-        let seat = pressed_seat() * PI * outside * width;
-        self.fill("heat.outer_seat", seat, how)?;
+        if self.lacks("heat.outer_seat") {
+            let (pressure, whence) = self.pressure_of_outer_seat()?;
+            let how = format!(
+                "ground steel pressed with {:.2} MPa on π outer_diameter width; {whence}",
+                1e-6 * pressure
+            );
+            let seat = pressed_seat(pressure) * PI * outside * width;
+            self.fill("heat.outer_seat", seat, &how)?;
+        }
         if self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum) {
             let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";
             self.fill(
@@ -88,6 +95,29 @@ impl Values {
             )?;
         }
         Ok(())
+    }
+
+    /// Pressure on the seat of the outer ring, Pa, and whence it is known.
+    fn pressure_of_outer_seat(&self) -> Result<(f64, &'static str), Box<Problem>> {
+        let fit = self.number(HOUSING_FIT).unwrap_or(0.0);
+        if fit < 0.0 {
+            return Err(Box::new(self.problem(
+                Code::MissingKey,
+                "heat.outer_seat",
+                self.place(HOUSING_FIT),
+                "no value",
+                format!("a conductance is needed: {HOUSING_FIT} leaves the ring loose, and no rule of a pressed seat holds"),
+            )));
+        }
+        let track = (self.number("bearing.pitch_diameter"))
+            .zip(self.number("bearing.ball_diameter"))
+            .map(|(pitch, ball)| pitch + ball);
+        let pressed = track.filter(|_| fit > 0.0);
+        let pressed = pressed.and_then(|track| Fits::from_values(self).in_housing(track));
+        Ok(match pressed {
+            Some(fit) => (fit.pressure(), "thick rings (Lamé)"),
+            None => (FIT_PRESSURE, "assumed"),
+        })
     }
 
     /// The shaft that stands in the inner race of a rig.
@@ -102,7 +132,7 @@ impl Values {
         let how = "ground steel pressed with 1 MPa on π bore_diameter width; assumed";
         self.fill(
             "heat.rotor_contact",
-            pressed_seat() * PI * bore * width,
+            pressed_seat(FIT_PRESSURE) * PI * bore * width,
             how,
         )
     }

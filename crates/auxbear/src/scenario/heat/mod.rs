@@ -11,6 +11,7 @@ use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use physics::viscosity::Viscosity;
 
 words! {
     /// Whether temperatures are followed.
@@ -197,6 +198,14 @@ impl Warm {
                 .unwrap_or_default(),
             radial_load,
             heat,
+        }
+    }
+
+    /// Viscosity of its lubricant, where two temperatures are given.
+    pub fn viscosity(&self) -> Option<Viscosity> {
+        match self.viscosity_points.as_slice() {
+            [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
+            _ => None,
         }
     }
 

@@ -60,6 +60,7 @@ pub(crate) fn bearing(
             }),
             inlet_rolling: inlet_rolling(bearing, contacts)?,
             lubricant: lubricant_state(bearing),
+            races: Some(contacts.races(bearing)),
         }),
         Fidelity::Rolling => BearingConstants::Rolling(RollingConstants {
             balls: bearing.ball_count,

@@ -3,6 +3,9 @@
 use crate::problem::{Code, Problem};
 use crate::scenario::{Bearing, Separation, UNNAMED};
 use crate::simulate::bearing::pressure::PressureFactors;
+use model::bearing::RaceContact;
+use physics::flash::SkiddingContact;
+use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, Curvature, PointContact, Race};
 use physics::materials::{BEARING_STEEL, contact_modulus};
 
@@ -33,6 +36,22 @@ impl BallContacts {
             races: [self.inner.pressure_factor, self.outer.pressure_factor],
             neighbours: self.neighbour_pressure_factor,
         }
+    }
+    /// What a ball does to the inner and to the outer race: heat where it slides, dents where it is loaded beyond the limit.
+    pub fn races(&self, bearing: &Bearing) -> [RaceContact; 2] {
+        let bodies = [bearing.ball_material.heat(), STEEL_HEAT];
+        let of = |contact: &PointContact, curvature: &Curvature| {
+            let mut axes = [contact.semi_major_factor, contact.semi_minor_factor];
+            if curvature.difference() < 0.0 {
+                axes.reverse();
+            }
+            RaceContact {
+                skidding: SkiddingContact::new(axes, bodies),
+                denting_load: contact.load_at_pressure(bearing.hertz_pressure_limit),
+            }
+        };
+        let [inner, outer] = &self.curvatures;
+        [of(&self.inner, inner), of(&self.outer, outer)]
     }
 }
 

@@ -16,7 +16,7 @@ use crate::simulate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
 use model::system::energy::{Content, Flows};
 use number::Vec2;
-use physics::viscosity::{Viscosity, WaltherLine};
+use physics::viscosity::WaltherLine;
 use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
 use thermal::load_zone::LoadZone;
 
@@ -43,10 +43,7 @@ pub(crate) struct Follows {
 impl Follows {
     /// What follows by these temperatures; none where nothing does.
     pub fn of(warm: &Warm, bearing: &Bearing) -> Option<Self> {
-        let oil = match warm.viscosity_points.as_slice() {
-            [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
-            _ => None,
-        };
+        let oil = warm.viscosity();
         let zone = network(warm).ok()?.1;
         let follows = Follows {
             feedback: warm.heat.feedback,

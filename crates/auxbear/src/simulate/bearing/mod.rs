@@ -8,6 +8,7 @@ pub(crate) mod film;
 pub(crate) mod networks;
 pub mod pressure;
 pub(crate) mod quantities;
+pub(crate) mod races;
 pub(crate) mod run;
 pub(crate) mod severity;
 pub(crate) mod skid;

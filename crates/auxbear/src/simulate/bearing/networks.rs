@@ -1,11 +1,9 @@
 //! The networks of bearings that warm.
 
 use crate::problem::Problem;
-use crate::scenario::{BallMaterial, Bearing, Guidance, Moment, Separation, Warm};
+use crate::scenario::{Bearing, Guidance, Moment, Separation, Warm};
 use crate::simulate::coast_down::build::{ICE_POINT, losses, network};
 use model::bearing_heat::{WarmBearing, shares};
-use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
-use physics::viscosity::Viscosity;
 use thermal::bearing_network::{INNER_RACE, OUTER_RACE};
 
 /// Viscosity of a lubricant of which nothing is given, m²/s: grease or oil of 50 mm²/s.
@@ -20,18 +18,11 @@ pub(crate) fn built(
         return Ok(None);
     };
     let (network, zone) = network(warm)?;
-    let ball = match warm.ball_material {
-        BallMaterial::SiliconNitride => SILICON_NITRIDE_HEAT,
-        BallMaterial::Steel => STEEL_HEAT,
-    };
     let land = match &bearing.separation {
         Separation::Cage(cage) if matches!(cage.guidance, Guidance::InnerLand(_)) => INNER_RACE,
         _ => OUTER_RACE,
     };
-    let oil = match warm.viscosity_points.as_slice() {
-        [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
-        _ => None,
-    };
+    let oil = warm.viscosity();
     let at_start = match &warm.moment {
         Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. } => *viscosity,
         Moment::None | Moment::Measured { .. } => ASSUMED_VISCOSITY,
@@ -47,7 +38,11 @@ pub(crate) fn built(
         oil: oil.map(|oil| oil.line()),
         viscosity: at_start,
         moment,
-        shares: shares(ball, warm.heat.cage_material.heat(), land),
+        shares: shares(
+            warm.ball_material.heat(),
+            warm.heat.cage_material.heat(),
+            land,
+        ),
         network,
     })))
 }

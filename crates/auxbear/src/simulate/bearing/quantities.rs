@@ -109,6 +109,7 @@ impl List {
         if let Some(skids) = run.skids() {
             skids.name(self, end.slips());
         }
+        self.races(run);
         self.lubricant(run, end.state);
         let friction = end.heat("pocket_friction")
             + end.heat("cage_land_friction")

@@ -3,6 +3,7 @@
 use crate::simulate::bearing::pressure::PressureFactors;
 use model::bearing::BearingConstants;
 use model::motion::Motion;
+use model::system::race_record::RaceRecord;
 use model::system::sampling::Row;
 use std::ops::Range;
 
@@ -24,6 +25,8 @@ pub(crate) struct BearingRun<'a> {
     /// Motion of the races in a state of the system.
     pub motion: MotionAt<'a>,
     pub rows: Vec<Row<'a>>,
+    /// What the races have seen of their balls; none of a bushing.
+    pub races: Option<&'a RaceRecord>,
 }
 
 impl<'a> BearingRun<'a> {

@@ -13,6 +13,9 @@ const RANGE: [f64; 2] = [1e-5, 1e-3];
 /// Rise of an inner race from which on what does not follow its warmth misleads: from 20 °C to the 120 °C of common rings, K.
 pub(crate) const HOT_RACE: f64 = 100.0;
 
+/// Rise of a surface, K, from which on steel under it is no longer what it was.
+pub(crate) const STEEL_CHANGES: f64 = 500.0;
+
 /// Heats of which half goes to the inner race.
 const AT_THE_INNER_RACE: [&str; 4] = [
     "rotor_race_friction",

@@ -6,8 +6,9 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
+use crate::simulate::coast_down::warnings::beyond;
 use model::bearing_heat::{WarmBearing, Warmth};
-use thermal::bearing_network::{CAGE, NODES};
+use thermal::bearing_network::{CAGE, LUBRICANT, NODES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -118,6 +119,10 @@ pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     let mut list: Vec<(f64, Warning)> = too_hot(followed).into_iter().collect();
     list.extend(closed(followed));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
+    let peak = followed.warmth.peaks[LUBRICANT];
+    let oil = followed.given.viscosity();
+    let beyond = oil.and_then(|oil| beyond(&oil, peak, followed.part.start));
+    list.extend(beyond.map(|warning| (peak.0, warning)));
     list
 }
 

@@ -4,7 +4,7 @@ use crate::problem::{Code, Problem};
 use crate::scenario::heat::SHOULDER;
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use crate::simulate::coast_down::rows::{End, Row};
-use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT};
+use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::load_zone::joint_stiffness;
 use physics::materials::{BEARING_STEEL, contact_modulus};
@@ -256,10 +256,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         ));
     }
     let steel = STEEL_HEAT.specific_heat;
-    let ball = match is_hybrid {
-        true => SILICON_NITRIDE_HEAT,
-        false => STEEL_HEAT,
-    };
+    let ball = run.ball_material.heat();
     let cage = (run.cage_mass * heat.cage_material.heat().specific_heat).max(NO_CAGE);
     let network = BearingNetwork {
         capacities: [

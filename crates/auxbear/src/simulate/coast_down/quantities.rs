@@ -2,14 +2,12 @@
 
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::Value;
+use crate::simulate::bearing::races as shared;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
-use physics::life::{
-    RatedBearing, bearing_damage, iso_life_factor, passages_per_turn, reference_viscosity,
-    repetitions, ring_damage, temperature_factor,
-};
+use physics::life::{RatedBearing, passages_per_turn, repetitions};
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
 
 /// Places of the outer ring that its life is summed over.
@@ -198,26 +196,20 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     }
 }
 
-/// Pitch diameter up to which C_u = C0/22, m. Source: ISO 281:2007 (from memory).
-const SMALL: f64 = 0.1;
-
 /// Life factor of lubricant and cleanliness at a row, a_ISO, with the rating of a hot ring in it.
 fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row) -> f64 {
     let warm = &part.warm;
-    let fatigue = static_rating / 22.0 * (SMALL / warm.pitch_diameter.max(SMALL)).sqrt();
-    let ratio = warm.heat.contamination * fatigue / warm.radial_load;
-    let kappa = viscosity_ratio(k, part, row);
     let races = [INNER_RACE, OUTER_RACE].map(|node| row.temperatures[k * NODES.len() + node]);
-    let hot = temperature_factor(races[0].max(races[1]));
-    iso_life_factor(kappa, ratio) * hot.powi(3)
+    let kappa = viscosity_ratio(k, part, row);
+    let hot = races[0].max(races[1]);
+    shared::life_factor(warm, static_rating, warm.radial_load, kappa, hot)
 }
 
 /// κ at a row.
 fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
-    let rpm = row.speed * 60.0 / std::f64::consts::TAU;
-    1e6 * part.losses.oil.viscosity(kelvin)
-        / reference_viscosity(rpm, 1e3 * part.warm.pitch_diameter)
+    let viscosity = part.losses.oil.viscosity(kelvin);
+    shared::viscosity_ratio(&part.warm, viscosity, row.speed)
 }
 
 /// Share of the rating life of one bearing that the run-out uses, with a life factor at each row.
@@ -232,7 +224,6 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> 
         contact_angle: 0.0,
     };
     let passages = passages_per_turn(warm.ball_count as f64, gamma);
-    let loads = bearing.ball_rating_loads();
     // Σ turns of the mean cube, and of the cube at each place of the outer ring
     let mut inner = 0.0;
     let mut outer = vec![0.0; PLACES];
@@ -246,9 +237,8 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> 
             inner += cube / PLACES as f64;
         }
     }
-    let of_inner = ring_damage(&[inner * passages[0]], passages[0], loads[0]);
     let outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
-    bearing_damage(of_inner, ring_damage(&outer, passages[1], loads[1]))
+    bearing.damage([&[inner * passages[0]], &outer])
 }
 
 const STOP: Origin = Origin {

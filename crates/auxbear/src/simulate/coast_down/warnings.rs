@@ -4,6 +4,7 @@ use crate::result::outcome::{Warning, warning};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::End;
+use physics::viscosity::Viscosity;
 use thermal::bearing_network::LUBRICANT;
 
 /// Of a run-out by itself.
@@ -134,28 +135,36 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
 }
 
 fn viscosity(ran: &Ran, bearing: usize) -> Option<Warning> {
-    let (least, largest) = ran.built.parts[bearing].viscosity.range();
     let lubricant = NodeOf {
         bearing,
         node: LUBRICANT,
     };
-    let (hottest, at) = ran.peak(lubricant);
-    let start = ran.free.rows[0].temperatures[lubricant.place()] + ICE_POINT;
-    let hot = hottest + ICE_POINT > largest;
-    if !hot && start >= least {
-        return None;
-    }
-    let (temperature, when) = match hot {
+    let start = ran.free.rows[0].temperatures[lubricant.place()];
+    beyond(
+        &ran.built.parts[bearing].viscosity,
+        ran.peak(lubricant),
+        start,
+    )
+}
+
+/// A lubricant whose viscosity is not known at its highest temperature, °C with its instant, or at that of the start.
+pub(crate) fn beyond(
+    viscosity: &Viscosity,
+    (hottest, at): (f64, f64),
+    start: f64,
+) -> Option<Warning> {
+    let (least, largest) = viscosity.range();
+    let [least, largest] = [least, largest].map(|kelvin| kelvin - ICE_POINT);
+    let (temperature, when) = match hottest > largest {
         true => (hottest, format!("after {}", words(at))),
-        false => (start - ICE_POINT, "at the start".to_string()),
+        false if start < least => (start, "at the start".to_string()),
+        false => return None,
     };
     Some(warning(
         "AB2313",
         format!(
-            "The lubricant is at {temperature:.0} °C {when}, beyond the two temperatures that its viscosity is known near ({:.0} to {:.0} °C): the \
-             line of ASTM D341 is drawn on, down to 2 mm²/s.",
-            least - ICE_POINT,
-            largest - ICE_POINT
+            "The lubricant is at {temperature:.0} °C {when}, beyond the two temperatures that its viscosity is known near ({least:.0} to {largest:.0} °C): \
+             the line of ASTM D341 is drawn on, down to 2 mm²/s."
         ),
     ))
 }

@@ -89,6 +89,7 @@ impl<'a> Context<'a> {
             pressure_factors: self.built.bearings[bearing].pressure_factors,
             motion: Box::new(move |state| at.motion(state)),
             rows: self.finished.record.rows().collect(),
+            races: self.record(bearing).races.as_ref(),
         }
     }
 }

@@ -9,7 +9,6 @@ use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::{shaft_results, surfaces};
 use model::system::layout::of_part;
-use physics::life::basic_life;
 use std::f64::consts::PI;
 
 const EQUATIONS: &str =
@@ -149,16 +148,14 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         let turns = record.turns;
         let mean = (record.cubed_load_turns / turns).cbrt();
         let still = || "the inner race did not turn".to_string();
+        let followed = context.followed(k);
+        let speed = 2.0 * PI * turns / context.finished.ending.time;
+        let phase = (followed.as_ref()).filter(|_| turns > 0.0);
+        let phase = phase.map(|followed| (followed, mean, speed));
         let mean = (turns > 0.0).then_some(mean).ok_or_else(still);
         list.number("inner_race_turns", "", Ok(turns), &TURNS);
-        list.number("cubic_mean_load", "N", mean.clone(), &MEAN_LOAD);
-        let rating = (given.dynamic_load_rating)
-            .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"));
-        let used = |rating: f64| {
-            let mean = mean.as_ref().copied().unwrap_or(0.0);
-            turns / (1e6 * basic_life(rating, mean, 3.0))
-        };
-        list.number("life_share", "1", rating.map(used), &LIFE);
+        list.number("cubic_mean_load", "N", mean, &MEAN_LOAD);
+        list.life_share(given, record.races.as_ref(), phase);
     }
     let force = record.largest_mount_force.value;
     list.number("peak_mount_force", "N", Ok(force), &MOUNT_FORCE);
@@ -202,6 +199,24 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         &WHIRL,
     );
     list.number("whirl_turns", "", Ok(turns), &WHIRL);
+    let (travel, clearance) = (
+        &record.travel,
+        context.given(k).contact.radial_air_clearance,
+    );
+    let still = || "the rotor did not turn once".to_string();
+    let of = |way: f64, turned: f64| {
+        let index = way / (clearance * turned);
+        (travel.turned >= 2.0 * PI)
+            .then_some(index)
+            .ok_or_else(still)
+    };
+    list.number("travel_index", "1", of(travel.longest, 2.0 * PI), &TRAVEL);
+    list.number(
+        "speed_index",
+        "1",
+        of(travel.way, travel.turned),
+        &SPEED_INDEX,
+    );
     list.losses(&run, &end, &ENERGY);
     let weight = context.drop.weight(k);
     list.blows(record.contacts.iter().map(|c| c.peak_force), weight);
@@ -265,10 +280,15 @@ const MEAN_LOAD: Origin = Origin {
     source: "ISO 281; crates/model/src/system/machine/bearing_record.rs",
     valid: "as inner_race_turns; balls that preload each other are not counted in W",
 };
-const LIFE: Origin = Origin {
-    law: "n/(10⁶ (C/P)³), P the cubic mean load: share of the rating life L10, which 10 % of bearings do not reach",
-    source: "ISO 281, crates/physics/src/life.rs",
-    valid: "P ≤ 0.5 C, one place of the outer ring loaded all the time, which overrates a whirl; blows that dent count by largest_indentation",
+const TRAVEL: Origin = Origin {
+    law: "longest way of the rotor's centre against the inner race in one turn of the rotor, over 2π c0",
+    source: "definition; crates/model/src/system/machine/travel.rs",
+    valid: "0 of a rotor that lies still, 1 of a whirl around the whole gap once a turn; 64 points a turn, from the release on",
+};
+const SPEED_INDEX: Origin = Origin {
+    law: "mean speed of the rotor's centre against the inner race over c0 times the mean spin",
+    source: "definition; crates/model/src/system/machine/travel.rs",
+    valid: "as travel_index, over the whole run",
 };
 const FIRST_CONTACT: Origin = Origin {
     law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",

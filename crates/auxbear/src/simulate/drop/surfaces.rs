@@ -2,13 +2,12 @@
 
 use crate::result::list::{List, NOT_GIVEN, Origin};
 use crate::result::outcome::{Value, Warning, warning};
+use crate::simulate::bearing::severity::STEEL_CHANGES;
 use crate::simulate::drop::context::Context;
 use model::surface_heat::SurfaceHeat;
 use physics::severity::wear_volume_by_energy;
 use std::f64::consts::PI;
 
-/// Rise of the patch, K, from which on steel under it is no longer what it was.
-const CHANGES: f64 = 500.0;
 /// Time in the patch, s, from which on one place of the rotor is heated on its own.
 const STAYS: f64 = 5e-3;
 
@@ -34,7 +33,7 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
     list.number(
         "contact_temperature_index",
         "1",
-        of(&|heat| heat.contact.value / CHANGES),
+        of(&|heat| heat.contact.value / STEEL_CHANGES),
         &INDEX,
     );
     list.number(
@@ -92,7 +91,7 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
     };
     let mut list = Vec::new();
     let rise = heat.contact.value;
-    if rise > CHANGES {
+    if rise > STEEL_CHANGES {
         let text = format!(
             "Where rotor and race rub, the patch warms by {rise:.0} K ({:.2} ms): steel softens and transforms there, the surfaces may \
              smear or seize, and the friction coefficient of this run no longer holds.",

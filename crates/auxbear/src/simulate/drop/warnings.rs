@@ -104,6 +104,9 @@ pub(crate) fn of(
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));
         list.extend(judged(contexts, |member| {
+            member.bearing(k).hot_skid().into_iter().collect()
+        }));
+        list.extend(judged(contexts, |member| {
             (member.followed(k).as_ref()).map_or(Vec::new(), warm::judged)
         }));
         list

@@ -65,6 +65,7 @@ impl<'a> Context<'a> {
             pressure_factors: self.built.pressure_factors,
             motion: Box::new(race_motion),
             rows: self.record.rows().collect(),
+            races: Some(&self.record.races),
         }
     }
 }

@@ -138,6 +138,7 @@ fn loads(list: &mut List, context: &Context) {
     let (run, record) = (context.bearing(), context.record);
     let loads = [record.largest_inner_load, record.largest_outer_load];
     list.ball_loads(loads, &context.pressures(), &context.rig.bearing);
+    list.races(&run);
     list.lubricant(&run, &context.ending.state);
     let bearing = &context.rig.bearing;
     let load = StaticLoad {

@@ -61,6 +61,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .to_string(),
         ));
     }
+    list.extend(context.bearing().hot_skid().map(|(_, warning)| warning));
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     list.extend(shared::pressure(bearing, &context.pressures()));

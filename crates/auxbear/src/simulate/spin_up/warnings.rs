@@ -36,6 +36,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
                 .map(|(_, warning)| warning),
         );
     }
+    list.extend(context.bearing().hot_skid().map(|(_, warning)| warning));
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     let (run, record) = (context.bearing(), context.record);

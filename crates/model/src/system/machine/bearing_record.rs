@@ -4,6 +4,7 @@
 //! the list of contacts may grow during a run.
 
 use super::RotorMachine;
+use super::travel::Travel;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
     BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
@@ -13,6 +14,7 @@ use crate::bearing::BearingConstants;
 use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
 use crate::contact::ContactReaction;
 use crate::surface_heat::{Motions, Seen, SurfaceHeat};
+use crate::system::race_record::{RaceRecord, Seen as BallsSeen};
 use crate::system::sampling::{Peak, Rise};
 use number::Vec2;
 use solve::Step;
@@ -61,10 +63,14 @@ pub struct BearingRecord {
     pub mount_displacement: Peak,
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
+    /// Way of the rotor's geometric centre against that of the inner race.
+    pub travel: Travel,
     /// Turns of the inner race, of either sense.
     pub turns: f64,
     /// Sum of the cube of the load on the bearing over them, N³.
     pub cubed_load_turns: f64,
+    /// What its races have seen of their balls; none of a bushing.
+    pub races: Option<RaceRecord>,
     pub(super) rises: Vec<Rise>,
     /// The watched forces at the start of the last step, N, and its length, s.
     last_forces: ([f64; WATCHED.len()], f64),
@@ -147,8 +153,10 @@ impl BearingRecord {
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
             whirl_turns: 0.0,
+            travel: Travel::default(),
             turns: 0.0,
             cubed_load_turns: 0.0,
+            races: (!part.is_bushing()).then(|| RaceRecord::new(part.bearing.balls(), speed)),
             rises,
             last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
             clearance: part.contact.radial_clearance,
@@ -428,6 +436,27 @@ impl BearingRecord {
         }
     }
 
+    /// Looks at the balls of the bearing where it is time.
+    pub(super) fn balls_of(&mut self, step: &mut Step<RotorMachine>) {
+        let (machine, time) = (step.machine, step.end);
+        let load = step.end_probe(self.at.probe(LARGEST_INNER_LOAD));
+        if (self.races.as_mut()).is_some_and(|races| races.is_due(time, load)) {
+            self.look(machine, time, step.state(1.0));
+        }
+    }
+
+    /// Looks at the balls of the bearing in a state.
+    pub(super) fn look(&mut self, machine: &RotorMachine, time: f64, state: &[f64]) {
+        if let Some(races) = &mut self.races {
+            races.look(&BallsSeen {
+                bearing: &machine.constants.bearings[self.bearing].bearing,
+                time,
+                motion: self.at.motion(state),
+                state: &state[self.at.own()],
+            });
+        }
+    }
+
     /// Follows the temperatures of the bearing.
     pub(super) fn warmth_of(&mut self, step: &Step<RotorMachine>) {
         if (self.warmth.as_ref()).is_some_and(|warmth| warmth.is_due(step.end)) {
@@ -472,14 +501,16 @@ impl BearingRecord {
 
     /// Follows the whirl of the rotor about the inner race.
     pub(super) fn whirl_of(&mut self, step: &mut Step<RotorMachine>) {
+        let inner = self.at.inner;
+        let race = Vec2::new(step.end_state(inner), step.end_state(inner + 1));
+        let offset = centre_at_end(step, self.bearing) - race;
+        let spin = step.end_state(step.machine.layout().rotor.spin());
+        self.travel.to(step.end, offset, spin);
         let gap = -step.end_probe(self.at.probe(PENETRATION));
         if gap > 0.5 * self.clearance {
             self.whirl_angle = None;
             return;
         }
-        let inner = self.at.inner;
-        let race = Vec2::new(step.end_state(inner), step.end_state(inner + 1));
-        let offset = centre_at_end(step, self.bearing) - race;
         let angle = offset.y.atan2(offset.x);
         if let Some(last) = self.whirl_angle {
             let turn = (angle - last) / (2.0 * PI);

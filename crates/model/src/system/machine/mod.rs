@@ -35,6 +35,7 @@ pub mod rotor_rows;
 pub mod simulate;
 pub mod start;
 pub mod tangents;
+pub mod travel;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
 use crate::levitation::{Fade, Levitation};

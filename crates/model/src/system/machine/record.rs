@@ -73,6 +73,9 @@ impl Record {
             bearing.warm(machine, time, &|channel| state[channel]);
         }
         let (_, probe) = machine.inspect(state);
+        for bearing in &mut self.bearings {
+            bearing.look(machine, time, state);
+        }
         self.rows.finish(&Row {
             time,
             state,
@@ -113,6 +116,7 @@ impl Observer<RotorMachine> for Record {
             bearing.mount_of(step);
             bearing.heat_of(step);
             bearing.warmth_of(step);
+            bearing.balls_of(step);
         }
         self.rotor_of(step);
         self.rows.sample(step, RotorMachine::content);

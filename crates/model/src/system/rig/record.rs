@@ -9,10 +9,12 @@ use super::layout::{
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, TEMPERATURE,
 };
 use super::mode::ClutchEvent;
+use super::rate::race_motion;
 use super::taps::{Tap, Taps};
 use super::{Clutch, Mode, RigMachine, Segment};
 use crate::bearing::BearingConstants;
 use crate::system::cage_turns::{CageTurns, LateMeans};
+use crate::system::race_record::RaceRecord;
 use crate::system::sampling::{Peak, Rise, Row, Rows};
 use solve::{Flow, Observer, Step};
 
@@ -55,6 +57,8 @@ pub struct Record {
     /// Of the shaft through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
     rises: [Rise; 3],
     turns: CageTurns,
+    /// What the races have seen of their balls.
+    pub races: RaceRecord,
     rows: Rows,
     /// Direction of the target speed.
     forward: f64,
@@ -101,6 +105,7 @@ impl Record {
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
                 SHAFT + 1,
             ),
+            races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(
                 &machine.segment(idle),
                 keep.end,
@@ -186,6 +191,13 @@ impl<'a> Observer<Segment<'a>> for Record {
             rise.watch(step);
         }
         self.turns.watch(step);
+        let machine = step.machine.rig;
+        let bearing = (
+            &machine.constants.bearing,
+            machine.layout().bearing(),
+            LARGEST_INNER_LOAD,
+        );
+        self.races.watch(step, bearing, race_motion);
         self.taps.sample(step);
         self.rows
             .sample(step, |segment, state| segment.rig.content(state));

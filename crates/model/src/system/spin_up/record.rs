@@ -9,9 +9,11 @@ use super::layout::{
     BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, STEADY_MOMENT,
 };
+use super::rate::race_motion;
 use crate::bearing::BearingConstants;
 use crate::system::cage_turns::CageTurns;
 pub use crate::system::cage_turns::LateMeans;
+use crate::system::race_record::RaceRecord;
 use crate::system::sampling::{Peak, Rise, Row, Rows};
 use solve::{Flow, Observer, Step};
 
@@ -36,6 +38,8 @@ pub struct Record {
     rises: [Rise; 3],
     /// Of t_I, t_O, M and the cage slip, over cage turns.
     turns: CageTurns,
+    /// What the races have seen of their balls.
+    pub races: RaceRecord,
     rows: Rows,
 }
 
@@ -71,6 +75,7 @@ impl Record {
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
                 INNER + 5,
             ),
+            races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(machine, end, interval, keep_rows),
         }
     }
@@ -132,6 +137,13 @@ impl Observer<SpinUpMachine> for Record {
             rise.watch(step);
         }
         self.turns.watch(step);
+        let machine = step.machine;
+        let bearing = (
+            &machine.constants.bearing,
+            machine.layout().bearing(),
+            LARGEST_INNER_LOAD,
+        );
+        self.races.watch(step, bearing, race_motion);
         self.rows.sample(step, SpinUpMachine::content);
         Flow::Continue
     }

@@ -1,0 +1,159 @@
+//! What the races have seen of their balls: flashes where balls skid, dents, rolling fatigue.
+
+use crate::result::list::{List, NOT_GIVEN, Origin};
+use crate::result::outcome::{Warning, warning};
+use crate::scenario::{Bearing, Warm};
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::severity::STEEL_CHANGES;
+use crate::simulate::bearing::warm::Followed;
+use crate::simulate::coast_down::build::ICE_POINT;
+use model::bearing::BearingConstants;
+use model::system::race_record::{RaceRecord, RaceSeen};
+use physics::life::{RatedBearing, iso_life_factor, reference_viscosity, temperature_factor};
+use std::f64::consts::TAU;
+use thermal::bearing_network::{INNER_RACE, LUBRICANT, OUTER_RACE};
+
+const SIDES: [&str; 2] = ["inner", "outer"];
+
+impl BearingRun<'_> {
+    /// What the races have seen of balls that may slide.
+    fn races_of_balls(&self) -> Option<&RaceRecord> {
+        let planar = matches!(self.bearing, BearingConstants::Planar(_));
+        self.races.filter(|_| planar)
+    }
+    /// A contact of ball and race that got too hot, and by how much it warmed, K.
+    pub fn hot_skid(&self) -> Option<(f64, Warning)> {
+        let (side, flash) = self.races_of_balls()?.hottest();
+        let rise = flash.rise.value;
+        let text = format!(
+            "Where a ball skids on the {} race, their surfaces flash up by {rise:.0} K ({:.2} ms: {:.0} N, slip {:.1} m/s): steel is \
+             tempered and may smear there, a lubricant is burnt, and the traction of this run no longer holds.",
+            SIDES[side],
+            1e3 * flash.rise.time,
+            flash.load,
+            flash.slip
+        );
+        (rise > STEEL_CHANGES).then(|| (rise, warning("AB2303", text)))
+    }
+}
+
+impl List {
+    /// The hottest contact of balls and each race, and how often a ball dented it; nothing where balls roll always.
+    pub fn races(&mut self, run: &BearingRun) {
+        let Some(record) = run.races_of_balls() else {
+            return;
+        };
+        for (side, seen) in SIDES.into_iter().zip(&record.races) {
+            let RaceSeen { flash, dents, .. } = seen;
+            for (what, unit, value) in [
+                ("flash_temperature_rise", "K", flash.rise.value),
+                ("flash_time", "s", flash.rise.time),
+            ] {
+                self.number(&format!("{side}_{what}"), unit, Ok(value), &FLASH);
+            }
+            let count = *dents as f64;
+            self.number(&format!("{side}_denting_passages"), "", Ok(count), &DENTS);
+        }
+        let hottest = record.hottest().1.rise.value;
+        let index = Ok(hottest / STEEL_CHANGES);
+        self.number("skid_temperature_index", "1", index, &INDEX);
+    }
+
+    /// What rolling fatigue takes of the life of the bearing; with its lubricant where its temperatures were followed, under a mean
+    /// load, N, at a mean speed, rad/s.
+    pub fn life_share(
+        &mut self,
+        bearing: &Bearing,
+        record: Option<&RaceRecord>,
+        lubricated: Option<(&Followed, f64, f64)>,
+    ) {
+        let rating = (bearing.dynamic_load_rating)
+            .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"));
+        let used = |(rating, record): (f64, &RaceRecord)| {
+            let [inner, outer] = &record.races;
+            rated(bearing, rating).damage([&inner.sums, &outer.sums])
+        };
+        let none = || "the bearing has no balls".to_string();
+        let known = rating.and_then(|rating| Ok((rating, record.ok_or_else(none)?)));
+        let share = known.map(used);
+        self.number("life_share", "1", share.clone(), &LIFE);
+        let Some((followed, load, speed)) = lubricated else {
+            return;
+        };
+        let known = || format!("bearing.static_load_rating or viscosity_points{NOT_GIVEN}");
+        let factor = (bearing.static_load_rating)
+            .zip(followed.part.oil)
+            .map(|(rating, oil)| {
+                let warmest = |node: usize| followed.warmth.peaks[node].0;
+                let viscosity = oil.viscosity(warmest(LUBRICANT) + ICE_POINT);
+                let kappa = viscosity_ratio(followed.given, viscosity, speed);
+                let hot = warmest(INNER_RACE).max(warmest(OUTER_RACE));
+                life_factor(followed.given, rating, load, kappa, hot)
+            });
+        let share = share.and_then(|share| Ok(share / factor.ok_or_else(known)?));
+        self.number("life_share_with_lubricant", "1", share, &LUBRICATED);
+    }
+}
+
+/// Pitch diameter up to which C_u = C0/22, m. Source: ISO 281:2007 (from memory).
+const SMALL: f64 = 0.1;
+
+/// Life factor of lubricant and cleanliness, a_ISO, with the rating of a hot ring in it: static rating and load, N, κ, and the
+/// temperature of the hotter ring, °C.
+pub(crate) fn life_factor(warm: &Warm, static_rating: f64, load: f64, kappa: f64, hot: f64) -> f64 {
+    let fatigue = static_rating / 22.0 * (SMALL / warm.pitch_diameter.max(SMALL)).sqrt();
+    let ratio = warm.heat.contamination * fatigue / load;
+    iso_life_factor(kappa, ratio) * temperature_factor(hot).powi(3)
+}
+
+/// κ of a lubricant of this viscosity, m²/s, at a speed, rad/s.
+pub(crate) fn viscosity_ratio(warm: &Warm, viscosity: f64, speed: f64) -> f64 {
+    1e6 * viscosity / reference_viscosity(speed * 60.0 / TAU, 1e3 * warm.pitch_diameter)
+}
+
+/// What the standard asks for of a bearing of a dynamic rating, N.
+fn rated(bearing: &Bearing, rating: f64) -> RatedBearing {
+    RatedBearing {
+        rating,
+        ball_count: bearing.ball_count as f64,
+        gamma: bearing.ball_diameter * bearing.contact_angle.cos() / bearing.pitch_diameter,
+        grooves: [
+            bearing.inner_groove_curvature,
+            bearing.outer_groove_curvature,
+        ],
+        contact_angle: bearing.contact_angle,
+    }
+}
+
+const FILE: &str = "crates/model/src/system/race_record.rs";
+const FLASH: Origin = Origin {
+    law: "largest 1.19 q b/(G_ball + G_race) over all balls, q = μQ|u|/(πab), G = ½ k √(π(B + Pe)), Pe = |U| b/(2α): flash of both \
+          surfaces above their own means, and its time",
+    source: "J. C. Jaeger 1942, H. Blok 1937, crates/physics/src/flash.rs, crates/model/src/system/race_record.rs",
+    valid: "within 4 % of Hertz's ellipse that moves steadily; what the law of traction is off, the flash is off; asperities are hotter, \
+            and traction does not follow it",
+};
+const INDEX: Origin = Origin {
+    law: "the larger flash of both races over 500 K",
+    source: "above about 500 °C steel is tempered and its surface smears; an order",
+    valid: "as inner_flash_temperature_rise",
+};
+const DENTS: Origin = Origin {
+    law: "how often the load of a ball rose above that of bearing.hertz_pressure_limit",
+    source: FILE,
+    valid: "eight looks a turn, more where loads change: a load that rises and falls between two looks is not counted; hertz_pressure_share_of_limit misses none",
+};
+const LIFE: Origin = Origin {
+    law: "Σ Q³ of the balls that pass each point of both rings over the rating loads of ISO/TS 16281, to the power 10/9: share of the \
+          life L10, which 10 % of bearings do not reach",
+    source: "heat-and-life, section 8; crates/physics/src/life.rs, crates/model/src/system/race_record.rs",
+    valid: "Q below that of half the dynamic rating; without lubricant factor (0.1 to 50). Blows that dent count by \
+            largest_indentation",
+};
+const LUBRICATED: Origin = Origin {
+    law: "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \
+          warmest lubricant at the mean speed, C_u = C0/22",
+    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; heat-and-life, section 8",
+    valid: "one phase, what was computed ball by ball, P without preload; below κ = 0.1 no factor holds, and 0.1 is taken; heat.contamination decides within a \
+            factor of ten",
+};

@@ -1,0 +1,303 @@
+//! What the races of a bearing have seen of their balls in a run: an observer.
+//!
+//! ```text
+//!   S(φ) = Σ Q³ over the balls that pass a point φ of a ring        rolling fatigue
+//!   loads that rise above the one that dents                        indentation
+//!   flash of the hottest contact of ball and race                   where balls skid
+//! ```
+//! It looks a few times a turn, and when the largest load has changed. Between two looks a ball passes the points between its places
+//! with the cubes of its loads between those seen. Points of the inner ring turn with it, so that a load that goes round with the
+//! shaft stays where it is.
+//!
+//! Source: heat-and-life, sections 4, 7 and 8. Range: a flash that lasts shorter than a look may be missed where no load changes.
+
+use super::sampling::Peak;
+use crate::bearing::{BearingConstants, PlanarConstants};
+use crate::motion::Motion;
+use physics::traction::SlidingContact;
+use solve::{Machine, Step};
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Points of a ring.
+const POINTS: usize = 72;
+/// Looks a turn of the shaft.
+const LOOKS: f64 = 8.0;
+/// Change of the largest ball load, over the largest so far, after which it looks again.
+const CHANGES: f64 = 0.1;
+/// The hottest contact is searched for where slip times the root of the load comes this near to the record's: the flash goes with
+/// both, and with the inverse root of the entrainment, which may be four times smaller there.
+const NEAR_RECORD: f64 = 0.5;
+
+/// The hottest contact of balls and one race.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flash {
+    /// Rise of both surfaces above their means, K.
+    pub rise: Peak,
+    /// Load of that contact, N.
+    pub load: f64,
+    /// Its slip, m/s.
+    pub slip: f64,
+    /// Slip times root of the load of the record, (m/s)√N.
+    score: f64,
+}
+
+/// What one race has seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RaceSeen {
+    /// Σ Q³ at each of its points, N³.
+    pub sums: Vec<f64>,
+    /// How often the load of a ball rose above the one that dents.
+    pub dents: u64,
+    /// The hottest contact.
+    pub flash: Flash,
+}
+
+/// What both races have seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RaceRecord {
+    /// Inner and outer race.
+    pub races: [RaceSeen; 2],
+    /// Angle from each race, in points, and load of each ball at the last look.
+    last: Vec<[(f64, f64); 2]>,
+    next: f64,
+    interval: f64,
+    /// Largest ball load at the last look, and of all steps, N.
+    loads: [f64; 2],
+}
+
+/// A bearing at an instant.
+pub struct Seen<'a> {
+    /// The bearing.
+    pub bearing: &'a BearingConstants,
+    /// s.
+    pub time: f64,
+    /// Of the races.
+    pub motion: Motion<f64>,
+    /// The bearing's own states.
+    pub state: &'a [f64],
+}
+
+impl RaceRecord {
+    /// An empty record of a bearing with so many balls whose shaft has a speed, rad/s.
+    pub fn new(balls: usize, speed: f64) -> Self {
+        let race = RaceSeen {
+            sums: vec![0.0; POINTS],
+            dents: 0,
+            flash: Flash {
+                rise: Peak::NONE,
+                load: 0.0,
+                slip: 0.0,
+                score: 0.0,
+            },
+        };
+        RaceRecord {
+            races: [race.clone(), race],
+            last: Vec::with_capacity(balls),
+            next: 0.0,
+            interval: 2.0 * PI / (LOOKS * speed.abs().max(1.0)),
+            loads: [0.0; 2],
+        }
+    }
+
+    /// The race with the hotter contact, 0 the inner one, and that contact.
+    pub fn hottest(&self) -> (usize, &Flash) {
+        let [inner, outer] = &self.races;
+        match outer.flash.rise.value > inner.flash.rise.value {
+            true => (1, &outer.flash),
+            false => (0, &inner.flash),
+        }
+    }
+
+    /// Whether it is time to look, with the largest ball load of the bearing, N.
+    pub fn is_due(&mut self, time: f64, load: f64) -> bool {
+        let [last, largest] = &mut self.loads;
+        *largest = largest.max(load);
+        let due = time >= self.next || (load - *last).abs() > CHANGES * *largest;
+        if due {
+            (*last, self.next) = (load, time + self.interval);
+        }
+        due
+    }
+
+    /// Looks at the only bearing of a system where it is time: the bearing, its own channels, the probe of its largest load, the
+    /// motion of its races in a state.
+    pub fn watch<M: Machine>(
+        &mut self,
+        step: &mut Step<M>,
+        (bearing, own, load): (&BearingConstants, Range<usize>, usize),
+        motion: impl Fn(&[f64]) -> Motion<f64>,
+    ) {
+        let (time, load) = (step.end, step.end_probe(load));
+        if self.is_due(time, load) {
+            let state = step.state(1.0);
+            self.look(&Seen {
+                bearing,
+                time,
+                motion: motion(state),
+                state: &state[own],
+            });
+        }
+    }
+
+    /// Looks at the balls.
+    pub fn look(&mut self, seen: &Seen) {
+        let first = self.last.is_empty();
+        let races = [&seen.motion.inner, &seen.motion.outer].map(|race| race.angle);
+        for ball in 0..seen.bearing.balls() {
+            let (azimuth, contacts) = seen.bearing.contacts(&seen.motion, seen.state, ball);
+            let now = [0, 1].map(|race| {
+                let place = (azimuth - races[race]) * (POINTS as f64 / (2.0 * PI));
+                (place, contacts[race].load)
+            });
+            if first {
+                self.last.push(now.map(|(place, _)| (place, 0.0)));
+            } else {
+                for (race, seen) in self.races.iter_mut().enumerate() {
+                    seen.pass(self.last[ball][race], now[race]);
+                }
+            }
+            if let BearingConstants::Planar(bearing) = seen.bearing {
+                self.dents_and_flashes(bearing, seen, ball, &contacts);
+            }
+            self.last[ball] = now;
+        }
+    }
+
+    fn dents_and_flashes(
+        &mut self,
+        bearing: &PlanarConstants,
+        seen: &Seen,
+        ball: usize,
+        contacts: &[SlidingContact<f64>; 2],
+    ) {
+        let Some(laws) = &bearing.races else {
+            return;
+        };
+        for (race, contact) in contacts.iter().enumerate() {
+            let (law, of) = (&laws[race], &mut self.races[race]);
+            let load = contact.load;
+            let rises = self.last[ball][race].1 <= law.denting_load;
+            of.dents += u64::from(rises && load > law.denting_load);
+            let slip = contact.slip.abs();
+            let score = slip * load.sqrt();
+            if score <= NEAR_RECORD * of.flash.score {
+                continue;
+            }
+            let (power, surfaces) = bearing.sliding(seen.state, contacts)[race];
+            let rise = law.skidding.flash(power, load, surfaces);
+            if rise > of.flash.rise.value {
+                let time = seen.time;
+                of.flash = Flash {
+                    rise: Peak { value: rise, time },
+                    load,
+                    slip,
+                    score,
+                };
+            }
+        }
+    }
+}
+
+impl RaceSeen {
+    /// A ball goes from one place, in points, to another, with these loads.
+    fn pass(&mut self, from: (f64, f64), to: (f64, f64)) {
+        if from.1 <= 0.0 && to.1 <= 0.0 {
+            return;
+        }
+        let cubes = [from.1, to.1].map(|load| load * load * load);
+        let distance = to.0 - from.0;
+        let pieces = distance.abs().ceil().max(1.0);
+        let each = distance.abs() / pieces;
+        for piece in 0..pieces as usize {
+            let share = (piece as f64 + 0.5) / pieces;
+            let turns = (from.0 + share * distance) * (1.0 / POINTS as f64);
+            let point = ((turns - turns.floor()) * POINTS as f64) as usize;
+            // rounding may reach the end
+            self.sums[point.min(POINTS - 1)] += each * (cubes[0] + share * (cubes[1] - cubes[0]));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use physics::life::{RatedBearing, passages_per_turn};
+
+    #[test]
+    fn constant_motion_uses_the_life_of_the_standard() {
+        // nine balls under a load that stands still; the inner ring turns 20 times, the cage as balls that roll make it
+        let (balls, gamma, turns) = (9, 0.2, 20.0);
+        let load = |angle: f64| 500.0 * angle.cos().max(0.0).powf(1.5);
+        let mut record = RaceRecord::new(9, 100.0);
+        let looks = LOOKS as i32 * 20;
+        for look in 0..=looks {
+            let turned = 2.0 * PI * turns * f64::from(look) / f64::from(looks);
+            let cage = 0.5 * (1.0 - gamma) * turned;
+            let balls: Vec<_> = (0..balls)
+                .map(|j| {
+                    let azimuth = cage + 2.0 * PI * f64::from(j) / f64::from(balls);
+                    let scale = POINTS as f64 / (2.0 * PI);
+                    [turned, 0.0].map(|race| ((azimuth - race) * scale, load(azimuth)))
+                })
+                .collect();
+            for (ball, now) in balls.iter().enumerate() {
+                if let Some(last) = record.last.get(ball) {
+                    for (race, seen) in record.races.iter_mut().enumerate() {
+                        seen.pass(last[race], now[race]);
+                    }
+                }
+            }
+            record.last = balls;
+        }
+        let rated = RatedBearing {
+            rating: 20e3,
+            ball_count: f64::from(balls),
+            gamma,
+            grooves: [0.52; 2],
+            contact_angle: 0.0,
+        };
+        let found = rated.damage([&record.races[0].sums, &record.races[1].sums]);
+        // cubic mean where the load stands against the ring, mean of power 10/3 where it turns
+        let mean = |power: f64| {
+            let all = (0..3600).map(|k| load(2.0 * PI * f64::from(k) / 3600.0).powf(power));
+            (all.sum::<f64>() / 3600.0).powf(1.0 / power)
+        };
+        let ratings = rated.ball_rating_loads();
+        let life = ((mean(3.0) / ratings[0]).powf(10.0 / 3.0)
+            + (mean(10.0 / 3.0) / ratings[1]).powf(10.0 / 3.0))
+        .powf(-0.9);
+        let expected = turns / (1e6 * life);
+        assert!(
+            (found / expected - 1.0).abs() < 0.01,
+            "{}",
+            found / expected
+        );
+        // as many balls have passed a point of each ring as roll past it
+        let passed = [0, 1].map(|race| record.races[race].sums.iter().sum::<f64>());
+        let passages = passages_per_turn(f64::from(balls), gamma);
+        for race in 0..2 {
+            let expected = POINTS as f64 * turns * passages[race] * mean(3.0).powi(3);
+            assert!((passed[race] / expected - 1.0).abs() < 2e-3);
+        }
+    }
+
+    #[test]
+    fn a_load_that_goes_round_with_the_shaft_wears_one_place_of_the_inner_ring() {
+        let mut record = RaceRecord::new(1, 100.0);
+        // one ball that the load follows: it stands against the inner ring, and passes the whole outer one once
+        record.races[0].pass((10.2, 300.0), (10.4, 300.0));
+        for k in 0..POINTS {
+            let place = k as f64;
+            record.races[1].pass((place, 300.0), (place + 1.0, 300.0));
+        }
+        let [inner, outer] = &record.races;
+        assert_eq!(inner.sums.iter().filter(|sum| **sum > 0.0).count(), 1);
+        assert!(
+            outer
+                .sums
+                .iter()
+                .all(|sum| (sum / 2.7e7 - 1.0).abs() < 1e-12)
+        );
+    }
+}
