@@ -407,6 +407,12 @@ mod tests {
         }
     }
 
+    fn column_json(column: &PageColumn, rows: &[usize]) -> String {
+        let mut json = String::new();
+        push_column(&mut json, column, rows);
+        json
+    }
+
     #[test]
     fn values_are_little_endian_single_precision_unless_that_is_coarse() {
         // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.
@@ -526,11 +532,9 @@ mod tests {
             ..PageRun::default()
         };
         // 1.0f32 then the quiet NaN 7fc00000.
-        assert!(
-            run_json(&run, ROW_LIMIT, true).contains("\"data\":\"AACAPwAAwH8=\""),
-            "{}",
-            run_json(&run, ROW_LIMIT, true)
-        );
+        let mut json = String::new();
+        push_run(&mut json, &run, ROW_LIMIT, true);
+        assert!(json.contains("\"data\":\"AACAPwAAwH8=\""), "{json}");
     }
 
     #[test]
