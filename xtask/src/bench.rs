@@ -1,14 +1,15 @@
-//! `cargo xtask bench`: the reference drop beside what a user would write instead, in CPU time. Nothing is judged.
+//! `cargo xtask bench`: the reference drop, a bent rotor and one bearing beside what a user would write instead, in CPU time. Nothing is judged.
 
 pub mod against;
 mod clock;
 mod page;
 mod peer;
 mod program;
+mod rotor;
 
 use crate::repository::Repository;
 use page::{Page, signed, three};
-use peer::{CVODE, Peer, SCIPY, number};
+use peer::{CVODE, EXUDYN, Peer, ROSS, SCIPY, number};
 pub use program::build;
 use program::{Program, Task};
 use serde_json::Value;
@@ -75,7 +76,7 @@ fn measure(program: Option<&str>) -> Result<(), String> {
     bench.page.line("Written by `cargo xtask bench`; what is compared, and why at these tolerances: [README.md](README.md).");
     bench.page.line("");
     bench.page.line(&clock::machine());
-    for peer in [CVODE, SCIPY] {
+    for peer in [CVODE, SCIPY, ROSS, EXUDYN] {
         match peer.missing() {
             None => bench.peers.push(peer),
             Some(line) => {
@@ -87,6 +88,8 @@ fn measure(program: Option<&str>) -> Result<(), String> {
     bench.reference_drop()?;
     bench.stiff_traction()?;
     bench.number_of_balls()?;
+    bench.rotor()?;
+    bench.ball_bearing()?;
     bench.instructions()?;
     let path = bench.root.join(RESULTS);
     std::fs::write(&path, bench.page.text()).map_err(|error| format!("{RESULTS}: {error}"))

@@ -1,4 +1,4 @@
-//! What users would write instead: scripts that print one JSON object.
+//! What users would write instead: scripts whose last line is one JSON object.
 
 use super::clock::median;
 use crate::toolchain::quiet;
@@ -28,6 +28,20 @@ pub const CVODE: Peer = Peer {
     modules: "numba, scipy, sksundae",
 };
 
+/// Newmark steps of a rotordynamics package.
+pub const ROSS: Peer = Peer {
+    name: "ROSS, Newmark",
+    script: "benchmarks/peers/ross_time.py",
+    modules: "ross",
+};
+
+/// The ball bearing of a multibody package.
+pub const EXUDYN: Peer = Peer {
+    name: "EXUDYN, generalised α",
+    script: "benchmarks/peers/exudyn_bearing.py",
+    modules: "exudyn",
+};
+
 impl Peer {
     /// Whether Python finds what the script needs; a line that says so where it does not.
     pub fn missing(&self) -> Option<String> {
@@ -35,7 +49,7 @@ impl Peer {
         let outcome = quiet(Command::new("python3").args(["-c", &import]));
         (!outcome.findings.is_empty()).then(|| {
             format!(
-                "{} was not run: python3 lacks one of {}. python3 -m pip install -r benchmarks/peers/requirements.txt",
+                "{}: not installed, python3 lacks {}. python3 -m pip install -r benchmarks/peers/requirements.txt",
                 self.name, self.modules
             )
         })
@@ -54,7 +68,10 @@ impl Peer {
             if !output.status.success() {
                 return Err(String::from_utf8_lossy(&output.stderr).into_owned());
             }
-            answer = serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())?;
+            // packages print what they miss before
+            let printed = String::from_utf8_lossy(&output.stdout);
+            let last = printed.lines().last().unwrap_or_default();
+            answer = serde_json::from_str(last).map_err(|error| error.to_string())?;
             seconds.push(number(&answer, "/cpu_seconds")?);
         }
         answer["cpu_seconds"] = median(seconds).into();
