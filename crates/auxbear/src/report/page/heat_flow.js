@@ -33,8 +33,8 @@ function flowColumns({ losses, ends }) {
   const sum = (values) => values.reduce((all, value) => all + value, 0);
   const whole = sum(losses.map(({ into }) => sum(Object.values(into))));
   const made = (node) => sum(losses.map(({ into }) => into[node] || 0));
-  const shown = ends.filter(({ node, kept, given }) => Math.max(made(node), kept + given) >= SMALL_FLOW * whole).map(({ node }) => node);
-  const body = (node) => (shown.includes(node) ? node : "other");
+  const end = ({ kept, given }) => kept + given;
+  const body = (node, amount) => (amount >= SMALL_FLOW * whole ? node : "other");
   const bars = new Map();
   const bands = new Map();
   const flow = (from, to, amount) => {
@@ -50,47 +50,48 @@ function flowColumns({ losses, ends }) {
   const ofBody = (column, node) => bar(column, node, node === "other" ? "other bodies" : wordsOf(node), NODE_COLOURS[node] || HEAT_WITHOUT_NAME);
   const large = (loss) => sum(Object.values(loss.into)) >= SMALL_FLOW * whole;
   const bySize = [...losses].sort((one, other) => sum(Object.values(other.into)) - sum(Object.values(one.into)));
-  for (const node of Object.keys(NODE_COLOURS)) for (const loss of bySize) flow(large(loss) ? bar(0, loss.words, loss.words, loss.colour) : bar(0, "other", "other", HEAT_WITHOUT_NAME), ofBody(1, body(node)), loss.into[node]);
+  for (const node of Object.keys(NODE_COLOURS)) for (const loss of bySize) flow(large(loss) ? bar(0, loss.words, loss.words, loss.colour) : bar(0, "other", "other", HEAT_WITHOUT_NAME), ofBody(1, body(node, made(node))), loss.into[node]);
   const [pool, kept, given] = [bar(2, "pool", "conducted", SERIES_COLOURS.quiet), bar(4, "kept", "stored", "#b58a3c"), bar(4, "given", "to the surroundings", "#5f8f9c")];
-  for (const node of [...shown, "other"]) {
-    const own = ends.filter((end) => body(end.node) === node);
-    const [start, end] = [sum(own.map((one) => made(one.node))), sum(own.map((one) => one.kept + one.given))];
-    flow(ofBody(1, node), ofBody(3, node), Math.min(start, end));
+  for (const one of ends) {
+    const [start, left] = [made(one.node), end(one)];
+    const [from, to] = [ofBody(1, body(one.node, start)), ofBody(3, body(one.node, left))];
+    flow(from, to, Math.min(start, left));
     // what rounding leaves passes on nothing
-    if (Math.abs(start - end) > 1e-9 * whole) {
-      flow(ofBody(1, node), pool, start - end);
-      flow(pool, ofBody(3, node), end - start);
+    if (Math.abs(start - left) > 1e-9 * whole) {
+      flow(from, pool, start - left);
+      flow(pool, to, left - start);
     }
-    flow(ofBody(3, node), kept, sum(own.map((one) => one.kept)));
-    flow(ofBody(3, node), given, sum(own.map((one) => one.given)));
+    flow(to, kept, one.kept);
+    flow(to, given, one.given);
   }
   return { whole, bars: [...bars.values()], bands: [...bands.values()] };
 }
 
-const FLOW_PLACES = [250, 430, 590, 750, 930];
-const FLOW_HEADS = ["made by", "in", null, "is in, or went through", "at the end"];
+const FLOW_PLACES = [300, 480, 680, 830, 1010];
+const FLOW_WIDTH = 1240;
+const FLOW_HEADS = ["made by", "first in", null, "passed on to", "at the end"];
 
 function heatFlowPicture(run) {
   const { whole, bars, bands } = flowColumns(heatFlows(run));
   const scale = FLOW_HEIGHT / whole;
   const size = (one) => scale * Math.max(one.in, one.out);
-  const place = { [0]: 34, [1]: 34, [2]: 34, [3]: 34, [4]: 34 };
-  // as the bodies stand, and the largest loss first
+  const place = [34, 34, 34, 34, 34];
+  // as the bodies stand, the largest loss first, others last
   const order = Object.keys(NODE_COLOURS);
-  const rank = ({ column, key }) => (order.indexOf(key.slice(1)) + 1 || order.length + 1);
-  const sorted = [...bars].sort((one, other) => (one.column % 2 ? rank(one) - rank(other) : 0));
-  const last = [0, 1, 3, 4];
-  for (const one of sorted.filter(({ column }) => last.includes(column))) {
+  const rank = ({ column, key, out }) => (key.endsWith("other") ? Infinity : column === 0 ? -out : order.indexOf(key.slice(1)));
+  const sorted = bars.filter(({ column }) => column !== 2).sort((one, other) => rank(one) - rank(other));
+  for (const one of sorted) {
     const slot = Math.max(size(one), LABEL_ROW);
     Object.assign(one, { y: place[one.column] + (slot - size(one)) / 2, leaves: 0, enters: 0 });
     place[one.column] += slot + 6;
   }
   const pool = bars.find(({ column }) => column === 2);
-  const bottom = Math.max(...Object.values(place));
-  if (pool) Object.assign(pool, { y: bottom + 4, leaves: 0, enters: 0 });
-  const height = pool ? bottom + size(pool) + LABEL_ROW + 10 : bottom;
-  const inOrder = [...bands].sort((one, other) => one.from.y - other.from.y || one.to.y - other.to.y);
-  for (const band of inOrder) {
+  const bottom = Math.max(...place);
+  // below the wide bands that stay in their body
+  const wide = bands.filter(({ from, to, amount }) => from.column === 1 && to.column === 3 && amount >= 0.05 * whole);
+  if (pool) Object.assign(pool, { y: Math.max(34, ...wide.flatMap(({ from, to }) => [from.y + size(from), to.y + size(to)])) + 10, leaves: 0, enters: 0 });
+  const height = pool ? Math.max(bottom, pool.y + size(pool) + LABEL_ROW) : bottom;
+  for (const band of [...bands].sort((one, other) => one.from.y - other.from.y || one.to.y - other.to.y)) {
     band.start = band.from.y + band.from.leaves;
     band.from.leaves += scale * band.amount;
   }
@@ -108,12 +109,12 @@ function heatFlowPicture(run) {
     const [x, most] = [FLOW_PLACES[one.column], Math.max(one.in, one.out)];
     const middle = one.y + size(one) / 2;
     const at = { 0: [x - 6, middle, "end"], 2: [x + BAR / 2, one.y + size(one) + 13, "middle"] }[one.column] || [x + BAR + 5, middle, "start"];
-    const words = `${one.words} ${engineeringText(most, "J", 3)}${one.column === 0 || one.column === 4 ? `, ${percentText(most / whole, 2)}` : ""}`;
+    const words = `${one.words} ${engineeringText(most, "J", 3)}${one.column === 0 || one.column === 4 ? `, ${most < 1e-4 * whole ? "below 0.01 %" : percentText(most / whole, 2)}` : ""}`;
     return drawing("text", { x: at[0], y: at[1] + (one.column === 2 ? 0 : 4), "text-anchor": at[2], fill: INK, stroke: "#fff", "stroke-width": 3, "stroke-opacity": 0.8, "paint-order": "stroke" }, words);
   };
   const heads = FLOW_HEADS.map((words, column) => words && drawing("text", { x: FLOW_PLACES[column] + (column ? 0 : BAR), y: 14, "text-anchor": column ? "start" : "end", fill: PALE_INK }, words));
   const boxes = bars.map((one) => drawing("rect", { x: FLOW_PLACES[one.column], y: one.y, width: BAR, height: Math.max(1, size(one)), fill: one.colour }));
-  return drawing("svg", { viewBox: `0 0 1120 ${Math.ceil(height)}`, width: "100%", style: "display:block;max-width:1120px;font:12px system-ui, sans-serif" }, heads, bands.map(ribbon), boxes, bars.map(label));
+  return drawing("svg", { viewBox: `0 0 ${FLOW_WIDTH} ${Math.ceil(height)}`, width: "100%", style: `display:block;max-width:${FLOW_WIDTH}px;font:12px system-ui, sans-serif` }, heads, bands.map(ribbon), boxes, bars.map(label));
 }
 
 function heatFlowFigure(run, runs, whose) {
