@@ -1,6 +1,7 @@
 //! Many drops of several kinds together.
 
 use crate::place::Place;
+use auxbear::report::service::{Occasion, service};
 
 /// A short drop with a dynamic load rating, which catalogues rarely tell.
 fn drop(place: &Place, name: &str, more: &[&str]) {
@@ -61,6 +62,48 @@ fn drops_add_up_and_the_worst_counts_where_they_do_not() {
         told.out
             .contains("% of machines have lost a bearing by rolling fatigue")
     );
+}
+
+#[test]
+fn fifty_drops_of_shipped_scenarios_are_a_service() {
+    let place = Place::new();
+    let skid = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/drop_skid.toml");
+    let kinds: [(&str, &[&str]); 2] =
+        [("half", &[]), ("full", &["--set", "rotor.speed=15000 rpm"])];
+    for (out, more) in kinds {
+        let mut all = vec!["run", skid, "--out", out, "--set", "run.duration=20 ms"];
+        all.extend(more);
+        place.call(&all).done();
+    }
+    let told = place.call(&["service", "40:full", "10:half"]).done();
+    let occasion = |count, out: &str| Occasion {
+        count,
+        directory: place.path(out),
+    };
+    let found = service(&[occasion(40, "full"), occasion(10, "half")]).unwrap();
+    let of = |out: &str, name: &str| {
+        let all = place.summary(out)["quantities"][name].clone();
+        all["value"].as_f64().unwrap()
+    };
+    let mode = |what: &str| {
+        let mode = found.modes.iter().find(|mode| mode.what == what).unwrap();
+        *mode.value.as_ref().unwrap()
+    };
+    let near = |one: f64, other: f64| assert!((one / other - 1.0).abs() < 1e-12, "{one} {other}");
+    for (what, name) in [
+        ("rolling fatigue, of L10", "life_share_with_lubricant"),
+        ("wear depth", "wear_depth"),
+    ] {
+        near(
+            mode(what),
+            40.0 * of("full", name) + 10.0 * of("half", name),
+        );
+    }
+    let dents = ["full", "half"].map(|out| of(out, "indentation_index"));
+    near(mode("dents by ball loads"), dents[0].max(dents[1]));
+    // a share of a life so small that fatigue decides nothing
+    assert!(found.survival.unwrap() > 0.999);
+    assert!(told.out.contains("40 x full") && told.out.contains("10 x half"));
 }
 
 #[test]

@@ -37,6 +37,51 @@ fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
     }
 }
 
+/// What the picture of the heat's way draws: losses into bodies, what these keep and give, each with the sums of the whole.
+fn adds_up_by_bodies(run: &Outcome, part: &str) {
+    let all = |words: &str| -> f64 {
+        let start = format!("{part}{words}_");
+        let of = |q: &&auxbear::result::outcome::Quantity| q.name.starts_with(&start);
+        let each = run.quantities.iter().filter(of);
+        each.map(|q| number(run, &q.name)).sum()
+    };
+    let [made, kept, given] = [
+        "heat_made_in",
+        "stored_heat_in",
+        "heat_to_surroundings_from",
+    ]
+    .map(all);
+    let near = |sum: f64, name: &str| {
+        let whole = number(run, &format!("{part}{name}"));
+        assert!((sum - whole).abs() < 1e-9 * made, "{name}: {sum} {whole}");
+    };
+    near(kept, "stored_heat");
+    near(given, "heat_to_surroundings");
+    assert!(
+        (made - kept - given).abs() < 1e-9 * made,
+        "{made} {kept} {given}"
+    );
+    // where the losses are known by bodies, every body has their sum
+    let flows = run
+        .quantities
+        .iter()
+        .filter(|q| q.name.starts_with(part) && q.name.ends_with("_heat_by_node"));
+    let flows: Vec<&[f64]> = flows.map(|q| list(run, &q.name)).collect();
+    let lubricant: f64 = flows.iter().map(|bodies| bodies[4]).sum();
+    if !flows.is_empty() {
+        near_to(
+            lubricant,
+            number(run, &format!("{part}heat_made_in_lubricant")),
+            made,
+        );
+        near_to(flows.iter().copied().flatten().sum(), made, made);
+    }
+}
+
+fn near_to(one: f64, other: f64, whole: f64) {
+    assert!((one - other).abs() < 1e-9 * whole, "{one} {other}");
+}
+
 #[test]
 fn the_network_changes_nothing_of_the_motion_and_loses_no_heat() {
     let short = [
@@ -60,6 +105,19 @@ fn the_network_changes_nothing_of_the_motion_and_loses_no_heat() {
     // all that the ledger books for bearing, rotor and mount
     let made = number(&with, "heat_made");
     assert!((made / number(&with, "dissipated_energy") - 1.0).abs() < 1e-9);
+    adds_up_by_bodies(&with, "");
+    let bodies = with.quantities.iter().filter_map(|q| {
+        let kind = q.name.strip_suffix("_heat_by_node")?;
+        Some((kind, list(&with, &q.name)))
+    });
+    // of every loss the ledger's heat
+    for (kind, bodies) in bodies {
+        let ledger = format!("energy.heat.{kind}");
+        let column = with.history.iter().find(|column| column.name == ledger);
+        let last = column.unwrap().values.last().unwrap();
+        let sum: f64 = bodies.iter().sum();
+        assert!((sum / last - 1.0).abs() < 1e-9, "{kind}: {sum} {last}");
+    }
     assert!(
         number(&with, "peak_lubricant_temperature") > number(&with, "peak_housing_temperature")
     );
@@ -94,6 +152,7 @@ fn slow_time_goes_on_as_ball_by_ball_would() {
     let left = number(&slow, "run_out.rotor_energy") * (1.0 / (first * first));
     assert!(((heats + left) / number(&slow, "run_out.rotor_energy") - 1.0).abs() < 1e-9);
     assert!(number(&slow, "run_out.relative_heat_residual") < 1e-9);
+    adds_up_by_bodies(&slow, "run_out.");
     // warmth thins the oil: it runs longer
     let warm = ran(&[]);
     assert!(warm.stop.complete() && slow.stop.complete());
@@ -138,6 +197,7 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     );
     assert!(number(&found, "run_out.windows") > 3.0);
     assert!(number(&found, "run_out.window_scatter") < 0.05);
+    adds_up_by_bodies(&found, "run_out.");
     // the ledger closes over windows, slow time and the run-out by laws
     let energy = number(&found, "run_out.rotor_energy");
     let speed = list(&found, "run_out.over_time.rotor.speed")[0];
@@ -264,4 +324,9 @@ fn the_life_of_a_drop_counts_the_cube_of_its_load_over_its_turns() {
         number(&ran(&sets), "life_share_with_lubricant") / number(&drop, "life_share")
     };
     assert!(lubricated("1") < 1.0 && lubricated("0") > 5.0);
+    // half fail at 5.45/D, 1 % at 0.12/D, D with the lubricant where it is known
+    let share = number(&drop, "life_share_with_lubricant");
+    near("drops_until_ten_percent_fail", 1.0 / share, 1e-12);
+    near("drops_until_fifty_percent_fail", 5.45 / share, 1e-3);
+    near("drops_until_one_percent_fail", 0.12 / share, 2e-2);
 }

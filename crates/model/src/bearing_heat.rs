@@ -76,6 +76,10 @@ pub struct Warmth {
     pub made: f64,
     /// Heat given to the surroundings until now, J.
     pub given: f64,
+    /// The heat made, by kinds of the ledger and nodes, J.
+    pub flows: [OfNodes; HEATS],
+    /// The heat given to the surroundings, by the nodes that give it, J.
+    pub given_from: OfNodes,
     /// Time and temperatures at the end of each span, where they are kept.
     pub course: Vec<(f64, OfNodes)>,
     keep: bool,
@@ -109,9 +113,8 @@ pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfN
         of(&[(one, share), (other, 1.0 - share)])
     };
     let steel = |node: usize| (node, STEEL_HEAT);
-    let kinds = bearing::HEATS.into_iter().chain(OWN_HEATS);
     let mut list = [[0.0; NODES.len()]; HEATS];
-    for (row, kind) in list.iter_mut().zip(kinds) {
+    for (row, kind) in list.iter_mut().zip(kinds()) {
         *row = match kind {
             "inner_contact_damping" | "inner_ball_slip" => {
                 between((BALLS, ball), steel(INNER_RACE))
@@ -131,6 +134,26 @@ pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfN
     list
 }
 
+/// What reaches each node, of all kinds.
+fn sums(flows: &[OfNodes; HEATS]) -> OfNodes {
+    let mut nodes = [0.0; NODES.len()];
+    for flow in flows {
+        add(&mut nodes, flow);
+    }
+    nodes
+}
+
+fn add(nodes: &mut OfNodes, more: &[f64]) {
+    for (node, more) in nodes.iter_mut().zip(more) {
+        *node += more;
+    }
+}
+
+/// The kinds of heat in the order of the ledger: their names as in results.
+pub fn kinds() -> impl Iterator<Item = &'static str> {
+    bearing::HEATS.into_iter().chain(OWN_HEATS)
+}
+
 fn of(parts: &[(usize, f64)]) -> OfNodes {
     let mut row = [0.0; NODES.len()];
     for (node, share) in parts {
@@ -146,8 +169,7 @@ pub fn steady_moment(heats: &[f64; HEATS]) -> f64 {
 
 /// Place of a heat among those of an auxiliary bearing.
 fn place(kind: &str) -> usize {
-    let mut kinds = bearing::HEATS.into_iter().chain(OWN_HEATS);
-    kinds.position(|known| known == kind).unwrap_or(HEATS)
+    kinds().position(|known| known == kind).unwrap_or(HEATS)
 }
 
 impl WarmBearing {
@@ -178,13 +200,13 @@ impl WarmBearing {
 
     /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C).
     pub fn over_nodes(&self, heats: &[f64; HEATS], spin: f64, lubricant: f64) -> OfNodes {
-        self.to_nodes(heats, self.viscous(spin, lubricant), None)
+        sums(&self.flows(heats, self.viscous(spin, lubricant), None))
     }
 
-    /// Heats of a span over the nodes, J.
-    fn to_nodes(&self, heats: &[f64; HEATS], viscous: f64, rubbing: Option<f64>) -> OfNodes {
+    /// Heats of a span, each over the nodes, J.
+    fn flows(&self, heats: &[f64; HEATS], viscous: f64, rubbing: Option<f64>) -> [OfNodes; HEATS] {
         let (steady, friction) = (place("steady_moment"), place("rotor_race_friction"));
-        let mut nodes = [0.0; NODES.len()];
+        let mut flows = [[0.0; NODES.len()]; HEATS];
         for (k, heat) in heats.iter().enumerate() {
             let mut shares = self.shares[k];
             if k == steady {
@@ -197,19 +219,15 @@ impl WarmBearing {
             if let (true, Some(rotor)) = (k == friction, rubbing) {
                 shares = of(&[(ROTOR, rotor), (INNER_RACE, 1.0 - rotor)]);
             }
-            for (node, share) in nodes.iter_mut().zip(shares) {
-                *node += share * heat;
-            }
+            flows[k] = shares.map(|share| share * heat);
         }
-        nodes
+        flows
     }
 
-    /// Heat that the nodes hold above the start, J.
-    pub fn stored(&self, temperatures: &[f64]) -> f64 {
-        let capacities = self.network.capacities.iter();
-        let each = capacities.zip(temperatures);
-        each.map(|(capacity, now)| capacity * (now - self.start))
-            .sum()
+    /// Heat that each node holds above the start, J.
+    pub fn stored(&self, temperatures: &[f64]) -> OfNodes {
+        let capacities = self.network.capacities;
+        std::array::from_fn(|node| capacities[node] * (temperatures[node] - self.start))
     }
 }
 
@@ -221,6 +239,8 @@ impl Warmth {
             peaks: [(part.start, 0.0); NODES.len()],
             made: 0.0,
             given: 0.0,
+            flows: [[0.0; NODES.len()]; HEATS],
+            given_from: [0.0; NODES.len()],
             course: Vec::new(),
             keep,
             until: 0.0,
@@ -255,7 +275,8 @@ impl Warmth {
         });
         let lubricant = self.temperatures[LUBRICANT];
         let viscous = part.viscous(seen.spin, lubricant);
-        let nodes = part.to_nodes(&heats, viscous, rubbing);
+        let flows = part.flows(&heats, viscous, rubbing);
+        let nodes = sums(&flows);
         let operation = Operation {
             speed: seen.spin,
             loads: &part.loads,
@@ -269,6 +290,10 @@ impl Warmth {
         let given = network.advance(&mut self.temperatures, &powers, span);
         self.given += given.iter().sum::<f64>();
         self.made += nodes.iter().sum::<f64>();
+        for (so_far, flow) in self.flows.iter_mut().zip(&flows) {
+            add(so_far, flow);
+        }
+        add(&mut self.given_from, &network.by_node(&given));
         self.until = seen.time;
         self.heats = seen.heats;
         self.taken = seen.taken.unwrap_or(self.taken);

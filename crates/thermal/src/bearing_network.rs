@@ -48,6 +48,9 @@ pub const OUTER_RACE: usize = 5;
 /// What the outer ring sits in.
 pub const HOUSING: usize = 6;
 
+/// What gives heat to the surroundings.
+pub const GROUNDS: [usize; 2] = [HOUSING, ROTOR];
+
 /// Conductivity of oil, W/(m K), and its ρc, J/(m³ K). Source: heat-and-life, section 2; mineral oils.
 const OIL: (f64, f64) = (0.14, 1.67e6);
 /// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: heat-and-life,

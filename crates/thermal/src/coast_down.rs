@@ -58,10 +58,41 @@ pub struct Coasting {
     pub heats: Vec<f64>,
     /// Heat given to the surroundings of all sides so far, J.
     pub given: f64,
+    /// The same by nodes.
+    pub at_nodes: AtNodes,
     /// Steps so far.
     pub steps: usize,
     /// ln(1/r) of the next step.
     next: f64,
+}
+
+/// Heats of the nodes of all sides, J.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtNodes {
+    /// Made in each.
+    pub made: Vec<f64>,
+    /// Given by each to the surroundings.
+    pub given: Vec<f64>,
+}
+
+impl AtNodes {
+    /// Nothing yet, of so many nodes.
+    pub fn none(nodes: usize) -> Self {
+        AtNodes {
+            made: vec![0.0; nodes],
+            given: vec![0.0; nodes],
+        }
+    }
+
+    /// Adds what each side makes at the nodes, W, in a time, s, and gives to the grounds in it, J.
+    pub fn add(&mut self, network: &Network, sides: f64, powers: &[f64], time: f64, given: &[f64]) {
+        for (made, power) in self.made.iter_mut().zip(powers) {
+            *made += sides * power * time;
+        }
+        for (so_far, given) in self.given.iter_mut().zip(network.by_node(given)) {
+            *so_far += sides * given;
+        }
+    }
 }
 
 /// Why a run-out does not end.
@@ -90,6 +121,7 @@ impl Coasting {
         Coasting {
             time,
             speed,
+            at_nodes: AtNodes::none(temperatures.len()),
             temperatures,
             heats: vec![0.0; losses.count()],
             given: 0.0,
@@ -183,6 +215,7 @@ impl<L: Losses> CoastDown<L> {
         let powers = to_nodes(&self.losses, &powers, nodes);
         let given = self.network.advance(&mut next.temperatures, &powers, time);
         next.given += self.sides * given.iter().sum::<f64>();
+        (next.at_nodes).add(&self.network, self.sides, &powers, time, &given);
         next.time += time;
         next.speed = after;
         let apart = next.temperatures.iter().zip(&predicted);

@@ -200,6 +200,15 @@ impl Network {
             .collect()
     }
 
+    /// Heat given to the grounds, as [`Self::advance`] returns it, by the nodes that give it.
+    pub fn by_node(&self, given: &[f64]) -> Vec<f64> {
+        let mut nodes = vec![0.0; self.capacities.len()];
+        for (ground, heat) in self.grounds.iter().zip(given) {
+            nodes[ground.node] += heat;
+        }
+        nodes
+    }
+
     fn modal_powers(&self, powers: &[f64]) -> DVector<f64> {
         let mut drive = DVector::from_column_slice(powers);
         for ground in &self.grounds {

@@ -77,6 +77,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/identify.js"),
     include_str!("page/rotor.js"),
     include_str!("page/machine.js"),
+    include_str!("page/heat_flow.js"),
     include_str!("page/coast_down.js"),
     include_str!("page/tables.js"),
     include_str!("page/start.js"),

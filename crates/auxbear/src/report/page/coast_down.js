@@ -59,21 +59,6 @@ function closingSection(runs) {
   return section("closing", "Clearance", runs.map((run) => closingFigures(run, runs)));
 }
 
-// Heat made, and what becomes of it: bars whose two sides have one sum.
-function heatBars(run) {
-  const made = [
-    ["Speed-dependent moment M0", "speed_dependent_heat", HEAT_COLOURS.steady_moment],
-    ["Load-dependent moment M1", "load_dependent_heat", HEAT_COLOURS.ball_slip],
-  ].map(([words, name, colour]) => ({ words, colour, amount: numberOf(run, name) }));
-  const kept = nodesOf(run).map((node) => ({ words: `stored in the ${wordsOf(node)}`, colour: NODE_COLOURS[node], amount: numberOf(run, `stored_heat_in_${node}`) }));
-  const went = [{ words: "given to the surroundings", colour: SERIES_COLOURS.quiet, amount: numberOf(run, "heat_to_surroundings") }, ...kept];
-  const whole = made.reduce((sum, { amount }) => sum + (amount || 0), 0);
-  const row = ({ words, colour, amount }) =>
-    element("tr", {}, element("td", { class: "name" }, words), element("td", { class: "bar" }, element("div", { style: `width:${(100 * Math.abs(amount || 0)) / whole}%;background:${colour}` })), element("td", {}, engineeringText(amount, "J", 4)), element("td", {}, percentText((amount || 0) / whole)));
-  const head = (words) => element("tr", { class: "head" }, element("th", { colspan: 4 }, words));
-  return element("table", { class: "bars" }, element("tbody", {}, head("Made in the bearings"), made.map(row)), element("tbody", {}, head("Where it is at the end"), went.map(row)));
-}
-
 function heatFigures(run, runs) {
   const across = longTime(run).words;
   const held = listOf(run, "held_times");
@@ -93,7 +78,7 @@ function heatFigures(run, runs) {
     taken.length
       ? figure(shareOfRun(run, runs, "Heat that must be taken away"), "To hold every node at its limit from the moment it gets there, all bearings together: what a coolant must take from the node itself.", curves({ series: taken, across: of.words, upright: "power [W]", height: 240 }))
       : figure(shareOfRun(run, runs, "Heat that must be taken away"), null, notInThisRun("no node reaches its limit", run)),
-    figure(shareOfRun(run, runs, "Where the heat went"), null, heatBars(run)),
+    heatFlowFigure(run, runs, "All equal bearings together; what the gas takes leaves with it."),
   ];
 }
 
@@ -160,7 +145,7 @@ function runOutSection(runs) {
 
 // How warm the bodies of a bearing become while it is computed ball by ball or rolling.
 function warmingSection(runs) {
-  const figures = (run) => [temperatureFigures(run, runs)[0], columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null];
+  const figures = (run) => [temperatureFigures(run, runs)[0], columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null, heatFlowFigure(run, runs, "Of one bearing.")];
   return section("warming", "Temperatures during the run", runs.map(figures));
 }
 

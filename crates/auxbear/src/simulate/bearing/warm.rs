@@ -1,14 +1,15 @@
 //! Temperatures of a bearing: named results, columns, and what is too hot.
 
 use crate::result::list::{List, Origin, relative};
-use crate::result::outcome::{Warning, warning};
+use crate::result::outcome::{Value, Warning, warning};
 use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::warnings::beyond;
-use model::bearing_heat::{WarmBearing, Warmth};
-use thermal::bearing_network::{CAGE, LUBRICANT, NODES};
+use model::bearing_heat::{WarmBearing, Warmth, kinds};
+use model::system::layout::of_part;
+use thermal::bearing_network::{CAGE, GROUNDS, LUBRICANT, NODES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -51,7 +52,8 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
         let name = format!("peak_{name}_temperature");
         list.number(&name, "K", Ok(peak + ICE_POINT), &PEAK);
     }
-    let stored = followed.part.stored(&warmth.temperatures);
+    let stored_in = followed.part.stored(&warmth.temperatures);
+    let stored: f64 = stored_in.iter().sum();
     if followed.closes() {
         let at_start = followed.bearing.operating_diametral_clearance;
         let at_end = followed.follows();
@@ -80,6 +82,40 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
         relative(left.abs(), warmth.made),
         &RESIDUAL,
     );
+    let made_in = |node: usize| warmth.flows.iter().map(|kind| kind[node]).sum();
+    for (node, _) in followed.nodes() {
+        list.node_heats(
+            "",
+            node,
+            [made_in(node), stored_in[node], warmth.given_from[node]],
+        );
+    }
+    // what this bearing never makes is not listed
+    for (kind, flow) in kinds().zip(&warmth.flows) {
+        if flow.iter().any(|heat| *heat != 0.0) {
+            list.heat_by_node("", kind, flow);
+        }
+    }
+}
+
+impl List {
+    /// Heats made in, kept in and given to the surroundings by a node of a bearing, J.
+    pub(crate) fn node_heats(&mut self, bearing: &str, node: usize, [made, kept, given]: [f64; 3]) {
+        let mut add = |words: &str, heat: f64| {
+            let name = format!("{words}_{}", NODES[node]);
+            self.number(&of_part(bearing, &name), "J", Ok(heat), &AT_NODE);
+        };
+        add("heat_made_in", made);
+        add("stored_heat_in", kept);
+        if GROUNDS.contains(&node) {
+            add("heat_to_surroundings_from", given);
+        }
+    }
+    /// Heat of a kind over the nodes, J.
+    pub(crate) fn heat_by_node(&mut self, bearing: &str, kind: &str, flow: &[f64]) {
+        let name = of_part(bearing, &format!("{kind}_heat_by_node"));
+        self.push(&name, "J", Value::List(flow.to_vec()), &BY_NODE);
+    }
 }
 
 /// Names the work of rings that close on their balls, J.
@@ -205,6 +241,16 @@ const HEAT: Origin = Origin {
     law: "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes; ∫G (T − T_ambient) dt",
     source: "crates/model/src/bearing_heat.rs",
     valid: "of one of equal bearings",
+};
+const AT_NODE: Origin = Origin {
+    law: "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
+    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; heat-and-life, section 3",
+    valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
+};
+const BY_NODE: Origin = Origin {
+    law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race and housing, in this order",
+    source: "shares of crates/model/src/bearing_heat.rs; heat-and-life, section 3",
+    valid: "as heat_made: of each loss the sum is the ledger's, the shares are constants or follow the state",
 };
 const RESIDUAL: Origin = Origin {
     law: "|heat made − stored − given away| over the heat made",

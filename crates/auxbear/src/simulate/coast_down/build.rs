@@ -15,6 +15,7 @@ use thermal::bearing_network::{
     BALLS, BearingNetwork, INNER_RACE, LUBRICANT, Landing, NODES, OUTER_RACE,
 };
 use thermal::clearance::ThermalClearance;
+use thermal::coast_down::AtNodes;
 use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
@@ -82,6 +83,8 @@ pub(crate) struct Start {
     pub heats: Vec<f64>,
     /// Heat given to the surroundings before it, J.
     pub given: f64,
+    /// Heats of the nodes before it.
+    pub at_nodes: AtNodes,
     /// What is known of the way to there.
     pub rows: Vec<Row>,
     /// Why it ended on that way.
@@ -98,6 +101,7 @@ struct Kept {
     temperatures: Vec<f64>,
     heats: Vec<f64>,
     given: f64,
+    at_nodes: AtNodes,
 }
 
 impl Start {
@@ -106,6 +110,7 @@ impl Start {
         Start {
             time,
             speed,
+            at_nodes: AtNodes::none(temperatures.len()),
             temperatures,
             heats: vec![0.0; 2 * bearings + 1],
             given: 0.0,
@@ -122,6 +127,7 @@ impl Start {
             temperatures: self.temperatures.clone(),
             heats: self.heats.clone(),
             given: self.given,
+            at_nodes: self.at_nodes.clone(),
         });
     }
     /// Goes back to what was kept.
@@ -132,6 +138,7 @@ impl Start {
             self.temperatures = kept.temperatures;
             self.heats = kept.heats;
             self.given = kept.given;
+            self.at_nodes = kept.at_nodes;
         }
     }
 }

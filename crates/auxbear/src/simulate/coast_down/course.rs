@@ -69,6 +69,7 @@ pub(super) fn follow(
     );
     state.heats.clone_from(&start.heats);
     state.given = start.given;
+    state.at_nodes = start.at_nodes.clone();
     let mut rows = start.rows.clone();
     if start.ended.is_none() || rows.is_empty() {
         rows.push(row(built, &state, &taken));

@@ -9,6 +9,7 @@ use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{RatedBearing, passages_per_turn, repetitions};
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
+use thermal::losses::Losses;
 
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
@@ -80,8 +81,25 @@ fn heats(ran: &Ran, list: &mut List) {
             let before = ran.built.warm_from[node.place()];
             let rise = free.state.temperatures[node.place()] - before;
             let kept = sides * part.network.capacities[node.node] * rise;
-            let name = format!("stored_heat_in_{}", node.name());
-            list.number(&of_part(&part.name, &name), "J", Ok(kept), &HEAT);
+            let at = &free.state.at_nodes;
+            let [made, given] = [at.made[node.place()], at.given[node.place()]];
+            list.node_heats(&part.name, node.node, [made, kept, given]);
+        }
+        // windows have other losses, whose heat is known by nodes alone
+        if ran.built.start.heats.iter().any(|heat| *heat != 0.0) {
+            continue;
+        }
+        let losses = ran.built.losses(0.0);
+        for (loss, name) in ["speed_dependent", "load_dependent"]
+            .into_iter()
+            .enumerate()
+        {
+            let loss = 2 * k + loss;
+            let share = |node| losses.share(loss, k * NODES.len() + node);
+            let flow: Vec<f64> = (0..NODES.len())
+                .map(|node| heats[loss] * share(node))
+                .collect();
+            list.heat_by_node(&part.name, name, &flow);
         }
     }
     list.number("heat_to_surroundings", "J", Ok(free.state.given), &HEAT);

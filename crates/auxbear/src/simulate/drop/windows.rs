@@ -409,6 +409,7 @@ fn step(built: &mut Built, from: &Window, to: &Window) -> Result<(), &'static st
     let network = network(built)?;
     let given = network.advance(&mut built.start.temperatures, &powers, time);
     built.start.given += sides * given.iter().sum::<f64>();
+    (built.start.at_nodes).add(&network, sides, &powers, time, &given);
     built.start.time += time;
     built.start.speed = after;
     Ok(())
