@@ -335,8 +335,8 @@ impl<R: Real> BallTangents<R> {
         for (group, own) in self.groups.iter_mut().enumerate() {
             for race in [&mut own.inner, &mut own.outer] {
                 race.pressing = race.pressing.joined(inverse_g);
-                race.turn = race.turn * inverse_g;
-                race.force = race.force * inverse_g;
+                race.turn *= inverse_g;
+                race.force *= inverse_g;
             }
             let (inner, outer) = (own.inner.pressing.damping, own.outer.pressing.damping);
             let (ti, to) = (own.inner.traction, own.outer.traction);
