@@ -67,7 +67,7 @@ function flowColumns({ losses, ends }) {
   return { whole, bars: [...bars.values()], bands: [...bands.values()] };
 }
 
-const FLOW_PLACES = [300, 480, 680, 830, 1010];
+const FLOW_PLACES = [300, 480, 680, 830, 985];
 const FLOW_WIDTH = 1240;
 const FLOW_HEADS = ["made by", "first in", null, "passed on to", "at the end"];
 
@@ -109,7 +109,7 @@ function heatFlowPicture(run) {
     const [x, most] = [FLOW_PLACES[one.column], Math.max(one.in, one.out)];
     const middle = one.y + size(one) / 2;
     const at = { 0: [x - 6, middle, "end"], 2: [x + BAR / 2, one.y + size(one) + 13, "middle"] }[one.column] || [x + BAR + 5, middle, "start"];
-    const words = `${one.words} ${engineeringText(most, "J", 3)}${one.column === 0 || one.column === 4 ? `, ${most < 1e-4 * whole ? "below 0.01 %" : percentText(most / whole, 2)}` : ""}`;
+    const words = `${one.words} ${engineeringText(most, "J", 3)}${one.column === 0 || one.column === 4 ? `, ${most < 1e-4 * whole ? "< 0.01 %" : percentText(most / whole, 2)}` : ""}`;
     return drawing("text", { x: at[0], y: at[1] + (one.column === 2 ? 0 : 4), "text-anchor": at[2], fill: INK, stroke: "#fff", "stroke-width": 3, "stroke-opacity": 0.8, "paint-order": "stroke" }, words);
   };
   const heads = FLOW_HEADS.map((words, column) => words && drawing("text", { x: FLOW_PLACES[column] + (column ? 0 : BAR), y: 14, "text-anchor": column ? "start" : "end", fill: PALE_INK }, words));
