@@ -146,8 +146,8 @@ fn random_state(machine: &RotorMachine, random: &mut Random) -> Vec<f64> {
         }
         state[at.inner + 4] = random.within(7.0);
         state[at.inner + 5] = random.within(1500.0);
-        for channel in at.mount..at.mount + at.mount_states {
-            state[channel] = random.within(1e-5);
+        for own in &mut state[at.of_mount()] {
+            *own = random.within(1e-5);
         }
         let bearing = planar(&part.bearing);
         let cage = [random.within(3.0), random.within(600.0)];
