@@ -10,8 +10,9 @@
 //! [`Levitation::release`] change the states; nothing else jumps.
 
 use crate::parts::{Actuator, Amplifier, Control, Sensor, Timing};
-use crate::{Refused, StateSpace, checks};
+use crate::{C64, LinearControl, Refused, StateSpace, checks};
 use number::Real;
+use smallvec::{SmallVec, smallvec};
 use std::ops::Range;
 
 /// Sensors, controller and magnets of a rotor.
@@ -70,17 +71,20 @@ impl Layout {
     }
 }
 
+/// A value for each axis, without allocation up to four magnets.
+pub type OfAxes<R> = SmallVec<[R; 8]>;
+
 /// Signals of one instant; room that [`Levitation::rate`] fills and a caller may read.
 #[derive(Debug, Clone)]
 pub struct Signals<R> {
     /// Reference minus signal of every sensor axis, m.
-    pub errors: Vec<R>,
+    pub errors: OfAxes<R>,
     /// Command of every magnet axis as the controller gives it: A, or V where an amplifier takes volts.
-    pub wanted: Vec<R>,
+    pub wanted: OfAxes<R>,
     /// The same behind delay or hold.
-    pub commands: Vec<R>,
+    pub commands: OfAxes<R>,
     /// Control current of every magnet axis, A.
-    pub currents: Vec<R>,
+    pub currents: OfAxes<R>,
 }
 
 impl Levitation {
@@ -163,10 +167,10 @@ impl Levitation {
     #[must_use]
     pub fn signals<R: Real>(&self) -> Signals<R> {
         Signals {
-            errors: vec![R::zero(); self.sensors.len()],
-            wanted: vec![R::zero(); self.actuators.len()],
-            commands: vec![R::zero(); self.actuators.len()],
-            currents: vec![R::zero(); self.actuators.len()],
+            errors: smallvec![R::zero(); self.sensors.len()],
+            wanted: smallvec![R::zero(); self.actuators.len()],
+            commands: smallvec![R::zero(); self.actuators.len()],
+            currents: smallvec![R::zero(); self.actuators.len()],
         }
     }
 
@@ -225,6 +229,34 @@ impl Levitation {
         }
     }
 
+    /// What a displacement (m) of every sensor makes of each state, the largest over slow, usual and quick motions: a measure of
+    /// what matters in it. 1 where nothing reaches it.
+    #[must_use]
+    pub fn scales(&self, displacement: f64) -> Vec<f64> {
+        let linear = self.linear();
+        let control = LinearControl::new(self);
+        let size = control.a.nrows();
+        let mut largest = vec![0.0_f64; size];
+        for omega in [1e2, 1e3, 1e4] {
+            let turning =
+                nalgebra::DMatrix::from_diagonal_element(size, size, C64::new(0.0, omega));
+            let inputs = control.by_displacement.map(C64::from);
+            let Some(found) = (turning - control.a.map(C64::from)).lu().solve(&inputs) else {
+                continue;
+            };
+            for (own, row) in largest.iter_mut().zip(found.row_iter()) {
+                *own = own.max(displacement * row.iter().map(|entry| entry.norm()).sum::<f64>());
+            }
+        }
+        // a sampled loop has held commands in place of a delay's states
+        let own = |name: &String| linear.names().iter().position(|of| of == name);
+        let of = |name| own(name).map_or(0.0, |at| largest[at]);
+        let scales = self.names().iter().map(of);
+        scales
+            .map(|scale| if scale > 0.0 { scale } else { 1.0 })
+            .collect()
+    }
+
     /// Signals of an instant from the states: errors, commands, currents.
     pub fn read<R: Real>(&self, states: &[R], displacements: &[R], signals: &mut Signals<R>) {
         for (index, sensor) in self.sensors.iter().enumerate() {
@@ -250,6 +282,11 @@ impl Levitation {
                     let (wanted, out) = (&signals.wanted, &mut signals.commands);
                     delay.output(own, &wanted[axis..=axis], &mut out[axis..=axis]);
                 }
+            }
+        }
+        for (command, actuator) in signals.commands.iter_mut().zip(&self.actuators) {
+            if let Some(most) = actuator.command_limit() {
+                *command = command.min(R::splat(most)).max(R::splat(-most));
             }
         }
         for (index, current) in signals.currents.iter_mut().enumerate() {
@@ -289,7 +326,7 @@ impl Levitation {
         self.layout.currents[actuator]
     }
 
-    /// The same loop for linear analysis: samples as a delay T_c + T_s/2, no limit of voltage, no offset, no reference.
+    /// The same loop for linear analysis: samples as a delay T_c + T_s/2, no limit of current or voltage, no offset, no reference.
     #[must_use]
     pub fn linear(&self) -> Self {
         let mut sensors = self.sensors.clone();
@@ -341,6 +378,7 @@ impl Levitation {
     fn centred(&self, sensors: Vec<Sensor>) -> Self {
         let mut actuators = self.actuators.clone();
         for actuator in &mut actuators {
+            actuator.largest_current = f64::INFINITY;
             if let Amplifier::Voltage {
                 largest_voltage, ..
             } = &mut actuator.amplifier

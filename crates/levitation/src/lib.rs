@@ -31,7 +31,7 @@ mod state_space;
 mod suspension;
 
 pub use closed_loop::{ClosedLoop, Pole, Verdict, ZERO, verdict};
-pub use levitation::{Levitation, Signals};
+pub use levitation::{Levitation, OfAxes, Signals};
 pub use linear_control::LinearControl;
 pub use parts::{Actuator, Amplifier, Axis, Control, Sensor, Timing};
 pub use plant::{Coordinates, Plant, weight};

@@ -73,5 +73,5 @@ fn answer(levitation: &Levitation, input: &[f64]) -> (DVector<f64>, DVector<f64>
         &mut signals,
         rates.as_mut_slice(),
     );
-    (rates, DVector::from_vec(signals.currents))
+    (rates, DVector::from_column_slice(&signals.currents))
 }

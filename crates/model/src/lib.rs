@@ -15,6 +15,7 @@ pub mod bearing_heat;
 pub mod contact;
 pub mod heats;
 pub mod levitation;
+pub mod magnets;
 pub mod motion;
 pub mod mount;
 pub mod rotor;

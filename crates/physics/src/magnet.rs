@@ -10,7 +10,7 @@
 //! Power to the rotor is f·v, v the velocity of its axis against the magnet; a magnet is a source of either sign.
 //! Without current changes the force has the potential -½k_s x² (linear), -k[(i₀+i)²/(g₀-x) + (i₀-i)²/(g₀+x)] (pair).
 
-use number::Real;
+use number::{Gather, Real, constants};
 
 /// The force law of one axis of a magnet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,17 +26,44 @@ pub enum Magnet<R> {
     Pair(OpposedPair<R>),
 }
 
-/// Two magnets that pull against each other about a bias current.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OpposedPair<R> {
-    /// Force constant k of one magnet, N m²/A².
-    pub force_constant: R,
-    /// Bias current i₀ of both, A.
-    pub bias_current: R,
-    /// Gap g₀ of both with the rotor in the centre, m.
-    pub gap: R,
-    /// Largest current of a coil, A.
-    pub largest_current: R,
+constants! {
+    /// Two magnets that pull against each other about a bias current.
+    pub struct OpposedPair {
+        /// Force constant k of one magnet, N m²/A².
+        force_constant: R,
+        /// Bias current i₀ of both, A.
+        bias_current: R,
+        /// Gap g₀ of both with the rotor in the centre, m.
+        gap: R,
+        /// Largest current of a coil, A.
+        largest_current: R,
+    }
+}
+
+impl<R: Real> Gather<R> for Magnet<f64> {
+    type Out = Magnet<R>;
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> Magnet<R>
+    where
+        Self: 'a,
+    {
+        let linear = |lane: usize| match *machine(lane) {
+            Magnet::Linear {
+                current_stiffness,
+                position_stiffness,
+            } => [current_stiffness, position_stiffness],
+            Magnet::Pair(_) => panic!("lanes share the kind of their magnets"),
+        };
+        match machine(0) {
+            Magnet::Linear { .. } => Magnet::Linear {
+                current_stiffness: R::from_lanes(|lane| linear(lane)[0]),
+                position_stiffness: R::from_lanes(|lane| linear(lane)[1]),
+            },
+            Magnet::Pair(_) => Magnet::Pair(Gather::<R>::gather(&|lane| match machine(lane) {
+                Magnet::Pair(pair) => pair,
+                Magnet::Linear { .. } => panic!("lanes share the kind of their magnets"),
+            })),
+        }
+    }
 }
 
 /// Force constant of a magnet from its shape, N m²/A².

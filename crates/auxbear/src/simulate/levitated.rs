@@ -47,11 +47,12 @@ pub(crate) fn holds(
 
 /// Refuses coils that cannot carry the weight.
 pub(crate) fn strong(model: &LevitationModel, rest: &Equilibrium) -> Result<(), Box<Problem>> {
-    for (index, limit) in model.largest_currents.iter().enumerate() {
-        let Some(limit) = limit.filter(|limit| rest.currents[index].abs() > *limit) else {
+    for (index, actuator) in model.levitation.actuators().iter().enumerate() {
+        let limit = actuator.largest_current;
+        if rest.currents[index].abs() <= limit {
             continue;
-        };
-        let name = &model.levitation.actuators()[index].axis.name;
+        }
+        let name = &actuator.axis.name;
         return Err(weak(&format!(
             "{:.4} A of control current on axis {name} to hold the weight, {limit:.4} A there",
             rest.currents[index].abs()

@@ -107,6 +107,7 @@ impl Asked<'_> {
                 "what keeps the balls apart (a free cage, its land, neighbours) has no tangents"
             }
             Known::Nothing => "balls that roll have nothing stiff",
+            Known::NotControllers => "controllers of magnets have no tangents",
             Known::NotMounts => "parts of a mount besides spring and damper have no tangents",
         };
         let text = match (run.method, run.accuracy) {

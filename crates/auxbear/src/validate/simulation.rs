@@ -227,7 +227,7 @@ pub(super) fn falling_machine(
             centre: Vec2::zero(),
             carried: Vec2::zero(),
         },
-        magnets: Vec::new(),
+        magnets: None,
         seals: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
@@ -303,7 +303,7 @@ pub(super) fn constants(
             centre: Vec2::zero(),
             carried: -(gravity * machine.rotor_mass),
         },
-        magnets: Vec::new(),
+        magnets: None,
         seals: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),

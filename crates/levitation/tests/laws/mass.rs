@@ -54,6 +54,7 @@ impl Mass {
         let actuator = |angle| Actuator {
             axis: axis(angle),
             magnet: self.magnet,
+            largest_current: f64::INFINITY,
             amplifier: self.amplifier,
         };
         (angles.map(sensor).to_vec(), angles.map(actuator).to_vec())

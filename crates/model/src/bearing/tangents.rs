@@ -48,6 +48,8 @@ pub enum Known {
     Nothing,
     /// Nothing: parts of a mount besides spring and damper have no tangents.
     NotMounts,
+    /// Nothing: controllers have no tangents.
+    NotControllers,
 }
 
 impl BearingConstants {

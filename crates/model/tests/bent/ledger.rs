@@ -2,7 +2,7 @@
 
 use crate::machines::bent::bent;
 use crate::machines::{Blind, by, settings, vec2};
-use model::levitation::{Fade, FadingMagnet};
+use model::magnets::MagnetsConstants;
 use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
 use model::rotor::TorqueTables;
 use model::seal::SealConstants;
@@ -24,15 +24,8 @@ fn loaded() -> (MachineConstants, Vec<f64>) {
     });
     constants.rotor.drag = 1e-4;
     constants.rotor.drag_square = 1e-7;
-    constants.magnets = vec![FadingMagnet {
-        node: constants.bearings[0].node.clone(),
-        fade: Fade {
-            force: vec2(-10.0, 30.0),
-            stiffness: 1e5,
-            decay_rate: 500.0,
-            cut: 0.0,
-        },
-    }];
+    let magnet = (constants.bearings[0].node.clone(), vec2(-10.0, 30.0), 1e5);
+    constants.magnets = Some(MagnetsConstants::fading([magnet], 500.0, 0.0));
     constants.seals = vec![SealConstants {
         node: constants.bearings[1].node.clone(),
         centre: vec2(2e-5, -1e-5),

@@ -4,7 +4,7 @@ use crate::machines::bent::{NODES, Shaft, bent, shaft};
 use crate::machines::{Random, vec2};
 use model::bearing::ball::BallMotion;
 use model::bearing::{BearingConstants, PlanarConstants, seat};
-use model::levitation::{Fade, FadingMagnet};
+use model::magnets::MagnetsConstants;
 use model::mount::MaxwellBranch;
 use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
@@ -29,15 +29,8 @@ fn machine() -> MachineConstants {
     let (mut constants, _) = bent(CUT);
     constants.gravity = vec2(2.0, -9.6);
     constants.rotor.drag = 1e-4;
-    constants.magnets = vec![FadingMagnet {
-        node: in_modes(shaft()).row(2),
-        fade: Fade {
-            force: vec2(-10.0, 30.0),
-            stiffness: 1e5,
-            decay_rate: 300.0,
-            cut: 0.0,
-        },
-    }];
+    let magnet = (in_modes(shaft()).row(2), vec2(-10.0, 30.0), 1e5);
+    constants.magnets = Some(MagnetsConstants::fading([magnet], 300.0, 0.0));
     for part in &mut constants.bearings {
         part.mount_parts.branches = vec![MaxwellBranch {
             stiffness: 1e7,
@@ -67,8 +60,9 @@ fn image_of(constants: &MachineConstants) -> MachineConstants {
     image.rotor.drag = constants.rotor.drag;
     image.gravity = flipped(image.gravity);
     image.speed = -image.speed;
-    for magnet in &mut image.magnets {
-        magnet.fade.force = flipped(magnet.fade.force);
+    for magnet in image.magnets.iter_mut().flat_map(|own| &mut own.magnets) {
+        // the axis along y
+        magnet.axes[1].current = -magnet.axes[1].current;
     }
     for part in &mut image.bearings {
         part.datum = flipped(part.datum);

@@ -3,7 +3,7 @@
 
 use crate::machines::bent::{NODES, Shaft, bent, shaft};
 use crate::machines::vec2;
-use model::levitation::{Fade, FadingMagnet};
+use model::magnets::MagnetsConstants;
 use model::system::machine::{MachineConstants, RotorMachine};
 use nalgebra::{Complex, DMatrix, DVector};
 use number::Vec2;
@@ -79,15 +79,8 @@ fn touching(speed: f64) -> (Shaft, MachineConstants, Vec<f64>) {
     constants.speed = speed;
     constants.unbalance_angle = 0.7;
     constants.rotor.drag = 1e-4;
-    constants.magnets = vec![FadingMagnet {
-        node: shaft.row(2),
-        fade: Fade {
-            force: vec2(-10.0, 30.0),
-            stiffness: 1e5,
-            decay_rate: 300.0,
-            cut: -SINCE,
-        },
-    }];
+    let magnet = (shaft.row(2), vec2(-10.0, 30.0), 1e5);
+    constants.magnets = Some(MagnetsConstants::fading([magnet], 300.0, -SINCE));
     let machine = RotorMachine::new(constants.clone());
     let (mut at, mut moving) = (Vec::new(), Vec::new());
     for (k, own) in constants.rotor.coordinates.iter().enumerate() {
@@ -190,17 +183,19 @@ fn rates(
         gravity = C64::default();
     }
     torque += (gravity.conj() * weight_of_unbalance).re;
-    for magnet in &constants.magnets {
+    let magnets = constants.magnets.as_ref().unwrap();
+    for magnet in &magnets.magnets {
         let node = row(&magnet.node);
-        let fade = &magnet.fade;
-        let left = (-2.0 * fade.decay_rate * SINCE).exp();
-        let mut spring = C64::from(fade.stiffness * left);
+        let left = (-2.0 * magnets.decay_rate * SINCE).exp();
+        let stiffness = magnet.axes[0].law.position_stiffness();
+        let carried = vec2(magnet.axes[0].current, magnet.axes[1].current);
+        let mut spring = C64::from(stiffness * left);
         if is(Trap::MagnetPulls) {
             spring = -spring;
         } else if is(Trap::MagnetStays) {
-            spring = C64::from(fade.stiffness);
+            spring = C64::from(stiffness);
         }
-        let pull = complex(fade.force) * left + spring * node.dotc(&q);
+        let pull = complex(carried) * left + spring * node.dotc(&q);
         force += node * pull;
     }
     for (part, place) in constants.bearings.iter().zip(&machine.layout().bearings) {

@@ -286,7 +286,7 @@ pub fn reference() -> MachineConstants {
             centre: vec2(0.0, 0.0),
             carried: vec2(0.0, rotor_mass * G),
         },
-        magnets: Vec::new(),
+        magnets: None,
         seals: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),

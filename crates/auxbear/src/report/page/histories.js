@@ -68,6 +68,7 @@ function contactSection(runs) {
 }
 
 const INSTANTS = [
+  ["power_lost_at", "power lost", "limit"],
   ["inner_race_time_to_50_percent", "race 50 %", "race"],
   ["inner_race_time_to_95_percent", "race 95 %", "race"],
   ["cage_time_to_95_percent_of_rolling", "cage 95 % of rolling", "cage"],
@@ -104,7 +105,7 @@ function speedSection(runs) {
     });
   }
   // With more than two runs the words would cover each other: one instant each, the others are in the table.
-  const shown = INSTANTS.filter(([name]) => runs.length <= 2 || name === "inner_race_time_to_95_percent");
+  const shown = INSTANTS.filter(([name]) => runs.length <= 2 || name === "power_lost_at" || name === "inner_race_time_to_95_percent");
   const marks = instantMarks(
     runs.flatMap((run) =>
       shown.map(([name, words, part]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: several ? run.colour : SERIES_COLOURS[part] })),

@@ -105,6 +105,18 @@ function shapeFigure(machine) {
   return [element("div", { class: "controls" }, button, slider, readout), holder];
 }
 
+const AXIS_COLOURS = ["#1f5fa8", "#6d9fd3", "#c2571a", "#e0a03c", "#2f8f5b", "#8fc4a6", "#8a4fae", "#b48fcc"];
+
+// Control currents of the magnets' axes over time.
+function currentFigure(run) {
+  const names = [...run.columns.keys()].filter((name) => /^magnet\..*\.current_[12]$/.test(name));
+  if (!names.length) return null;
+  const words = (name) => name.replace(/^magnet\.(.*)\.current_([12])$/, (_, magnet, axis) => `${wordsOf(magnet)}, axis ${axis} [A]`);
+  const series = names.flatMap((name, place) => lines([run], name, 1, { label: words(name), colour: AXIS_COLOURS[place % AXIS_COLOURS.length], width: 1 }));
+  const marks = instantMarks([{ instant: numberOf(run, "power_lost_at"), words: "power lost", colour: SERIES_COLOURS.limit }]);
+  return figure("Control currents", "Of each axis of the magnets, without bias; after the loss of power what is left of them.", timePlot({ series, label: "current [A]", marks, ticks: [run], height: 240 }));
+}
+
 function machineSection(runs) {
   const machines = machinesOf(runs);
   const of = (machine) => (machines.length > 1 ? `${machine[0].name}: ` : "");
@@ -114,6 +126,7 @@ function machineSection(runs) {
     machines.map((machine) => [
       figure(`${of(machine)}Rotor to scale`, "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; light blue: disks, sized by their mass where the file gives no diameter; orange: magnets, with sensors as black wedges; dark blue: auxiliary bearings; red: unbalance; dots: nodes.", rotorPicture(machine[0], [])),
       columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets.", shapeFigure(machine)) : null,
+      currentFigure(machine[0]),
       listAt(machine[0], "largest_displacements").length ? figure(`${of(machine)}How far the shaft goes`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
     ]),
   );

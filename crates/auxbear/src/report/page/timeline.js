@@ -16,6 +16,7 @@ const timeline = {
   span(runs) {
     const words = new Set(runs.map((run) => systemOf(run).time).filter(Boolean));
     if (words.size === 1) [this.words] = words;
+    if (runs.some((run) => run.quantities.power_lost_at)) this.words = "time since the start";
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;
     this.first = Math.min(...times.map((time) => time[0]));

@@ -312,6 +312,15 @@ pub(crate) const KEYS: &[Key] = &[
     .default("0 s", "the currents are gone at once")
     .only(MACHINE),
     Key::new(
+        "levitation.power_lost_at",
+        Kind::Quantity("s"),
+        "0.3 s",
+        "Instant at which all magnets lose their power. Until then sensors, controllers and amplifiers act in time, with their limits; later than run.duration: they hold the rotor to the end.",
+    )
+    .not_negative()
+    .default("0 s", "at the start, from the steady motion of the levitated rotor")
+    .only(MACHINE),
+    Key::new(
         "levitation.offset_x",
         Kind::Quantity("m"),
         "0.02 mm",

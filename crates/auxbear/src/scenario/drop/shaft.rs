@@ -6,6 +6,7 @@ use crate::scenario::key::quoted;
 use crate::scenario::rotor::build::{self, RotorModel};
 use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts;
+use crate::scenario::run::Until;
 use crate::scenario::values::Values;
 use rotor::{Properties, properties};
 
@@ -28,6 +29,8 @@ pub struct Shaft {
     pub windage: f64,
     /// Time in which the currents of the magnets decay to 1/e, s.
     pub decay_time: f64,
+    /// Instant at which the magnets lose their power, s; their controllers act until then.
+    pub power_lost: f64,
     /// Where the auxiliary bearings stand, in their order.
     pub places: Vec<BearingPlace>,
 }
@@ -61,6 +64,7 @@ impl Shaft {
             return not_in_runs(part, "", "a housing in a run", ALONE);
         }
         let model = build::model(&parts, values)?;
+        let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         // supports first, then seals, as the rotor has them
         let of = |word: &'static str| parts.iter().filter(move |part| part.kind.word == word);
         let staying = of("support").chain(of("seal")).zip(&model.rotor.supports);
@@ -101,6 +105,26 @@ impl Shaft {
             }
             _ => {}
         }
+        const LOST: &str = "levitation.power_lost_at";
+        if number(values, LOST) > 0.0 {
+            let until = values.chosen("run.until") == Some(Until::Standstill);
+            let conflict = match &model.levitation {
+                None => Some("no magnets, whose power could be lost"),
+                Some(_) if until => Some("run.until = \"standstill\""),
+                Some(_) => None,
+            };
+            if let Some(found) = conflict {
+                let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
+                let problem = values.problem(
+                    Code::Conflict,
+                    LOST,
+                    values.place(LOST),
+                    found.to_string(),
+                    allowed.to_string(),
+                );
+                return Err(Box::new(problem));
+            }
+        }
         let nodes = all
             .iter()
             .map(|own| node(own, &model))
@@ -120,7 +144,6 @@ impl Shaft {
             return Err(Box::new(problem));
         }
         let shares = shares(&model, &nodes);
-        let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         let places = (all.iter().zip(&nodes).zip(shares))
             .map(|((own, node), share)| BearingPlace {
                 node: *node,
@@ -138,6 +161,7 @@ impl Shaft {
             drag: number(values, "rotor.drag"),
             windage: number(values, "rotor.windage"),
             decay_time: number(values, "levitation.decay_time"),
+            power_lost: number(values, "levitation.power_lost_at"),
             places,
         })
     }

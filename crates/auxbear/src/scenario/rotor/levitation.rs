@@ -15,13 +15,11 @@ type Built<T> = Result<T, Box<Problem>>;
 /// Share by which a given bias may differ from g₀k_s/k_i: makers round their data.
 const BIAS_SHARE: f64 = 0.02;
 
-/// The levitation of a rotor, with what the limits of its coils are compared with.
+/// The levitation of a rotor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevitationModel {
     /// The levitation as the kernel has it; two axes of each magnet in turn.
     pub levitation: Levitation,
-    /// Largest control current of each axis, A: what the coils leave above the bias; none where no limit is given.
-    pub largest_currents: Vec<Option<f64>>,
     /// Magnets by name with node and node of their sensor.
     pub magnets: Vec<(String, usize, usize)>,
 }
@@ -40,7 +38,7 @@ pub(crate) fn model<'a>(
         return Ok(None);
     };
     let (mut axes, mut actuators, mut channels) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut limits, mut names) = (Vec::new(), Vec::new());
+    let mut names = Vec::new();
     let own = |list: &[&'a Part], magnet: &Part, what: &str| -> Built<&'a Part> {
         let of_it = |part: &&&Part| part.text("magnet") == Some(&magnet.label);
         let for_all = |part: &&&Part| part.text("magnet").is_none();
@@ -75,8 +73,8 @@ pub(crate) fn model<'a>(
                 axis: axis(at),
                 magnet: law(magnet)?,
                 amplifier: amplifier(magnet)?,
+                largest_current: largest_current(magnet).unwrap_or(f64::INFINITY),
             });
-            limits.push(largest_current(magnet));
         }
         channels.push((controller, channel(controller)?));
     }
@@ -101,7 +99,6 @@ pub(crate) fn model<'a>(
         .map_err(|error| refused(teller, "", &error))?;
     Ok(Some(LevitationModel {
         levitation,
-        largest_currents: limits,
         magnets: names,
     }))
 }

@@ -14,6 +14,7 @@ use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
+use model::magnets::MagnetsConstants;
 use model::mount::Mount;
 use model::rotor::RotorConstants;
 use model::system::machine::MachineConstants;
@@ -70,10 +71,10 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
         parts.push(constants);
         bearings.push(built);
     }
-    let mut constants = constants(drop, parts);
+    let magnets = shaft.as_ref().and_then(|built| built.magnets.clone());
+    let mut constants = constants(drop, parts, magnets);
     if let Some(built) = &shaft {
         constants.rotor = built.rotor.clone();
-        constants.magnets = built.magnets.clone();
         constants.seals = built.seals.clone();
     }
     Ok(Built {
@@ -184,7 +185,11 @@ pub(super) fn gravity(drop: &Drop) -> Vec2<f64> {
 }
 
 /// The constants of a drop onto auxiliary bearings that are built.
-fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineConstants {
+fn constants(
+    drop: &Drop,
+    bearings: Vec<AuxiliaryBearingConstants>,
+    magnets: Option<MagnetsConstants>,
+) -> MachineConstants {
     // of planes that are alike one is computed, with its share of the rotor; bearings with names carry the whole of it
     let share = 1.0 / f64::from(drop.rotor.planes);
     let each = bearings.len() as f64;
@@ -213,13 +218,17 @@ fn constants(drop: &Drop, bearings: Vec<AuxiliaryBearingConstants>) -> MachineCo
             centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
             carried: -(gravity * mass),
         },
-        magnets: Vec::new(),
         seals: Vec::new(),
         bearings,
         gravity,
         speed: drop.rotor.speed,
         unbalance_angle: drop.rotor.unbalance_angle,
-        schedule: torque::schedule(brake_start, torque.as_ref()),
+        schedule: torque::schedule(
+            brake_start,
+            torque.as_ref(),
+            magnets.as_ref().map(|own| (own, drop.run.duration)),
+        ),
+        magnets,
     };
     constants.balance_mounts();
     constants

@@ -5,7 +5,7 @@ use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::shaft_results;
+use crate::simulate::drop::{magnets, shaft_results};
 use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
@@ -31,6 +31,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
         );
     }
     columns.extend(shaft_results::columns(context, &runs[0]));
+    columns.extend(magnets::columns(context, &runs[0]));
     let start = context.at_start();
     let mut table = Table::over(&runs[0]);
     table.flows("release", machine.layout(), |part| {
@@ -48,7 +49,11 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
 /// Columns of the rotor; any bearing has the rows.
 fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
     let mut table = Table::over(run);
-    table.add("time", "s", "time since release", |row| row.time);
+    let since = match context.controlled() {
+        Some(_) => "time since the start",
+        None => "time since release",
+    };
+    table.add("time", "s", since, |row| row.time);
     if context.built.shaft.is_none() {
         node(&mut table, context, 0);
     }

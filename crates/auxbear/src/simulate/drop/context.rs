@@ -1,6 +1,6 @@
 //! What the pages that name results need to know.
 
-use crate::scenario::{AuxiliaryBearing, Drop};
+use crate::scenario::{AuxiliaryBearing, Drop, Shaft};
 use crate::simulate::bearing::feedback::Renewals;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::warm::Followed;
@@ -30,6 +30,11 @@ impl<'a> Context<'a> {
     /// What the scenario says of a bearing.
     pub fn given(&self, bearing: usize) -> &'a AuxiliaryBearing {
         &self.drop.auxiliary_bearings[bearing]
+    }
+    /// The rotor whose magnets have controllers that act in time.
+    pub fn controlled(&self) -> Option<&'a Shaft> {
+        let shaft = self.drop.shaft.as_deref();
+        shaft.filter(|_| self.machine.controlled())
     }
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]

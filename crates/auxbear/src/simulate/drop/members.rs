@@ -67,7 +67,10 @@ pub(crate) fn share_lanes(a: &RotorMachine, b: &RotorMachine) -> bool {
         seals.map(|seal| seal.rows.len()).collect()
     };
     a.layout() == b.layout()
-        && a.constants.magnets.len() == b.constants.magnets.len()
+        && match (&a.constants.magnets, &b.constants.magnets) {
+            (Some(a), Some(b)) => a.share_lanes(b),
+            (a, b) => a.is_none() && b.is_none(),
+        }
         && a.constants.rotor.spin_held == b.constants.rotor.spin_held
         && rows(a) == rows(b)
 }

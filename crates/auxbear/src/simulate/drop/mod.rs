@@ -7,6 +7,7 @@ pub(crate) mod each;
 pub mod ensemble;
 mod feedback;
 mod layers;
+pub(crate) mod magnets;
 pub(crate) mod members;
 pub(crate) mod method;
 mod mount;

@@ -7,8 +7,8 @@ use crate::scenario::{Drop, RotorModel, Shaft, Spin, UNNAMED};
 use crate::simulate::drop::torque;
 use crate::simulate::levitated;
 use levitation::response::{equilibrium, start};
-use levitation::{ClosedLoop, Plant, weight};
-use model::levitation::{Fade, FadingMagnet};
+use levitation::{ClosedLoop, Levitation, Plant, Timing, weight};
+use model::magnets::{AxisConstants, ControlConstants, MagnetConstants, MagnetsConstants};
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::seal::SealConstants;
 use nalgebra::{DMatrix, DVector};
@@ -16,6 +16,7 @@ use number::Vec2;
 use physics::magnet::Magnet;
 use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 /// A bent rotor in the coordinates of the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +27,8 @@ pub struct BuiltShaft {
     pub nodes: Vec<Vec<f64>>,
     /// Nodes whose displacement is watched, along the shaft.
     pub places: Vec<usize>,
-    /// Magnets whose currents decay.
-    pub magnets: Vec<FadingMagnet>,
+    /// Its magnets, where they act after the start.
+    pub magnets: Option<MagnetsConstants>,
     /// Seals.
     pub seals: Vec<SealConstants>,
     /// Where its coordinates are at the release, m √kg.
@@ -87,14 +88,14 @@ pub(crate) fn build(
         steady: (position, velocity),
         still,
         carried,
-        currents,
+        magnets: on_magnets,
         modes: mut held,
     } = match &shaft.model.levitation {
-        Some(_) => on_magnets(drop, shaft, &within, &loads)?,
+        Some(_) => levitating(drop, shaft, &within, &loads)?,
         None => on_supports(drop, rotor, &matrices, &within, &loads)?,
     };
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
-    let magnets = fading(shaft, &within.basis, &position, &currents);
+    let magnets = on_magnets.and_then(|own| magnets(shaft, &within.basis, &position, &own));
     let seals = staying(&shaft.model, &within.basis, &still, &carried);
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
@@ -247,13 +248,20 @@ struct Held {
     still: Vec<Vec2<f64>>,
     /// Nodes with what supports carry there, N.
     carried: Vec<(usize, Vec2<f64>)>,
-    /// Control currents of the magnet axes, A.
-    currents: Vec<f64>,
+    magnets: Option<OnMagnets>,
     modes: Vec<HeldMode>,
 }
 
+/// Magnets that hold a rotor.
+struct OnMagnets {
+    /// Control currents of their axes, A.
+    currents: Vec<f64>,
+    /// States of their controllers.
+    states: Vec<f64>,
+}
+
 /// The steady motion on magnets, which must hold the rotor.
-fn on_magnets(
+fn levitating(
     drop: &Drop,
     shaft: &Shaft,
     within: &Analysis,
@@ -299,7 +307,10 @@ fn on_magnets(
         // the loop holds the rotor about the middle of its magnets
         still: vec![Vec2::zero(); size],
         carried: Vec::new(),
-        currents: start.currents,
+        magnets: Some(OnMagnets {
+            currents: start.currents,
+            states: start.states,
+        }),
         modes: held,
     })
 }
@@ -371,7 +382,7 @@ fn on_supports(
         carried: (nodes.iter().enumerate())
             .map(|(s, node)| (*node, Vec2::new(-x[size + s], -y[size + s])))
             .collect(),
-        currents: Vec::new(),
+        magnets: None,
         modes: held,
     })
 }
@@ -415,48 +426,73 @@ fn staying(
         .collect()
 }
 
-/// The magnets as their currents decay: force and k_s about the release.
-fn fading(
+/// The magnets: with their controllers until the power is lost, or as their currents decay from the start on.
+fn magnets(
     shaft: &Shaft,
     basis: &Basis,
     position: &[Vec2<f64>],
-    currents: &[f64],
-) -> Vec<FadingMagnet> {
-    let Some(model) = shaft
-        .model
-        .levitation
-        .as_ref()
-        .filter(|_| shaft.decay_time > 0.0)
-    else {
-        return Vec::new();
+    held: &OnMagnets,
+) -> Option<MagnetsConstants> {
+    let model = shaft.model.levitation.as_ref()?;
+    let controlled = shaft.power_lost > 0.0;
+    if !controlled && shaft.decay_time <= 0.0 {
+        return None;
+    }
+    let levitation = &model.levitation;
+    let along = |angle: f64| Vec2::new(angle.cos(), angle.sin());
+    let pair = |k: usize| [2 * k, 2 * k + 1];
+    let magnet = |(k, (_, node, _)): (usize, &(String, usize, usize))| MagnetConstants {
+        node: row(basis, *node),
+        axes: pair(k)
+            .map(|axis| AxisConstants {
+                direction: along(levitation.actuators()[axis].axis.angle),
+                law: levitation.actuators()[axis].magnet,
+                current: held.currents[axis],
+                largest_current: levitation.actuators()[axis].largest_current,
+            })
+            .to_vec(),
     };
-    let actuators = model.levitation.actuators();
-    (model.magnets.iter().enumerate())
-        .map(|(index, (_, node, _))| {
-            let node = row(basis, *node);
-            let pairs = node.iter().zip(position);
-            let at = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
-            let (mut force, mut stiffness) = (Vec2::zero(), 0.0);
-            for k in [2 * index, 2 * index + 1] {
-                let (sine, cosine) = actuators[k].axis.angle.sin_cos();
-                let along = Vec2::new(cosine, sine);
-                let gap = along.dot(at);
-                let (_, ks) = actuators[k].magnet.slopes(currents[k], gap);
-                let push = actuators[k].magnet.force(currents[k], gap, 1.0);
-                force += along * (push - ks * gap);
-                stiffness += 0.5 * ks;
+    let sensor = |(k, (_, _, node)): (usize, &(String, usize, usize))| {
+        let angles = pair(k).map(|axis| along(levitation.sensors()[axis].axis.angle));
+        (row(basis, *node), angles.to_vec())
+    };
+    let all = || model.magnets.iter().enumerate();
+    Some(MagnetsConstants {
+        magnets: all().map(magnet).collect(),
+        decay_rate: 1.0 / shaft.decay_time,
+        lost: shaft.power_lost,
+        control: controlled.then(|| {
+            let sensors: Vec<_> = all().map(sensor).collect();
+            ControlConstants {
+                start: sampled(levitation, &sensors, position, held.states.clone()),
+                levitation: Arc::new(levitation.clone()),
+                sensors,
             }
-            FadingMagnet {
-                node,
-                fade: Fade {
-                    force,
-                    stiffness,
-                    decay_rate: 1.0 / shaft.decay_time,
-                    cut: 0.0,
-                },
-            }
-        })
-        .collect()
+        }),
+    })
+}
+
+/// States of the levitation after the sample of the start.
+fn sampled(
+    levitation: &Levitation,
+    sensors: &[(Vec<f64>, Vec<Vec2<f64>>)],
+    position: &[Vec2<f64>],
+    mut states: Vec<f64>,
+) -> Vec<f64> {
+    let Timing::Sampled { computation, .. } = levitation.timing() else {
+        return states;
+    };
+    let mut sensed = Vec::new();
+    for (node, directions) in sensors {
+        let pairs = node.iter().zip(position);
+        let at = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
+        sensed.extend(directions.iter().map(|along| along.dot(at)));
+    }
+    levitation.sample(&mut states, &sensed, &mut levitation.signals());
+    if computation == 0.0 {
+        levitation.release(&mut states);
+    }
+    states
 }
 
 /// Refuses bearings that the rotor touches before its release, and those that let it reach a magnet.

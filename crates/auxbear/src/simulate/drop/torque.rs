@@ -1,6 +1,7 @@
 //! The torque of a drive or a load on the rotor, by tables over speed and time.
 
 use crate::scenario::Drop;
+use model::magnets::MagnetsConstants;
 use model::rotor::TorqueTables;
 use model::schedule::Schedule;
 use model::system::machine::Event;
@@ -24,9 +25,16 @@ pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
     })
 }
 
-/// When the brake comes on and where a torque over time has its rows: a step ends there.
-pub(super) fn schedule(brake_start: f64, torque: Option<&TorqueTables>) -> Schedule<Event> {
+/// When the brake comes on, where a torque over time has its rows, what happens to the magnets up to the end: a step ends there.
+pub(super) fn schedule(
+    brake_start: f64,
+    torque: Option<&TorqueTables>,
+    magnets: Option<(&MagnetsConstants, f64)>,
+) -> Schedule<Event> {
     let knots = torque.map_or(&[][..], |tables| tables.share_over_time.points());
     let knots = knots.iter().map(|(time, _)| (*time, Event::Knot));
-    Schedule::of([(brake_start, Event::Brake)].into_iter().chain(knots))
+    let control = magnets.into_iter().flat_map(|(own, end)| own.events(end));
+    let control = control.map(|(time, event)| (time, Event::Control(event)));
+    let brake = [(brake_start, Event::Brake)];
+    Schedule::of(brake.into_iter().chain(knots).chain(control))
 }

@@ -11,7 +11,7 @@ use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::drop::{method, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, method, shaft_results, surfaces};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -100,6 +100,14 @@ pub(crate) fn of(
             shaft_results::reached(member, node).into_iter().collect()
         }));
     }
+    list.extend(each(&|k| {
+        judged(contexts, |member| {
+            magnets::touched(member, k).into_iter().collect()
+        })
+    }));
+    list.extend(judged(contexts, |member| {
+        magnets::limited(member).into_iter().collect()
+    }));
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));

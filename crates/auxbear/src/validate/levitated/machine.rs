@@ -121,6 +121,7 @@ impl Machine {
                         current_stiffness: given.ki,
                         position_stiffness: given.ks,
                     },
+                    largest_current: f64::INFINITY,
                     amplifier: match law.amplifier_rad_s {
                         Some(bandwidth) => Amplifier::Current { bandwidth },
                         None => Amplifier::Direct,

@@ -8,7 +8,8 @@ use crate::validate::machine::ReferenceMachine;
 use crate::validate::simulation;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::BearingConstants;
-use model::levitation::{Fade, FadingMagnet, Levitation};
+use model::levitation::Levitation;
+use model::magnets::MagnetsConstants;
 use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
 use model::rotor::RotorConstants;
 use model::schedule::Schedule;
@@ -252,7 +253,7 @@ pub(super) fn machine(
             centre: Vec2::zero(),
             carried: Vec2::zero(),
         },
-        magnets: Vec::new(),
+        magnets: None,
         seals: Vec::new(),
         bearings: bearings.collect::<Result<_, _>>()?,
         gravity,
@@ -265,17 +266,12 @@ pub(super) fn machine(
     if decay > 0.0 {
         let magnets = list(given, "magnets")?.iter().map(|magnet| {
             let [x, y] = numbers(magnet, "i0")?;
-            Ok(FadingMagnet {
-                node: coordinates.row(index(magnet, "node")?),
-                fade: Fade {
-                    force: Vec2::new(x, y) * number(magnet, "ki")?,
-                    stiffness: number(magnet, "ks")?,
-                    decay_rate: 1.0 / decay,
-                    cut: 0.0,
-                },
-            })
+            let node = coordinates.row(index(magnet, "node")?);
+            let force = Vec2::new(x, y) * number(magnet, "ki")?;
+            Ok((node, force, number(magnet, "ks")?))
         });
-        constants.magnets = magnets.collect::<Result<_, String>>()?;
+        let magnets = magnets.collect::<Result<Vec<_>, String>>()?;
+        constants.magnets = Some(MagnetsConstants::fading(magnets, 1.0 / decay, 0.0));
     }
     constants.balance_mounts();
     Ok(constants)

@@ -1,7 +1,8 @@
 //! Constants of a machine.
 
 use crate::auxiliary_bearing::AuxiliaryBearingConstants;
-use crate::levitation::{FadingMagnet, Levitation};
+use crate::levitation::Levitation;
+use crate::magnets::{ControlEvent, MagnetsConstants};
 use crate::rotor::RotorConstants;
 use crate::schedule::Schedule;
 use crate::seal::SealConstants;
@@ -14,8 +15,8 @@ pub struct MachineConstants {
     pub rotor: RotorConstants,
     /// Levitation of a point rotor, active before release only.
     pub levitation: Levitation<f64>,
-    /// Magnets whose currents decay after the release.
-    pub magnets: Vec<FadingMagnet>,
+    /// Magnets with their controllers, or with currents that decay after the release.
+    pub magnets: Option<MagnetsConstants>,
     /// Seals, before and after the release.
     pub seals: Vec<SealConstants>,
     /// The auxiliary bearings, one at least.
@@ -37,13 +38,15 @@ pub enum Event {
     Brake,
     /// A row of the rotor's torque over time: a step ends there and nothing else happens.
     Knot,
+    /// Something happens to the controllers of the magnets.
+    Control(ControlEvent),
 }
 
 impl MachineConstants {
     /// Why a machine cannot be computed.
     pub(super) fn fault(&self) -> Option<&'static str> {
         let rows = self.bearings.iter().map(|part| &part.node);
-        let rows = rows.chain(self.magnets.iter().map(|magnet| &magnet.node));
+        let rows = rows.chain(self.magnets.iter().flat_map(MagnetsConstants::nodes));
         let mut rows = rows.chain(self.seals.iter().map(|seal| &seal.node));
         let count = self.rotor.coordinates.len();
         let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);

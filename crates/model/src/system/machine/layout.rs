@@ -4,6 +4,7 @@
 //!   rotor        x of all coordinates (of G), y, ẋ, ẏ; φ, Ω
 //!   races        of each auxiliary bearing: inner x y, ẋ ẏ, φ_i, ω_i; outer x y, ẋ ẏ
 //!   bearings     own states of each, then of each mount
+//!   magnets      sensors, controllers, currents, where they act in time
 //!   ledger       heats of the rotor, where it has any, and of each bearing; works of the sources, of the rotor first; external
 //!                angular impulse
 //!
@@ -15,12 +16,12 @@ use crate::auxiliary_bearing::{self, BearingAt, lay_races, probe};
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
 use crate::rotor::RotorAt;
 use crate::system::layout;
-use std::ops::Deref;
+use std::ops::{Deref, Range};
 
 /// First channel of the rotor.
 pub const ROTOR: usize = 0;
 
-/// Sources of any rotor, before those of its fading magnets and of the bearings. Drive, brake and what holds the spin are one.
+/// Sources of any rotor, before those of its magnets and of the bearings. Drive, brake and what holds the spin are one.
 pub const ROTOR_SOURCES: [&str; 2] = ["levitation", "rotor_torque"];
 
 /// Of the error scale of a coordinate: it counts as reaching at least so much of what that which reaches most does at the bearings.
@@ -35,7 +36,7 @@ pub struct RotorLedger {
     pub damping_rotating: Option<usize>,
     /// Heat of drag.
     pub drag: Option<usize>,
-    /// Work of the fading magnets.
+    /// Work of the magnets.
     pub magnets: Option<usize>,
     /// Work of the stiffness of seals.
     pub seals: Option<usize>,
@@ -56,6 +57,8 @@ pub struct Layout {
     pub of_rotor: RotorLedger,
     /// Where each auxiliary bearing stands.
     pub bearings: Vec<BearingAt>,
+    /// Channels of the controllers of magnets.
+    pub magnets: Range<usize>,
     probes: usize,
     watched_probes: usize,
 }
@@ -87,6 +90,8 @@ impl Layout {
         let mounts: Vec<_> = (parts.iter())
             .map(|part| channels.block(&part.name, part.mount_parts.state_names()))
             .collect();
+        let names = constants.magnets.iter().flat_map(|own| own.state_names());
+        let magnets = channels.block("levitation", names);
         let mut heat = |there: bool, kind| there.then(|| channels.heats_of("", [kind]));
         let mut of_rotor = RotorLedger {
             damping: heat(!own.damping.is_empty(), "shaft_damping"),
@@ -97,7 +102,7 @@ impl Layout {
             seal_damping: heat(!constants.seals.is_empty(), "seal_damping"),
         };
         channels.sources_of("", ROTOR_SOURCES);
-        if !constants.magnets.is_empty() {
+        if constants.magnets.is_some() {
             of_rotor.magnets = Some(channels.sources_of("", ["magnets"]));
         }
         if !constants.seals.is_empty() {
@@ -140,6 +145,7 @@ impl Layout {
             rotor,
             of_rotor,
             bearings,
+            magnets,
             probes,
             watched_probes,
         }
@@ -194,6 +200,9 @@ impl Layout {
         }
         scale[rotor.angle()] = 1.0;
         scale[rotor.spin()] = spin;
+        if let Some(magnets) = &constants.magnets {
+            magnets.error_scale(&mut scale[self.magnets.clone()], 0.01 * smallest);
+        }
         let mass = constants.rotor.mass();
         let (mut energy, mut impulse) = (f64::INFINITY, f64::INFINITY);
         for (at, part) in self.bearings.iter().zip(&constants.bearings) {

@@ -1,7 +1,7 @@
 //! A levitated rotor falls onto its auxiliary bearings.
 //!
 //! ```text
-//!        rotor η, φ ──(levitation, until t = 0; magnets whose currents decay; seals)
+//!        rotor η, φ ──(levitation, until t = 0; magnets with controllers or with currents that decay; seals)
 //!          │ ... at each auxiliary bearing:
 //!          │ contact: clearance c0, N, friction
 //!        inner race c_i, φ_i ── drive torque
@@ -38,9 +38,11 @@ pub mod tangents;
 pub mod travel;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
-use crate::levitation::{Fade, Levitation};
+use crate::levitation::Levitation;
+use crate::magnets::{AxisConstants, ControlEvent, Instant, Magnets};
 use crate::rotor::{GeometricCentre, Node, Rotor};
 use crate::seal::Seal;
+use ::levitation::OfAxes;
 pub use constants::{Event, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
@@ -53,6 +55,8 @@ pub struct Mode<R> {
     pub levitation: R,
     /// Brake of the rotor.
     pub brake: R,
+    /// Power of the magnets.
+    pub power: R,
 }
 
 impl Mode<f64> {
@@ -60,7 +64,8 @@ impl Mode<f64> {
     fn happen(&mut self, event: Event) {
         match event {
             Event::Brake => self.brake = 1.0,
-            Event::Knot => {}
+            Event::Control(ControlEvent::PowerLost) => self.power = 0.0,
+            Event::Knot | Event::Control(_) => {}
         }
     }
 }
@@ -84,7 +89,7 @@ pub struct Machines<R: Real> {
     rotor: Rotor<R>,
     /// Of a point rotor, with its only node.
     levitation: Option<(Node<R>, Levitation<R>)>,
-    magnets: Vec<(Node<R>, Fade<R>)>,
+    magnets: Option<Magnets<R>>,
     seals: Vec<(Node<R>, Seal<R>)>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
@@ -131,6 +136,28 @@ impl RotorMachine {
         let motion = self.layout.rotor.motion(state);
         self.places[place].centre(&motion).position
     }
+    /// Whether controllers hold the rotor for a while.
+    pub fn controlled(&self) -> bool {
+        let magnets = self.constants.magnets.as_ref();
+        magnets.is_some_and(|own| own.control.is_some() && own.lost > 0.0)
+    }
+    /// The axes of all magnets.
+    pub fn axes(&self) -> impl Iterator<Item = &AxisConstants> {
+        let magnets = self.constants.magnets.iter().flat_map(|own| &own.magnets);
+        magnets.flat_map(|magnet| &magnet.axes)
+    }
+    /// Control currents of the axes of all magnets at an instant of a run, A; after the loss of power what is left of them.
+    pub fn currents(&self, time: f64, state: &[f64]) -> OfAxes<f64> {
+        let (Some(magnets), Some(own)) = (&self.one.magnets, &self.constants.magnets) else {
+            return OfAxes::new();
+        };
+        let now = Instant {
+            time,
+            powered: f64::from(u8::from(self.controlled() && time < own.lost)),
+        };
+        let states = &state[self.layout.magnets.clone()];
+        magnets.currents_in(now, &self.layout.rotor.motion(state), states)
+    }
     /// The rotor's geometric centre at its node in a bearing, from the datum of that.
     #[inline(always)]
     pub fn node(&self, bearing: usize, state: &[f64]) -> GeometricCentre<f64> {
@@ -146,14 +173,6 @@ impl<R: Real> Machines<R> {
                 let part = &constants(lane).bearings[k];
                 (&constants(lane).rotor, &part.node[..], part.datum)
             })
-        };
-        let magnet = |k: usize| {
-            let node = Node::gather(&|lane| {
-                let of = constants(lane);
-                (&of.rotor, &of.magnets[k].node[..], Vec2::zero())
-            });
-            let fade = Gather::<R>::gather(&|lane| &constants(lane).magnets[k].fade);
-            (node, fade)
         };
         let seal = |k: usize| {
             let node = Node::gather(&|lane| {
@@ -172,7 +191,15 @@ impl<R: Real> Machines<R> {
                     Gather::<R>::gather(&|lane| &constants(lane).levitation),
                 )
             }),
-            magnets: (0..constants(0).magnets.len()).map(magnet).collect(),
+            magnets: constants(0).magnets.is_some().then(|| {
+                Magnets::gather(&|lane| {
+                    let own = constants(lane).magnets.as_ref();
+                    (
+                        &constants(lane).rotor,
+                        own.expect("lanes share their magnets"),
+                    )
+                })
+            }),
             seals: (0..constants(0).seals.len()).map(seal).collect(),
             nodes: bearings.clone().map(node).collect(),
             gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
@@ -215,6 +242,7 @@ impl Machine for RotorMachine {
         let mut mode = Mode {
             levitation: f64::from(u8::from(self.levitated)),
             brake: 0.0,
+            power: f64::from(u8::from(self.controlled())),
         };
         for event in self.constants.schedule.at_the_start() {
             mode.happen(event);
@@ -224,8 +252,13 @@ impl Machine for RotorMachine {
     fn landings(&self) -> &[f64] {
         self.constants.schedule.instants()
     }
-    fn transition(&self, landing: usize, mode: &mut Mode<f64>, _state: &mut [f64]) {
-        mode.happen(self.constants.schedule.event(landing));
+    fn transition(&self, landing: usize, mode: &mut Mode<f64>, state: &mut [f64]) {
+        let event = self.constants.schedule.event(landing);
+        mode.happen(event);
+        if let (Event::Control(event), Some(magnets)) = (event, &self.one.magnets) {
+            let at = self.layout.magnets.clone();
+            magnets.happen(event, self.layout.rotor, at, state);
+        }
     }
     fn rate(
         &self,
@@ -250,7 +283,7 @@ impl<R: Real> Batch<R> for Machines<R> {
         let layout = &machine(0).layout;
         for lane in 1..R::LANES {
             assert!(machine(lane).layout == *layout, "lanes share their layout");
-            let magnets = |lane: usize| machine(lane).constants.magnets.len();
+            let magnets = |lane: usize| machine(lane).constants.magnets.is_some();
             assert!(magnets(lane) == magnets(0), "lanes share their magnets");
             let rows = |lane: usize| {
                 let seals = machine(lane).constants.seals.iter();
@@ -266,6 +299,7 @@ impl<R: Real> Batch<R> for Machines<R> {
         Mode {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
             brake: R::from_lanes(|lane| modes(lane).brake),
+            power: R::from_lanes(|lane| modes(lane).power),
         }
     }
     #[inline(always)]

@@ -3,6 +3,7 @@
 use super::layout::ROTOR_SOURCES;
 use super::{Machines, Mode};
 use crate::auxiliary_bearing::{AtNode, Outlet};
+use crate::magnets::{Instant, Pull};
 use crate::rotor::RotorMotion;
 use number::{Mask, Real, Vec2};
 
@@ -48,6 +49,12 @@ impl<R: Real> Machines<R> {
         // what acts on the rotor
         let count = layout.rotor.coordinates;
         let rotor = layout.rotor.motion(state);
+        let pulls = self.magnets.as_ref().map(|magnets| {
+            let powered = mode.power;
+            let states = layout.magnets.clone();
+            let now = Instant { time, powered };
+            magnets.pull(now, &rotor, &state[states.clone()], &mut rate[states])
+        });
         let [x, y, force_x, force_y] = blocks(rate, count);
         let shaft = self
             .rotor
@@ -73,13 +80,13 @@ impl<R: Real> Machines<R> {
             }
         }
         let (mut magnets, mut pulled) = (zero, zero);
-        for (node, fade) in &self.magnets {
-            let centre = node.centre(&rotor);
-            let force = fade.force(time, centre.position);
-            node.push(force, [&mut *force_x, &mut *force_y]);
-            moment += centre.arm.cross(force);
-            magnets += force.dot(centre.velocity);
-            pulled += centre.position.cross(force);
+        if let (Some(own), Some(pulls)) = (&self.magnets, &pulls) {
+            own.push(pulls, [&mut *force_x, &mut *force_y]);
+            for Pull { centre, force } in pulls {
+                moment += centre.arm.cross(*force);
+                magnets += force.dot(centre.velocity);
+                pulled += centre.position.cross(*force);
+            }
         }
         let (mut sealing, mut seal_heat) = (zero, zero);
         for (node, seal) in &self.seals {

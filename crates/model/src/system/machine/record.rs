@@ -17,24 +17,50 @@ pub struct Record {
     pub largest_translation: f64,
     /// Largest displacement of the rotor at each watched place, m; seen at 64 points a turn.
     pub places: Vec<Peak>,
+    /// Of each axis of magnets with controllers: control current, and how long it was at its limit.
+    pub currents: Vec<CurrentPeak>,
     rows: Rows,
     next_look: f64,
-    look_interval: f64,
     limit_passed: bool,
     /// Whether the run ends when it rolls.
     halts_when_rolling: bool,
 }
+
+/// The largest control current of an axis of a magnet.
+#[derive(Clone, Copy, Debug)]
+pub struct CurrentPeak {
+    /// Its size, A, at the ends of steps.
+    pub largest: Peak,
+    /// Time at its limit, s.
+    pub limited: f64,
+}
+
+/// Share of the largest current from which on it is at its limit.
+const AT_LIMIT: f64 = 0.999;
 
 /// Why a run halts whose rotor rolls in all of its bearings.
 pub const ROLLS: &str = "the rotor rolls in its bearings";
 
 /// Points a turn of the rotor at which its whirl is followed.
 const WHIRL_POINTS: f64 = 64.0;
+/// Spin below which it is looked at no less often, rad/s.
+const SLOWEST: f64 = 100.0;
+
+impl CurrentPeak {
+    const NONE: CurrentPeak = CurrentPeak {
+        largest: Peak::NONE,
+        limited: 0.0,
+    };
+}
+
+/// From one look at the rotor to the next, s; its spin, rad/s.
+fn look_interval(spin: f64) -> f64 {
+    2.0 * std::f64::consts::PI / (WHIRL_POINTS * spin.max(SLOWEST))
+}
 
 impl Record {
     /// A record for a run until `end`, with a row every `interval`, or without rows.
     pub fn new(machine: &RotorMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
-        let speed = machine.constants.speed;
         let bearings = 0..machine.constants.bearings.len();
         Record {
             bearings: bearings
@@ -42,9 +68,12 @@ impl Record {
                 .collect(),
             largest_translation: 0.0,
             places: vec![Peak::NONE; machine.constants.rotor.places.len()],
+            currents: match machine.controlled() {
+                true => vec![CurrentPeak::NONE; machine.axes().count()],
+                false => Vec::new(),
+            },
             rows: Rows::new(machine, end, interval, keep_rows),
             next_look: 0.0,
-            look_interval: 2.0 * std::f64::consts::PI / (WHIRL_POINTS * speed.abs().max(1.0)),
             limit_passed: false,
             halts_when_rolling: false,
         }
@@ -84,15 +113,34 @@ impl Record {
         });
     }
 
+    /// Follows the control currents, at the end of each step.
+    fn currents_of(&mut self, step: &mut Step<RotorMachine>) {
+        if self.currents.is_empty() {
+            return;
+        }
+        let (machine, time, length) = (step.machine, step.end, step.end - step.start);
+        let state = step.leading_state(1.0, machine.layout().magnets.end);
+        let currents = machine.currents(time, state);
+        let axes = self.currents.iter_mut().zip(machine.axes());
+        for ((own, axis), current) in axes.zip(currents) {
+            own.largest.raise(current.abs(), time);
+            if current.abs() >= AT_LIMIT * axis.largest_current {
+                own.limited += length;
+            }
+        }
+    }
+
     /// Follows the whirl, and the kinetic energy of the rotor's centre, at a few points of each turn.
     fn rotor_of(&mut self, step: &mut Step<RotorMachine>) {
         if step.end < self.next_look {
             return;
         }
-        self.next_look = step.end + self.look_interval;
         let (machine, time) = (step.machine, step.end);
         let rotor = machine.layout().rotor;
         let motion = rotor.motion(step.leading_state(1.0, rotor.channels()));
+        // a rotor that runs up is looked at as often a turn
+        let spin = motion.spin.abs().max(machine.constants.speed.abs());
+        self.next_look = time + look_interval(spin);
         let content = (machine.one.rotor).content(&motion, machine.constants.gravity);
         self.largest_translation = self.largest_translation.max(content.translation);
         for (peak, place) in self.places.iter_mut().zip(&machine.places) {
@@ -119,6 +167,7 @@ impl Observer<RotorMachine> for Record {
             bearing.balls_of(step);
         }
         self.rotor_of(step);
+        self.currents_of(step);
         self.rows.sample(step, RotorMachine::content);
         if self.halts_when_rolling {
             let mut rolling = self

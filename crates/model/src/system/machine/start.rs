@@ -74,6 +74,11 @@ impl RotorMachine {
         for (at, part) in self.layout().bearings.iter().zip(&self.constants.bearings) {
             part.bearing.rest(&mut state[at.own()]);
         }
+        let control = self.constants.magnets.iter();
+        for control in control.filter_map(|own| own.control.as_ref()) {
+            let first = self.layout().magnets.start;
+            state[first..first + control.start.len()].copy_from_slice(&control.start);
+        }
         state
     }
 

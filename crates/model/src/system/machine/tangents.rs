@@ -85,6 +85,9 @@ impl<R: Real> Contact<R> {
 impl RotorMachine {
     /// How much of what is stiff here linearly implicit steps know.
     pub fn tangents(&self) -> Known {
+        if self.controlled() {
+            return Known::NotControllers;
+        }
         let bearings = self.constants.bearings.iter();
         let each = bearings.map(|part| match part.bearing.tangents() {
             known if known < Known::Nothing && part.mount_parts.any() => Known::NotMounts,

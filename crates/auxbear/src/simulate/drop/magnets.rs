@@ -1,0 +1,106 @@
+//! What a run shows of magnets whose controllers act in time, or whose currents decay.
+
+use crate::result::list::{List, Origin};
+use crate::result::outcome::{Column, Warning, warning};
+use crate::scenario::Shaft;
+use crate::simulate::bearing::columns::Table;
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::drop::context::Context;
+
+/// Share of the time with power at a limit from which on it is told.
+const LONG_AT_LIMIT: f64 = 1e-4;
+
+/// Name of a value of an axis of a magnet: both axes of each stand in turn.
+fn of_axis(given: &Shaft, axis: usize, what: &str) -> String {
+    let magnets = given.model.levitation.iter().flat_map(|own| &own.magnets);
+    let name = magnets.map(|(name, ..)| name).nth(axis / 2);
+    format!(
+        "magnet.{}.{what}_{}",
+        name.map_or("", String::as_str),
+        axis % 2 + 1
+    )
+}
+
+/// Names what the controllers did.
+pub(crate) fn name(context: &Context, list: &mut List) {
+    let Some(given) = context.controlled() else {
+        return;
+    };
+    let ended = context.finished.ending.time;
+    let lost = match given.power_lost <= ended {
+        true => Ok(given.power_lost),
+        false => Err("the magnets had power to the end".to_string()),
+    };
+    list.number("power_lost_at", "s", lost, &LOST);
+    for (axis, peak) in context.finished.record.currents.iter().enumerate() {
+        let largest = Ok(peak.largest.value);
+        list.number(
+            &of_axis(given, axis, "largest_current"),
+            "A",
+            largest,
+            &CURRENT,
+        );
+    }
+}
+
+/// Control currents of all axes.
+pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
+    let machine = context.machine;
+    let Some(given) = &context.drop.shaft else {
+        return Vec::new();
+    };
+    let mut table = Table::over(run);
+    for (axis, own) in machine.axes().enumerate() {
+        let angle = own.direction.y.atan2(own.direction.x).to_degrees();
+        let meaning = format!("control current of the magnet's axis at {angle:.0} degrees from x");
+        let name = of_axis(given, axis, "current");
+        table.add(&name, "A", &meaning, |row| {
+            machine.currents(row.time, row.state)[axis]
+        });
+    }
+    table.columns
+}
+
+/// Axes that reached the limits of their currents, the one that was there longest.
+pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
+    let given = context.controlled()?;
+    let powered = given.power_lost.min(context.finished.ending.time);
+    let axes = context.finished.record.currents.iter().enumerate();
+    let (axis, peak) = axes.max_by(|a, b| a.1.limited.total_cmp(&b.1.limited))?;
+    let share = peak.limited / powered;
+    (share > LONG_AT_LIMIT).then(|| {
+        let text = format!(
+            "{} reaches the limit of its coil ({:.3} A, {:.1} % of the time with power, first largest at {:.2} ms): what the linear analysis says \
+             of stability and response does not hold there.",
+            of_axis(given, axis, "current"),
+            peak.largest.value,
+            100.0 * share,
+            1e3 * peak.largest.time
+        );
+        (share, warning("AB2034", text))
+    })
+}
+
+/// A rotor that touches its auxiliary bearings while it has its magnets.
+pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
+    let given = context.controlled()?;
+    let mut contacts = context.record(k).contacts.iter();
+    let first = contacts.find(|contact| contact.start < given.power_lost)?;
+    let text = format!(
+        "The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may \
+         change what they do.",
+        1e3 * first.start
+    );
+    Some((given.power_lost - first.start, warning("AB2035", text)))
+}
+
+const LOST: Origin = Origin {
+    law: "levitation.power_lost_at",
+    source: "given",
+    valid: "all magnets at once; sensors and controllers stand still from then on",
+};
+const CURRENT: Origin = Origin {
+    law: "largest size of the control current, at the end of each step while the magnets have power and after",
+    source: "crates/model/src/magnets.rs, crates/levitation/src/levitation.rs",
+    valid: "force law, limits, delay or samples as given; no saturation of iron, no eddy currents, no noise",
+};
