@@ -554,3 +554,25 @@ fn the_rotor_of_a_machine_is_analysed() {
     near(number(&outcome, "rated_speed"), 942.477_796, 1e-8);
     assert!(rotor.rotor_alone().is_none());
 }
+
+/// What is asked of its rotor may stand in a machine's file: a run does not read it, and keeps it.
+#[test]
+fn a_machine_says_what_is_asked_of_its_rotor() {
+    let asked = format!("{STIFF}\n[analysis]\nspeed_to = \"12000 rpm\"\n");
+    let machine = parsed(&asked, &["analysis.speed_count=11"]).unwrap();
+    let written = machine.resolved.toml();
+    assert!(
+        written.contains("[analysis]") && written.contains("12000 rpm"),
+        "{written}"
+    );
+    let rotor = machine.rotor_alone().unwrap().unwrap();
+    let outcome = run(&rotor, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+    let speeds = outcome.history.iter().find(|column| column.name == "speed");
+    let speeds = &speeds.expect("speeds of the diagrams").values;
+    assert_eq!(speeds.len(), 11);
+    near(speeds[10], 1256.637_061, 1e-8);
+    let error = parsed(&asked.replace("rpm", "mm"), &[]).unwrap_err();
+    assert!(error.contains("analysis.speed_to"), "{error}");
+    let error = parsed(STIFF, &["analysis.speed_too=1 rpm"]).unwrap_err();
+    assert!(error.contains("AB0101"), "{error}");
+}

@@ -210,6 +210,11 @@ impl Draft {
     }
 }
 
+/// A number that was summed or converted, in the fifteen digits that say something: 0.3 for 0.1 + 0.2.
+pub(super) fn cleaned(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
 /// Coefficients of a support as keys.
 fn coefficients(rows: &[(f64, Block)]) -> String {
     type Entry = (&'static str, &'static str, fn(&Block) -> f64);

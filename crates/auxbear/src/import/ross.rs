@@ -3,7 +3,7 @@
 //! Versions 2.1 and later write `ross_version`; version 2.0 does not, and is known by its bearings with axial coefficients,
 //! which versions 1 did not write. A key that TOML cannot hold as nothing is left out, in JSON it is null.
 
-use crate::import::draft::{Draft, DraftSupport};
+use crate::import::draft::{Draft, DraftSupport, cleaned};
 use rotor::{Annulus, Block, Disk, Element, Material, Place, PointMass};
 use serde_json::{Map, Value};
 
@@ -150,7 +150,7 @@ fn lay_out(draft: &mut Draft, shaft: &[(&str, &str, &Map<String, Value>)]) -> Re
             draft.nodes.push(0.0);
         }
         if n == next {
-            let end = draft.nodes[n] + length;
+            let end = cleaned(draft.nodes[n] + length);
             draft.nodes.push(end);
             next += 1;
         }

@@ -9,7 +9,7 @@
 //! | `youngs modulus [GPa]`, `density [kg/m^3]`, `poisson ratio` | | of the row |
 //! | `disk mass [kg]`, `disk polar inertia [kg m^2]`, `disk diametral inertia [kg m^2]` | no | a disk at the left end of the row |
 
-use crate::import::draft::Draft;
+use crate::import::draft::{Draft, cleaned};
 use crate::problem::{Code, Place, Problem};
 use calamine::{Reader, Xlsx};
 use rotor::{Annulus, Disk, Element, MATERIALS, Material};
@@ -139,7 +139,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                     ))
                 })?;
             let unit = at(name).and_then(|k| columns[k].as_ref()?.unit);
-            Ok(Some(unit.map_or(value, |unit| unit.to_si(value))))
+            Ok(Some(unit.map_or(value, |unit| cleaned(unit.to_si(value)))))
         };
         let needed = |name: &str| -> Result<f64, Box<Problem>> {
             number(name)?.filter(|value| *value > 0.0).ok_or_else(|| {
@@ -193,7 +193,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
             let allowed = "an inner diameter below the outer one is needed";
             return Err(Box::new(problem(line, found, allowed)));
         }
-        draft.nodes.push(draft.nodes[left] + length);
+        draft.nodes.push(cleaned(draft.nodes[left] + length));
         draft.pieces.push((
             index,
             Element {

@@ -366,8 +366,10 @@ impl Document {
                 ),
             )
         };
+        let for_analysis = self.system == SystemName::Machine
+            && path.first().is_some_and(|first| *first == table::ANALYSIS);
         if let Some(section) = section {
-            if !section.systems.contains(&self.system) {
+            if !section.systems.contains(&self.system) && !for_analysis {
                 return Err(Box::new(elsewhere("section", section.systems)));
             }
             return match raw {
@@ -385,6 +387,7 @@ impl Document {
         let key = table::key(&dotted);
         if let Some(key) = key
             && !table::systems(key).contains(&self.system)
+            && !for_analysis
         {
             let hint = meant::namesake(path, self.system);
             return Err(Box::new(

@@ -35,6 +35,12 @@ impl Values {
             .as_ref()
             .map_or(bearings, |own| own as &dyn BearingSource);
         let record = values.find_bearing(document, bearings)?;
+        for key in table::keys_of_analysis(document.system) {
+            if let Some(given) = document.values.get(key.path) {
+                let known = values.read(key, given)?;
+                values.known.insert(key.path, known);
+            }
+        }
         let mut missing: Vec<Problem> = Vec::new();
         for key in table::keys_of(document.system) {
             let given = document.values.get(key.path);
@@ -329,7 +335,11 @@ impl Values {
 
     fn listed(&self, wanted: impl Fn(&str) -> bool) -> Vec<ResolvedValue> {
         let mut list = Vec::new();
-        for key in table::keys_of(self.system).filter(|key| wanted(key.path)) {
+        // of what a run does not read only what is given
+        let beside = table::keys_of_analysis(self.system);
+        let beside = beside.filter(|key| self.known.contains_key(key.path));
+        let keys = table::keys_of(self.system).chain(beside);
+        for key in keys.filter(|key| wanted(key.path)) {
             let known = self.known.get(key.path);
             if known.is_none() && self.unmet(key).is_some() {
                 continue;

@@ -52,6 +52,14 @@ fn root(system: SystemName) -> Value {
     for key in table::keys_of(system) {
         properties(&mut root, key.section()).insert(key.name().to_string(), value(key, system));
     }
+    for key in table::keys_of_analysis(system) {
+        let of = properties(&mut root, "").entry(table::ANALYSIS);
+        of.or_insert_with(|| {
+            object("What `auxbear rotor` computes of the rotor; a run does not read it.")
+        });
+        let known = value(key, SystemName::Rotor);
+        properties(&mut root, key.section()).insert(key.name().to_string(), known);
+    }
     properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
     if system.has_shaft() {
         for kind in PARTS {

@@ -76,6 +76,15 @@ pub fn keys_of(system: SystemName) -> impl Iterator<Item = &'static Key> {
     KEYS[system as usize].iter().copied()
 }
 
+/// The section that a file of a system may have for the analysis of its rotor alone, which a run does not read.
+pub(crate) const ANALYSIS: &str = "analysis";
+
+/// The keys of [`ANALYSIS`] in a file of a system that does not read them.
+pub(crate) fn keys_of_analysis(system: SystemName) -> impl Iterator<Item = &'static Key> {
+    let there = system == SystemName::Machine;
+    keys().filter(move |key| there && key.section() == ANALYSIS)
+}
+
 /// The key of a path; none where there is no such key.
 pub fn key(path: &str) -> Option<&'static Key> {
     static KEYS: LazyLock<HashMap<&str, &Key>> =

@@ -395,6 +395,24 @@ fn a_table_of_sections_becomes_a_shaft() {
     }
 }
 
+/// The sheet was written by a spreadsheet library of Python.
+#[test]
+fn a_workbook_says_what_the_same_table_says_as_text_without_a_tail_of_digits() {
+    const TABLE: &str = "length [m];outer diameter [mm];material;disk mass [kg]\n0.1;40;steel;\n0.2;60.5;steel;4.5\n0.1;8.8;titanium;1\n";
+    let text = import(&file("sections.csv", TABLE)).unwrap();
+    let path = file("sections.xlsx", "");
+    let workbook = include_bytes!("sections.xlsx");
+    std::fs::write(&path, workbook).unwrap();
+    assert_eq!(import(&path).unwrap().toml, text.toml);
+    // 0.1 m + 0.2 m is 0.30000000000000004 m to a computer
+    assert!(text.toml.contains("0.3 m"), "{}", text.toml);
+    let mut numbers = text.toml.split(|c: char| !c.is_ascii_digit());
+    assert!(numbers.all(|digits| digits.len() < 16), "{}", text.toml);
+    std::fs::write(&path, &workbook[..200]).unwrap();
+    let told = import(&path).map(|_| ()).unwrap_err().to_string();
+    assert!(told.contains("a workbook that cannot be read"), "{told}");
+}
+
 #[test]
 fn the_reference_rotors_are_imported_with_their_eigenvalues() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/cases/rotor");

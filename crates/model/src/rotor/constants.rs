@@ -68,6 +68,10 @@ pub struct RotorConstants {
 }
 
 impl RotorConstants {
+    /// Whether a drive may run it up.
+    pub(crate) fn driven(&self) -> bool {
+        self.drive_torque != 0.0 || self.torque.is_some()
+    }
     /// A rigid rotor of one plane that spins freely: mass (kg), polar inertia about its mass centre (kg m²), eccentricity of
     /// that (m). Its nodes have the row (1).
     pub fn point(mass: f64, polar_inertia: f64, eccentricity: f64) -> Self {

@@ -534,10 +534,19 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
             Magnet::Linear { .. } => None,
         });
         let smallest = gaps.fold(f64::INFINITY, f64::min);
-        if clearance >= smallest {
+        let travel = part.mount.parts.stop_gap.unwrap_or(0.0);
+        if clearance + travel >= smallest {
+            let found = match travel > 0.0 {
+                true => format!(
+                    "{} and {} of travel up to the stop of the mount",
+                    millimetres(clearance),
+                    millimetres(travel)
+                ),
+                false => millimetres(clearance),
+            };
             return problem(
                 Code::ClearanceTooLarge,
-                millimetres(clearance),
+                found,
                 format!(
                     "less than the gap of the magnets, {}, is needed: the rotor would land on them",
                     millimetres(smallest)

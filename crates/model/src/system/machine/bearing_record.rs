@@ -126,19 +126,24 @@ pub(super) const ROLLING_TURNS: f64 = 20.0;
 /// Contacts for which room is made before the run.
 const CONTACTS: usize = 4096;
 
+/// What is waited for after a release at a speed, rad/s: shares of it at the race, and of rolling at the cage.
+fn rises(machine: &RotorMachine, bearing: usize, speed: f64) -> Vec<Rise> {
+    let part = &machine.constants.bearings[bearing].bearing;
+    let at = machine.layout().bearings[bearing];
+    let race = |share: f64| Rise::through(at.inner + 5, share * speed);
+    let mut rises = vec![race(0.5), race(0.95)];
+    if matches!(part, BearingConstants::Planar(_)) {
+        let ratio = part.rolling_cage_ratio();
+        rises.push(Rise::through(at.bearing + 1, 0.95 * speed * ratio));
+    }
+    rises
+}
+
 impl BearingRecord {
     pub(super) fn new(machine: &RotorMachine, bearing: usize, keep_rows: bool) -> Self {
         let speed = machine.constants.speed;
         let part = &machine.constants.bearings[bearing];
         let at = machine.layout().bearings[bearing];
-        let mut rises = vec![
-            Rise::through(at.inner + 5, 0.5 * speed),
-            Rise::through(at.inner + 5, 0.95 * speed),
-        ];
-        if matches!(part.bearing, BearingConstants::Planar(_)) {
-            let ratio = part.bearing.rolling_cage_ratio();
-            rises.push(Rise::through(at.bearing + 1, 0.95 * speed * ratio));
-        }
         BearingRecord {
             at,
             bearing,
@@ -157,7 +162,10 @@ impl BearingRecord {
             turns: 0.0,
             cubed_load_turns: 0.0,
             races: (!part.is_bushing()).then(|| RaceRecord::new(part.bearing.balls(), speed)),
-            rises,
+            rises: match machine.controlled() {
+                true => Vec::new(),
+                false => rises(machine, bearing, speed),
+            },
             last_forces: ([0.0; WATCHED.len()], f64::INFINITY),
             clearance: part.contact.radial_clearance,
             eccentricity: machine.constants.rotor.eccentricity(&part.node),
@@ -174,18 +182,22 @@ impl BearingRecord {
         }
     }
 
+    /// The magnets that held the rotor have lost their power at a spin, rad/s.
+    pub(super) fn released(&mut self, machine: &RotorMachine, spin: f64) {
+        self.rises = rises(machine, self.bearing, spin);
+    }
     /// First instant the inner race reaches half the rotor's release speed, s.
     pub fn inner_race_time_to_50_percent(&self) -> Option<f64> {
-        self.rises[0].time
+        self.rises.first()?.time
     }
     /// First instant the inner race reaches 95 % of the rotor's release speed, s.
     pub fn inner_race_time_to_95_percent(&self) -> Option<f64> {
-        self.rises[1].time
+        self.rises.get(1)?.time
     }
     /// First instant the cage reaches 95 % of the rolling cage speed of the rotor's release speed, s.
     pub fn cage_time_to_95_percent(&self) -> Option<f64> {
         // where balls roll the cage follows the race
-        self.rises.get(2).unwrap_or(&self.rises[1]).time
+        self.rises.last()?.time
     }
     /// The largest normal force of all contacts.
     pub fn peak_contact_force(&self) -> Option<Peak> {

@@ -44,6 +44,9 @@ pub struct RotorLedger {
     pub seal_damping: Option<usize>,
 }
 
+/// Spin that scales those of a rotor that a drive runs up from less, rad/s.
+const RUN_UP_SPIN: f64 = 300.0;
+
 /// Gravity that scales speeds where there is less, m/s²: a rotor in a vertical machine still touches.
 const LEAST_GRAVITY: f64 = 1.0;
 
@@ -171,7 +174,10 @@ impl Layout {
     /// they make of it at these, those that swing quickly by their speed over their frequency.
     pub fn error_scale(&self, constants: &MachineConstants) -> Vec<f64> {
         let gravity = constants.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
-        let spin = constants.speed.abs().max(10.0);
+        let spin = constants.speed.abs().max(match constants.rotor.driven() {
+            true => RUN_UP_SPIN,
+            false => 10.0,
+        });
         let mut scale = vec![0.0; self.dimension()];
         let clearances = constants
             .bearings

@@ -21,6 +21,8 @@ pub struct Record {
     pub currents: Vec<CurrentPeak>,
     rows: Rows,
     next_look: f64,
+    /// Whether its magnets have lost their power, or had none.
+    released: bool,
     limit_passed: bool,
     /// Whether the run ends when it rolls.
     halts_when_rolling: bool,
@@ -74,6 +76,7 @@ impl Record {
             },
             rows: Rows::new(machine, end, interval, keep_rows),
             next_look: 0.0,
+            released: !machine.controlled(),
             limit_passed: false,
             halts_when_rolling: false,
         }
@@ -113,13 +116,21 @@ impl Record {
         });
     }
 
-    /// Follows the control currents, at the end of each step.
+    /// Follows the control currents, at the end of each step, and sees them lost.
     fn currents_of(&mut self, step: &mut Step<RotorMachine>) {
         if self.currents.is_empty() {
             return;
         }
         let (machine, time, length) = (step.machine, step.end, step.end - step.start);
+        let lost = machine.constants.magnets.as_ref().map(|own| own.lost);
         let state = step.leading_state(1.0, machine.layout().magnets.end);
+        if !self.released && lost.is_some_and(|lost| time >= lost) {
+            self.released = true;
+            let spin = state[machine.layout().rotor.spin()];
+            for bearing in &mut self.bearings {
+                bearing.released(machine, spin);
+            }
+        }
         let currents = machine.currents(time, state);
         let axes = self.currents.iter_mut().zip(machine.axes());
         for ((own, axis), current) in axes.zip(currents) {

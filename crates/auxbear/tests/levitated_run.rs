@@ -1,0 +1,125 @@
+//! Magnets whose controllers act in time: they keep what the linear analysis says, lose it with their power, and end at their limits.
+
+use auxbear::result::outcome::Outcome;
+
+use crate::machine::{STIFF, near, number, parsed, ran};
+
+fn rig() -> String {
+    include_str!("../../../scenarios/amb_rig_drop.toml").to_string()
+}
+
+/// The controller of the rig, sampled so quickly that its delay is about that of the continuous one.
+const SAMPLED: [&str; 3] = [
+    "levitation.controller.sampling_period=50 us",
+    "levitation.controller.computing_time=25 us",
+    "levitation.controller.delay=0 s",
+];
+
+fn column<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
+    let found = outcome.history.iter().find(|column| column.name == name);
+    &found.unwrap_or_else(|| panic!("{name}")).values
+}
+
+/// After whole turns the rotor is where it was: the closed form of the start and the run in time are of the same loop.
+#[test]
+fn controllers_in_time_keep_the_steady_motion() {
+    let turning = [
+        "run.duration=100 ms", // 20 turns at 12 000 rpm
+        "rotor.spin=held",
+        "levitation.power_lost_at=1 s",
+    ];
+    for (more, share) in [(&[][..], 1e-4), (&SAMPLED[..], 5e-3)] {
+        let outcome = ran(&rig(), &[&turning[..], more].concat());
+        for place in ["shape.1", "shape.9"] {
+            let x = column(&outcome, &format!("{place}.x"));
+            let y = column(&outcome, &format!("{place}.y"));
+            let orbit = x.iter().zip(y).map(|(x, y)| x.hypot(*y));
+            let orbit = orbit.fold(0.0, f64::max);
+            let last = x.len() - 1;
+            let moved = (x[last] - x[0]).hypot(y[last] - y[0]);
+            assert!(
+                orbit > 1e-6 && moved < share * orbit,
+                "{place} {more:?}: {moved:e} m of {orbit:e} m"
+            );
+        }
+        assert_eq!(number(&outcome, "drive_end.contact_count"), 0.0);
+        assert!(number(&outcome, "energy_residual").abs() < 1e-6);
+    }
+}
+
+/// A loss after whole turns is the loss at the start, later; balls and races have settled meanwhile.
+#[test]
+fn power_lost_after_whole_turns_drops_the_rotor_as_at_the_start() {
+    let at_once = ran(&rig(), &["run.duration=10 ms", "rotor.spin=held"]);
+    for more in [&[][..], &SAMPLED[..]] {
+        let later = [
+            "run.duration=30 ms",
+            "rotor.spin=held",
+            "levitation.power_lost_at=20 ms",
+        ];
+        let later = ran(&rig(), &[&later[..], more].concat());
+        assert_eq!(number(&later, "power_lost_at"), 20e-3);
+        for end in ["drive_end", "other_end"] {
+            let first = format!("{end}.time_to_first_contact");
+            near(
+                number(&later, &first) - 20e-3,
+                number(&at_once, &first),
+                1e-3,
+            );
+            let force = format!("{end}.first_impact_force");
+            near(number(&later, &force), number(&at_once, &force), 0.03);
+        }
+    }
+}
+
+#[test]
+fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
+    let sets = |limit: &str| {
+        let text = rig().replace(
+            "current_stiffness = \"40 N/A\"",
+            &format!("current_stiffness = \"40 N/A\"\nlargest_current = \"{limit}\""),
+        );
+        ran(
+            &text,
+            &["run.duration=20 ms", "levitation.power_lost_at=1 s"],
+        )
+    };
+    let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2034");
+    let (free, bound) = (sets("5 A"), sets("0.62 A"));
+    let largest = "magnet.drive_end.largest_current_1";
+    assert!(number(&free, largest) > 0.64 && !told(&free));
+    // the command is clipped, the amplifier follows it
+    assert!(number(&bound, largest) <= 0.62 && told(&bound));
+}
+
+/// Members in lanes are what they are alone, also those of a sampled controller, whose states jump.
+#[test]
+fn controllers_in_lanes_have_the_bits_of_a_single_run() {
+    for more in [&[][..], &SAMPLED[..]] {
+        let run = ["run.duration=8 ms", "levitation.power_lost_at=3 ms"];
+        let alone = ran(&rig(), &[&run[..], more].concat());
+        let beside = ran(&rig(), &[&run[..], &["repeat.count=3"], more].concat());
+        for name in [
+            "drive_end.time_to_first_contact",
+            "drive_end.first_impact_force",
+            "magnet.other_end.largest_current_2",
+        ] {
+            assert_eq!(number(&alone, name), number(&beside, name), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_loss_without_magnets_or_before_standstill_is_refused() {
+    let rigid = parsed(STIFF, &["levitation.power_lost_at=1 ms"]);
+    let error = rigid.unwrap_err();
+    assert!(
+        error.contains("power_lost_at") && error.contains("no magnets"),
+        "{error}"
+    );
+    let error = parsed(
+        &rig(),
+        &["levitation.power_lost_at=1 ms", "run.until=standstill"],
+    );
+    assert!(error.unwrap_err().contains("standstill"));
+}
