@@ -569,8 +569,9 @@ fn a_machine_says_what_is_asked_of_its_rotor() {
     let outcome = run(&rotor, &Options::unwatched(&AtomicBool::new(false))).unwrap();
     let speeds = outcome.history.iter().find(|column| column.name == "speed");
     let speeds = &speeds.expect("speeds of the diagrams").values;
-    assert_eq!(speeds.len(), 11);
-    near(speeds[10], 1256.637_061, 1e-8);
+    // besides the eleven those of the critical speeds
+    assert!(speeds.len() < 40, "{}", speeds.len());
+    near(*speeds.last().unwrap(), 1256.637_061, 1e-8);
     let error = parsed(&asked.replace("rpm", "mm"), &[]).unwrap_err();
     assert!(error.contains("analysis.speed_to"), "{error}");
     let error = parsed(STIFF, &["analysis.speed_too=1 rpm"]).unwrap_err();

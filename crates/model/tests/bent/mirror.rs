@@ -61,8 +61,8 @@ fn image_of(constants: &MachineConstants) -> MachineConstants {
     image.gravity = flipped(image.gravity);
     image.speed = -image.speed;
     for magnet in image.magnets.iter_mut().flat_map(|own| &mut own.magnets) {
-        // the axis along y
-        magnet.axes[1].current = -magnet.axes[1].current;
+        // the axis along x
+        magnet.axes[0].current = -magnet.axes[0].current;
     }
     for part in &mut image.bearings {
         part.datum = flipped(part.datum);

@@ -6,7 +6,6 @@ use crate::scenario::key::quoted;
 use crate::scenario::rotor::build::{self, RotorModel};
 use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts;
-use crate::scenario::run::Until;
 use crate::scenario::values::Values;
 use rotor::{Properties, properties};
 
@@ -104,26 +103,6 @@ impl Shaft {
                 return Err(Box::new(problem));
             }
             _ => {}
-        }
-        const LOST: &str = "levitation.power_lost_at";
-        if number(values, LOST) > 0.0 {
-            let until = values.chosen("run.until") == Some(Until::Standstill);
-            let conflict = match &model.levitation {
-                None => Some("no magnets, whose power could be lost"),
-                Some(_) if until => Some("run.until = \"standstill\""),
-                Some(_) => None,
-            };
-            if let Some(found) = conflict {
-                let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
-                let problem = values.problem(
-                    Code::Conflict,
-                    LOST,
-                    values.place(LOST),
-                    found.to_string(),
-                    allowed.to_string(),
-                );
-                return Err(Box::new(problem));
-            }
         }
         let nodes = all
             .iter()

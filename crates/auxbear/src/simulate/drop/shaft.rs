@@ -79,6 +79,7 @@ pub(crate) fn build(
     shaft: &Shaft,
     gravity: Vec2<f64>,
 ) -> Result<BuiltShaft, Box<Problem>> {
+    lost_later(drop, shaft)?;
     let rotor = &shaft.model.rotor;
     let matrices = Matrices::new(rotor);
     let basis = basis(shaft, rotor, &matrices)?;
@@ -121,6 +122,19 @@ pub(crate) fn build(
         velocity,
         held,
     })
+}
+
+/// Refuses a loss of power after the start where there is none to lose, or where the run has no end of its own.
+fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>> {
+    let found = match (&shaft.model.levitation, &drop.run_out) {
+        _ if shaft.power_lost <= 0.0 => return Ok(()),
+        (None, _) => "no magnets, whose power could be lost",
+        (_, Some(_)) => "run.until = \"standstill\"",
+        _ => return Ok(()),
+    };
+    let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
+    let problem = Problem::new(Code::Conflict, UNNAMED, found, allowed);
+    Err(Box::new(problem.on_key("levitation.power_lost_at")))
 }
 
 /// Free modes up to the cut, and the residual flexibility at each place that carries something.
