@@ -41,7 +41,7 @@ function shapeDrawing(machine, shapes, row, width) {
   const z = listAt(run, "shape_positions");
   const rooms = roomAlong(machine);
   const reach = 1.25e6 * Math.max(...rooms.map((room) => room.clearance + Math.hypot(room.offset.x, room.offset.y)), 1e-6);
-  const margin = { left: 74, right: 24, top: 12, between: 22, bottom: 46 };
+  const margin = { left: 74, right: 24, top: 12, between: 22, bottom: 58 };
   const tall = 150;
   const height = margin.top + 2 * tall + margin.between + margin.bottom;
   const [first, last] = [z[0], z[z.length - 1]];
@@ -65,7 +65,8 @@ function shapeDrawing(machine, shapes, row, width) {
   });
   const below = height - margin.bottom + 14;
   const axis = axisSteps(first * 1e3, last * 1e3, Math.max(3, width / 110)).map((mm) => drawing("text", { x: toX(mm / 1e3), y: below, "text-anchor": "middle", "font-size": 11, fill: INK }, numberText(mm, 4)));
-  const names = rooms.map((room) => drawing("text", { x: toX(room.z), y: below + 26, "text-anchor": "middle", "font-size": 10.5, fill: room.colour }, room.name));
+  // bearings above what else stands there: a magnet often has the name of the bearing beside it
+  const names = rooms.map((room, k) => drawing("text", { x: toX(room.z), y: below + (k < machine.length ? 26 : 38), "text-anchor": "middle", "font-size": 10.5, fill: room.colour }, room.name));
   return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, panels, axis, names, drawing("text", { x: 4, y: below, "font-size": 11, fill: INK }, "z [mm]"));
 }
 
@@ -112,7 +113,7 @@ function currentFigure(run) {
   const names = [...run.columns.keys()].filter((name) => /^magnet\..*\.current_[12]$/.test(name));
   if (!names.length) return null;
   const words = (name) => name.replace(/^magnet\.(.*)\.current_([12])$/, (_, magnet, axis) => `${wordsOf(magnet)}, axis ${axis} [A]`);
-  const series = names.flatMap((name, place) => lines([run], name, 1, { label: words(name), colour: AXIS_COLOURS[place % AXIS_COLOURS.length], width: 1 }));
+  const series = names.map((name, place) => ({ label: words(name), time: run.time, values: columnOf(run, name), colour: AXIS_COLOURS[place % AXIS_COLOURS.length], width: 1 }));
   const marks = instantMarks([{ instant: numberOf(run, "power_lost_at"), words: "power lost", colour: SERIES_COLOURS.limit }]);
   return figure("Control currents", "Of each axis of the magnets, without bias; after the loss of power what is left of them.", timePlot({ series, label: "current [A]", marks, ticks: [run], height: 240 }));
 }

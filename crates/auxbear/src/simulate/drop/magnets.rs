@@ -26,12 +26,11 @@ pub(crate) fn name(context: &Context, list: &mut List) {
     let Some(given) = context.controlled() else {
         return;
     };
-    let ended = context.finished.ending.time;
-    let lost = match given.power_lost <= ended {
-        true => Ok(given.power_lost),
-        false => Err("the magnets had power to the end".to_string()),
-    };
+    let kept = || "the magnets had power to the end".to_string();
+    let speed = context.finished.record.released.ok_or_else(kept);
+    let lost = speed.clone().map(|_| given.power_lost);
     list.number("power_lost_at", "s", lost, &LOST);
+    list.number("speed_at_power_loss", "rad/s", speed, &LOST);
     for (axis, peak) in context.finished.record.currents.iter().enumerate() {
         let largest = Ok(peak.largest.value);
         list.number(
@@ -95,8 +94,8 @@ pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
 }
 
 const LOST: Origin = Origin {
-    law: "levitation.power_lost_at",
-    source: "given",
+    law: "levitation.power_lost_at, and the spin of the rotor then; speeds of inner races are compared with it",
+    source: "crates/model/src/system/machine/record.rs",
     valid: "all magnets at once; sensors and controllers stand still from then on",
 };
 const CURRENT: Origin = Origin {

@@ -21,8 +21,8 @@ pub struct Record {
     pub currents: Vec<CurrentPeak>,
     rows: Rows,
     next_look: f64,
-    /// Whether its magnets have lost their power, or had none.
-    released: bool,
+    /// Spin at which the magnets lost their power, rad/s; none where they have it still, or had none.
+    pub released: Option<f64>,
     limit_passed: bool,
     /// Whether the run ends when it rolls.
     halts_when_rolling: bool,
@@ -76,7 +76,7 @@ impl Record {
             },
             rows: Rows::new(machine, end, interval, keep_rows),
             next_look: 0.0,
-            released: !machine.controlled(),
+            released: None,
             limit_passed: false,
             halts_when_rolling: false,
         }
@@ -124,12 +124,12 @@ impl Record {
         let (machine, time, length) = (step.machine, step.end, step.end - step.start);
         let lost = machine.constants.magnets.as_ref().map(|own| own.lost);
         let state = step.leading_state(1.0, machine.layout().magnets.end);
-        if !self.released && lost.is_some_and(|lost| time >= lost) {
-            self.released = true;
+        if self.released.is_none() && lost.is_some_and(|lost| time >= lost) {
             let spin = state[machine.layout().rotor.spin()];
             for bearing in &mut self.bearings {
                 bearing.released(machine, spin);
             }
+            self.released = Some(spin);
         }
         let currents = machine.currents(time, state);
         let axes = self.currents.iter_mut().zip(machine.axes());
