@@ -482,6 +482,7 @@ fn every_number_reaches_the_typed_scenario() {
                 "windage_quadratic" => "quadratic",
                 "windage_deviation" => "deviation",
                 "brake_torque" => "torque",
+                "power_lost_at" => "power_lost",
                 "brake_start" => "start",
                 "torque_rate" | "peak_acceleration" => "engagement",
                 "first_release_at" => "release_at",

@@ -175,7 +175,7 @@ pub(crate) fn of(
         list.extend(judged(machines, |member| {
             skids(member, k).into_iter().collect()
         }));
-        list.extend(of_bearing(scenario, context, k));
+        list.extend(of_bearing(scenario, contexts, k));
         list
     }));
     list.extend(each(&|k| {
@@ -371,10 +371,13 @@ fn bushing(context: &Context, k: usize) -> Warning {
 }
 
 /// What the laws of a bearing leave open.
-fn of_bearing(scenario: &Scenario, context: &Context, k: usize) -> Vec<Warning> {
+fn of_bearing(scenario: &Scenario, contexts: &[Context], k: usize) -> Vec<Warning> {
+    let context = &contexts[0];
     let given = context.given(k);
     let Some(bearing) = &given.bearing else {
-        return vec![bushing(context, k)];
+        let mut touches = contexts.iter().map(|member| &member.record(k).contacts);
+        let touches = touches.any(|contacts| !contacts.is_empty());
+        return touches.then(|| bushing(context, k)).into_iter().collect();
     };
     let mut list: Vec<Warning> = shared::cage_inertia(bearing).into_iter().collect();
     list.extend(shared::rolling(bearing));
