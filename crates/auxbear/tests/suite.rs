@@ -8,6 +8,7 @@ mod drop_method;
 mod extremes;
 mod exudyn_cage_spin_up;
 mod feedback;
+mod held_limits;
 mod machine;
 mod machine_supports;
 mod measurement_file;

@@ -19,6 +19,9 @@
 //! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
 //! of the weight on the bearing, as it has it when it has come to rest.
 //!
+//! From the span on in which a node passes its limit, a second set of temperatures takes the same heats through the same
+//! conductances with the nodes held at their limits: what must be taken from them for that.
+//!
 //! Source: heat-and-life, sections 2 and 3. Range: a body is one temperature only after about 0.1 s; before that the surfaces
 //! tell more.
 
@@ -29,8 +32,9 @@ use physics::palmgren::Palmgren;
 use physics::viscosity::WaltherLine;
 use thermal::bearing_network::{
     BALLS, BearingNetwork, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation,
-    ROTOR,
+    ROTOR, together,
 };
+use thermal::held::Held;
 
 /// A number per node.
 pub type OfNodes = [f64; NODES.len()];
@@ -63,6 +67,8 @@ pub struct WarmBearing {
     pub moment: Option<Palmgren<f64>>,
     /// Shares of each heat of the ledger over the nodes.
     pub shares: [OfNodes; HEATS],
+    /// Limits of the nodes that have one, °C.
+    pub limits: [Option<f64>; NODES.len()],
 }
 
 /// What has become of it.
@@ -72,6 +78,10 @@ pub struct Warmth {
     pub temperatures: Vec<f64>,
     /// The hottest that each node was, °C, and when, s.
     pub peaks: [(f64, f64); NODES.len()],
+    /// When each node passed its limit, s.
+    pub passed: [Option<f64>; NODES.len()],
+    /// The same bearing with its nodes held at their limits, once one has got there.
+    pub held: Option<Box<HeldWarmth>>,
     /// Heat made until now, J.
     pub made: f64,
     /// Heat given to the surroundings until now, J.
@@ -87,6 +97,39 @@ pub struct Warmth {
     until: f64,
     heats: [f64; HEATS],
     taken: [f64; 2],
+}
+
+/// What must be taken from the nodes of a bearing to hold them at their limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldWarmth {
+    held: Held,
+    temperatures: Vec<f64>,
+    /// Taken from each node until now, J.
+    pub taken: OfNodes,
+    /// The most that was taken from each in a span, W.
+    pub most: OfNodes,
+    /// The same of all together, W.
+    pub most_of_all: f64,
+    /// End of each span and the powers taken in it, W, where they are kept.
+    pub course: Vec<(f64, OfNodes)>,
+}
+
+impl HeldWarmth {
+    /// Ends a span, in which so much heat reached the nodes that were held, J.
+    fn end(&mut self, part: &WarmBearing, reached: &[f64], (time, span): (f64, f64), keep: bool) {
+        let capacities = &part.network.capacities;
+        let taken = self.held.end(capacities, &mut self.temperatures, reached);
+        add(&mut self.taken, &taken);
+        self.most_of_all = self.most_of_all.max(taken.iter().sum::<f64>() / span);
+        let mut powers = [0.0; NODES.len()];
+        for ((power, most), taken) in powers.iter_mut().zip(&mut self.most).zip(taken) {
+            *power = taken / span;
+            *most = most.max(*power);
+        }
+        if keep {
+            self.course.push((time, powers));
+        }
+    }
 }
 
 /// What a run shows at an instant.
@@ -237,6 +280,8 @@ impl Warmth {
         Warmth {
             temperatures: vec![part.start; NODES.len()],
             peaks: [(part.start, 0.0); NODES.len()],
+            passed: [None; NODES.len()],
+            held: None,
             made: 0.0,
             given: 0.0,
             flows: [[0.0; NODES.len()]; HEATS],
@@ -287,6 +332,15 @@ impl Warmth {
             return;
         };
         let powers: Vec<f64> = nodes.iter().map(|heat| heat / span).collect();
+        let (at, keep) = ((seen.time, span), self.keep);
+        if let Some(other) = &mut self.held {
+            let Ok(network) = together(&[(&part.network, operation)], other.held.marks()) else {
+                return;
+            };
+            let away = network.advance(&mut other.temperatures, &powers, span);
+            other.end(part, &network.by_node(&away), at, keep);
+        }
+        let before = self.temperatures.clone();
         let given = network.advance(&mut self.temperatures, &powers, span);
         self.given += given.iter().sum::<f64>();
         self.made += nodes.iter().sum::<f64>();
@@ -294,6 +348,24 @@ impl Warmth {
             add(so_far, flow);
         }
         add(&mut self.given_from, &network.by_node(&given));
+        for (node, limit) in part.limits.iter().enumerate() {
+            let (was, now) = (before[node], self.temperatures[node]);
+            let passes = limit.filter(|limit| self.passed[node].is_none() && now > *limit);
+            self.passed[node] = self.passed[node]
+                .or_else(|| Some(self.until + span * (passes? - was) / (now - was)));
+        }
+        if self.held.is_none() && self.passed.iter().any(Option::is_some) {
+            let mut other = Box::new(HeldWarmth {
+                held: Held::at(part.limits.to_vec()),
+                temperatures: self.temperatures.clone(),
+                taken: [0.0; NODES.len()],
+                most: [0.0; NODES.len()],
+                most_of_all: 0.0,
+                course: Vec::new(),
+            });
+            other.end(part, &[0.0; NODES.len()], at, keep);
+            self.held = Some(other);
+        }
         self.until = seen.time;
         self.heats = seen.heats;
         self.taken = seen.taken.unwrap_or(self.taken);

@@ -134,7 +134,7 @@ impl BearingNetwork {
     /// # Errors
     /// A capacity or conductance that is none.
     pub fn at(&self, operation: Operation<'_>) -> Result<Network, NetworkError> {
-        together(&[(self, operation)])
+        together(&[(self, operation)], &[])
     }
 
     /// Its links and grounds, with nodes counted from a first one.
@@ -231,11 +231,15 @@ impl BearingNetwork {
     }
 }
 
-/// The networks of several bearings at an instant as one, the nodes of each behind those before; they exchange nothing.
+/// The networks of several bearings at an instant as one, the nodes of each behind those before; they exchange nothing. Nodes that are
+/// marked are held.
 ///
 /// # Errors
 /// A capacity or conductance that is none.
-pub fn together(parts: &[(&BearingNetwork, Operation<'_>)]) -> Result<Network, NetworkError> {
+pub fn together(
+    parts: &[(&BearingNetwork, Operation<'_>)],
+    held: &[bool],
+) -> Result<Network, NetworkError> {
     let (mut capacities, mut links, mut grounds) = (Vec::new(), Vec::new(), Vec::new());
     for (part, operation) in parts {
         let (own, to_surroundings) = part.links(*operation, capacities.len());
@@ -243,7 +247,7 @@ pub fn together(parts: &[(&BearingNetwork, Operation<'_>)]) -> Result<Network, N
         links.extend(own);
         grounds.extend(to_surroundings);
     }
-    Network::new(&capacities, &links, &grounds)
+    Network::holding(&capacities, &links, &grounds, held)
 }
 
 #[cfg(test)]

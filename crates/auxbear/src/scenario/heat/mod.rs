@@ -12,6 +12,10 @@ use crate::scenario::values::Values;
 use crate::scenario::words::words;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::viscosity::Viscosity;
+use thermal::bearing_network::{BALLS, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
+
+/// Ice point, K.
+pub(crate) const ICE_POINT: f64 = 273.15;
 
 words! {
     /// Whether temperatures are followed.
@@ -207,6 +211,21 @@ impl Warm {
             [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
             _ => None,
         }
+    }
+
+    /// Limits of the nodes of its network that have one, °C.
+    pub fn limits(&self) -> [Option<f64>; NODES.len()] {
+        let heat = &self.heat;
+        let of = |limit: f64| Some(limit - ICE_POINT);
+        let mut limits = [None; NODES.len()];
+        for node in [INNER_RACE, BALLS, OUTER_RACE] {
+            limits[node] = of(heat.race_limit);
+        }
+        if self.cage_mass > 0.0 {
+            limits[CAGE] = of(heat.cage_limit);
+        }
+        limits[LUBRICANT] = of(heat.lubricant_limit);
+        limits
     }
 
     /// What a friction law needs to know of the bearing.

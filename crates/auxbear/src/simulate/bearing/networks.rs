@@ -43,6 +43,7 @@ pub(crate) fn built(
             warm.heat.cage_material.heat(),
             land,
         ),
+        limits: warm.limits(),
         network,
     })))
 }

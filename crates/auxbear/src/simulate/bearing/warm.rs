@@ -6,7 +6,7 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::warnings::beyond;
+use crate::simulate::coast_down::warnings::{beyond, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
 use thermal::bearing_network::{CAGE, GROUNDS, LUBRICANT, NODES};
@@ -52,6 +52,7 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
         let name = format!("peak_{name}_temperature");
         list.number(&name, "K", Ok(peak + ICE_POINT), &PEAK);
     }
+    limits(followed, list);
     let stored_in = followed.part.stored(&warmth.temperatures);
     let stored: f64 = stored_in.iter().sum();
     if followed.closes() {
@@ -98,7 +99,55 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
     }
 }
 
+/// When nodes passed their limits, and what had to be taken from them to hold those.
+fn limits(followed: &Followed, list: &mut List) {
+    let warmth = followed.warmth;
+    let held = warmth.held.as_deref();
+    for (node, name) in followed.nodes() {
+        let Some(limit) = followed.part.limits[node] else {
+            continue;
+        };
+        let below = limit - warmth.peaks[node].0;
+        let never = || format!("it stays {below:.1} K below its limit");
+        let taken = held.filter(|held| held.taken[node] > 0.0);
+        let taken = taken.map(|held| [held.most[node], held.taken[node]]);
+        list.limit("", name, warmth.passed[node].ok_or_else(never), taken);
+    }
+    let spans = || held.iter().flat_map(|held| &held.course);
+    list.held_times(spans().map(|(time, _)| *time).collect());
+    for (node, name) in followed.nodes() {
+        if held.is_some_and(|held| held.taken[node] > 0.0) {
+            let powers = spans().map(|(_, powers)| powers[node]).collect();
+            list.powers_to_take("", name, powers);
+        }
+    }
+}
+
 impl List {
+    /// Of a node with a limit: when it passes it, s, or why not; the largest power, W, and all the heat, J, to be taken to hold it.
+    pub(crate) fn limit(
+        &mut self,
+        bearing: &str,
+        node: &str,
+        passed: Result<f64, String>,
+        taken: Option<[f64; 2]>,
+    ) {
+        let of = |words: &str| of_part(bearing, &format!("{node}_{words}"));
+        let why = passed.clone().err().unwrap_or_default();
+        let part = |which: usize| taken.map(|taken| taken[which]).ok_or_else(|| why.clone());
+        self.awaited(&of("limit_time"), passed, &LIMIT);
+        self.number(&of("heat_to_take"), "W", part(0), &TAKE);
+        self.number(&of("energy_to_take"), "J", part(1), &TAKE);
+    }
+    /// The instants of those powers, s.
+    pub(crate) fn held_times(&mut self, times: Vec<f64>) {
+        self.push("held_times", "s", Value::List(times), &TAKE);
+    }
+    /// Power that must be taken from a node over these instants, W.
+    pub(crate) fn powers_to_take(&mut self, bearing: &str, node: &str, powers: Vec<f64>) {
+        let name = of_part(bearing, &format!("{node}_powers_to_take"));
+        self.push(&name, "W", Value::List(powers), &TAKE);
+    }
     /// Heats made in, kept in and given to the surroundings by a node of a bearing, J.
     pub(crate) fn node_heats(&mut self, bearing: &str, node: usize, [made, kept, given]: [f64; 3]) {
         let mut add = |words: &str, heat: f64| {
@@ -197,24 +246,20 @@ fn not_followed(followed: &Followed) -> Option<Warning> {
 }
 
 fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
-    let heat = &followed.given.heat;
-    let limit = |name: &str| match name {
-        "inner_race" | "balls" | "outer_race" => Some(heat.race_limit - ICE_POINT),
-        "cage" => Some(heat.cage_limit - ICE_POINT),
-        "lubricant" => Some(heat.lubricant_limit - ICE_POINT),
-        _ => None,
-    };
     let hottest = followed.nodes().filter_map(|(node, name)| {
         let (peak, time) = followed.warmth.peaks[node];
-        let above = peak - limit(name)?;
+        let above = peak - followed.part.limits[node]?;
         (above > 0.0).then_some((above, name, peak, time))
     });
     let hottest = hottest.max_by(|a, b| a.0.total_cmp(&b.0));
     let told = |(above, name, peak, time): (f64, &str, f64, f64)| {
+        let held = followed.warmth.held.as_deref();
+        let taken = held.map(|held| to_take(held.most_of_all, held.taken.iter().sum()));
         let text = format!(
             "Too hot: {} at {peak:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. \
-             Hardness, cage and lubricant may change there; this run does not follow that.",
-            name.replace('_', " ")
+             Hardness, cage and lubricant may change there; this run does not follow that.{}",
+            name.replace('_', " "),
+            taken.unwrap_or_default()
         );
         (above, warning("AB2310", text))
     };
@@ -226,6 +271,18 @@ const PEAK: Origin = Origin {
     source: "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; heat-and-life, sections 2 and 3",
     valid: "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
             factor of two. What of the motion follows: heat.feedback",
+};
+const LIMIT: Origin = Origin {
+    law: "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
+    source: "makers' catalogues",
+    valid: "as the temperatures",
+};
+const TAKE: Origin = Origin {
+    law: "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \
+          sum. By the heats of this run, or by a second run-out",
+    source: "crates/thermal/src/held.rs; heat-and-life, section 5",
+    valid: "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
+            of a run-out all bearings together",
 };
 const RINGS: Origin = Origin {
     law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",

@@ -1,6 +1,7 @@
 //! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
 
 use crate::problem::{Code, Problem};
+pub(crate) use crate::scenario::heat::ICE_POINT;
 use crate::scenario::heat::SHOULDER;
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use crate::simulate::coast_down::rows::{End, Row};
@@ -20,8 +21,6 @@ use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
 
-/// Ice point, K.
-pub(crate) const ICE_POINT: f64 = 273.15;
 /// Expansion of bearing steel and of silicon nitride, 1/K. Source: heat-and-life, section 9.
 const EXPANSION: [f64; 2] = [11.5e-6, 3.2e-6];
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.

@@ -1,7 +1,6 @@
 //! Every named result of a run-out with its law, source and valid range.
 
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
-use crate::result::outcome::Value;
 use crate::simulate::bearing::races as shared;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::simulate::coast_down::ran::Ran;
@@ -125,42 +124,26 @@ fn temperatures(ran: &Ran, k: usize, list: &mut List) {
         };
         let passed = ran.first(|row| row.temperatures[node.place()] - limit);
         let never = || format!("it stays {:.1} K below its limit", limit - peak);
-        list.awaited(&of("#_limit_time"), passed.ok_or_else(never), &LIMIT);
         let held = (ran.held.as_ref()).filter(|held| held.taken[node.place()] > 0.0);
-        let most = held.map(|held| {
+        let taken = held.map(|held| {
             let rows = held.rows.iter();
-            rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max)
+            let most = rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max);
+            [most, held.taken[node.place()]]
         });
-        list.number(&of("#_heat_to_take"), "W", most.ok_or_else(never), &TAKE);
-        let energy = held.map(|held| held.taken[node.place()]);
-        list.number(
-            &of("#_energy_to_take"),
-            "J",
-            energy.ok_or_else(never),
-            &TAKE,
-        );
+        list.limit(part, node.name(), passed.ok_or_else(never), taken);
     }
 }
 
 /// The run-out whose nodes are held, which has times of its own.
 fn held(ran: &Ran, list: &mut List) {
     let rows = || ran.held.iter().flat_map(|held| &held.rows);
-    let times = rows().map(|row| row.time).collect();
-    list.push("held_times", "s", Value::List(times), &TAKE);
-    let Some(held) = &ran.held else { return };
-    for (k, part) in ran.parts() {
-        for (node, name) in NODES.iter().enumerate() {
-            let place = k * NODES.len() + node;
-            if held.taken[place] > 0.0 {
-                let powers = rows().map(|row| row.taken[place]).collect();
-                list.push(
-                    &of_part(&part.name, &format!("{name}_powers_to_take")),
-                    "W",
-                    Value::List(powers),
-                    &TAKE,
-                );
-            }
-        }
+    let each = ran.parts().flat_map(|(k, _)| ran.nodes(k));
+    let needy = each.filter(|node| (ran.held.iter()).any(|held| held.taken[node.place()] > 0.0));
+    list.held_times(rows().map(|row| row.time).collect());
+    for node in needy {
+        let powers = rows().map(|row| row.taken[node.place()]).collect();
+        let part = &ran.built.parts[node.bearing].name;
+        list.powers_to_take(part, node.name(), powers);
     }
 }
 
@@ -293,16 +276,6 @@ const PEAK: Origin = Origin {
     law: "C Ṫ = P + Σ G (T_other − T)",
     source: "crates/thermal/src/bearing_network.rs; heat-and-life, section 2",
     valid: "bodies of one temperature; conductances of contacts and seats within a factor of two",
-};
-const LIMIT: Origin = Origin {
-    law: "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
-    source: "makers' catalogues",
-    valid: "as the temperatures",
-};
-const TAKE: Origin = Origin {
-    law: "a second run-out in which every node stays at its limit once it is there: largest power taken from it, and the sum",
-    source: "heat-and-life, section 5",
-    valid: "all bearings together; cooling that acts on the node itself",
 };
 const CLEARANCE: Origin = Origin {
     law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",

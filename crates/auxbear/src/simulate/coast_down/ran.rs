@@ -18,7 +18,8 @@ pub(crate) struct Ran<'a> {
 
 /// Computes a run-out.
 pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a>, Box<Problem>> {
-    let limits = course::limits(built);
+    let each = built.parts.iter().flat_map(|part| part.warm.limits());
+    let limits: Vec<_> = each.collect();
     let free = course::follow(built, None, interrupt)?;
     let passes = |row: &Row| {
         let mut nodes = row.temperatures.iter().zip(&limits);

@@ -63,6 +63,14 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
     ))
 }
 
+/// What holding the limits takes: the largest power, W, and all of it, J.
+pub(crate) fn to_take(most: f64, all: f64) -> String {
+    let kilojoules = 1e-3 * all;
+    format!(
+        " To hold the limits {most:.0} W at most, {kilojoules:.2} kJ in all, must be taken away."
+    )
+}
+
 fn limits(ran: &Ran) -> Option<Warning> {
     let nodes = ran
         .parts()
@@ -95,11 +103,7 @@ fn limits(ran: &Ran) -> Option<Warning> {
         let most = rows
             .map(|row| row.taken.iter().sum::<f64>())
             .fold(0.0, f64::max);
-        let all: f64 = held.taken.iter().sum();
-        format!(
-            " To hold the limits {most:.0} W at most, {:.2} kJ in all, must be taken away.",
-            1e-3 * all
-        )
+        to_take(most, held.taken.iter().sum())
     });
     Some(warning(
         "AB2310",

@@ -443,7 +443,7 @@ fn network(built: &Built) -> Result<thermal::network::Network, &'static str> {
             (&part.network, operation)
         })
         .collect();
-    together(&all).map_err(|_| "the network of a bearing has no finite values")
+    together(&all, &[]).map_err(|_| "the network of a bearing has no finite values")
 }
 
 /// What is known at a window.
