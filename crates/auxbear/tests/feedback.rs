@@ -110,6 +110,10 @@ fn ball_by_ball_and_slow_time_brake_alike_where_rings_press_on_the_balls() {
     // one of two bearings
     let law = 0.5 * moment * first("run_out.over_time.rotor.speed");
     assert!((power / law - 1.0).abs() < 0.01, "{power} {law}");
+    // and say alike how a disturbance of the temperatures would grow
+    let growth = *column(&outcome, "heat.growth_rate").last().unwrap();
+    let after = first("run_out.over_time.heat.growth_rate");
+    assert!((growth / after - 1.0).abs() < 0.03, "{growth} {after}");
 }
 
 #[test]
@@ -166,6 +170,35 @@ fn the_torque_of_a_spin_up_falls_with_the_viscosity_of_its_oil() {
     assert!(number(&warm, "relative_heat_residual") < 1e-9);
     assert!((number(&warm, "heat_made") / number(&warm, "dissipated_energy") - 1.0).abs() < 1e-12);
     assert!(number(&warm, "energy_residual").abs() < 1e-6);
+}
+
+#[test]
+fn a_bearing_that_runs_away_is_named_long_before_it_is_too_hot() {
+    // thin oil, little that stores, and rings that press from the start
+    let sets = [
+        "run.duration=25 s",
+        "drive.final_speed=2000 rad/s",
+        "bearing.moment.viscosity_points=[[\"40 degC\", \"22 mm^2/s\"], [\"100 degC\", \"4.6 mm^2/s\"]]",
+        "heat.housing_capacity=60 J/K",
+        "heat.rotor_capacity=20 J/K",
+        "heat.outer_seat=1 W/K",
+    ];
+    let with = |clearance: &str| {
+        let clearance = format!("bearing.operating_diametral_clearance={clearance}");
+        spun(&[&sets[..], &[clearance.as_str()]].concat())
+    };
+    let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2311");
+    let away = with("-35 um");
+    let (times, growth) = (column(&away, "time"), column(&away, "heat.growth_rate"));
+    let begins = growth.iter().position(|rate| *rate > 0.0).unwrap();
+    assert!(told(&away) && times[begins] < 0.5 * number(&away, "lubricant_limit_time"));
+    let most = growth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(most, number(&away, "peak_growth_rate"));
+    // preloaded and stable; open
+    let stable = with("-5 um");
+    assert!(!told(&stable) && number(&stable, "peak_growth_rate") < 0.0);
+    let open = with("30 um");
+    assert!(!told(&open) && !open.history.iter().any(|c| c.name == "heat.growth_rate"));
 }
 
 #[test]

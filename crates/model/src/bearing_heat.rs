@@ -35,12 +35,16 @@ use thermal::bearing_network::{
     ROTOR, together,
 };
 use thermal::held::Held;
+use thermal::steady_speed::SteadySpeed;
+use thermal::warm_bearing::WarmBearings;
 
 /// A number per node.
 pub type OfNodes = [f64; NODES.len()];
 
 /// Span of heat that the network takes at once, s.
 const SPAN: f64 = 10e-3;
+/// Time between two looks at how a disturbance grows, s.
+const LOOKS: f64 = 50e-3;
 /// Ice point, K.
 const ICE_POINT: f64 = 273.15;
 /// Least viscosity, m²/s.
@@ -63,8 +67,8 @@ pub struct WarmBearing {
     pub oil: Option<WaltherLine<f64>>,
     /// Viscosity of the lubricant at the start, m²/s.
     pub viscosity: f64,
-    /// The law that divides the steady moment; all of it heats the lubricant where there is none.
-    pub moment: Option<Palmgren<f64>>,
+    /// The law that divides the steady moment, and says how it follows the temperatures; all of it heats the lubricant where there is none.
+    pub losses: Option<WarmBearings>,
     /// Shares of each heat of the ledger over the nodes.
     pub shares: [OfNodes; HEATS],
     /// Limits of the nodes that have one, °C.
@@ -80,6 +84,8 @@ pub struct Warmth {
     pub peaks: [(f64, f64); NODES.len()],
     /// When each node passed its limit, s.
     pub passed: [Option<f64>; NODES.len()],
+    /// How a disturbance of them grows, once the balls are preloaded.
+    pub growth: Growth,
     /// The same bearing with its nodes held at their limits, once one has got there.
     pub held: Option<Box<HeldWarmth>>,
     /// Heat made until now, J.
@@ -97,6 +103,46 @@ pub struct Warmth {
     until: f64,
     heats: [f64; HEATS],
     taken: [f64; 2],
+}
+
+/// How fast a disturbance of the temperatures grows at the speed of an instant and under the weight, while the balls are preloaded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Growth {
+    /// The largest rate, 1/s; none where the balls never were preloaded.
+    pub largest: Option<f64>,
+    /// From when on they run away, s, and the temperatures there, °C.
+    pub runs_away: Option<(f64, OfNodes)>,
+    /// Instants and rates, where they are kept.
+    pub course: Vec<(f64, f64)>,
+    next: f64,
+}
+
+impl Growth {
+    fn look(
+        &mut self,
+        machine: impl FnOnce() -> Option<f64>,
+        (time, nodes): (f64, OfNodes),
+        keep: bool,
+    ) {
+        if time < self.next {
+            return;
+        }
+        self.next = time + LOOKS;
+        let Some(rate) = machine() else { return };
+        self.largest = Some(self.largest.map_or(rate, |largest| largest.max(rate)));
+        if rate > 0.0 && self.runs_away.is_none() {
+            self.runs_away = Some((time, nodes));
+        }
+        if keep {
+            self.course.push((time, rate));
+        }
+    }
+    /// The rate at an instant, 1/s; not a number before the balls were preloaded.
+    pub fn at(&self, time: f64) -> f64 {
+        let past = self.course.partition_point(|(known, _)| *known <= time);
+        past.checked_sub(1)
+            .map_or(f64::NAN, |last| self.course[last].1)
+    }
 }
 
 /// What must be taken from the nodes of a bearing to hold them at their limits.
@@ -218,12 +264,12 @@ fn place(kind: &str) -> usize {
 impl WarmBearing {
     /// Share of the steady moment that is viscous, at a speed of the inner race.
     fn viscous(&self, spin: f64, temperature: f64) -> f64 {
-        let Some(moment) = &self.moment else {
+        let Some(losses) = &self.losses else {
             return 1.0;
         };
         let moment = Palmgren {
             viscosity: self.viscosity_at(temperature),
-            ..*moment
+            ..losses.moment
         };
         let parts = moment.parts(spin.abs(), self.radial_load);
         let sum = parts.speed_dependent + parts.load_dependent;
@@ -281,6 +327,7 @@ impl Warmth {
             temperatures: vec![part.start; NODES.len()],
             peaks: [(part.start, 0.0); NODES.len()],
             passed: [None; NODES.len()],
+            growth: Growth::default(),
             held: None,
             made: 0.0,
             given: 0.0,
@@ -379,6 +426,18 @@ impl Warmth {
         if self.keep {
             self.course.push((seen.time, row));
         }
+        let grows = || {
+            let losses = part.losses.clone()?;
+            let (open, _) = losses.closing(&row)?;
+            let machine = |network| SteadySpeed {
+                network,
+                losses,
+                speed: seen.spin.abs(),
+                tolerance: 1.0,
+            };
+            (open < 0.0).then(|| machine(network).growth(&row))
+        };
+        self.growth.look(grows, (seen.time, row), self.keep);
     }
 
     /// Temperature of a node at an instant, °C: between the ends of spans along a straight line.

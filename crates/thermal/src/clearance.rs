@@ -23,11 +23,19 @@ impl ThermalClearance {
     /// Source: heat-and-life, section 5; free expansion.
     /// Valid: rings free to grow, each at one temperature.
     pub fn at(&self, inner: f64, balls: f64, outer: f64) -> f64 {
+        let [of_inner, of_balls, of_outer] = self.changes(inner, balls, outer);
+        self.at_reference + of_outer + of_inner + of_balls
+    }
+
+    /// What inner ring, balls and outer ring have added to it, m.
+    pub fn changes(&self, inner: f64, balls: f64, outer: f64) -> [f64; 3] {
         let [of_inner, of_balls, of_outer] = self.expansions;
         let [inner_track, outer_track] = self.tracks;
-        self.at_reference + of_outer * outer_track * (outer - self.reference)
-            - of_inner * inner_track * (inner - self.reference)
-            - 2.0 * of_balls * self.ball * (balls - self.reference)
+        [
+            -of_inner * inner_track * (inner - self.reference),
+            -2.0 * of_balls * self.ball * (balls - self.reference),
+            of_outer * outer_track * (outer - self.reference),
+        ]
     }
 }
 

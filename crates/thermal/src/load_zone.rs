@@ -29,6 +29,11 @@ impl LoadZone {
             temperatures[outer],
         )
     }
+    /// What inner ring, balls and outer ring have added to it, m.
+    pub fn changes_at(&self, temperatures: &[f64]) -> [f64; 3] {
+        let [inner, balls, outer] = self.nodes.map(|node| temperatures[node]);
+        self.clearance.changes(inner, balls, outer)
+    }
     /// Load of each ball at a clearance, N.
     pub fn loads(&self, clearance: f64) -> Vec<f64> {
         let moved = displacement(self.load, self.stiffness, clearance, &self.angles, 1.0);

@@ -152,6 +152,7 @@ function warmingSection(runs) {
   const figures = (run) => [
     temperatureFigures(run, runs)[0],
     columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null,
+    columnOf(run, "heat.growth_rate") ? closingFigures(run, runs)[2] : null,
     takenFigure(run, runs, note),
     heatFlowFigure(run, runs, "Of one bearing."),
   ];

@@ -73,6 +73,11 @@ impl Follows {
         self.zone.clearance_at(temperatures)
     }
 
+    /// What inner ring, balls and outer ring have added to it at these temperatures (°C), m.
+    pub fn changes(&self, temperatures: &[f64]) -> [f64; 3] {
+        self.zone.changes_at(temperatures)
+    }
+
     /// Viscosity of the lubricant at these temperatures (°C), m²/s; 1 where none is known.
     pub fn viscosity(&self, temperatures: &[f64]) -> f64 {
         let kelvin = temperatures[LUBRICANT] + ICE_POINT;

@@ -6,7 +6,8 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::warnings::{beyond, to_take};
+use crate::simulate::coast_down::quantities::GROWTH;
+use crate::simulate::coast_down::warnings::{away, beyond, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
 use thermal::bearing_network::{CAGE, GROUNDS, LUBRICANT, NODES};
@@ -72,6 +73,14 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
             closed.ok_or_else(|| why.to_string()),
             &CLEARANCE,
         );
+        let growth = warmth.growth.largest.ok_or_else(|| {
+            match followed.part.losses {
+                Some(_) => "the balls are not preloaded",
+                None => "only Palmgren's law says how a preload brakes",
+            }
+            .to_string()
+        });
+        list.number("peak_growth_rate", "1/s", growth, &GROWTH);
     }
     list.number("heat_made", "J", Ok(warmth.made), &HEAT);
     list.number("stored_heat", "J", Ok(stored), &HEAT);
@@ -196,19 +205,35 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
                 follows.clearance(&all)
             },
         );
+        if warmth.growth.largest.is_some() {
+            table.add(
+                "heat.growth_rate",
+                "1/s",
+                "rate at which a disturbance of the temperatures grows while the balls are preloaded; above 0 they run away",
+                move |row| warmth.growth.at(row.time),
+            );
+        }
     }
 }
 
 /// What became hotter than it may, closed, or does not follow.
 pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     let mut list: Vec<(f64, Warning)> = too_hot(followed).into_iter().collect();
-    list.extend(closed(followed));
+    list.extend(runs_away(followed).or_else(|| closed(followed)));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
     let peak = followed.warmth.peaks[LUBRICANT];
     let oil = followed.given.viscosity();
     let beyond = oil.and_then(|oil| beyond(&oil, peak, followed.part.start));
     list.extend(beyond.map(|warning| (peak.0, warning)));
     list
+}
+
+/// A bearing that its own warmth closes further and further.
+fn runs_away(followed: &Followed) -> Option<(f64, Warning)> {
+    let growth = &followed.warmth.growth;
+    let ((time, nodes), rate) = (growth.runs_away?, growth.largest?);
+    let changes = followed.follows()?.changes(&nodes);
+    Some((rate, away(time, rate, changes)))
 }
 
 /// A clearance that closes.

@@ -287,10 +287,10 @@ const BALLS: Origin = Origin {
     source: "crates/physics/src/load_zone.rs",
     valid: "quasi-static, one ball on the load line",
 };
-const GROWTH: Origin = Origin {
+pub(crate) const GROWTH: Origin = Origin {
     law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
     source: "crates/thermal/src/steady_speed.rs; heat-and-life, section 5",
-    valid: "the speed of that instant held",
+    valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
 const KAPPA: Origin = Origin {
     law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above",
