@@ -40,6 +40,8 @@ pub(crate) struct Part {
     pub network: BearingNetwork,
     pub losses: WarmBearings,
     pub zone: LoadZone,
+    /// Direction of its radial load from the frame's x axis, rad; 0 where there is no frame.
+    pub load_direction: f64,
     /// Whether the clearance follows the temperatures.
     pub closes: bool,
     /// The line of the lubricant, and where it is known.
@@ -193,6 +195,7 @@ pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Pr
         losses: losses(warm, &zone, Some(viscosity), sides)?,
         network,
         zone,
+        load_direction: 0.0,
         closes: warm.heat.feedback == Feedback::Full,
         viscosity,
         warm: warm.clone(),

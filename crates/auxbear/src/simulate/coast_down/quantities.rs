@@ -7,6 +7,7 @@ use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{RatedBearing, passages_per_turn, repetitions};
+use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
 use thermal::losses::Losses;
 
@@ -172,6 +173,10 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     let share = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
         .map(|rating| used(ran, k, part, rating, &|_| 1.0));
+    let whole =
+        |points: &Result<_, String>| points.as_ref().map(shared::used_by).map_err(String::clone);
+    let points = share;
+    let share = whole(&points);
     list.number(&of("life_share"), "1", share.clone(), &LIFE);
     let lubricated = (part.warm.dynamic_load_rating)
         .zip(part.warm.static_load_rating)
@@ -184,9 +189,10 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     list.number(
         &of("life_share_with_lubricant"),
         "1",
-        lubricated,
+        whole(&lubricated),
         &LUBRICATED,
     );
+    list.life_by_point(&part.name, lubricated.or(points));
     for (name, survival) in [
         ("runs_until_one_percent_fail", 0.99),
         ("runs_until_ten_percent_fail", 0.9),
@@ -213,8 +219,14 @@ fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     shared::viscosity_ratio(&part.warm, viscosity, row.speed)
 }
 
-/// Share of the rating life of one bearing that the run-out uses, with a life factor at each row.
-fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> f64) -> f64 {
+/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row.
+fn used(
+    ran: &Ran,
+    k: usize,
+    part: &Part,
+    rating: f64,
+    factor: &dyn Fn(&Row) -> f64,
+) -> [Vec<f64>; 2] {
     let warm = &part.warm;
     let gamma = warm.ball_diameter / warm.pitch_diameter;
     let bearing = RatedBearing {
@@ -238,8 +250,11 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> 
             inner += cube / PLACES as f64;
         }
     }
-    let outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
-    bearing.damage([&[inner * passages[0]], &outer])
+    let mut outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
+    // from the load line to the frame's x axis
+    let turned = part.load_direction / TAU * PLACES as f64;
+    outer.rotate_right(turned.round().rem_euclid(PLACES as f64) as usize % PLACES);
+    bearing.by_point([&[inner * passages[0]], &outer])
 }
 
 const STOP: Origin = Origin {

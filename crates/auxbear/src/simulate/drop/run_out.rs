@@ -172,6 +172,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
         };
         let mut one = part(warm, name.to_string(), sides).map_err(|problem| problem.found)?;
         let contact = &machine.constants.bearings[k].contact;
+        one.load_direction = drop.gravity.direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
         parts.push(one);
         temperatures.extend(&warmth.temperatures);
