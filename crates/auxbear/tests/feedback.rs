@@ -280,3 +280,47 @@ fn the_thermocouple_of_a_rig_reads_the_outer_race_of_its_network() {
     }
     assert!(own > 0.01, "{own}");
 }
+
+#[test]
+fn the_one_node_of_a_rig_is_the_smallest_network() {
+    let one = tested(&[
+        "heat.network=off",
+        "run.duration=3 s",
+        "run.output_interval=0.05 ms",
+        // so much is given away that it shows
+        "rig.temperature.conductance=4 W/K",
+        "rig.temperature.heat_capacity=10 J/K",
+    ]);
+    let network = thermal::network::Network::new(
+        &[10.0],
+        &[],
+        &[thermal::network::Ground {
+            node: 0,
+            conductance: 4.0,
+            temperature: 0.0,
+        }],
+    )
+    .unwrap();
+    let (times, rises) = (
+        column(&one, "time"),
+        column(&one, "bearing.temperature_rise"),
+    );
+    let heats: Vec<&[f64]> = (model::bearing::HEATS.iter())
+        .map(|kind| format!("energy.heat.{kind}"))
+        .filter(|name| one.history.iter().any(|known| known.name == *name))
+        .map(|name| column(&one, &name))
+        .collect();
+    let made = |k: usize| heats.iter().map(|kind| kind[k]).sum::<f64>();
+    let (mut own, mut given) = ([0.0], 0.0);
+    let most = rises.iter().copied().fold(0.0, f64::max);
+    let mut worst = 0.0f64;
+    for k in 1..times.len() {
+        let span = times[k] - times[k - 1];
+        let power = (made(k) - made(k - 1)) / span;
+        given += network.advance(&mut own, &[power], span)[0];
+        worst = worst.max((own[0] - rises[k]).abs() / most);
+    }
+    assert!(given > 0.2 * made(times.len() - 1));
+    // powers of the rows are means over 0.05 ms: their change within is what is left
+    assert!(worst < 2e-9, "{worst} of {most} K");
+}

@@ -152,6 +152,17 @@ fn slow_time_goes_on_as_ball_by_ball_would() {
     let left = number(&slow, "run_out.rotor_energy") * (1.0 / (first * first));
     assert!(((heats + left) / number(&slow, "run_out.rotor_energy") - 1.0).abs() < 1e-9);
     assert!(number(&slow, "run_out.relative_heat_residual") < 1e-9);
+    // what turned before the change turns after it: by the rows of both sides of it
+    let kinetic = slow.history.iter().find(|c| c.name == "energy.kinetic");
+    let before = *kinetic.unwrap().values.last().unwrap();
+    let after = 0.5 * number(&slow, "run_out.rotor_energy");
+    let lost = number(&slow, "dissipated_energy");
+    let jump = before - after;
+    assert!(
+        jump.abs() < 1e-9 * after && jump.abs() < 1e-3 * lost,
+        "{jump} {lost}"
+    );
+    assert_eq!(number(&slow, "run_out.change_of_model"), 0.0);
     adds_up_by_bodies(&slow, "run_out.");
     // warmth thins the oil: it runs longer
     let warm = ran(&[]);
@@ -210,6 +221,14 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
         "{heats} {energy}"
     );
     assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
+    // what bounced when the laws took over is booked, and little beside what was lost until then
+    let change = number(&found, "run_out.change_of_model");
+    let start = number(&found, "run_out.start_speed");
+    let lost = 2.0 * number(&found, "dissipated_energy") + energy * (1.0 - (start / speed).powi(2));
+    assert!(
+        change != 0.0 && change.abs() < 1e-3 * lost,
+        "{change} {lost}"
+    );
     let times = list(&found, "run_out.over_time.time");
     assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
     // what bounces loses more than what rolls, and no jump in the moment is left where the laws take over

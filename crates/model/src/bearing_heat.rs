@@ -14,7 +14,7 @@
 //! | orbit drag, inlets, the viscous part of the steady moment | lubricant |
 //! | the load-dependent part of the steady moment | balls half, races a quarter each |
 //! | rotor on race | half each, or as the surfaces shared it |
-//! | mount damping | housing |
+//! | mount damping | mount, where it is a node, else housing |
 //!
 //! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
 //! of the weight on the bearing, as it has it when it has come to rest.
@@ -31,8 +31,8 @@ use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::WaltherLine;
 use thermal::bearing_network::{
-    BALLS, BearingNetwork, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation,
-    ROTOR, together,
+    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, ROTOR,
+    together,
 };
 use thermal::held::Held;
 use thermal::steady_speed::SteadySpeed;
@@ -190,11 +190,17 @@ pub struct Seen {
     pub taken: Option<[f64; 2]>,
 }
 
-/// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node.
+/// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node; a node takes what the
+/// mount makes.
 ///
 /// Source: heat-and-life, section 3.
 /// Valid: races, rotor and sleeve of steel.
-pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfNodes; HEATS] {
+pub fn shares(
+    ball: ThermalMaterial,
+    cage: ThermalMaterial,
+    land: usize,
+    mount: usize,
+) -> [OfNodes; HEATS] {
     let between = |(one, first): (usize, ThermalMaterial),
                    (other, second): (usize, ThermalMaterial)| {
         let [a, b] = [first, second].map(|material| material.effusivity());
@@ -214,7 +220,7 @@ pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfN
             "pocket_damping" | "pocket_friction" => between((BALLS, ball), (CAGE, cage)),
             "cage_land_damping" | "cage_land_friction" => between((CAGE, cage), steel(land)),
             "ball_ball_damping" | "ball_ball_friction" => of(&[(BALLS, 1.0)]),
-            "mount_damping" => of(&[(HOUSING, 1.0)]),
+            "mount_damping" => of(&[(mount, 1.0)]),
             "rotor_race_damping" | "rotor_race_friction" => of(&[(ROTOR, 0.5), (INNER_RACE, 0.5)]),
             // drag, inlet_rolling, steady_moment as far as it is viscous
             _ => of(&[(LUBRICANT, 1.0)]),
@@ -460,18 +466,19 @@ impl Warmth {
 mod tests {
     use super::*;
     use physics::heat_conduction::SILICON_NITRIDE_HEAT;
+    use thermal::bearing_network::HOUSING;
 
     #[test]
     fn shares_add_to_one_and_every_heat_has_a_place() {
         for ball in [STEEL_HEAT, SILICON_NITRIDE_HEAT] {
-            for row in shares(ball, STEEL_HEAT, OUTER_RACE) {
+            for row in shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING) {
                 assert_eq!(row.iter().sum::<f64>(), 1.0);
                 assert!(row.iter().all(|share| (0.0..=1.0).contains(share)));
             }
         }
         assert!(place("steady_moment") < HEATS && place("rotor_race_friction") < HEATS);
         // steel on steel half and half; a ring takes 0.58 beside a ceramic ball
-        let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE)[place("inner_ball_slip")];
+        let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING)[place("inner_ball_slip")];
         assert_eq!(of(STEEL_HEAT)[INNER_RACE], 0.5);
         assert!((of(SILICON_NITRIDE_HEAT)[INNER_RACE] - 0.58).abs() < 0.005);
         // of a polyamide cage's friction the cage takes 5 %
@@ -480,7 +487,7 @@ mod tests {
             density: 1140.0,
             specific_heat: 1700.0,
         };
-        let pocket = shares(STEEL_HEAT, polyamide, OUTER_RACE)[place("pocket_friction")];
+        let pocket = shares(STEEL_HEAT, polyamide, OUTER_RACE, HOUSING)[place("pocket_friction")];
         assert!((pocket[CAGE] - 0.05).abs() < 0.006, "{}", pocket[CAGE]);
     }
 }

@@ -136,7 +136,13 @@ impl<L: Losses> SteadySpeed<L> {
                 matrix[(row, column)] += slope / self.network.capacity(row);
             }
         }
-        largest_real_part(&matrix)
+        // a node that exchanges nothing with the others has no part in it
+        let alone = |node: &usize| matrix.row(*node).iter().all(|rate| *rate == 0.0);
+        let nodes: Vec<usize> = (0..n).filter(|node| !alone(node)).collect();
+        match nodes.is_empty() {
+            true => 0.0,
+            false => largest_real_part(&matrix.select_rows(&nodes).select_columns(&nodes)),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 // The pictures of a run-out with heat: temperatures with their limits, clearance and ball loads, heat made, taken and stored.
 
-const NODE_COLOURS = { rotor: "#1f5fa8", inner_race: "#c2571a", balls: "#8a4fae", cage: "#2f8f5b", lubricant: "#8a7410", outer_race: "#b0306a", housing: "#5d6b78" };
+const NODE_COLOURS = { rotor: "#1f5fa8", inner_race: "#c2571a", balls: "#8a4fae", cage: "#2f8f5b", lubricant: "#8a7410", outer_race: "#b0306a", housing: "#5d6b78", rotor_core: "#6d9bd1", mount: "#a8895c" };
 
 // Hours of a long run-out, minutes of a shorter one, else seconds.
 function longTime(run) {

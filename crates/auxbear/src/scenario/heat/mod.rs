@@ -50,6 +50,16 @@ words! {
 }
 
 words! {
+    /// Bodies of one temperature that the rotor is.
+    pub enum RotorBodies {
+        /// One.
+        One = "one",
+        /// Its surface layer, and what is deeper.
+        LayerAndCore = "layer and core",
+    }
+}
+
+words! {
     /// Material of a cage.
     pub enum CageMaterial {
         /// Pressed steel.
@@ -162,6 +172,14 @@ pub struct Heat {
     pub surroundings: Option<f64>,
     /// Rotor to its surroundings, W/K.
     pub rotor_surroundings: f64,
+    /// Bodies that the rotor is.
+    pub rotor_bodies: RotorBodies,
+    /// Of the mount, J/K, where it is a body of its own.
+    pub mount_capacity: Option<f64>,
+    /// Housing to mount, W/K.
+    pub mount_contact: f64,
+    /// Mount to its surroundings, W/K.
+    pub mount_surroundings: f64,
     /// Contamination factor e_C.
     pub contamination: f64,
     /// Limit of the races, K.
@@ -270,6 +288,10 @@ impl Heat {
             outer_seat: heat.number("outer_seat"),
             surroundings: heat.maybe("surroundings"),
             rotor_surroundings: heat.number("rotor_surroundings"),
+            rotor_bodies: heat.chosen("rotor_bodies").unwrap_or(RotorBodies::One),
+            mount_capacity: heat.maybe("mount_capacity"),
+            mount_contact: heat.maybe("mount_contact").unwrap_or(0.0),
+            mount_surroundings: heat.maybe("mount_surroundings").unwrap_or(0.0),
             contamination: heat.number("contamination"),
             race_limit: heat.number("race_limit"),
             cage_limit: heat.number("cage_limit"),

@@ -4,7 +4,7 @@ use crate::problem::Problem;
 use crate::scenario::{Bearing, Guidance, Moment, Separation, Warm};
 use crate::simulate::coast_down::build::{ICE_POINT, losses, network};
 use model::bearing_heat::{WarmBearing, shares};
-use thermal::bearing_network::{INNER_RACE, OUTER_RACE};
+use thermal::bearing_network::{HOUSING, INNER_RACE, MOUNT, OUTER_RACE};
 use thermal::warm_bearing::BearingLoad;
 
 /// Viscosity of a lubricant of which nothing is given, m²/s: grease or oil of 50 mm²/s.
@@ -47,6 +47,7 @@ pub(crate) fn built(
             warm.ball_material.heat(),
             warm.heat.cage_material.heat(),
             land,
+            if network.has(MOUNT) { MOUNT } else { HOUSING },
         ),
         limits: warm.limits(),
         network,

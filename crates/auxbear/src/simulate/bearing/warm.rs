@@ -10,7 +10,7 @@ use crate::simulate::coast_down::quantities::GROWTH;
 use crate::simulate::coast_down::warnings::{away, beyond, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
-use thermal::bearing_network::{CAGE, GROUNDS, LUBRICANT, NODES};
+use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -40,8 +40,7 @@ impl<'a> Followed<'a> {
 
     /// The nodes that are there: a full complement has no cage.
     fn nodes(&self) -> impl Iterator<Item = (usize, &'static str)> {
-        let with_cage = self.given.cage_mass > 0.0;
-        (NODES.into_iter().enumerate()).filter(move |(node, _)| *node != CAGE || with_cage)
+        (NODES.into_iter().enumerate()).filter(|(node, _)| self.part.network.has(*node))
     }
 }
 
@@ -330,7 +329,7 @@ const AT_NODE: Origin = Origin {
     valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
 };
 const BY_NODE: Origin = Origin {
-    law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race and housing, in this order",
+    law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",
     source: "shares of crates/model/src/bearing_heat.rs; heat-and-life, section 3",
     valid: "as heat_made: of each loss the sum is the ledger's, the shares are constants or follow the state",
 };

@@ -25,8 +25,6 @@ use thermal::warm_machine::{RotorDrag, WarmMachine};
 const EXPANSION: [f64; 2] = [11.5e-6, 3.2e-6];
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
 const OIL_SPECIFIC_HEAT: f64 = 1900.0;
-/// Capacity of a cage that is not there, J/K: a node needs one.
-const NO_CAGE: f64 = 0.1;
 /// Shares of the heat of M1: sliding at ball and race, half to each side. Source: heat-and-life, section 3.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
 
@@ -266,7 +264,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     }
     let steel = STEEL_HEAT.specific_heat;
     let ball = run.ball_material.heat();
-    let cage = (run.cage_mass * heat.cage_material.heat().specific_heat).max(NO_CAGE);
+    let cage = run.cage_mass * heat.cage_material.heat().specific_heat;
     let network = BearingNetwork {
         capacities: [
             heat.rotor_capacity.unwrap_or(f64::INFINITY),
@@ -276,6 +274,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             heat.lubricant_mass * OIL_SPECIFIC_HEAT,
             outer_mass * steel,
             heat.housing_capacity,
+            0.0,
+            heat.mount_capacity.unwrap_or(0.0),
         ],
         balls,
         ball_mass,
@@ -300,6 +300,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         outer_seat: heat.outer_seat,
         surroundings: heat.surroundings.unwrap_or(0.0),
         rotor_surroundings: heat.rotor_surroundings,
+        to_core: 0.0,
+        mount: [heat.mount_contact, heat.mount_surroundings],
         ambient: celsius(heat.ambient_temperature),
     };
     Ok((network, zone))

@@ -5,7 +5,7 @@ use crate::simulate::coast_down::build::{Built, Part};
 use crate::simulate::coast_down::course::{self, Course};
 use crate::simulate::coast_down::rows::{Row, RowOfBearing};
 use std::sync::atomic::AtomicBool;
-use thermal::bearing_network::{CAGE, NODES};
+use thermal::bearing_network::NODES;
 
 /// A run-out, and the same with its nodes held at their limits where one is passed.
 pub(crate) struct Ran<'a> {
@@ -63,9 +63,9 @@ impl Ran<'_> {
 
     /// The nodes of a bearing that are there: a full complement has no cage.
     pub fn nodes(&self, bearing: usize) -> impl Iterator<Item = NodeOf> {
-        let with_cage = self.built.parts[bearing].warm.cage_mass > 0.0;
+        let network = &self.built.parts[bearing].network;
         (0..NODES.len())
-            .filter(move |node| *node != CAGE || with_cage)
+            .filter(|node| network.has(*node))
             .map(move |node| NodeOf { bearing, node })
     }
 
