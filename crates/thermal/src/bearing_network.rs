@@ -365,6 +365,41 @@ mod tests {
     }
 
     #[test]
+    fn a_layer_and_its_core_come_to_one_temperature_with_their_conductance() {
+        let mut network = BearingNetwork {
+            landing: Landing::Given(0.0),
+            ..bearing()
+        };
+        network.capacities[ROTOR] = 1800.0;
+        network.with_layer(100.0, 40.0);
+        assert_eq!(network.capacities[ROTOR_CORE], 1700.0);
+        let standing = network.at(at(0.0, &[0.0])).unwrap();
+        let mut nodes = [25.0; NODES.len()];
+        nodes[ROTOR] = 43.0;
+        standing.advance(&mut nodes, &[0.0; NODES.len()], 1.5);
+        // the difference decays with G (1/C + 1/C'), and nothing leaves
+        let left = 18.0 * f64::exp(-1.5 * 40.0 * (1.0 / 100.0 + 1.0 / 1700.0));
+        assert!((nodes[ROTOR] - nodes[ROTOR_CORE] - left).abs() < 1e-9);
+        let held = 100.0 * (nodes[ROTOR] - 25.0) + 1700.0 * (nodes[ROTOR_CORE] - 25.0);
+        assert!((held / 1800.0 - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_not_there_exchanges_nothing() {
+        let mut network = bearing();
+        for node in [CAGE, ROTOR_CORE, MOUNT] {
+            network.capacities[node] = 0.0;
+        }
+        let mut nodes = [90.0, 80.0, 70.0, 10.0, 60.0, 50.0, 40.0, 10.0, 10.0];
+        let turning = network.at(at(1000.0, &[20.0; 10])).unwrap();
+        turning.advance(&mut nodes, &[0.0; NODES.len()], 100.0);
+        for node in [CAGE, ROTOR_CORE, MOUNT] {
+            assert!((nodes[node] - 10.0).abs() < 1e-9, "{node}");
+        }
+        assert!(nodes[INNER_RACE] < 79.0);
+    }
+
+    #[test]
     fn heat_runs_from_the_races_to_the_surroundings_and_never_uphill() {
         let network = bearing().at(at(1000.0, &[20.0; 10])).unwrap();
         let mut powers = [0.0; NODES.len()];
