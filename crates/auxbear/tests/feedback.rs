@@ -136,10 +136,14 @@ fn friction_that_rises_with_the_temperature_brings_the_race_to_speed_sooner() {
 const WARMING: &str = include_str!("../../../scenarios/spin_up_warming.toml");
 
 fn spun(sets: &[&str]) -> Outcome {
+    spun_of(WARMING, sets)
+}
+
+fn spun_of(text: &str, sets: &[&str]) -> Outcome {
     let sets: Vec<String> = (["run.duration=2 s"].iter().chain(sets))
         .map(ToString::to_string)
         .collect();
-    let scenario = Scenario::parse(WARMING, "spin_up.toml", &sets, &BuiltIn).unwrap();
+    let scenario = Scenario::parse(text, "spin_up.toml", &sets, &BuiltIn).unwrap();
     let never = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&never)).unwrap()
 }
@@ -199,6 +203,53 @@ fn a_bearing_that_runs_away_is_named_long_before_it_is_too_hot() {
     assert!(!told(&stable) && number(&stable, "peak_growth_rate") < 0.0);
     let open = with("30 um");
     assert!(!told(&open) && !open.history.iter().any(|c| c.name == "heat.growth_rate"));
+}
+
+#[test]
+fn fits_follow_the_temperatures_and_a_ring_that_gets_loose_is_told() {
+    use physics::ring::PressFit;
+    let fits = [
+        "drive.final_speed=2000 rad/s",
+        "bearing.fits.bore_diameter=25 mm",
+        "bearing.fits.outer_diameter=47 mm",
+        "bearing.fits.housing_outer_diameter=80 mm",
+        "bearing.fits.housing_interference=6 um",
+        "bearing.fits.shaft_interference=0.1 um",
+    ];
+    let unmounted = WARMING.replace("operating_diametral", "unmounted_diametral");
+    let warm = spun_of(&unmounted, &fits);
+    let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2321");
+    // the inner ring warms before the shaft in it
+    assert!(told(&warm) && !told(&spun_of(&unmounted, &fits[..5])));
+    let last = column(&warm, "time").len() - 1;
+    let rise = |node: &str| {
+        let temperatures = column(&warm, &format!("{node}.temperature"));
+        temperatures[last] - temperatures[0]
+    };
+    let [rotor, inner, balls, outer, housing] =
+        ["rotor", "inner_race", "balls", "outer_race", "housing"].map(rise);
+    let tube = |bore: f64, joint: f64, outside: f64, interference: f64| PressFit {
+        inner_material: physics::materials::BEARING_STEEL,
+        outer_material: physics::materials::BEARING_STEEL,
+        bore_radius: 0.5 * bore,
+        joint_radius: 0.5 * joint,
+        outside_radius: 0.5 * outside,
+        interference,
+    };
+    let in_housing = |fit: f64| 2.0 * tube(42.35e-3, 47e-3, 80e-3, fit).bore_shrinking();
+    let on_shaft = |fit: f64| 2.0 * tube(0.0, 25e-3, 29.65e-3, fit).outside_growth();
+    let steel = 11.5e-6;
+    let by_fits = in_housing(6e-6) - in_housing(6e-6 + steel * (outer - housing) * 47e-3)
+        + on_shaft(0.1e-6)
+        - on_shaft(0.1e-6 + steel * (rotor - inner) * 25e-3);
+    let free = steel * (outer * 42.35e-3 - inner * 29.65e-3 - 2.0 * balls * 6.35e-3);
+    let clearance = column(&warm, "bearing.clearance");
+    let found = clearance[last] - clearance[0];
+    assert!(
+        (found - free - by_fits).abs() < 1e-12,
+        "{found} {free} {by_fits}"
+    );
+    assert!(by_fits.abs() > 0.05 * free.abs());
 }
 
 #[test]

@@ -207,6 +207,26 @@ pub(crate) const KEYS: &[Key] = &[
     .assumed("0 W/K", "the rotor gives its heat to the bearings alone, as in vacuum")
     .when(FOLLOWED),
     Key::new(
+        "heat.shaft_expansion",
+        Kind::Quantity("1/K"),
+        "16e-6 1/K",
+        "Thermal expansion of shaft or sleeve in the inner ring: bearing.fits.shaft_interference follows the temperatures with it.",
+    )
+    .not_negative()
+    .default("11.5e-6 1/K", "bearing steel, makers: 11.0e-6 to 12.5e-6 1/K")
+    .only(WARMING)
+    .when(FOLLOWED),
+    Key::new(
+        "heat.housing_expansion",
+        Kind::Quantity("1/K"),
+        "23e-6 1/K",
+        "Thermal expansion of the housing around the outer ring: bearing.fits.housing_interference follows the temperatures with it. Aluminium has 23e-6 1/K.",
+    )
+    .not_negative()
+    .default("11.5e-6 1/K", "steel")
+    .only(WARMING)
+    .when(FOLLOWED),
+    Key::new(
         "heat.rotor_bodies",
         Kind::Word(RotorBodies::WORDS),
         "layer and core",

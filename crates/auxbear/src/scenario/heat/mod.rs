@@ -5,14 +5,21 @@ pub(crate) mod derive;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::ball_material;
+use crate::scenario::bearing::fits::{Fits, SHAFT_FIT};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
+use crate::scenario::spin_up::DriveKind;
+use crate::scenario::system::SystemName;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use physics::ring::PressFit;
 use physics::viscosity::Viscosity;
-use thermal::bearing_network::{BALLS, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
+use thermal::bearing_network::{
+    BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
+};
+use thermal::clearance::Seat;
 
 /// Ice point, K.
 pub(crate) const ICE_POINT: f64 = 273.15;
@@ -131,6 +138,8 @@ pub struct Warm {
     pub viscosity_points: Vec<[f64; 2]>,
     /// Radial load on it, N.
     pub radial_load: f64,
+    /// Seats of its rings on shaft and in housing, where they are known.
+    pub seats: [Option<Seat>; 2],
     /// What warms.
     pub heat: Heat,
 }
@@ -219,6 +228,7 @@ impl Warm {
                 .rows("bearing.moment.viscosity_points")
                 .unwrap_or_default(),
             radial_load,
+            seats: seats(values),
             heat,
         }
     }
@@ -255,6 +265,58 @@ impl Warm {
             ball_material: self.ball_material,
         }
     }
+}
+
+/// Expansion of bearing steel, 1/K. Source: heat-and-life, section 9.
+pub(crate) const STEEL_EXPANSION: f64 = 11.5e-6;
+
+/// Seats of the rings whose fits are given. What presses on the inner ring from inside is the rotor where it does not turn in it, else the
+/// sleeve, which is one body with the ring.
+fn seats(values: &Values) -> [Option<Seat>; 2] {
+    let known = values
+        .number("bearing.pitch_diameter")
+        .zip(values.number("bearing.ball_diameter"))
+        .filter(|_| values.number(SHAFT_FIT).is_some());
+    let Some((pitch, ball)) = known else {
+        return [None; 2];
+    };
+    let fits = Fits::from_values(values);
+    let expansion = |key: &str| values.number(key).unwrap_or(STEEL_EXPANSION);
+    let on_rotor = matches!(values.system(), SystemName::SpinUp | SystemName::Rig)
+        && values.chosen("drive.kind") != Some(DriveKind::SlidingRotor);
+    let seat = |fit: PressFit, nodes, expansions, growth: fn(&PressFit) -> f64| {
+        let unit = PressFit {
+            interference: 1.0,
+            ..fit
+        };
+        (fit.interference != 0.0).then(|| Seat {
+            interference: fit.interference,
+            diameter: 2.0 * fit.joint_radius,
+            nodes,
+            expansions,
+            closes: 2.0 * growth(&unit),
+        })
+    };
+    let inside = if on_rotor { ROTOR } else { INNER_RACE };
+    let shaft = fits.on_shaft(pitch - ball).and_then(|fit| {
+        let expansions = [expansion("heat.shaft_expansion"), STEEL_EXPANSION];
+        seat(
+            fit,
+            [inside, INNER_RACE],
+            expansions,
+            PressFit::outside_growth,
+        )
+    });
+    let housing = fits.in_housing(pitch + ball).and_then(|fit| {
+        let expansions = [STEEL_EXPANSION, expansion("heat.housing_expansion")];
+        seat(
+            fit,
+            [OUTER_RACE, HOUSING],
+            expansions,
+            PressFit::bore_shrinking,
+        )
+    });
+    [shaft, housing]
 }
 
 /// Depth of a shoulder below the pitch circle, over the diameter of a ball.

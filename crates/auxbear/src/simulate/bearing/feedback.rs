@@ -78,6 +78,11 @@ impl Follows {
         self.zone.changes_at(temperatures)
     }
 
+    /// Whether a ring that was pressed is loose on its shaft, or in its housing.
+    pub fn loose(&self, temperatures: &[f64]) -> [bool; 2] {
+        self.zone.loose(temperatures)
+    }
+
     /// Viscosity of the lubricant at these temperatures (°C), m²/s; 1 where none is known.
     pub fn viscosity(&self, temperatures: &[f64]) -> f64 {
         let kelvin = temperatures[LUBRICANT] + ICE_POINT;
@@ -139,6 +144,8 @@ pub(crate) struct State {
     pub least: f64,
     /// When it closed, s.
     pub closed: Option<f64>,
+    /// When a pressed ring became loose on its shaft, in its housing, s.
+    pub loose: [Option<f64>; 2],
 }
 
 impl FollowedBearing {
@@ -176,12 +183,18 @@ impl FollowedBearing {
             .map_err(|problem| problem.found)?;
         let clearance = self.follows.clearance(nodes);
         let closed = last.and_then(|last| last.closed);
+        let loose = self.follows.loose(nodes);
+        let loose = [0, 1].map(|seat| {
+            let before = last.and_then(|last| last.loose[seat]);
+            before.or_else(|| loose[seat].then_some(time))
+        });
         let closes = clearance < 0.0 && self.bearing.operating_diametral_clearance >= 0.0;
         *last = Some(State {
             clearance,
             viscosity: self.follows.viscosity(nodes),
             least: last.map_or(clearance, |last| last.least.min(clearance)),
             closed: closed.or_else(|| closes.then_some(time)),
+            loose,
         });
         Ok(constants)
     }

@@ -219,6 +219,7 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
 pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     let mut list: Vec<(f64, Warning)> = too_hot(followed).into_iter().collect();
     list.extend(runs_away(followed).or_else(|| closed(followed)));
+    list.extend(loose(followed));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
     let peak = followed.warmth.peaks[LUBRICANT];
     let oil = followed.given.viscosity();
@@ -245,6 +246,22 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
         -1e6 * least
     );
     Some((-least, warning("AB2312", text)))
+}
+
+/// A ring that loses its fit.
+fn loose(followed: &Followed) -> Option<(f64, Warning)> {
+    let times = followed.state?.loose;
+    let seats = [
+        "the inner ring on its shaft",
+        "the outer ring in its housing",
+    ];
+    let (time, seat) = (times.into_iter().zip(seats))
+        .filter_map(|(time, seat)| Some((time?, seat)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let text = format!(
+        "After {time:.3} s {seat} has lost its interference to unequal warmth: it may creep, and conducts like a gap. This run follows neither."
+    );
+    Some((1.0 / (1.0 + time), warning("AB2321", text)))
 }
 
 /// What of a bearing does not follow its temperatures, though it is asked to.

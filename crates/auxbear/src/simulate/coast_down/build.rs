@@ -2,7 +2,7 @@
 
 use crate::problem::{Code, Problem};
 pub(crate) use crate::scenario::heat::ICE_POINT;
-use crate::scenario::heat::SHOULDER;
+use crate::scenario::heat::{SHOULDER, STEEL_EXPANSION};
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use crate::simulate::coast_down::rows::{End, Row};
 use physics::heat_conduction::STEEL_HEAT;
@@ -21,8 +21,8 @@ use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
 
-/// Expansion of bearing steel and of silicon nitride, 1/K. Source: heat-and-life, section 9.
-const EXPANSION: [f64; 2] = [11.5e-6, 3.2e-6];
+/// Expansion of silicon nitride, 1/K. Source: heat-and-life, section 9.
+const CERAMIC_EXPANSION: f64 = 3.2e-6;
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
 const OIL_SPECIFIC_HEAT: f64 = 1900.0;
 /// Shares of the heat of M1: sliding at ball and race, half to each side. Source: heat-and-life, section 3.
@@ -243,12 +243,17 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             tracks: [run.pitch_diameter - gap, run.pitch_diameter + gap],
             ball: run.ball_diameter,
             expansions: [
-                EXPANSION[0],
-                EXPANSION[usize::from(is_hybrid)],
-                EXPANSION[0],
+                STEEL_EXPANSION,
+                if is_hybrid {
+                    CERAMIC_EXPANSION
+                } else {
+                    STEEL_EXPANSION
+                },
+                STEEL_EXPANSION,
             ],
         },
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
+        seats: run.seats,
     };
     // rings share the annulus between bore and outside at the pitch circle's shoulders
     let shoulder = |side: f64| run.pitch_diameter + side * 2.0 * SHOULDER * run.ball_diameter;
