@@ -223,7 +223,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Thermal expansion of the housing around the outer ring: bearing.fits.housing_interference follows the temperatures with it. Aluminium has 23e-6 1/K.",
     )
     .not_negative()
-    .default("11.5e-6 1/K", "steel")
+    .default("11.5e-6 1/K", "a steel housing")
     .only(WARMING)
     .when(FOLLOWED),
     Key::new(
@@ -262,7 +262,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Conductance from the mount to its surroundings, beside heat.mount_capacity.",
     )
     .not_negative()
-    .optional("0 W/K")
+    .optional("0 W/K: it gives its heat to the housing alone")
     .only(FALLING)
     .when(FOLLOWED),
     Key::new(

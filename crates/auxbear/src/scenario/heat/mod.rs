@@ -9,8 +9,6 @@ use crate::scenario::bearing::fits::{Fits, SHAFT_FIT};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
-use crate::scenario::spin_up::DriveKind;
-use crate::scenario::system::SystemName;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
@@ -181,6 +179,10 @@ pub struct Heat {
     pub surroundings: Option<f64>,
     /// Rotor to its surroundings, W/K.
     pub rotor_surroundings: f64,
+    /// Expansion of shaft or sleeve, 1/K.
+    pub shaft_expansion: f64,
+    /// Expansion of the housing, 1/K.
+    pub housing_expansion: f64,
     /// Bodies that the rotor is.
     pub rotor_bodies: RotorBodies,
     /// Of the mount, J/K, where it is a body of its own.
@@ -228,9 +230,17 @@ impl Warm {
                 .rows("bearing.moment.viscosity_points")
                 .unwrap_or_default(),
             radial_load,
-            seats: seats(values),
+            seats: seats(values, &heat),
             heat,
         }
+    }
+
+    /// The same whose inner ring may sit on the rotor itself: where that does not slide in it.
+    pub(crate) fn on_rotor(mut self, sits: bool) -> Warm {
+        if let (Some(seat), true) = (&mut self.seats[0], sits) {
+            seat.nodes[0] = ROTOR;
+        }
+        self
     }
 
     /// Viscosity of its lubricant, where two temperatures are given.
@@ -270,9 +280,8 @@ impl Warm {
 /// Expansion of bearing steel, 1/K. Source: heat-and-life, section 9.
 pub(crate) const STEEL_EXPANSION: f64 = 11.5e-6;
 
-/// Seats of the rings whose fits are given. What presses on the inner ring from inside is the rotor where it does not turn in it, else the
-/// sleeve, which is one body with the ring.
-fn seats(values: &Values) -> [Option<Seat>; 2] {
+/// Seats of the rings whose fits are given; the inner one on a sleeve that is one body with the ring.
+fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
     let known = values
         .number("bearing.pitch_diameter")
         .zip(values.number("bearing.ball_diameter"))
@@ -281,9 +290,6 @@ fn seats(values: &Values) -> [Option<Seat>; 2] {
         return [None; 2];
     };
     let fits = Fits::from_values(values);
-    let expansion = |key: &str| values.number(key).unwrap_or(STEEL_EXPANSION);
-    let on_rotor = matches!(values.system(), SystemName::SpinUp | SystemName::Rig)
-        && values.chosen("drive.kind") != Some(DriveKind::SlidingRotor);
     let seat = |fit: PressFit, nodes, expansions, growth: fn(&PressFit) -> f64| {
         let unit = PressFit {
             interference: 1.0,
@@ -297,18 +303,12 @@ fn seats(values: &Values) -> [Option<Seat>; 2] {
             closes: 2.0 * growth(&unit),
         })
     };
-    let inside = if on_rotor { ROTOR } else { INNER_RACE };
     let shaft = fits.on_shaft(pitch - ball).and_then(|fit| {
-        let expansions = [expansion("heat.shaft_expansion"), STEEL_EXPANSION];
-        seat(
-            fit,
-            [inside, INNER_RACE],
-            expansions,
-            PressFit::outside_growth,
-        )
+        let expansions = [heat.shaft_expansion, STEEL_EXPANSION];
+        seat(fit, [INNER_RACE; 2], expansions, PressFit::outside_growth)
     });
     let housing = fits.in_housing(pitch + ball).and_then(|fit| {
-        let expansions = [STEEL_EXPANSION, expansion("heat.housing_expansion")];
+        let expansions = [STEEL_EXPANSION, heat.housing_expansion];
         seat(
             fit,
             [OUTER_RACE, HOUSING],
@@ -350,6 +350,8 @@ impl Heat {
             outer_seat: heat.number("outer_seat"),
             surroundings: heat.maybe("surroundings"),
             rotor_surroundings: heat.number("rotor_surroundings"),
+            shaft_expansion: heat.maybe("shaft_expansion").unwrap_or(STEEL_EXPANSION),
+            housing_expansion: heat.maybe("housing_expansion").unwrap_or(STEEL_EXPANSION),
             rotor_bodies: heat.chosen("rotor_bodies").unwrap_or(RotorBodies::One),
             mount_capacity: heat.maybe("mount_capacity"),
             mount_contact: heat.maybe("mount_contact").unwrap_or(0.0),

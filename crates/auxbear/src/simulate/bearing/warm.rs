@@ -6,7 +6,6 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::quantities::GROWTH;
 use crate::simulate::coast_down::warnings::{away, beyond, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
@@ -79,7 +78,7 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
             }
             .to_string()
         });
-        list.number("peak_growth_rate", "1/s", growth, &GROWTH);
+        list.peak_growth(growth);
     }
     list.number("heat_made", "J", Ok(warmth.made), &HEAT);
     list.number("stored_heat", "J", Ok(stored), &HEAT);
@@ -146,6 +145,10 @@ impl List {
         self.awaited(&of("limit_time"), passed, &LIMIT);
         self.number(&of("heat_to_take"), "W", part(0), &TAKE);
         self.number(&of("energy_to_take"), "J", part(1), &TAKE);
+    }
+    /// The largest rate at which a disturbance of the temperatures grows, 1/s.
+    pub(crate) fn peak_growth(&mut self, rate: Result<f64, String>) {
+        self.number("peak_growth_rate", "1/s", rate, &GROWTH);
     }
     /// The instants of those powers, s.
     pub(crate) fn held_times(&mut self, times: Vec<f64>) {
@@ -324,6 +327,11 @@ const TAKE: Origin = Origin {
     source: "crates/thermal/src/held.rs; heat-and-life, section 5",
     valid: "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
             of a run-out all bearings together",
+};
+const GROWTH: Origin = Origin {
+    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
+    source: "crates/thermal/src/steady_speed.rs; heat-and-life, section 5",
+    valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
 const RINGS: Origin = Origin {
     law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",

@@ -27,7 +27,7 @@ pub(crate) fn name(ran: &Ran, list: &mut List) {
         let growth = ran.free.rows.iter().map(|row| row.growth);
         if k == 0 {
             let most = growth.fold(f64::NEG_INFINITY, f64::max);
-            list.number("peak_growth_rate", "1/s", Ok(most), &GROWTH);
+            list.peak_growth(Ok(most));
         }
         life(ran, k, part, list);
     }
@@ -301,11 +301,6 @@ const BALLS: Origin = Origin {
     law: "Q = K (δ cos φ − P_d/2)^1.5 with Σ Q cos φ = load",
     source: "crates/physics/src/load_zone.rs",
     valid: "quasi-static, one ball on the load line",
-};
-pub(crate) const GROWTH: Origin = Origin {
-    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
-    source: "crates/thermal/src/steady_speed.rs; heat-and-life, section 5",
-    valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
 const KAPPA: Origin = Origin {
     law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above",
