@@ -375,3 +375,42 @@ fn the_one_node_of_a_rig_is_the_smallest_network() {
     // powers of the rows are means over 0.05 ms: their change within is what is left
     assert!(worst < 2e-9, "{worst} of {most} K");
 }
+
+#[test]
+fn the_contact_angle_of_a_sprung_pair_falls_as_the_inner_ring_warms() {
+    const ANGULAR: &str = include_str!("../../../scenarios/angular_contact_drop.toml");
+    let sets = [
+        "heat.network=on",
+        "run.duration=0.2 s",
+        "run.output_interval=1 ms",
+    ];
+    let warm = spun_of(ANGULAR, &sets);
+    let angle = column(&warm, "bearing.contact_angle");
+    let (first, last) = (angle[0], *angle.last().unwrap());
+    // cos α = 1 − P_d/(2A), P_d by free rings and balls of silicon nitride; the shaft's fit by the sleeve that is one with the ring
+    let end = angle.len() - 1;
+    let rise = |node: &str| {
+        let temperatures = column(&warm, &format!("{node}.temperature"));
+        temperatures[end] - temperatures[0]
+    };
+    let bearing = match &Scenario::parse(ANGULAR, "a.toml", &[], &BuiltIn)
+        .unwrap()
+        .system
+    {
+        auxbear::scenario::System::Drop(drop) => {
+            drop.auxiliary_bearings[0].bearing.clone().unwrap()
+        }
+        _ => unreachable!(),
+    };
+    let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
+    let opened = 11.5e-6
+        * ((pitch + ball) * rise("outer_race") - (pitch - ball) * rise("inner_race"))
+        - 2.0 * 3.2e-6 * ball * rise("balls");
+    let grooves = bearing.inner_groove_curvature + bearing.outer_groove_curvature - 1.0;
+    let cosine = first.cos() - 0.5 * opened / (grooves * ball);
+    assert!((last - cosine.acos()).abs() < 1e-9, "{first} {last}");
+    assert!(opened < 0.0 && last < first - 1e-3, "{first} {last}");
+    assert!(number(&warm, "energy_residual").abs() < 1e-3);
+    let told = warm.warnings.iter().find(|w| w.code == "AB2320").unwrap();
+    assert!(told.text.contains("contact angle follows"), "{}", told.text);
+}

@@ -195,17 +195,26 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
             move |row| warmth.at(part, node, row.time) + ICE_POINT,
         );
     }
+    let nodes_at = move |time: f64| -> Vec<f64> {
+        let nodes = 0..NODES.len();
+        nodes.map(|node| warmth.at(part, node, time)).collect()
+    };
+    let bearing = followed.bearing;
+    let tilts = (followed.follows()).filter(|follows| follows.tilts(bearing));
+    if let Some(follows) = tilts {
+        table.add(
+            "bearing.contact_angle",
+            "rad",
+            "contact angle of a pair that springs press",
+            move |row| follows.contact_angle(bearing, &nodes_at(row.time)),
+        );
+    }
     if let (true, Some(follows)) = (followed.closes(), followed.follows()) {
         table.add(
             "bearing.clearance",
             "m",
             "diametral clearance; negative is preload",
-            move |row| {
-                let all: Vec<f64> = (0..NODES.len())
-                    .map(|node| warmth.at(part, node, row.time))
-                    .collect();
-                follows.clearance(&all)
-            },
+            move |row| follows.clearance(&nodes_at(row.time)),
         );
         if warmth.growth.largest.is_some() {
             table.add(
@@ -274,8 +283,8 @@ fn not_followed(followed: &Followed) -> Option<Warning> {
         Some((time, why)) => format!(
             "From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}."
         ),
-        None if feedback == Feedback::Full && !followed.closes() => "The preload of an angular contact bearing does not follow its temperatures: \
-             a rigid one rises as the inner ring warms."
+        None if feedback == Feedback::Full && !followed.closes() => "The contact angle follows the temperatures, and the preload does not: it \
+             is that of springs. A rigid one rises as the inner ring warms."
             .to_string(),
         None if feedback != Feedback::None
             && !(followed.follows().iter()).any(|follows| follows.thins(followed.bearing)) =>
