@@ -291,6 +291,9 @@ fn the_oil_of_a_rig_warms_and_the_torque_falls() {
     let times = column(&warm, "time");
     let at = times.partition_point(|known| *known < 3.9);
     let fall = torque[at] / column(&cold, "bearing.outer_race.moment")[at];
+    // preloaded as mounted, and at rest before it starts: nothing grows
+    assert!(!warm.warnings.iter().any(|w| w.code == "AB2311"));
+    assert!(number(&warm, "peak_growth_rate") <= 0.0);
     // as of spin_up_warming.toml, to 4 s
     assert!((0.7..0.95).contains(&fall), "{fall}");
 }
