@@ -110,6 +110,10 @@ fn ball_by_ball_and_slow_time_brake_alike_where_rings_press_on_the_balls() {
     // one of two bearings
     let law = 0.5 * moment * first("run_out.over_time.rotor.speed");
     assert!((power / law - 1.0).abs() < 0.01, "{power} {law}");
+    // and say alike how a disturbance of the temperatures would grow
+    let growth = *column(&outcome, "heat.growth_rate").last().unwrap();
+    let after = first("run_out.over_time.heat.growth_rate");
+    assert!((growth / after - 1.0).abs() < 0.03, "{growth} {after}");
 }
 
 #[test]
@@ -132,10 +136,14 @@ fn friction_that_rises_with_the_temperature_brings_the_race_to_speed_sooner() {
 const WARMING: &str = include_str!("../../../scenarios/spin_up_warming.toml");
 
 fn spun(sets: &[&str]) -> Outcome {
+    spun_of(WARMING, sets)
+}
+
+fn spun_of(text: &str, sets: &[&str]) -> Outcome {
     let sets: Vec<String> = (["run.duration=2 s"].iter().chain(sets))
         .map(ToString::to_string)
         .collect();
-    let scenario = Scenario::parse(WARMING, "spin_up.toml", &sets, &BuiltIn).unwrap();
+    let scenario = Scenario::parse(text, "spin_up.toml", &sets, &BuiltIn).unwrap();
     let never = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&never)).unwrap()
 }
@@ -166,6 +174,82 @@ fn the_torque_of_a_spin_up_falls_with_the_viscosity_of_its_oil() {
     assert!(number(&warm, "relative_heat_residual") < 1e-9);
     assert!((number(&warm, "heat_made") / number(&warm, "dissipated_energy") - 1.0).abs() < 1e-12);
     assert!(number(&warm, "energy_residual").abs() < 1e-6);
+}
+
+#[test]
+fn a_bearing_that_runs_away_is_named_long_before_it_is_too_hot() {
+    // thin oil, little that stores, and rings that press from the start
+    let sets = [
+        "run.duration=25 s",
+        "drive.final_speed=2000 rad/s",
+        "bearing.moment.viscosity_points=[[\"40 degC\", \"22 mm^2/s\"], [\"100 degC\", \"4.6 mm^2/s\"]]",
+        "heat.housing_capacity=60 J/K",
+        "heat.rotor_capacity=20 J/K",
+        "heat.outer_seat=1 W/K",
+    ];
+    let with = |clearance: &str| {
+        let clearance = format!("bearing.operating_diametral_clearance={clearance}");
+        spun(&[&sets[..], &[clearance.as_str()]].concat())
+    };
+    let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2311");
+    let away = with("-35 um");
+    let (times, growth) = (column(&away, "time"), column(&away, "heat.growth_rate"));
+    let begins = growth.iter().position(|rate| *rate > 0.0).unwrap();
+    assert!(told(&away) && times[begins] < 0.5 * number(&away, "lubricant_limit_time"));
+    let most = growth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(most, number(&away, "peak_growth_rate"));
+    // preloaded and stable; open
+    let stable = with("-5 um");
+    assert!(!told(&stable) && number(&stable, "peak_growth_rate") < 0.0);
+    let open = with("30 um");
+    assert!(!told(&open) && !open.history.iter().any(|c| c.name == "heat.growth_rate"));
+}
+
+#[test]
+fn fits_follow_the_temperatures_and_a_ring_that_gets_loose_is_told() {
+    use physics::ring::PressFit;
+    let fits = [
+        "drive.final_speed=2000 rad/s",
+        "bearing.fits.bore_diameter=25 mm",
+        "bearing.fits.outer_diameter=47 mm",
+        "bearing.fits.housing_outer_diameter=80 mm",
+        "bearing.fits.housing_interference=6 um",
+        "bearing.fits.shaft_interference=0.1 um",
+    ];
+    let unmounted = WARMING.replace("operating_diametral", "unmounted_diametral");
+    let warm = spun_of(&unmounted, &fits);
+    let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2321");
+    // the inner ring warms before the shaft in it
+    assert!(told(&warm) && !told(&spun_of(&unmounted, &fits[..5])));
+    let last = column(&warm, "time").len() - 1;
+    let rise = |node: &str| {
+        let temperatures = column(&warm, &format!("{node}.temperature"));
+        temperatures[last] - temperatures[0]
+    };
+    let [rotor, inner, balls, outer, housing] =
+        ["rotor", "inner_race", "balls", "outer_race", "housing"].map(rise);
+    let tube = |bore: f64, joint: f64, outside: f64, interference: f64| PressFit {
+        inner_material: physics::materials::BEARING_STEEL,
+        outer_material: physics::materials::BEARING_STEEL,
+        bore_radius: 0.5 * bore,
+        joint_radius: 0.5 * joint,
+        outside_radius: 0.5 * outside,
+        interference,
+    };
+    let in_housing = |fit: f64| 2.0 * tube(42.35e-3, 47e-3, 80e-3, fit).bore_shrinking();
+    let on_shaft = |fit: f64| 2.0 * tube(0.0, 25e-3, 29.65e-3, fit).outside_growth();
+    let steel = 11.5e-6;
+    let by_fits = in_housing(6e-6) - in_housing(6e-6 + steel * (outer - housing) * 47e-3)
+        + on_shaft(0.1e-6)
+        - on_shaft(0.1e-6 + steel * (rotor - inner) * 25e-3);
+    let free = steel * (outer * 42.35e-3 - inner * 29.65e-3 - 2.0 * balls * 6.35e-3);
+    let clearance = column(&warm, "bearing.clearance");
+    let found = clearance[last] - clearance[0];
+    assert!(
+        (found - free - by_fits).abs() < 1e-12,
+        "{found} {free} {by_fits}"
+    );
+    assert!(by_fits.abs() > 0.05 * free.abs());
 }
 
 #[test]
@@ -207,6 +291,9 @@ fn the_oil_of_a_rig_warms_and_the_torque_falls() {
     let times = column(&warm, "time");
     let at = times.partition_point(|known| *known < 3.9);
     let fall = torque[at] / column(&cold, "bearing.outer_race.moment")[at];
+    // preloaded as mounted, and at rest before it starts: nothing grows
+    assert!(!warm.warnings.iter().any(|w| w.code == "AB2311"));
+    assert!(number(&warm, "peak_growth_rate") <= 0.0);
     // as of spin_up_warming.toml, to 4 s
     assert!((0.7..0.95).contains(&fall), "{fall}");
 }
@@ -246,4 +333,87 @@ fn the_thermocouple_of_a_rig_reads_the_outer_race_of_its_network() {
         assert!((reading[k] - own).abs() < 1e-6, "{} {own}", reading[k]);
     }
     assert!(own > 0.01, "{own}");
+}
+
+#[test]
+fn the_one_node_of_a_rig_is_the_smallest_network() {
+    let one = tested(&[
+        "heat.network=off",
+        "run.duration=3 s",
+        "run.output_interval=0.05 ms",
+        // so much is given away that it shows
+        "rig.temperature.conductance=4 W/K",
+        "rig.temperature.heat_capacity=10 J/K",
+    ]);
+    let network = thermal::network::Network::new(
+        &[10.0],
+        &[],
+        &[thermal::network::Ground {
+            node: 0,
+            conductance: 4.0,
+            temperature: 0.0,
+        }],
+    )
+    .unwrap();
+    let (times, rises) = (
+        column(&one, "time"),
+        column(&one, "bearing.temperature_rise"),
+    );
+    let heats: Vec<&[f64]> = (model::bearing::HEATS.iter())
+        .map(|kind| format!("energy.heat.{kind}"))
+        .filter(|name| one.history.iter().any(|known| known.name == *name))
+        .map(|name| column(&one, &name))
+        .collect();
+    let made = |k: usize| heats.iter().map(|kind| kind[k]).sum::<f64>();
+    let (mut own, mut given) = ([0.0], 0.0);
+    let most = rises.iter().copied().fold(0.0, f64::max);
+    let mut worst = 0.0f64;
+    for k in 1..times.len() {
+        let span = times[k] - times[k - 1];
+        let power = (made(k) - made(k - 1)) / span;
+        given += network.advance(&mut own, &[power], span)[0];
+        worst = worst.max((own[0] - rises[k]).abs() / most);
+    }
+    assert!(given > 0.2 * made(times.len() - 1));
+    // powers of the rows are means over 0.05 ms: their change within is what is left
+    assert!(worst < 2e-9, "{worst} of {most} K");
+}
+
+#[test]
+fn the_contact_angle_of_a_sprung_pair_falls_as_the_inner_ring_warms() {
+    const ANGULAR: &str = include_str!("../../../scenarios/angular_contact_drop.toml");
+    let sets = [
+        "heat.network=on",
+        "run.duration=0.2 s",
+        "run.output_interval=1 ms",
+    ];
+    let warm = spun_of(ANGULAR, &sets);
+    let angle = column(&warm, "bearing.contact_angle");
+    let (first, last) = (angle[0], *angle.last().unwrap());
+    // cos α = 1 − P_d/(2A), P_d by free rings and balls of silicon nitride; the shaft's fit by the sleeve that is one with the ring
+    let end = angle.len() - 1;
+    let rise = |node: &str| {
+        let temperatures = column(&warm, &format!("{node}.temperature"));
+        temperatures[end] - temperatures[0]
+    };
+    let bearing = match &Scenario::parse(ANGULAR, "a.toml", &[], &BuiltIn)
+        .unwrap()
+        .system
+    {
+        auxbear::scenario::System::Drop(drop) => {
+            drop.auxiliary_bearings[0].bearing.clone().unwrap()
+        }
+        _ => unreachable!(),
+    };
+    let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
+    let opened = 11.5e-6
+        * ((pitch + ball) * rise("outer_race") - (pitch - ball) * rise("inner_race"))
+        - 2.0 * 3.2e-6 * ball * rise("balls");
+    let grooves = bearing.inner_groove_curvature + bearing.outer_groove_curvature - 1.0;
+    let cosine = first.cos() - 0.5 * opened / (grooves * ball);
+    assert!((last - cosine.acos()).abs() < 1e-9, "{first} {last}");
+    assert!(opened < 0.0 && last < first - 1e-3, "{first} {last}");
+    assert!(number(&warm, "energy_residual").abs() < 1e-3);
+    let told = warm.warnings.iter().find(|w| w.code == "AB2320").unwrap();
+    assert!(told.text.contains("contact angle follows"), "{}", told.text);
 }

@@ -124,6 +124,17 @@ fn a_loss_without_magnets_or_before_standstill_is_refused() {
         error.contains("power_lost_at") && error.contains("no magnets"),
         "{error}"
     );
-    let sets = ["levitation.power_lost_at=1 ms", "run.until=standstill"];
+    let mut sets = vec!["levitation.power_lost_at=1 ms", "run.until=standstill"];
+    // laws that a run-out knows
+    let laws = ["drive_end", "other_end"].map(|end| {
+        let law = format!("auxiliary_bearing.{end}.bearing.moment");
+        [
+            format!("{law}.law=palmgren"),
+            format!("{law}.lubrication=oil bath"),
+            format!("{law}.viscosity=20 mm^2/s"),
+        ]
+    });
+    let laws = laws.concat();
+    sets.extend(laws.iter().map(String::as_str));
     assert!(refused(&rig(), &sets).contains("standstill"));
 }

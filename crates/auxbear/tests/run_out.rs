@@ -127,6 +127,70 @@ fn the_network_changes_nothing_of_the_motion_and_loses_no_heat() {
 }
 
 #[test]
+fn a_layer_with_its_core_and_a_mount_of_its_own_take_the_same_heat() {
+    let short = [
+        "run.until=duration",
+        "run.duration=0.2 s",
+        "heat.feedback=none",
+    ];
+    let bodies = [
+        "heat.rotor_bodies=layer and core",
+        "heat.mount_capacity=20 J/K",
+    ];
+    let (one, more) = (ran(&short), ran(&[&short[..], &bodies].concat()));
+    let same = [
+        "heat_made",
+        "peak_contact_force",
+        "dissipated_energy",
+        "rotor_final_speed",
+    ];
+    for name in same {
+        let [a, b] = [&one, &more].map(|run| number(run, name));
+        assert!((a / b - 1.0).abs() < 1e-12, "{name}: {a} {b}");
+    }
+    assert!(number(&more, "relative_heat_residual") < 1e-9);
+    adds_up_by_bodies(&more, "");
+    // the layer is warmer than the rotor would be, its core less warm; together they hold as much, but for what the race takes
+    let peak = |run: &Outcome, node: &str| number(run, &format!("peak_{node}_temperature"));
+    assert!(peak(&more, "rotor") > peak(&one, "rotor") + 0.1);
+    assert!(peak(&more, "rotor_core") < peak(&one, "rotor"));
+    let kept = |node: &str| number(&more, &format!("stored_heat_in_{node}"));
+    let rotor = kept("rotor") + kept("rotor_core");
+    let before = number(&one, "stored_heat_in_rotor");
+    assert!((rotor / before - 1.0).abs() < 0.01, "{rotor} {before}");
+    // nothing leads away what the mount makes
+    let made = number(&more, "heat_made_in_mount");
+    assert!(made > 0.0 && (kept("mount") / made - 1.0).abs() < 1e-9);
+    assert_eq!(number(&more, "heat_made_in_housing"), 0.0);
+    // a run-out goes on with them
+    let through = ran(&bodies);
+    assert!(number(&through, "run_out.relative_heat_residual") < 1e-9);
+    assert!(
+        peak(&through, "rotor_core") <= number(&through, "run_out.peak_rotor_core_temperature")
+    );
+    adds_up_by_bodies(&through, "run_out.");
+    let bare = SHIPPED.replacen("width = \"12 mm\"", "", 1);
+    for (text, wrong, words) in [
+        (
+            bare.as_str(),
+            "rotor_bodies=layer and core",
+            "contact.width is needed",
+        ),
+        (
+            SHIPPED,
+            "mount_contact=0.1 W/K",
+            "heat.mount_capacity is needed",
+        ),
+        (SHIPPED, "rotor_capacity=5 J/K", "its core is the rest"),
+    ] {
+        let sets = [bodies[0].to_string(), format!("heat.{wrong}")];
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        let told = parsed(text, &sets).err().unwrap_or_default();
+        assert!(told.contains(words), "{told}");
+    }
+}
+
+#[test]
 fn slow_time_goes_on_as_ball_by_ball_would() {
     // without feedback both have one moment: the rotor loses as much in the seconds that follow
     let slow = ran(&["heat.feedback=none"]);
@@ -152,6 +216,17 @@ fn slow_time_goes_on_as_ball_by_ball_would() {
     let left = number(&slow, "run_out.rotor_energy") * (1.0 / (first * first));
     assert!(((heats + left) / number(&slow, "run_out.rotor_energy") - 1.0).abs() < 1e-9);
     assert!(number(&slow, "run_out.relative_heat_residual") < 1e-9);
+    // what turned before the change turns after it: by the rows of both sides of it
+    let kinetic = slow.history.iter().find(|c| c.name == "energy.kinetic");
+    let before = *kinetic.unwrap().values.last().unwrap();
+    let after = 0.5 * number(&slow, "run_out.rotor_energy");
+    let lost = number(&slow, "dissipated_energy");
+    let jump = before - after;
+    assert!(
+        jump.abs() < 1e-9 * after && jump.abs() < 1e-3 * lost,
+        "{jump} {lost}"
+    );
+    assert_eq!(number(&slow, "run_out.change_of_model"), 0.0);
     adds_up_by_bodies(&slow, "run_out.");
     // warmth thins the oil: it runs longer
     let warm = ran(&[]);
@@ -210,6 +285,14 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
         "{heats} {energy}"
     );
     assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
+    // what bounced when the laws took over is booked, and little beside what was lost until then
+    let change = number(&found, "run_out.change_of_model");
+    let start = number(&found, "run_out.start_speed");
+    let lost = 2.0 * number(&found, "dissipated_energy") + energy * (1.0 - (start / speed).powi(2));
+    assert!(
+        change != 0.0 && change.abs() < 1e-3 * lost,
+        "{change} {lost}"
+    );
     let times = list(&found, "run_out.over_time.time");
     assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
     // what bounces loses more than what rolls, and no jump in the moment is left where the laws take over

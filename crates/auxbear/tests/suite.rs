@@ -8,6 +8,7 @@ mod drop_method;
 mod extremes;
 mod exudyn_cage_spin_up;
 mod feedback;
+mod held_limits;
 mod levitated_run;
 mod machine;
 mod machine_supports;

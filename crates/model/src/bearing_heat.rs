@@ -14,10 +14,13 @@
 //! | orbit drag, inlets, the viscous part of the steady moment | lubricant |
 //! | the load-dependent part of the steady moment | balls half, races a quarter each |
 //! | rotor on race | half each, or as the surfaces shared it |
-//! | mount damping | housing |
+//! | mount damping | mount, where it is a node, else housing |
 //!
 //! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
 //! of the weight on the bearing, as it has it when it has come to rest.
+//!
+//! From the span on in which a node passes its limit, a second set of temperatures takes the same heats through the same
+//! conductances with the nodes held at their limits: what must be taken from them for that.
 //!
 //! Source: heat-and-life, sections 2 and 3. Range: a body is one temperature only after about 0.1 s; before that the surfaces
 //! tell more.
@@ -28,15 +31,20 @@ use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::WaltherLine;
 use thermal::bearing_network::{
-    BALLS, BearingNetwork, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation,
-    ROTOR,
+    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, ROTOR,
+    together,
 };
+use thermal::held::Held;
+use thermal::steady_speed::SteadySpeed;
+use thermal::warm_bearing::WarmBearings;
 
 /// A number per node.
 pub type OfNodes = [f64; NODES.len()];
 
 /// Span of heat that the network takes at once, s.
 const SPAN: f64 = 10e-3;
+/// Time between two looks at how a disturbance grows, s.
+const LOOKS: f64 = 50e-3;
 /// Ice point, K.
 const ICE_POINT: f64 = 273.15;
 /// Least viscosity, m²/s.
@@ -59,10 +67,12 @@ pub struct WarmBearing {
     pub oil: Option<WaltherLine<f64>>,
     /// Viscosity of the lubricant at the start, m²/s.
     pub viscosity: f64,
-    /// The law that divides the steady moment; all of it heats the lubricant where there is none.
-    pub moment: Option<Palmgren<f64>>,
+    /// The law that divides the steady moment, and says how it follows the temperatures; all of it heats the lubricant where there is none.
+    pub losses: Option<WarmBearings>,
     /// Shares of each heat of the ledger over the nodes.
     pub shares: [OfNodes; HEATS],
+    /// Limits of the nodes that have one, °C.
+    pub limits: [Option<f64>; NODES.len()],
 }
 
 /// What has become of it.
@@ -72,6 +82,12 @@ pub struct Warmth {
     pub temperatures: Vec<f64>,
     /// The hottest that each node was, °C, and when, s.
     pub peaks: [(f64, f64); NODES.len()],
+    /// When each node passed its limit, s.
+    pub passed: [Option<f64>; NODES.len()],
+    /// How a disturbance of them grows, once the balls are preloaded.
+    pub growth: Growth,
+    /// The same bearing with its nodes held at their limits, once one has got there.
+    pub held: Option<Box<HeldWarmth>>,
     /// Heat made until now, J.
     pub made: f64,
     /// Heat given to the surroundings until now, J.
@@ -89,6 +105,79 @@ pub struct Warmth {
     taken: [f64; 2],
 }
 
+/// How fast a disturbance of the temperatures grows at the speed of an instant and under the weight, while the balls are preloaded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Growth {
+    /// The largest rate, 1/s; none where the balls never were preloaded.
+    pub largest: Option<f64>,
+    /// From when on they run away, s, and the temperatures there, °C.
+    pub runs_away: Option<(f64, OfNodes)>,
+    /// Instants and rates, where they are kept.
+    pub course: Vec<(f64, f64)>,
+    next: f64,
+}
+
+impl Growth {
+    fn look(
+        &mut self,
+        machine: impl FnOnce() -> Option<f64>,
+        (time, nodes): (f64, OfNodes),
+        keep: bool,
+    ) {
+        if time < self.next {
+            return;
+        }
+        self.next = time + LOOKS;
+        let Some(rate) = machine() else { return };
+        self.largest = Some(self.largest.map_or(rate, |largest| largest.max(rate)));
+        if rate > 0.0 && self.runs_away.is_none() {
+            self.runs_away = Some((time, nodes));
+        }
+        if keep {
+            self.course.push((time, rate));
+        }
+    }
+    /// The rate at an instant, 1/s; not a number before the balls were preloaded.
+    pub fn at(&self, time: f64) -> f64 {
+        let past = self.course.partition_point(|(known, _)| *known <= time);
+        past.checked_sub(1)
+            .map_or(f64::NAN, |last| self.course[last].1)
+    }
+}
+
+/// What must be taken from the nodes of a bearing to hold them at their limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldWarmth {
+    held: Held,
+    temperatures: Vec<f64>,
+    /// Taken from each node until now, J.
+    pub taken: OfNodes,
+    /// The most that was taken from each in a span, W.
+    pub most: OfNodes,
+    /// The same of all together, W.
+    pub most_of_all: f64,
+    /// End of each span and the powers taken in it, W, where they are kept.
+    pub course: Vec<(f64, OfNodes)>,
+}
+
+impl HeldWarmth {
+    /// Ends a span, in which so much heat reached the nodes that were held, J.
+    fn end(&mut self, part: &WarmBearing, reached: &[f64], (time, span): (f64, f64), keep: bool) {
+        let capacities = &part.network.capacities;
+        let taken = self.held.end(capacities, &mut self.temperatures, reached);
+        add(&mut self.taken, &taken);
+        self.most_of_all = self.most_of_all.max(taken.iter().sum::<f64>() / span);
+        let mut powers = [0.0; NODES.len()];
+        for ((power, most), taken) in powers.iter_mut().zip(&mut self.most).zip(taken) {
+            *power = taken / span;
+            *most = most.max(*power);
+        }
+        if keep {
+            self.course.push((time, powers));
+        }
+    }
+}
+
 /// What a run shows at an instant.
 pub struct Seen {
     /// s.
@@ -101,11 +190,17 @@ pub struct Seen {
     pub taken: Option<[f64; 2]>,
 }
 
-/// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node.
+/// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node; a node takes what the
+/// mount makes.
 ///
 /// Source: heat-and-life, section 3.
 /// Valid: races, rotor and sleeve of steel.
-pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfNodes; HEATS] {
+pub fn shares(
+    ball: ThermalMaterial,
+    cage: ThermalMaterial,
+    land: usize,
+    mount: usize,
+) -> [OfNodes; HEATS] {
     let between = |(one, first): (usize, ThermalMaterial),
                    (other, second): (usize, ThermalMaterial)| {
         let [a, b] = [first, second].map(|material| material.effusivity());
@@ -125,7 +220,7 @@ pub fn shares(ball: ThermalMaterial, cage: ThermalMaterial, land: usize) -> [OfN
             "pocket_damping" | "pocket_friction" => between((BALLS, ball), (CAGE, cage)),
             "cage_land_damping" | "cage_land_friction" => between((CAGE, cage), steel(land)),
             "ball_ball_damping" | "ball_ball_friction" => of(&[(BALLS, 1.0)]),
-            "mount_damping" => of(&[(HOUSING, 1.0)]),
+            "mount_damping" => of(&[(mount, 1.0)]),
             "rotor_race_damping" | "rotor_race_friction" => of(&[(ROTOR, 0.5), (INNER_RACE, 0.5)]),
             // drag, inlet_rolling, steady_moment as far as it is viscous
             _ => of(&[(LUBRICANT, 1.0)]),
@@ -175,12 +270,12 @@ fn place(kind: &str) -> usize {
 impl WarmBearing {
     /// Share of the steady moment that is viscous, at a speed of the inner race.
     fn viscous(&self, spin: f64, temperature: f64) -> f64 {
-        let Some(moment) = &self.moment else {
+        let Some(losses) = &self.losses else {
             return 1.0;
         };
         let moment = Palmgren {
             viscosity: self.viscosity_at(temperature),
-            ..*moment
+            ..losses.moment
         };
         let parts = moment.parts(spin.abs(), self.radial_load);
         let sum = parts.speed_dependent + parts.load_dependent;
@@ -237,6 +332,9 @@ impl Warmth {
         Warmth {
             temperatures: vec![part.start; NODES.len()],
             peaks: [(part.start, 0.0); NODES.len()],
+            passed: [None; NODES.len()],
+            growth: Growth::default(),
+            held: None,
             made: 0.0,
             given: 0.0,
             flows: [[0.0; NODES.len()]; HEATS],
@@ -287,6 +385,15 @@ impl Warmth {
             return;
         };
         let powers: Vec<f64> = nodes.iter().map(|heat| heat / span).collect();
+        let (at, keep) = ((seen.time, span), self.keep);
+        if let Some(other) = &mut self.held {
+            let Ok(network) = together(&[(&part.network, operation)], other.held.marks()) else {
+                return;
+            };
+            let away = network.advance(&mut other.temperatures, &powers, span);
+            other.end(part, &network.by_node(&away), at, keep);
+        }
+        let before = self.temperatures.clone();
         let given = network.advance(&mut self.temperatures, &powers, span);
         self.given += given.iter().sum::<f64>();
         self.made += nodes.iter().sum::<f64>();
@@ -294,6 +401,24 @@ impl Warmth {
             add(so_far, flow);
         }
         add(&mut self.given_from, &network.by_node(&given));
+        for (node, limit) in part.limits.iter().enumerate() {
+            let (was, now) = (before[node], self.temperatures[node]);
+            let passes = limit.filter(|limit| self.passed[node].is_none() && now > *limit);
+            self.passed[node] = self.passed[node]
+                .or_else(|| Some(self.until + span * (passes? - was) / (now - was)));
+        }
+        if self.held.is_none() && self.passed.iter().any(Option::is_some) {
+            let mut other = Box::new(HeldWarmth {
+                held: Held::at(part.limits.to_vec()),
+                temperatures: self.temperatures.clone(),
+                taken: [0.0; NODES.len()],
+                most: [0.0; NODES.len()],
+                most_of_all: 0.0,
+                course: Vec::new(),
+            });
+            other.end(part, &[0.0; NODES.len()], at, keep);
+            self.held = Some(other);
+        }
         self.until = seen.time;
         self.heats = seen.heats;
         self.taken = seen.taken.unwrap_or(self.taken);
@@ -307,6 +432,18 @@ impl Warmth {
         if self.keep {
             self.course.push((seen.time, row));
         }
+        let grows = || {
+            let losses = part.losses.clone()?;
+            let (open, _) = losses.closing(&row)?;
+            let machine = |network| SteadySpeed {
+                network,
+                losses,
+                speed: seen.spin.abs(),
+                tolerance: 1.0,
+            };
+            (open < 0.0).then(|| machine(network).growth(&row))
+        };
+        self.growth.look(grows, (seen.time, row), self.keep);
     }
 
     /// Temperature of a node at an instant, °C: between the ends of spans along a straight line.
@@ -329,18 +466,19 @@ impl Warmth {
 mod tests {
     use super::*;
     use physics::heat_conduction::SILICON_NITRIDE_HEAT;
+    use thermal::bearing_network::HOUSING;
 
     #[test]
     fn shares_add_to_one_and_every_heat_has_a_place() {
         for ball in [STEEL_HEAT, SILICON_NITRIDE_HEAT] {
-            for row in shares(ball, STEEL_HEAT, OUTER_RACE) {
+            for row in shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING) {
                 assert_eq!(row.iter().sum::<f64>(), 1.0);
                 assert!(row.iter().all(|share| (0.0..=1.0).contains(share)));
             }
         }
         assert!(place("steady_moment") < HEATS && place("rotor_race_friction") < HEATS);
         // steel on steel half and half; a ring takes 0.58 beside a ceramic ball
-        let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE)[place("inner_ball_slip")];
+        let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING)[place("inner_ball_slip")];
         assert_eq!(of(STEEL_HEAT)[INNER_RACE], 0.5);
         assert!((of(SILICON_NITRIDE_HEAT)[INNER_RACE] - 0.58).abs() < 0.005);
         // of a polyamide cage's friction the cage takes 5 %
@@ -349,7 +487,7 @@ mod tests {
             density: 1140.0,
             specific_heat: 1700.0,
         };
-        let pocket = shares(STEEL_HEAT, polyamide, OUTER_RACE)[place("pocket_friction")];
+        let pocket = shares(STEEL_HEAT, polyamide, OUTER_RACE, HOUSING)[place("pocket_friction")];
         assert!((pocket[CAGE] - 0.05).abs() < 0.006, "{}", pocket[CAGE]);
     }
 }

@@ -39,15 +39,14 @@ impl RatedBearing {
         ]
     }
 
-    /// Share of L10 that the passages of a run use: S = Σ Q³ at the points of the inner and of the outer ring, N³.
+    /// Share of L10 that the passages of a run use at the points of the inner and of the outer ring, S/(z 1e6 Q_c³) of S = Σ Q³, N³.
     ///
-    /// Source: [`ring_damage`] and [`bearing_damage`].
-    /// Valid: as these.
-    pub fn damage(&self, sums: [&[f64]; 2]) -> f64 {
+    /// Source: [`ring_damage`].
+    /// Valid: as this; what passes a point adds up, also across runs.
+    pub fn by_point(&self, sums: [&[f64]; 2]) -> [Vec<f64>; 2] {
         let passages = passages_per_turn(self.ball_count, self.gamma);
         let loads = self.ball_rating_loads();
-        let [inner, outer] = [0, 1].map(|k| ring_damage(sums[k], passages[k], loads[k]));
-        bearing_damage(inner, outer)
+        [0, 1].map(|k| point_damages(sums[k], passages[k], loads[k]))
     }
 }
 
@@ -70,12 +69,21 @@ pub fn passages_per_turn(ball_count: f64, gamma: f64) -> [f64; 2] {
 /// Source: derived; equals the L10r of ISO/TS 16281 for constant motion.
 /// Valid: P ≤ 0.5 C.
 pub fn ring_damage(sums: &[f64], passages: f64, rating_load: f64) -> f64 {
-    let mean = sums
-        .iter()
-        .map(|sum| (sum / passages).powf(WEIBULL_SLOPE))
-        .sum::<f64>()
-        / sums.len() as f64;
-    mean.powf(1.0 / WEIBULL_SLOPE) / (1e6 * rating_load.powi(3))
+    mean_damage(&point_damages(sums, passages, rating_load))
+}
+
+fn point_damages(sums: &[f64], passages: f64, rating_load: f64) -> Vec<f64> {
+    let whole = passages * 1e6 * rating_load.powi(3);
+    sums.iter().map(|sum| sum / whole).collect()
+}
+
+/// Damage of a ring from that of its points: [mean_φ d^(10/9)]^(9/10).
+///
+/// Source: as [`ring_damage`].
+/// Valid: points at equal distances.
+pub fn mean_damage(points: &[f64]) -> f64 {
+    let powers = points.iter().map(|damage| damage.powf(WEIBULL_SLOPE));
+    (powers.sum::<f64>() / points.len() as f64).powf(1.0 / WEIBULL_SLOPE)
 }
 
 /// Damage of the bearing from that of its rings: (D_i^(10/9) + D_o^(10/9))^(9/10).

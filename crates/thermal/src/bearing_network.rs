@@ -5,6 +5,7 @@
 //!     │          │        │     │        │
 //!     │          └──── lubricant ── cage ┘            ══ contacts that roll: more with speed and load
 //!     └── surroundings
+//!   rotor (its surface layer) ── rotor core,  housing ── mount, where they are nodes of their own
 //! ```
 //!
 //! Every ball conducts through the ellipses that it touches the races with, each in series with a film; a ball without load
@@ -24,7 +25,7 @@ use physics::hertz::PointContact;
 use std::f64::consts::PI;
 
 /// The nodes, in their order.
-pub const NODES: [&str; 7] = [
+pub const NODES: [&str; 9] = [
     "rotor",
     "inner_race",
     "balls",
@@ -32,8 +33,10 @@ pub const NODES: [&str; 7] = [
     "lubricant",
     "outer_race",
     "housing",
+    "rotor_core",
+    "mount",
 ];
-/// The part of the rotor that warms with this bearing.
+/// The part of the rotor that warms with this bearing; its surface layer where its core is a node.
 pub const ROTOR: usize = 0;
 /// Sleeve and inner ring.
 pub const INNER_RACE: usize = 1;
@@ -47,9 +50,13 @@ pub const LUBRICANT: usize = 4;
 pub const OUTER_RACE: usize = 5;
 /// What the outer ring sits in.
 pub const HOUSING: usize = 6;
+/// What of the rotor is deeper than its surface layer, where that is a node of its own.
+pub const ROTOR_CORE: usize = 7;
+/// What the housing stands on, where that is a node of its own.
+pub const MOUNT: usize = 8;
 
 /// What gives heat to the surroundings.
-pub const GROUNDS: [usize; 2] = [HOUSING, ROTOR];
+pub const GROUNDS: [usize; 4] = [HOUSING, ROTOR, ROTOR_CORE, MOUNT];
 
 /// Conductivity of oil, W/(m K), and its ρc, J/(m³ K). Source: heat-and-life, section 2; mineral oils.
 const OIL: (f64, f64) = (0.14, 1.67e6);
@@ -82,8 +89,8 @@ pub enum Landing {
 /// Constants of the network of one bearing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingNetwork {
-    /// Heat capacities of the nodes, J/K.
-    pub capacities: [f64; 7],
+    /// Heat capacities of the nodes, J/K; 0 of one that is not there.
+    pub capacities: [f64; NODES.len()],
     /// Number of balls.
     pub balls: f64,
     /// Mass of a ball, kg.
@@ -108,6 +115,10 @@ pub struct BearingNetwork {
     pub surroundings: f64,
     /// Rotor to its surroundings, W/K.
     pub rotor_surroundings: f64,
+    /// Rotor's surface layer to its core, W/K.
+    pub to_core: f64,
+    /// Mount to housing and to its surroundings, W/K.
+    pub mount: [f64; 2],
     /// Temperature of the surroundings, °C.
     pub ambient: f64,
 }
@@ -129,12 +140,24 @@ impl BearingNetwork {
         self.ball_diameter / self.pitch_diameter
     }
 
+    /// Whether a node is there.
+    pub fn has(&self, node: usize) -> bool {
+        self.capacities[node] > 0.0
+    }
+
+    /// The same rotor as a surface layer of so much of its capacity, J/K, and its core, with a conductance between their means, W/K.
+    pub fn with_layer(&mut self, capacity: f64, to_core: f64) {
+        self.capacities[ROTOR_CORE] = self.capacities[ROTOR] - capacity;
+        self.capacities[ROTOR] = capacity;
+        self.to_core = to_core;
+    }
+
     /// The network at an instant.
     ///
     /// # Errors
     /// A capacity or conductance that is none.
     pub fn at(&self, operation: Operation<'_>) -> Result<Network, NetworkError> {
-        together(&[(self, operation)])
+        together(&[(self, operation)], &[])
     }
 
     /// Its links and grounds, with nodes counted from a first one.
@@ -150,7 +173,7 @@ impl BearingNetwork {
             conductance,
             temperature: self.ambient,
         };
-        let links = vec![
+        let mut links = vec![
             link(ROTOR, INNER_RACE, self.landing(operation.speed.abs())),
             link(INNER_RACE, BALLS, inner),
             link(BALLS, OUTER_RACE, outer),
@@ -160,11 +183,22 @@ impl BearingNetwork {
             link(CAGE, LUBRICANT, to_cage),
             link(OUTER_RACE, LUBRICANT, to_outer),
             link(OUTER_RACE, HOUSING, self.outer_seat),
+            link(ROTOR, ROTOR_CORE, self.to_core),
+            link(HOUSING, MOUNT, self.mount[0]),
         ];
-        let grounds = vec![
+        links.retain(|link| link.nodes.iter().all(|node| self.has(node - from)));
+        let of_rotor = if self.has(ROTOR_CORE) {
+            ROTOR_CORE
+        } else {
+            ROTOR
+        };
+        let mut grounds = vec![
             ground(HOUSING, self.surroundings),
-            ground(ROTOR, self.rotor_surroundings),
+            ground(of_rotor, self.rotor_surroundings),
         ];
+        if self.has(MOUNT) {
+            grounds.push(ground(MOUNT, self.mount[1]));
+        }
         (links, grounds)
     }
 
@@ -231,19 +265,25 @@ impl BearingNetwork {
     }
 }
 
-/// The networks of several bearings at an instant as one, the nodes of each behind those before; they exchange nothing.
+/// The networks of several bearings at an instant as one, the nodes of each behind those before; they exchange nothing. Nodes that are
+/// marked are held.
 ///
 /// # Errors
 /// A capacity or conductance that is none.
-pub fn together(parts: &[(&BearingNetwork, Operation<'_>)]) -> Result<Network, NetworkError> {
+pub fn together(
+    parts: &[(&BearingNetwork, Operation<'_>)],
+    held: &[bool],
+) -> Result<Network, NetworkError> {
     let (mut capacities, mut links, mut grounds) = (Vec::new(), Vec::new(), Vec::new());
     for (part, operation) in parts {
         let (own, to_surroundings) = part.links(*operation, capacities.len());
-        capacities.extend(part.capacities);
+        // what is not there exchanges nothing, whatever it could hold
+        let there = |capacity: f64| if capacity > 0.0 { capacity } else { 1.0 };
+        capacities.extend(part.capacities.map(there));
         links.extend(own);
         grounds.extend(to_surroundings);
     }
-    Network::new(&capacities, &links, &grounds)
+    Network::holding(&capacities, &links, &grounds, held)
 }
 
 #[cfg(test)]
@@ -266,7 +306,7 @@ mod tests {
             PointContact::new(shape.curvature(), modulus).unwrap()
         };
         BearingNetwork {
-            capacities: [1800.0, 12.0, 4.8, 3.0, 5.0, 17.0, 200.0],
+            capacities: [100.0, 12.0, 4.8, 3.0, 5.0, 17.0, 200.0, 1700.0, 50.0],
             balls: 10.0,
             ball_mass: 1.05e-3,
             ball_diameter: 6.35e-3,
@@ -285,6 +325,8 @@ mod tests {
             outer_seat: 6.0,
             surroundings: 0.9,
             rotor_surroundings: 0.0,
+            to_core: 40.0,
+            mount: [1.0, 0.0],
             ambient: 25.0,
         }
     }
@@ -323,9 +365,44 @@ mod tests {
     }
 
     #[test]
+    fn a_layer_and_its_core_come_to_one_temperature_with_their_conductance() {
+        let mut network = BearingNetwork {
+            landing: Landing::Given(0.0),
+            ..bearing()
+        };
+        network.capacities[ROTOR] = 1800.0;
+        network.with_layer(100.0, 40.0);
+        assert_eq!(network.capacities[ROTOR_CORE], 1700.0);
+        let standing = network.at(at(0.0, &[0.0])).unwrap();
+        let mut nodes = [25.0; NODES.len()];
+        nodes[ROTOR] = 43.0;
+        standing.advance(&mut nodes, &[0.0; NODES.len()], 1.5);
+        // the difference decays with G (1/C + 1/C'), and nothing leaves
+        let left = 18.0 * f64::exp(-1.5 * 40.0 * (1.0 / 100.0 + 1.0 / 1700.0));
+        assert!((nodes[ROTOR] - nodes[ROTOR_CORE] - left).abs() < 1e-9);
+        let held = 100.0 * (nodes[ROTOR] - 25.0) + 1700.0 * (nodes[ROTOR_CORE] - 25.0);
+        assert!((held / 1800.0 - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_not_there_exchanges_nothing() {
+        let mut network = bearing();
+        for node in [CAGE, ROTOR_CORE, MOUNT] {
+            network.capacities[node] = 0.0;
+        }
+        let mut nodes = [90.0, 80.0, 70.0, 10.0, 60.0, 50.0, 40.0, 10.0, 10.0];
+        let turning = network.at(at(1000.0, &[20.0; 10])).unwrap();
+        turning.advance(&mut nodes, &[0.0; NODES.len()], 100.0);
+        for node in [CAGE, ROTOR_CORE, MOUNT] {
+            assert!((nodes[node] - 10.0).abs() < 1e-9, "{node}");
+        }
+        assert!(nodes[INNER_RACE] < 79.0);
+    }
+
+    #[test]
     fn heat_runs_from_the_races_to_the_surroundings_and_never_uphill() {
         let network = bearing().at(at(1000.0, &[20.0; 10])).unwrap();
-        let mut powers = [0.0; 7];
+        let mut powers = [0.0; NODES.len()];
         powers[LUBRICANT] = 5.0;
         let steady = network.steady(&powers).unwrap();
         assert!(steady[LUBRICANT] > steady[OUTER_RACE]);

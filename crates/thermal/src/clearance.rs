@@ -23,11 +23,52 @@ impl ThermalClearance {
     /// Source: heat-and-life, section 5; free expansion.
     /// Valid: rings free to grow, each at one temperature.
     pub fn at(&self, inner: f64, balls: f64, outer: f64) -> f64 {
+        let [of_inner, of_balls, of_outer] = self.changes(inner, balls, outer);
+        self.at_reference + of_outer + of_inner + of_balls
+    }
+
+    /// What inner ring, balls and outer ring have added to it, m.
+    pub fn changes(&self, inner: f64, balls: f64, outer: f64) -> [f64; 3] {
         let [of_inner, of_balls, of_outer] = self.expansions;
         let [inner_track, outer_track] = self.tracks;
-        self.at_reference + of_outer * outer_track * (outer - self.reference)
-            - of_inner * inner_track * (inner - self.reference)
-            - 2.0 * of_balls * self.ball * (balls - self.reference)
+        [
+            -of_inner * inner_track * (inner - self.reference),
+            -2.0 * of_balls * self.ball * (balls - self.reference),
+            of_outer * outer_track * (outer - self.reference),
+        ]
+    }
+}
+
+/// A seat of a ring, whose interference follows the temperatures of what is pressed together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seat {
+    /// Diametral interference at the reference temperature, m; below 0 the ring is loose.
+    pub interference: f64,
+    /// Diameter of the seat, m.
+    pub diameter: f64,
+    /// Nodes of what is inside and outside of it.
+    pub nodes: [usize; 2],
+    /// Expansion of both, 1/K.
+    pub expansions: [f64; 2],
+    /// Clearance that the track loses to an interference, over it.
+    pub closes: f64,
+}
+
+impl Seat {
+    /// Δ = Δ_0 + (α_in ΔT_in − α_out ΔT_out) d, m, at temperatures of the nodes, °C, with the reference temperature.
+    ///
+    /// Source: heat-and-life, section 5.
+    /// Valid: as [`ThermalClearance::at`].
+    pub fn at(&self, temperatures: &[f64], reference: f64) -> f64 {
+        let [inside, outside] =
+            [0, 1].map(|k| self.expansions[k] * (temperatures[self.nodes[k]] - reference));
+        self.interference + (inside - outside) * self.diameter
+    }
+
+    /// What that adds to the clearance, m.
+    pub fn adds(&self, temperatures: &[f64], reference: f64) -> f64 {
+        let pressed = self.at(temperatures, reference).max(0.0);
+        self.closes * (self.interference.max(0.0) - pressed)
     }
 }
 
@@ -80,6 +121,30 @@ mod tests {
         };
         let opened = hybrid.at(120.0, 120.0, 120.0) - 5e-6;
         assert!((opened - 10.5e-6).abs() < 0.1e-6, "{opened}");
+    }
+
+    #[test]
+    fn a_seat_takes_no_more_than_it_presses_and_one_of_one_material_nothing_by_warmth_alone() {
+        let seat = Seat {
+            interference: 4e-6,
+            diameter: 47e-3,
+            nodes: [0, 1],
+            expansions: [STEEL, 23e-6],
+            closes: 0.8,
+        };
+        // an aluminium housing as warm as its ring: (11.5 − 23)e-6 · 47 mm · 5 K
+        assert!((seat.at(&[25.0, 25.0], 20.0) - (4e-6 - 2.7025e-6)).abs() < 1e-15);
+        assert!((seat.adds(&[25.0, 25.0], 20.0) - 0.8 * 2.7025e-6).abs() < 1e-15);
+        // once it is loose nothing is left to give
+        assert!(seat.at(&[60.0, 60.0], 20.0) < 0.0);
+        assert!((seat.adds(&[60.0, 60.0], 20.0) - 3.2e-6).abs() < 1e-15);
+        let steel = Seat {
+            expansions: [STEEL; 2],
+            ..seat
+        };
+        assert_eq!(steel.adds(&[80.0, 80.0], 20.0), 0.0);
+        // the ring warmer than its housing is pressed harder
+        assert!(steel.adds(&[40.0, 20.0], 20.0) < 0.0);
     }
 
     #[test]

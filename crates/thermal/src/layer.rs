@@ -113,6 +113,11 @@ impl Layer {
         self.material.density * self.material.specific_heat * area * self.thickness
     }
 
+    /// From its mean to the core behind it: k A/(L/2), W/K.
+    pub fn to_core(&self, area: f64) -> f64 {
+        2.0 * self.material.conductivity * area / self.thickness
+    }
+
     /// Mean rise, K.
     pub fn mean(&self, state: &LayerState, area: f64) -> f64 {
         state.energy / self.capacity(area)

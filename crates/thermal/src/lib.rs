@@ -3,6 +3,7 @@
 //! | module | subject |
 //! |---|---|
 //! | [`network`] | nodes and conductances, stepped exactly |
+//! | [`held`] | nodes held at their limits, and the heat that this takes |
 //! | [`bearing_network`] | nodes and conductances of an auxiliary bearing |
 //! | [`load_zone`] | its balls under a radial load |
 //! | [`losses`] | what brakes and heats, at a speed and at temperatures |
@@ -19,6 +20,7 @@
 pub mod bearing_network;
 pub mod clearance;
 pub mod coast_down;
+pub mod held;
 pub mod layer;
 pub mod load_zone;
 pub mod losses;

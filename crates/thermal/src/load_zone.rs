@@ -1,6 +1,6 @@
 //! The balls of a warm bearing under its radial load.
 
-use crate::clearance::ThermalClearance;
+use crate::clearance::{Seat, ThermalClearance};
 use physics::load_zone::{ball_load, displacement};
 use std::f64::consts::TAU;
 
@@ -17,17 +17,41 @@ pub struct LoadZone {
     pub clearance: ThermalClearance,
     /// Nodes of inner ring, balls and outer ring.
     pub nodes: [usize; 3],
+    /// Seats of the inner ring on its shaft and of the outer ring in its housing, where they are known.
+    pub seats: [Option<Seat>; 2],
 }
 
 impl LoadZone {
     /// Diametral clearance at the temperatures of a network in °C, m; negative: the balls are preloaded.
     pub fn clearance_at(&self, temperatures: &[f64]) -> f64 {
         let [inner, balls, outer] = self.nodes;
-        (self.clearance).at(
+        let free = (self.clearance).at(
             temperatures[inner],
             temperatures[balls],
             temperatures[outer],
-        )
+        );
+        free + self.by_seats(temperatures).iter().sum::<f64>()
+    }
+    /// What both seats have added to it, m.
+    fn by_seats(&self, temperatures: &[f64]) -> [f64; 2] {
+        let reference = self.clearance.reference;
+        (self.seats).map(|seat| seat.map_or(0.0, |seat| seat.adds(temperatures, reference)))
+    }
+    /// What inner ring, balls and outer ring with their seats have added to it, m.
+    pub fn changes_at(&self, temperatures: &[f64]) -> [f64; 3] {
+        let [inner, balls, outer] = self.nodes.map(|node| temperatures[node]);
+        let [inner, balls, outer] = self.clearance.changes(inner, balls, outer);
+        let [shaft, housing] = self.by_seats(temperatures);
+        [inner + shaft, balls, outer + housing]
+    }
+    /// A ring that was pressed at the start and is loose at these temperatures: on its shaft, in its housing.
+    pub fn loose(&self, temperatures: &[f64]) -> [bool; 2] {
+        let reference = self.clearance.reference;
+        (self.seats).map(|seat| {
+            seat.is_some_and(|seat| {
+                seat.interference > 0.0 && seat.at(temperatures, reference) <= 0.0
+            })
+        })
     }
     /// Load of each ball at a clearance, N.
     pub fn loads(&self, clearance: f64) -> Vec<f64> {
@@ -70,6 +94,7 @@ mod tests {
                 expansions: [11.5e-6; 3],
             },
             nodes: [0, 1, 2],
+            seats: [None; 2],
         };
         let at = |inner: f64| zone.loads(zone.clearance_at(&[inner, inner, 20.0]));
         let carrying = |loads: &[f64]| loads.iter().filter(|load| **load > 0.0).count();

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! With y = Vᵀ C^½ T and the modes V of C^−½ G C^−½ every mode is alone: ẏ = p − λ y. A network without a ground has a
-//! mode with λ = 0, which only stores. What flows to the grounds comes from the integral of the same y.
+//! mode with λ = 0, which only stores. What flows to the grounds comes from the integral of the same y. A node that is held at
+//! its temperature is a ground of its neighbours, and what reaches it is taken away.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::fmt;
@@ -64,6 +65,8 @@ impl fmt::Display for NetworkError {
 pub struct Network {
     capacities: Vec<f64>,
     grounds: Vec<Ground>,
+    /// Nodes that are held, each with its row of G.
+    held: Vec<(usize, Vec<f64>)>,
     /// Decay rates λ of the modes, 1/s.
     rates: Vec<f64>,
     modes: DMatrix<f64>,
@@ -75,6 +78,16 @@ impl Network {
         capacities: &[f64],
         links: &[Link],
         grounds: &[Ground],
+    ) -> Result<Self, NetworkError> {
+        Network::holding(capacities, links, grounds, &[])
+    }
+
+    /// The same with some nodes held at the temperature that they have, a mark for each node.
+    pub fn holding(
+        capacities: &[f64],
+        links: &[Link],
+        grounds: &[Ground],
+        marks: &[bool],
     ) -> Result<Self, NetworkError> {
         let n = capacities.len();
         let positive = |value: f64| value > 0.0 && value.is_finite();
@@ -108,6 +121,14 @@ impl Network {
             }
             matrix[(ground.node, ground.node)] += ground.conductance;
         }
+        let nodes = (0..n).filter(|node| marks.get(*node).is_some_and(|held| *held));
+        let held: Vec<(usize, Vec<f64>)> = nodes
+            .map(|node| (node, matrix.row(node).iter().copied().collect()))
+            .collect();
+        for (node, _) in &held {
+            matrix.row_mut(*node).fill(0.0);
+            matrix.column_mut(*node).fill(0.0);
+        }
         let scaled = DMatrix::from_fn(n, n, |row, column| {
             matrix[(row, column)] / (capacities[row] * capacities[column]).sqrt()
         });
@@ -122,6 +143,7 @@ impl Network {
         Ok(Self {
             capacities: capacities.to_vec(),
             grounds: grounds.to_vec(),
+            held,
             rates,
             modes: eigen.eigenvectors,
         })
@@ -165,14 +187,15 @@ impl Network {
         if self.rates.contains(&0.0) {
             return None;
         }
-        let mut modal = self.modal_powers(powers);
+        let mut modal = self.modal(self.sources(powers));
         for (value, rate) in modal.iter_mut().zip(&self.rates) {
             *value /= rate;
         }
         Some(self.physical(&modal))
     }
 
-    /// Advances the temperatures by a time under constant powers, W; returns the heat given to each ground, J.
+    /// Advances the temperatures by a time under constant powers, W; returns the heat given to each ground, then that taken from
+    /// each node that is held, J.
     ///
     /// Exact for any length of step: y₀e^(−λt) + p(1 − e^(−λt))/λ, for λ = 0 y₀ + pt.
     /// The lists have one number per node.
@@ -182,7 +205,20 @@ impl Network {
             temperatures.len() == n && powers.len() == n,
             "one temperature and one power per node"
         );
-        let drive = self.modal_powers(powers);
+        let sources = self.sources(powers);
+        let mut free = sources.clone();
+        for (node, row) in &self.held {
+            for (source, conductance) in free.iter_mut().zip(row) {
+                *source -= conductance * temperatures[*node];
+            }
+        }
+        for (node, _) in &self.held {
+            free[*node] = 0.0;
+        }
+        let drive = self.modal(free);
+        let kept: Vec<f64> = (self.held.iter())
+            .map(|(node, _)| temperatures[*node])
+            .collect();
         let scaled = DVector::from_fn(n, |i, _| temperatures[i] * self.capacities[i].sqrt());
         let mut modal = self.modes.tr_mul(&scaled);
         let mut integral = DVector::zeros(n);
@@ -194,26 +230,40 @@ impl Network {
         }
         temperatures.copy_from_slice(&self.physical(&modal));
         let passed = self.physical(&integral);
-        self.grounds
+        let to_grounds = self
+            .grounds
             .iter()
-            .map(|ground| ground.conductance * (passed[ground.node] - ground.temperature * time))
-            .collect()
+            .map(|ground| ground.conductance * (passed[ground.node] - ground.temperature * time));
+        let mut given: Vec<f64> = to_grounds.collect();
+        for ((node, row), kept) in self.held.iter().zip(kept) {
+            temperatures[*node] = kept;
+            let away = row.iter().zip(&passed).map(|(g, passed)| g * passed);
+            given.push(sources[*node] * time - away.sum::<f64>());
+        }
+        given
     }
 
-    /// Heat given to the grounds, as [`Self::advance`] returns it, by the nodes that give it.
+    /// Heat given to the grounds or taken, as [`Self::advance`] returns it, by the nodes that give it.
     pub fn by_node(&self, given: &[f64]) -> Vec<f64> {
         let mut nodes = vec![0.0; self.capacities.len()];
-        for (ground, heat) in self.grounds.iter().zip(given) {
-            nodes[ground.node] += heat;
+        let grounds = self.grounds.iter().map(|ground| ground.node);
+        let held = self.held.iter().map(|(node, _)| *node);
+        for (node, heat) in grounds.chain(held).zip(given) {
+            nodes[node] += heat;
         }
         nodes
     }
 
-    fn modal_powers(&self, powers: &[f64]) -> DVector<f64> {
+    /// Powers with what the grounds would give at zero of the scale, W.
+    fn sources(&self, powers: &[f64]) -> DVector<f64> {
         let mut drive = DVector::from_column_slice(powers);
         for ground in &self.grounds {
             drive[ground.node] += ground.conductance * ground.temperature;
         }
+        drive
+    }
+
+    fn modal(&self, mut drive: DVector<f64>) -> DVector<f64> {
         for (value, capacity) in drive.iter_mut().zip(&self.capacities) {
             *value /= capacity.sqrt();
         }

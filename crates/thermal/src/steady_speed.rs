@@ -17,6 +17,8 @@ use nalgebra::DMatrix;
 /// Longest and shortest step, s.
 const LONGEST: f64 = 1e5;
 const SHORTEST: f64 = 1e-9;
+/// Rate that is none, over the largest of the matrix: a bearing at rest has modes that only store.
+const ROUNDING: f64 = 1e-12;
 /// First step, s.
 const FIRST: f64 = 1e-3;
 
@@ -136,7 +138,17 @@ impl<L: Losses> SteadySpeed<L> {
                 matrix[(row, column)] += slope / self.network.capacity(row);
             }
         }
-        largest_real_part(&matrix)
+        // a node that exchanges nothing with the others has no part in it
+        let alone = |node: &usize| matrix.row(*node).iter().all(|rate| *rate == 0.0);
+        let nodes: Vec<usize> = (0..n).filter(|node| !alone(node)).collect();
+        if nodes.is_empty() {
+            return 0.0;
+        }
+        let largest = largest_real_part(&matrix.select_rows(&nodes).select_columns(&nodes));
+        match largest.abs() > ROUNDING * matrix.amax() {
+            true => largest,
+            false => 0.0,
+        }
     }
 }
 

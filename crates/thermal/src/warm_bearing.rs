@@ -22,7 +22,7 @@ const ICE_POINT: f64 = 273.15;
 const LEAST_VISCOSITY: f64 = 2e-6;
 
 /// Bearings that are all alike.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WarmBearings {
     /// How many brake.
     pub count: f64,

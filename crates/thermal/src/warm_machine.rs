@@ -109,22 +109,22 @@ mod tests {
             bearings: vec![bearing(36e-3), bearing(50e-3)],
             rotor,
         };
-        let temperatures = [40.0; 14];
+        let temperatures = [40.0; 2 * NODES.len()];
         let mut moments = vec![0.0; machine.count()];
         machine.moments(1000.0, &temperatures, &mut moments);
         for (k, bearing) in machine.bearings.iter().enumerate() {
             // the rotor rolls in a bore that is wider by 2 %: power is that of the race, M(ω_race) ω_race
-            let alone = bearing.of_one(980.0, &temperatures[..7]);
+            let alone = bearing.of_one(980.0, &temperatures[..NODES.len()]);
             for (moment, alone) in moments[2 * k..].iter().zip(alone) {
                 assert!((moment * 1000.0 / (alone * 980.0) - 1.0).abs() < 1e-12);
             }
             for loss in 0..2 {
                 let share = |node| machine.share(2 * k + loss, node);
-                assert_eq!((0..14).map(share).sum::<f64>(), 1.0);
-                assert_eq!(share(7 * k + 4), 1.0);
+                assert_eq!((0..2 * NODES.len()).map(share).sum::<f64>(), 1.0);
+                assert_eq!(share(NODES.len() * k + 4), 1.0);
             }
         }
         assert!((moments[4] - (0.1 + 1e-2 + 1e-2)).abs() < 1e-12);
-        assert!((0..14).all(|node| machine.share(4, node) == 0.0));
+        assert!((0..2 * NODES.len()).all(|node| machine.share(4, node) == 0.0));
     }
 }

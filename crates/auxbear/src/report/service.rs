@@ -1,12 +1,14 @@
 //! A service: so many drops of this kind, so many of that, and what they do to the bearings together.
 //!
 //! ```text
-//!   fatigue    D = Σ n_k (D_drop + D_run-out)            share of L10; each run gives its own
+//!   fatigue    D = ‖Σ n_k (d_drop + d_run-out)‖           d the share of L10 at each point of both rings, ‖ ‖ the mean of
+//!                                                        powers 10/9 to the power 9/10
 //!   survival   0.9^(D^(10/9)) of each bearing, of which all have to survive
 //!   wear       Σ n_k depth_k
 //!   the rest   does not add up: the worst of all drops
 //! ```
-//! Damage is added where the load stands at one place of the outer ring, as under weight; where the load goes round that is too much.
+//! A point of a ring is the same in all drops: an outer ring that does not creep, and an inner one that begins each drop at one angle, the worst
+//! that it can do. D of n equal drops is n D; of drops that load other points it is less than the sum of theirs.
 //! Of a repeated run the mean of its members counts, with the spread that so many drops of it leave; of what does not add up the worst
 //! member. Every drop begins as its run
 //! did: lubricant and temperatures have recovered.
@@ -15,7 +17,7 @@
 
 use super::directory::read;
 use crate::problem::{Code, Problem};
-use physics::life::{bearing_damage, repetitions, survival};
+use physics::life::{bearing_damage, mean_damage, repetitions, survival};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -43,7 +45,7 @@ pub struct Mode {
     pub band: Option<f64>,
     /// Unit; "1" of shares, of which 1 is the limit.
     pub unit: &'static str,
-    /// What each kind of drop contributes, in the order of the occasions.
+    /// What each kind of drop would do alone, in the order of the occasions.
     pub parts: Vec<f64>,
 }
 
@@ -140,13 +142,13 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
         .map(|mode| mode.value.as_ref().ok().copied())
         .collect();
     // bearings in series, as the rings of one
-    let together = damages.map(|list| {
+    let all = damages.map(|list| {
         let each = list.iter().flat_map(|damage| (0..equal).map(|_| *damage));
         each.fold(0.0, bearing_damage)
     });
     Ok(Service {
-        survival: together.map(survival),
-        services: together.map(|damage| [0.99, 0.9, 0.5].map(|share| repetitions(damage, share))),
+        survival: all.map(survival),
+        services: all.map(|damage| [0.99, 0.9, 0.5].map(|share| repetitions(damage, share))),
         modes,
     })
 }
@@ -187,9 +189,13 @@ fn mode(
         }
         parts.push(if *adds { run.count * part } else { part });
     }
-    let total = match adds {
-        true => parts.iter().sum(),
-        false => parts.iter().copied().fold(0.0, f64::max),
+    let total = match (adds, *what == FATIGUE) {
+        (true, true) => together(runs, bearing).unwrap_or_else(|lacks| {
+            why.get_or_insert(lacks);
+            f64::NAN
+        }),
+        (true, false) => parts.iter().sum(),
+        (false, _) => parts.iter().copied().fold(0.0, f64::max),
     };
     Mode {
         bearing: bearing.to_string(),
@@ -202,7 +208,48 @@ fn mode(
     }
 }
 
+/// Places of a ring that the points of all runs divide.
+const PLACES: usize = 360;
+
+/// Share of L10 of all drops, added up at the points of both rings.
+fn together(runs: &[Run], bearing: &str) -> Result<f64, String> {
+    let mut rings = [vec![0.0; PLACES], vec![0.0; PLACES]];
+    for run in runs {
+        let mut known = false;
+        for part in ["", "run_out."] {
+            for (side, ring) in ["inner", "outer"].into_iter().zip(&mut rings) {
+                let name = format!("{part}{side}_life_share_by_point");
+                let points = run.list(bearing, &name);
+                known |= !points.is_empty();
+                for (place, sum) in ring.iter_mut().enumerate() {
+                    let point = points.get(place * points.len() / PLACES);
+                    *sum += run.count * point.copied().unwrap_or(0.0);
+                }
+            }
+        }
+        if !known {
+            let directory = run.directory.display();
+            return Err(format!("{directory} has no life by points of its rings"));
+        }
+    }
+    let [inner, outer] = rings.map(|ring| mean_damage(&ring));
+    Ok(bearing_damage(inner, outer))
+}
+
+fn named(bearing: &str, name: &str) -> String {
+    match bearing {
+        "" => name.to_string(),
+        bearing => format!("{bearing}.{name}"),
+    }
+}
+
 impl Run<'_> {
+    /// A list of numbers; empty where there is none.
+    fn list(&self, bearing: &str, name: &str) -> Vec<f64> {
+        let found = self.summary["quantities"][named(bearing, name)]["value"].as_array();
+        let numbers = found.into_iter().flatten().filter_map(Value::as_f64);
+        numbers.collect()
+    }
     /// Names of its bearings, of those that a drop has alone: an only one has none.
     fn bearings(&self) -> Vec<String> {
         const OF_BEARING: &str = "indentation_index";
@@ -227,10 +274,7 @@ impl Run<'_> {
     /// The first of these results that there is; the reason why it has no value.
     fn first(&self, bearing: &str, names: &[&str]) -> Result<Option<Found>, String> {
         for name in names {
-            let name = match bearing {
-                "" => (*name).to_string(),
-                bearing => format!("{bearing}.{name}"),
-            };
+            let name = named(bearing, name);
             let found = &self.summary["quantities"][&name];
             if found.is_null() {
                 continue;

@@ -120,7 +120,8 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.contact_angle=15 deg",
         ],
         "heat.atmosphere" => &["heat.surroundings=0.8 W/K"],
-        "contact.surface.wear_coefficient" => &["contact.width=12 mm"],
+        "contact.surface.wear_coefficient" | "heat.rotor_bodies" => &["contact.width=12 mm"],
+        "heat.mount_contact" | "heat.mount_surroundings" => &["heat.mount_capacity=30 J/K"],
         "bearing.inner_race_growth" => &["bearing.fits.bore_diameter=25 mm"],
         "bearing.unmounted_diametral_clearance" => &["bearing.fits.shaft_interference=5 um"],
         _ if path.starts_with("bearing.fits.housing_") || path == "bearing.fits.outer_diameter" => {

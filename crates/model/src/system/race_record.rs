@@ -222,7 +222,7 @@ impl RaceSeen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use physics::life::{RatedBearing, passages_per_turn};
+    use physics::life::{RatedBearing, bearing_damage, mean_damage, passages_per_turn};
 
     #[test]
     fn constant_motion_uses_the_life_of_the_standard() {
@@ -257,7 +257,9 @@ mod tests {
             grooves: [0.52; 2],
             contact_angle: 0.0,
         };
-        let found = rated.damage([&record.races[0].sums, &record.races[1].sums]);
+        let points = rated.by_point([&record.races[0].sums, &record.races[1].sums]);
+        let [inner, outer] = points.map(|ring| mean_damage(&ring));
+        let found = bearing_damage(inner, outer);
         // cubic mean where the load stands against the ring, mean of power 10/3 where it turns
         let mean = |power: f64| {
             let all = (0..3600).map(|k| load(2.0 * PI * f64::from(k) / 3600.0).powf(power));

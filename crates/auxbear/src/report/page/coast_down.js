@@ -1,6 +1,6 @@
 // The pictures of a run-out with heat: temperatures with their limits, clearance and ball loads, heat made, taken and stored.
 
-const NODE_COLOURS = { rotor: "#1f5fa8", inner_race: "#c2571a", balls: "#8a4fae", cage: "#2f8f5b", lubricant: "#8a7410", outer_race: "#b0306a", housing: "#5d6b78" };
+const NODE_COLOURS = { rotor: "#1f5fa8", inner_race: "#c2571a", balls: "#8a4fae", cage: "#2f8f5b", lubricant: "#8a7410", outer_race: "#b0306a", housing: "#5d6b78", rotor_core: "#6d9bd1", mount: "#a8895c" };
 
 // Hours of a long run-out, minutes of a shorter one, else seconds.
 function longTime(run) {
@@ -59,13 +59,18 @@ function closingSection(runs) {
   return section("closing", "Clearance", runs.map((run) => closingFigures(run, runs)));
 }
 
-function heatFigures(run, runs) {
-  const across = longTime(run).words;
+function takenFigure(run, runs, note) {
   const held = listOf(run, "held_times");
   const of = lastNumber(held) >= 7200 ? { factor: 1 / 3600, words: "time since the start, held [h]" } : { factor: 1, words: "time since the start, held [s]" };
   const taken = nodesOf(run)
     .map((node) => ({ label: wordsOf(node), colour: NODE_COLOURS[node], x: held.map((time) => time * of.factor), y: listOf(run, `${node}_powers_to_take`) }))
     .filter(({ y }) => y.length);
+  const title = shareOfRun(run, runs, "Heat that must be taken away");
+  return taken.length ? figure(title, note, curves({ series: taken, across: of.words, upright: "power [W]", height: 240 })) : figure(title, null, notInThisRun("no node reaches its limit", run));
+}
+
+function heatFigures(run, runs) {
+  const across = longTime(run).words;
   const moments = [
     ["speed_dependent", "M0, by speed and viscosity", HEAT_COLOURS.steady_moment],
     ["load_dependent", "M1, by load", HEAT_COLOURS.ball_slip],
@@ -75,9 +80,7 @@ function heatFigures(run, runs) {
   return [
     figure(shareOfRun(run, runs, "Heat made in all bearings"), null, curves({ series: overTime(run, "heat.power", { colour: SERIES_COLOURS.race }), across, upright: "power [W]", height: 220 })),
     figure(shareOfRun(run, runs, "Moments that brake"), "Of all bearings.", curves({ series: spent, across, upright: "moment [N mm]", height: 220 })),
-    taken.length
-      ? figure(shareOfRun(run, runs, "Heat that must be taken away"), "To hold every node at its limit from the moment it gets there, all bearings together: what a coolant must take from the node itself.", curves({ series: taken, across: of.words, upright: "power [W]", height: 240 }))
-      : figure(shareOfRun(run, runs, "Heat that must be taken away"), null, notInThisRun("no node reaches its limit", run)),
+    takenFigure(run, runs, "To hold every node at its limit from the moment it gets there, all bearings together: what a coolant must take from the node itself."),
     heatFlowFigure(run, runs, "All equal bearings together; what the gas takes leaves with it."),
   ];
 }
@@ -145,7 +148,14 @@ function runOutSection(runs) {
 
 // How warm the bodies of a bearing become while it is computed ball by ball or rolling.
 function warmingSection(runs) {
-  const figures = (run) => [temperatureFigures(run, runs)[0], columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null, heatFlowFigure(run, runs, "Of one bearing.")];
+  const note = "To hold every node of a bearing at its limit from the moment it gets there, by the heats of this run: what a coolant must take from the node itself.";
+  const figures = (run) => [
+    temperatureFigures(run, runs)[0],
+    columnOf(run, "bearing.clearance") ? closingFigures(run, runs)[0] : null,
+    columnOf(run, "heat.growth_rate") ? closingFigures(run, runs)[2] : null,
+    takenFigure(run, runs, note),
+    heatFlowFigure(run, runs, "Of one bearing."),
+  ];
   return section("warming", "Temperatures during the run", runs.map(figures));
 }
 

@@ -6,6 +6,7 @@ use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::drop::{AuxiliaryBearing, Drop, Spin};
+use crate::scenario::heat::RotorBodies;
 use crate::scenario::values::Values;
 use physics::unbalance::whirl;
 
@@ -54,6 +55,32 @@ impl Context<'_> {
                 return refuse("heat.network", self.text("heat.network"), needed);
             }
             self.warm(warm)?;
+            if warm.heat.rotor_bodies == RotorBodies::LayerAndCore && part.contact.width.is_none() {
+                let needed = "contact.width is needed beside it: without a landing surface there is no layer";
+                return refuse("heat.rotor_bodies", self.text("heat.rotor_bodies"), needed);
+            }
+            let layer = part
+                .layer_of_core()
+                .map_or(0.0, |(layer, area)| layer.capacity(area));
+            if warm.heat.rotor_capacity.is_some_and(|whole| whole <= layer) {
+                let needed = format!(
+                    "more than the {layer:.3} J/K of its surface layer is needed beside heat.rotor_bodies: its core is the rest"
+                );
+                return refuse(
+                    "heat.rotor_capacity",
+                    self.text("heat.rotor_capacity"),
+                    &needed,
+                );
+            }
+            for (path, given) in [
+                ("heat.mount_contact", warm.heat.mount_contact),
+                ("heat.mount_surroundings", warm.heat.mount_surroundings),
+            ] {
+                if given > 0.0 && warm.heat.mount_capacity.is_none() {
+                    let needed = "heat.mount_capacity is needed beside it: without one the mount is no body of its own";
+                    return refuse(path, self.text(path), needed);
+                }
+            }
         }
         let known = part.warm.is_some() && part.contact.width.is_some();
         if !known && !part.contact.friction_over_temperature.is_empty() {

@@ -13,7 +13,7 @@ use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::coast_down::RunOut;
 use crate::scenario::document::Document;
-use crate::scenario::heat::{Network, Warm};
+use crate::scenario::heat::{Network, RotorBodies, Warm};
 use crate::scenario::run::{Run, Until};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
@@ -21,6 +21,8 @@ use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 pub use shaft::{BearingPlace, Shaft};
+use std::f64::consts::PI;
+use thermal::layer::Layer;
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,6 +150,29 @@ pub struct Contact {
     pub modulus: f64,
     /// Wear coefficient k, m²/N.
     pub wear_coefficient: Option<f64>,
+}
+
+/// Depth of the rotor's layer where none is given, m.
+const ROTOR_DEPTH: f64 = 10e-3;
+
+impl Contact {
+    /// What of the rotor its friction heat warms first.
+    pub fn rotor_layer(&self) -> Layer {
+        let Metal { material, layer } = self.metals[0];
+        let depth = layer.unwrap_or(ROTOR_DEPTH);
+        Layer::new(material, depth.min(0.5 * self.bore_diameter))
+    }
+}
+
+impl AuxiliaryBearing {
+    /// The rotor's surface layer and its area, m², where it is one body of the network and its core another.
+    pub fn layer_of_core(&self) -> Option<(Layer, f64)> {
+        let warm = self.warm.as_ref()?;
+        let width = self.contact.width?;
+        let diameter = self.contact.bore_diameter - 2.0 * self.contact.radial_air_clearance;
+        let apart = warm.heat.rotor_bodies == RotorBodies::LayerAndCore;
+        apart.then(|| (self.contact.rotor_layer(), PI * diameter * width))
+    }
 }
 
 /// What is below a surface that rubs.

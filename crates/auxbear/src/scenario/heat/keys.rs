@@ -1,8 +1,8 @@
 //! The part of the table of keys that describes what warms of a bearing, and what the heat passes through.
 
-use crate::scenario::heat::{Atmosphere, CageMaterial, Feedback, Network};
+use crate::scenario::heat::{Atmosphere, CageMaterial, Feedback, Network, RotorBodies};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
-use crate::scenario::system::{SystemName, WARMING, WITH_NETWORK};
+use crate::scenario::system::{FALLING, SystemName, WARMING, WITH_NETWORK};
 use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
@@ -205,6 +205,65 @@ pub(crate) const KEYS: &[Key] = &[
     )
     .not_negative()
     .assumed("0 W/K", "the rotor gives its heat to the bearings alone, as in vacuum")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.shaft_expansion",
+        Kind::Quantity("1/K"),
+        "16e-6 1/K",
+        "Thermal expansion of shaft or sleeve in the inner ring: bearing.fits.shaft_interference follows the temperatures with it.",
+    )
+    .not_negative()
+    .default("11.5e-6 1/K", "bearing steel, makers: 11.0e-6 to 12.5e-6 1/K")
+    .only(WARMING)
+    .when(FOLLOWED),
+    Key::new(
+        "heat.housing_expansion",
+        Kind::Quantity("1/K"),
+        "23e-6 1/K",
+        "Thermal expansion of the housing around the outer ring: bearing.fits.housing_interference follows the temperatures with it. Aluminium has 23e-6 1/K.",
+    )
+    .not_negative()
+    .default("11.5e-6 1/K", "a steel housing")
+    .only(WARMING)
+    .when(FOLLOWED),
+    Key::new(
+        "heat.rotor_bodies",
+        Kind::Word(RotorBodies::WORDS),
+        "layer and core",
+        "Whether the rotor is one body of the network, or its surface layer (contact.surface.rotor_layer on contact.width) and its core, k A/(L/2) between their means.",
+    )
+    .default("one", "its whole capacity, spread at once: right from a few seconds on")
+    .only(FALLING)
+    .when(FOLLOWED),
+    Key::new(
+        "heat.mount_capacity",
+        Kind::Quantity("J/K"),
+        "30 J/K",
+        "Heat capacity of the mount below the housing of one bearing, which its damping warms.",
+    )
+    .positive()
+    .optional("the mount is no body of its own: its damping warms the housing")
+    .only(FALLING)
+    .when(FOLLOWED),
+    Key::new(
+        "heat.mount_contact",
+        Kind::Quantity("W/K"),
+        "0.1 W/K",
+        "Conductance from housing to mount, beside heat.mount_capacity: rings of elastomer have about 0.03 W/K, wire mesh what its maker says.",
+    )
+    .not_negative()
+    .optional("0 W/K: the mount keeps what its damping makes, the hottest that it can get")
+    .only(FALLING)
+    .when(FOLLOWED),
+    Key::new(
+        "heat.mount_surroundings",
+        Kind::Quantity("W/K"),
+        "1 W/K",
+        "Conductance from the mount to its surroundings, beside heat.mount_capacity.",
+    )
+    .not_negative()
+    .optional("0 W/K: it gives its heat to the housing alone")
+    .only(FALLING)
     .when(FOLLOWED),
     Key::new(
         "heat.contamination",

@@ -5,13 +5,22 @@ pub(crate) mod derive;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::ball_material;
+use crate::scenario::bearing::fits::{Fits, SHAFT_FIT};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use physics::ring::PressFit;
 use physics::viscosity::Viscosity;
+use thermal::bearing_network::{
+    BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
+};
+use thermal::clearance::Seat;
+
+/// Ice point, K.
+pub(crate) const ICE_POINT: f64 = 273.15;
 
 words! {
     /// Whether temperatures are followed.
@@ -42,6 +51,16 @@ words! {
         Viscosity = "viscosity",
         /// Nothing.
         None = "none",
+    }
+}
+
+words! {
+    /// Bodies of one temperature that the rotor is.
+    pub enum RotorBodies {
+        /// One.
+        One = "one",
+        /// Its surface layer, and what is deeper.
+        LayerAndCore = "layer and core",
     }
 }
 
@@ -117,6 +136,8 @@ pub struct Warm {
     pub viscosity_points: Vec<[f64; 2]>,
     /// Radial load on it, N.
     pub radial_load: f64,
+    /// Seats of its rings on shaft and in housing, where they are known.
+    pub seats: [Option<Seat>; 2],
     /// What warms.
     pub heat: Heat,
 }
@@ -158,6 +179,18 @@ pub struct Heat {
     pub surroundings: Option<f64>,
     /// Rotor to its surroundings, W/K.
     pub rotor_surroundings: f64,
+    /// Expansion of shaft or sleeve, 1/K.
+    pub shaft_expansion: f64,
+    /// Expansion of the housing, 1/K.
+    pub housing_expansion: f64,
+    /// Bodies that the rotor is.
+    pub rotor_bodies: RotorBodies,
+    /// Of the mount, J/K, where it is a body of its own.
+    pub mount_capacity: Option<f64>,
+    /// Housing to mount, W/K.
+    pub mount_contact: f64,
+    /// Mount to its surroundings, W/K.
+    pub mount_surroundings: f64,
     /// Contamination factor e_C.
     pub contamination: f64,
     /// Limit of the races, K.
@@ -197,8 +230,17 @@ impl Warm {
                 .rows("bearing.moment.viscosity_points")
                 .unwrap_or_default(),
             radial_load,
+            seats: seats(values, &heat),
             heat,
         }
+    }
+
+    /// The same whose inner ring may sit on the rotor itself: where that does not slide in it.
+    pub(crate) fn on_rotor(mut self, sits: bool) -> Warm {
+        if let (Some(seat), true) = (&mut self.seats[0], sits) {
+            seat.nodes[0] = ROTOR;
+        }
+        self
     }
 
     /// Viscosity of its lubricant, where two temperatures are given.
@@ -207,6 +249,21 @@ impl Warm {
             [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
             _ => None,
         }
+    }
+
+    /// Limits of the nodes of its network that have one, °C.
+    pub fn limits(&self) -> [Option<f64>; NODES.len()] {
+        let heat = &self.heat;
+        let of = |limit: f64| Some(limit - ICE_POINT);
+        let mut limits = [None; NODES.len()];
+        for node in [INNER_RACE, BALLS, OUTER_RACE] {
+            limits[node] = of(heat.race_limit);
+        }
+        if self.cage_mass > 0.0 {
+            limits[CAGE] = of(heat.cage_limit);
+        }
+        limits[LUBRICANT] = of(heat.lubricant_limit);
+        limits
     }
 
     /// What a friction law needs to know of the bearing.
@@ -218,6 +275,48 @@ impl Warm {
             ball_material: self.ball_material,
         }
     }
+}
+
+/// Expansion of bearing steel, 1/K. Source: heat-and-life, section 9.
+pub(crate) const STEEL_EXPANSION: f64 = 11.5e-6;
+
+/// Seats of the rings whose fits are given; the inner one on a sleeve that is one body with the ring.
+fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
+    let known = values
+        .number("bearing.pitch_diameter")
+        .zip(values.number("bearing.ball_diameter"))
+        .filter(|_| values.number(SHAFT_FIT).is_some());
+    let Some((pitch, ball)) = known else {
+        return [None; 2];
+    };
+    let fits = Fits::from_values(values);
+    let seat = |fit: PressFit, nodes, expansions, growth: fn(&PressFit) -> f64| {
+        let unit = PressFit {
+            interference: 1.0,
+            ..fit
+        };
+        (fit.interference != 0.0).then(|| Seat {
+            interference: fit.interference,
+            diameter: 2.0 * fit.joint_radius,
+            nodes,
+            expansions,
+            closes: 2.0 * growth(&unit),
+        })
+    };
+    let shaft = fits.on_shaft(pitch - ball).and_then(|fit| {
+        let expansions = [heat.shaft_expansion, STEEL_EXPANSION];
+        seat(fit, [INNER_RACE; 2], expansions, PressFit::outside_growth)
+    });
+    let housing = fits.in_housing(pitch + ball).and_then(|fit| {
+        let expansions = [STEEL_EXPANSION, heat.housing_expansion];
+        seat(
+            fit,
+            [OUTER_RACE, HOUSING],
+            expansions,
+            PressFit::bore_shrinking,
+        )
+    });
+    [shaft, housing]
 }
 
 /// Depth of a shoulder below the pitch circle, over the diameter of a ball.
@@ -251,6 +350,12 @@ impl Heat {
             outer_seat: heat.number("outer_seat"),
             surroundings: heat.maybe("surroundings"),
             rotor_surroundings: heat.number("rotor_surroundings"),
+            shaft_expansion: heat.maybe("shaft_expansion").unwrap_or(STEEL_EXPANSION),
+            housing_expansion: heat.maybe("housing_expansion").unwrap_or(STEEL_EXPANSION),
+            rotor_bodies: heat.chosen("rotor_bodies").unwrap_or(RotorBodies::One),
+            mount_capacity: heat.maybe("mount_capacity"),
+            mount_contact: heat.maybe("mount_contact").unwrap_or(0.0),
+            mount_surroundings: heat.maybe("mount_surroundings").unwrap_or(0.0),
             contamination: heat.number("contamination"),
             race_limit: heat.number("race_limit"),
             cage_limit: heat.number("cage_limit"),

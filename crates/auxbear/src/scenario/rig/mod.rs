@@ -352,7 +352,8 @@ impl Rig {
                 seed: logger.count("seed"),
             },
             warm: (values.chosen("heat.network") == Some(Network::On))
-                .then(|| Box::new(Warm::from_values(values, load.number("radial_load")))),
+                .then(|| Warm::from_values(values, load.number("radial_load")).on_rotor(true))
+                .map(Box::new),
             bearing: bearing(values),
             run: Run::from_values(values),
         }

@@ -114,8 +114,10 @@ impl SpinUp {
         let run = Run::from_values(values);
         let load = radial_load.at(run.duration);
         let followed = values.chosen("heat.network") == Some(Network::On);
+        let slides = section.chosen("kind") == Some(DriveKind::SlidingRotor);
+        let warm = || Warm::from_values(values, load).on_rotor(!slides);
         SpinUp {
-            warm: followed.then(|| Box::new(Warm::from_values(values, load))),
+            warm: followed.then(|| Box::new(warm())),
             radial_load,
             load_direction: section.number("load_direction"),
             drive: drive(&section),

@@ -11,7 +11,7 @@
 
 use crate::scenario::{Bearing, Feedback, Moment, Traction, Warm};
 use crate::simulate::bearing::build::bearing as constants_of;
-use crate::simulate::bearing::contacts::{BallContacts, ball_contacts};
+use crate::simulate::bearing::contacts::ball_contacts;
 use crate::simulate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
 use model::system::energy::{Content, Flows};
@@ -24,6 +24,8 @@ use thermal::load_zone::LoadZone;
 const LEAST_VISCOSITY: f64 = 2e-6;
 /// Temperatures that the traction of oil films is known at, °C.
 const FILMS: (f64, f64) = (30.0, 100.0);
+/// Contact angle beyond which balls roll off the shoulder, rad.
+const STEEPEST: f64 = 1.0;
 /// Changes that matter: of the clearance, m; of the viscosity over it.
 const CLOSES: f64 = 20e-9;
 const THINS: f64 = 2e-3;
@@ -52,7 +54,8 @@ impl Follows {
             zone,
             start: warm.heat.start_temperature - ICE_POINT,
         };
-        (follows.thins(bearing) || follows.closes(bearing)).then_some(follows)
+        let any = follows.thins(bearing) || follows.closes(bearing) || follows.tilts(bearing);
+        any.then_some(follows)
     }
 
     /// Whether anything of it depends on the temperature of its lubricant.
@@ -68,9 +71,32 @@ impl Follows {
         self.feedback == Feedback::Full && bearing.contact_angle == 0.0
     }
 
+    /// Whether its contact angle follows, as that of a pair that springs press.
+    pub fn tilts(&self, bearing: &Bearing) -> bool {
+        self.feedback == Feedback::Full && bearing.contact_angle > 0.0
+    }
+
+    /// Contact angle at these temperatures (°C), rad: cos α = 1 − P_d/(2A), of which P_d changes; A = (f_i + f_o − 1) D.
+    pub fn contact_angle(&self, bearing: &Bearing, temperatures: &[f64]) -> f64 {
+        let grooves = bearing.inner_groove_curvature + bearing.outer_groove_curvature - 1.0;
+        let opened = self.changes(temperatures).iter().sum::<f64>();
+        let cosine = bearing.contact_angle.cos() - 0.5 * opened / (grooves * bearing.ball_diameter);
+        cosine.clamp(STEEPEST.cos(), 1.0).acos()
+    }
+
     /// Diametral clearance at these temperatures (°C), m.
     pub fn clearance(&self, temperatures: &[f64]) -> f64 {
         self.zone.clearance_at(temperatures)
+    }
+
+    /// What inner ring, balls and outer ring have added to it at these temperatures (°C), m.
+    pub fn changes(&self, temperatures: &[f64]) -> [f64; 3] {
+        self.zone.changes_at(temperatures)
+    }
+
+    /// Whether a ring that was pressed is loose on its shaft, or in its housing.
+    pub fn loose(&self, temperatures: &[f64]) -> [bool; 2] {
+        self.zone.loose(temperatures)
     }
 
     /// Viscosity of the lubricant at these temperatures (°C), m²/s; 1 where none is known.
@@ -98,6 +124,9 @@ impl Follows {
                     warm.clamp(least.min(film.temperature), most.max(film.temperature));
             }
         }
+        if self.tilts(bearing) {
+            bearing.contact_angle = self.contact_angle(bearing, temperatures);
+        }
         if self.closes(bearing) {
             let clearance = self.clearance(temperatures);
             bearing.operating_diametral_clearance = clearance;
@@ -121,7 +150,6 @@ pub(crate) struct FollowedBearing {
     follows: Follows,
     /// As it is at the start.
     bearing: Bearing,
-    contacts: BallContacts,
     gravity: Vec2<f64>,
 }
 
@@ -134,6 +162,8 @@ pub(crate) struct State {
     pub least: f64,
     /// When it closed, s.
     pub closed: Option<f64>,
+    /// When a pressed ring became loose on its shaft, in its housing, s.
+    pub loose: [Option<f64>; 2],
 }
 
 impl FollowedBearing {
@@ -142,7 +172,6 @@ impl FollowedBearing {
         Some(FollowedBearing {
             follows: Follows::of(warm?, bearing)?,
             bearing: bearing.clone(),
-            contacts: ball_contacts(bearing).ok()?,
             gravity,
         })
     }
@@ -155,7 +184,8 @@ impl FollowedBearing {
         let follows = &self.follows;
         let closes = (follows.clearance(nodes) - last.clearance).abs() > CLOSES;
         let thins = (follows.viscosity(nodes) / last.viscosity - 1.0).abs() > THINS;
-        closes && follows.closes(&self.bearing) || thins && follows.thins(&self.bearing)
+        let grows = follows.closes(&self.bearing) || follows.tilts(&self.bearing);
+        closes && grows || thins && follows.thins(&self.bearing)
     }
 
     /// Its constants at these temperatures of its nodes, °C, at a time, s; why no law holds there.
@@ -167,16 +197,23 @@ impl FollowedBearing {
     ) -> Result<BearingConstants, String> {
         let mut bearing = self.bearing.clone();
         self.follows.condition(&mut bearing, nodes);
-        let constants = constants_of(&bearing, &self.contacts, self.gravity)
+        let constants = ball_contacts(&bearing)
+            .and_then(|contacts| constants_of(&bearing, &contacts, self.gravity))
             .map_err(|problem| problem.found)?;
         let clearance = self.follows.clearance(nodes);
         let closed = last.and_then(|last| last.closed);
+        let loose = self.follows.loose(nodes);
+        let loose = [0, 1].map(|seat| {
+            let before = last.and_then(|last| last.loose[seat]);
+            before.or_else(|| loose[seat].then_some(time))
+        });
         let closes = clearance < 0.0 && self.bearing.operating_diametral_clearance >= 0.0;
         *last = Some(State {
             clearance,
             viscosity: self.follows.viscosity(nodes),
             least: last.map_or(clearance, |last| last.least.min(clearance)),
             closed: closed.or_else(|| closes.then_some(time)),
+            loose,
         });
         Ok(constants)
     }

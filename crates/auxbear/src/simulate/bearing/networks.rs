@@ -4,7 +4,8 @@ use crate::problem::Problem;
 use crate::scenario::{Bearing, Guidance, Moment, Separation, Warm};
 use crate::simulate::coast_down::build::{ICE_POINT, losses, network};
 use model::bearing_heat::{WarmBearing, shares};
-use thermal::bearing_network::{INNER_RACE, OUTER_RACE};
+use thermal::bearing_network::{HOUSING, INNER_RACE, MOUNT, OUTER_RACE};
+use thermal::warm_bearing::BearingLoad;
 
 /// Viscosity of a lubricant of which nothing is given, m²/s: grease or oil of 50 mm²/s.
 const ASSUMED_VISCOSITY: f64 = 50e-6;
@@ -27,22 +28,28 @@ pub(crate) fn built(
         Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. } => *viscosity,
         Moment::None | Moment::Measured { .. } => ASSUMED_VISCOSITY,
     };
-    let moment = match &warm.moment {
-        Moment::Palmgren { .. } => Some(losses(warm, &zone, oil, 1)?.moment),
+    let mut losses = match &warm.moment {
+        Moment::Palmgren { .. } => Some(losses(warm, &zone, oil, 1)?),
         _ => None,
     };
+    // at an angle nothing closes
+    if let (Some(losses), true) = (&mut losses, bearing.contact_angle != 0.0) {
+        losses.load = BearingLoad::Radial(warm.radial_load);
+    }
     Ok(Some(Box::new(WarmBearing {
         start: warm.heat.start_temperature - ICE_POINT,
         loads: zone.loads(zone.clearance.at_reference),
         radial_load: warm.radial_load,
         oil: oil.map(|oil| oil.line()),
         viscosity: at_start,
-        moment,
+        losses,
         shares: shares(
             warm.ball_material.heat(),
             warm.heat.cage_material.heat(),
             land,
+            if network.has(MOUNT) { MOUNT } else { HOUSING },
         ),
+        limits: warm.limits(),
         network,
     })))
 }

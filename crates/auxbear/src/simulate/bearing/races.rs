@@ -1,21 +1,30 @@
 //! What the races have seen of their balls: flashes where balls skid, dents, rolling fatigue.
 
 use crate::result::list::{List, NOT_GIVEN, Origin};
-use crate::result::outcome::{Warning, warning};
+use crate::result::outcome::{Value, Warning, warning};
 use crate::scenario::{Bearing, Warm};
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::severity::STEEL_CHANGES;
 use crate::simulate::bearing::warm::Followed;
 use crate::simulate::coast_down::build::ICE_POINT;
 use model::bearing::BearingConstants;
+use model::system::layout::of_part;
 use model::system::race_record::{RaceRecord, RaceSeen};
 use physics::life::{
-    RatedBearing, iso_life_factor, reference_viscosity, repetitions, temperature_factor,
+    RatedBearing, bearing_damage, iso_life_factor, mean_damage, reference_viscosity, repetitions,
+    temperature_factor,
 };
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, OUTER_RACE};
 
 const SIDES: [&str; 2] = ["inner", "outer"];
+/// How the names of life by points end.
+pub(crate) const LIFE_BY_POINT: &str = "life_share_by_point";
+
+/// Share of the life of a bearing by that at the points of its rings.
+pub(crate) fn used_by([inner, outer]: &[Vec<f64>; 2]) -> f64 {
+    bearing_damage(mean_damage(inner), mean_damage(outer))
+}
 
 impl BearingRun<'_> {
     /// What the races have seen of balls that may slide.
@@ -73,13 +82,15 @@ impl List {
             .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"));
         let used = |(rating, record): (f64, &RaceRecord)| {
             let [inner, outer] = &record.races;
-            rated(bearing, rating).damage([&inner.sums, &outer.sums])
+            rated(bearing, rating).by_point([&inner.sums, &outer.sums])
         };
         let none = || "the bearing has no balls".to_string();
         let known = rating.and_then(|rating| Ok((rating, record.ok_or_else(none)?)));
-        let share = known.map(used);
+        let points = known.map(used);
+        let share = points.as_ref().map(used_by).map_err(String::clone);
         self.number("life_share", "1", share.clone(), &LIFE);
         let Some((followed, load, speed)) = lubricated else {
+            self.life_by_point("", points);
             return self.drops_until(&share);
         };
         let known = || format!("bearing.static_load_rating or viscosity_points{NOT_GIVEN}");
@@ -92,9 +103,22 @@ impl List {
                 let hot = warmest(INNER_RACE).max(warmest(OUTER_RACE));
                 life_factor(followed.given, rating, load, kappa, hot)
             });
-        let with = (share.clone()).and_then(|share| Ok(share / factor.ok_or_else(known)?));
+        let factor = factor.ok_or_else(known);
+        let with = (share.clone()).and_then(|share| Ok(share / factor.clone()?));
         self.number("life_share_with_lubricant", "1", with.clone(), &LUBRICATED);
+        let lasts = factor.unwrap_or(1.0);
+        let points = points
+            .map(|rings| rings.map(|ring| ring.into_iter().map(|damage| damage / lasts).collect()));
+        self.life_by_point("", points);
         self.drops_until(&with.or(share));
+    }
+
+    /// What it takes at each point of both rings, where it is known: drops of one bearing add up there.
+    pub fn life_by_point(&mut self, bearing: &str, points: Result<[Vec<f64>; 2], String>) {
+        for (side, points) in SIDES.into_iter().zip(points.into_iter().flatten()) {
+            let name = of_part(bearing, &format!("{side}_{LIFE_BY_POINT}"));
+            self.push(&name, "1", Value::List(points), &BY_POINT);
+        }
     }
 
     /// After how many such drops bearings have failed by fatigue.
@@ -168,6 +192,13 @@ const LIFE: Origin = Origin {
     source: "heat-and-life, section 8; crates/physics/src/life.rs, crates/model/src/system/race_record.rs",
     valid: "Q below that of half the dynamic rating; without lubricant factor (0.1 to 50). Blows that dent count by \
             largest_indentation",
+};
+const BY_POINT: Origin = Origin {
+    law: "S/(z 10⁶ Q_c³), S = Σ Q³ over the balls that pass a point; of the outer ring from the frame's x axis on, of the inner one from its angle 0 \
+          at the release, one value where it is the same all round. life_share_with_lubricant, else life_share, is the mean of their powers 10/9 to the \
+          power 9/10, of both rings",
+    source: "heat-and-life, section 8; crates/physics/src/life.rs",
+    valid: "as life_share; of repeated runs the mean of the members. Drops of one bearing add up point by point (auxbear service)",
 };
 const DROPS: Origin = Origin {
     law: "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \

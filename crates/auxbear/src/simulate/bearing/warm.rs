@@ -6,10 +6,10 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::warnings::beyond;
+use crate::simulate::coast_down::warnings::{away, beyond, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
-use thermal::bearing_network::{CAGE, GROUNDS, LUBRICANT, NODES};
+use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -39,8 +39,7 @@ impl<'a> Followed<'a> {
 
     /// The nodes that are there: a full complement has no cage.
     fn nodes(&self) -> impl Iterator<Item = (usize, &'static str)> {
-        let with_cage = self.given.cage_mass > 0.0;
-        (NODES.into_iter().enumerate()).filter(move |(node, _)| *node != CAGE || with_cage)
+        (NODES.into_iter().enumerate()).filter(|(node, _)| self.part.network.has(*node))
     }
 }
 
@@ -52,6 +51,7 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
         let name = format!("peak_{name}_temperature");
         list.number(&name, "K", Ok(peak + ICE_POINT), &PEAK);
     }
+    limits(followed, list);
     let stored_in = followed.part.stored(&warmth.temperatures);
     let stored: f64 = stored_in.iter().sum();
     if followed.closes() {
@@ -71,6 +71,14 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
             closed.ok_or_else(|| why.to_string()),
             &CLEARANCE,
         );
+        let growth = warmth.growth.largest.ok_or_else(|| {
+            match followed.part.losses {
+                Some(_) => "the balls are not preloaded",
+                None => "only Palmgren's law says how a preload brakes",
+            }
+            .to_string()
+        });
+        list.peak_growth(growth);
     }
     list.number("heat_made", "J", Ok(warmth.made), &HEAT);
     list.number("stored_heat", "J", Ok(stored), &HEAT);
@@ -98,7 +106,59 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
     }
 }
 
+/// When nodes passed their limits, and what had to be taken from them to hold those.
+fn limits(followed: &Followed, list: &mut List) {
+    let warmth = followed.warmth;
+    let held = warmth.held.as_deref();
+    for (node, name) in followed.nodes() {
+        let Some(limit) = followed.part.limits[node] else {
+            continue;
+        };
+        let below = limit - warmth.peaks[node].0;
+        let never = || format!("it stays {below:.1} K below its limit");
+        let taken = held.filter(|held| held.taken[node] > 0.0);
+        let taken = taken.map(|held| [held.most[node], held.taken[node]]);
+        list.limit("", name, warmth.passed[node].ok_or_else(never), taken);
+    }
+    let spans = || held.iter().flat_map(|held| &held.course);
+    list.held_times(spans().map(|(time, _)| *time).collect());
+    for (node, name) in followed.nodes() {
+        if held.is_some_and(|held| held.taken[node] > 0.0) {
+            let powers = spans().map(|(_, powers)| powers[node]).collect();
+            list.powers_to_take("", name, powers);
+        }
+    }
+}
+
 impl List {
+    /// Of a node with a limit: when it passes it, s, or why not; the largest power, W, and all the heat, J, to be taken to hold it.
+    pub(crate) fn limit(
+        &mut self,
+        bearing: &str,
+        node: &str,
+        passed: Result<f64, String>,
+        taken: Option<[f64; 2]>,
+    ) {
+        let of = |words: &str| of_part(bearing, &format!("{node}_{words}"));
+        let why = passed.clone().err().unwrap_or_default();
+        let part = |which: usize| taken.map(|taken| taken[which]).ok_or_else(|| why.clone());
+        self.awaited(&of("limit_time"), passed, &LIMIT);
+        self.number(&of("heat_to_take"), "W", part(0), &TAKE);
+        self.number(&of("energy_to_take"), "J", part(1), &TAKE);
+    }
+    /// The largest rate at which a disturbance of the temperatures grows, 1/s.
+    pub(crate) fn peak_growth(&mut self, rate: Result<f64, String>) {
+        self.number("peak_growth_rate", "1/s", rate, &GROWTH);
+    }
+    /// The instants of those powers, s.
+    pub(crate) fn held_times(&mut self, times: Vec<f64>) {
+        self.push("held_times", "s", Value::List(times), &TAKE);
+    }
+    /// Power that must be taken from a node over these instants, W.
+    pub(crate) fn powers_to_take(&mut self, bearing: &str, node: &str, powers: Vec<f64>) {
+        let name = of_part(bearing, &format!("{node}_powers_to_take"));
+        self.push(&name, "W", Value::List(powers), &TAKE);
+    }
     /// Heats made in, kept in and given to the surroundings by a node of a bearing, J.
     pub(crate) fn node_heats(&mut self, bearing: &str, node: usize, [made, kept, given]: [f64; 3]) {
         let mut add = |words: &str, heat: f64| {
@@ -135,31 +195,57 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
             move |row| warmth.at(part, node, row.time) + ICE_POINT,
         );
     }
+    let nodes_at = move |time: f64| -> Vec<f64> {
+        let nodes = 0..NODES.len();
+        nodes.map(|node| warmth.at(part, node, time)).collect()
+    };
+    let bearing = followed.bearing;
+    let tilts = (followed.follows()).filter(|follows| follows.tilts(bearing));
+    if let Some(follows) = tilts {
+        table.add(
+            "bearing.contact_angle",
+            "rad",
+            "contact angle of a pair that springs press",
+            move |row| follows.contact_angle(bearing, &nodes_at(row.time)),
+        );
+    }
     if let (true, Some(follows)) = (followed.closes(), followed.follows()) {
         table.add(
             "bearing.clearance",
             "m",
             "diametral clearance; negative is preload",
-            move |row| {
-                let all: Vec<f64> = (0..NODES.len())
-                    .map(|node| warmth.at(part, node, row.time))
-                    .collect();
-                follows.clearance(&all)
-            },
+            move |row| follows.clearance(&nodes_at(row.time)),
         );
+        if warmth.growth.largest.is_some() {
+            table.add(
+                "heat.growth_rate",
+                "1/s",
+                "rate at which a disturbance of the temperatures grows while the balls are preloaded; above 0 they run away",
+                move |row| warmth.growth.at(row.time),
+            );
+        }
     }
 }
 
 /// What became hotter than it may, closed, or does not follow.
 pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     let mut list: Vec<(f64, Warning)> = too_hot(followed).into_iter().collect();
-    list.extend(closed(followed));
+    list.extend(runs_away(followed).or_else(|| closed(followed)));
+    list.extend(loose(followed));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
     let peak = followed.warmth.peaks[LUBRICANT];
     let oil = followed.given.viscosity();
     let beyond = oil.and_then(|oil| beyond(&oil, peak, followed.part.start));
     list.extend(beyond.map(|warning| (peak.0, warning)));
     list
+}
+
+/// A bearing that its own warmth closes further and further.
+fn runs_away(followed: &Followed) -> Option<(f64, Warning)> {
+    let growth = &followed.warmth.growth;
+    let ((time, nodes), rate) = (growth.runs_away?, growth.largest?);
+    let changes = followed.follows()?.changes(&nodes);
+    Some((rate, away(time, rate, changes)))
 }
 
 /// A clearance that closes.
@@ -174,6 +260,22 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
     Some((-least, warning("AB2312", text)))
 }
 
+/// A ring that loses its fit.
+fn loose(followed: &Followed) -> Option<(f64, Warning)> {
+    let times = followed.state?.loose;
+    let seats = [
+        "the inner ring on its shaft",
+        "the outer ring in its housing",
+    ];
+    let (time, seat) = (times.into_iter().zip(seats))
+        .filter_map(|(time, seat)| Some((time?, seat)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let text = format!(
+        "After {time:.3} s {seat} has lost its interference to unequal warmth: it may creep, and conducts like a gap. This run follows neither."
+    );
+    Some((1.0 / (1.0 + time), warning("AB2321", text)))
+}
+
 /// What of a bearing does not follow its temperatures, though it is asked to.
 fn not_followed(followed: &Followed) -> Option<Warning> {
     let feedback = followed.given.heat.feedback;
@@ -181,8 +283,8 @@ fn not_followed(followed: &Followed) -> Option<Warning> {
         Some((time, why)) => format!(
             "From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}."
         ),
-        None if feedback == Feedback::Full && !followed.closes() => "The preload of an angular contact bearing does not follow its temperatures: \
-             a rigid one rises as the inner ring warms."
+        None if feedback == Feedback::Full && !followed.closes() => "The contact angle follows the temperatures, and the preload does not: it \
+             is that of springs. A rigid one rises as the inner ring warms."
             .to_string(),
         None if feedback != Feedback::None
             && !(followed.follows().iter()).any(|follows| follows.thins(followed.bearing)) =>
@@ -197,24 +299,20 @@ fn not_followed(followed: &Followed) -> Option<Warning> {
 }
 
 fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
-    let heat = &followed.given.heat;
-    let limit = |name: &str| match name {
-        "inner_race" | "balls" | "outer_race" => Some(heat.race_limit - ICE_POINT),
-        "cage" => Some(heat.cage_limit - ICE_POINT),
-        "lubricant" => Some(heat.lubricant_limit - ICE_POINT),
-        _ => None,
-    };
     let hottest = followed.nodes().filter_map(|(node, name)| {
         let (peak, time) = followed.warmth.peaks[node];
-        let above = peak - limit(name)?;
+        let above = peak - followed.part.limits[node]?;
         (above > 0.0).then_some((above, name, peak, time))
     });
     let hottest = hottest.max_by(|a, b| a.0.total_cmp(&b.0));
     let told = |(above, name, peak, time): (f64, &str, f64, f64)| {
+        let held = followed.warmth.held.as_deref();
+        let taken = held.map(|held| to_take(held.most_of_all, held.taken.iter().sum()));
         let text = format!(
             "Too hot: {} at {peak:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. \
-             Hardness, cage and lubricant may change there; this run does not follow that.",
-            name.replace('_', " ")
+             Hardness, cage and lubricant may change there; this run does not follow that.{}",
+            name.replace('_', " "),
+            taken.unwrap_or_default()
         );
         (above, warning("AB2310", text))
     };
@@ -226,6 +324,23 @@ const PEAK: Origin = Origin {
     source: "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; heat-and-life, sections 2 and 3",
     valid: "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
             factor of two. What of the motion follows: heat.feedback",
+};
+const LIMIT: Origin = Origin {
+    law: "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
+    source: "makers' catalogues",
+    valid: "as the temperatures",
+};
+const TAKE: Origin = Origin {
+    law: "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \
+          sum. By the heats of this run, or by a second run-out",
+    source: "crates/thermal/src/held.rs; heat-and-life, section 5",
+    valid: "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
+            of a run-out all bearings together",
+};
+const GROWTH: Origin = Origin {
+    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
+    source: "crates/thermal/src/steady_speed.rs; heat-and-life, section 5",
+    valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
 const RINGS: Origin = Origin {
     law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",
@@ -248,7 +363,7 @@ const AT_NODE: Origin = Origin {
     valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
 };
 const BY_NODE: Origin = Origin {
-    law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race and housing, in this order",
+    law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",
     source: "shares of crates/model/src/bearing_heat.rs; heat-and-life, section 3",
     valid: "as heat_made: of each loss the sum is the ledger's, the shares are constants or follow the state",
 };

@@ -1,7 +1,8 @@
 //! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
 
 use crate::problem::{Code, Problem};
-use crate::scenario::heat::SHOULDER;
+pub(crate) use crate::scenario::heat::ICE_POINT;
+use crate::scenario::heat::{SHOULDER, STEEL_EXPANSION};
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use crate::simulate::coast_down::rows::{End, Row};
 use physics::heat_conduction::STEEL_HEAT;
@@ -20,14 +21,10 @@ use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
 
-/// Ice point, K.
-pub(crate) const ICE_POINT: f64 = 273.15;
-/// Expansion of bearing steel and of silicon nitride, 1/K. Source: heat-and-life, section 9.
-const EXPANSION: [f64; 2] = [11.5e-6, 3.2e-6];
+/// Expansion of silicon nitride, 1/K. Source: heat-and-life, section 9.
+const CERAMIC_EXPANSION: f64 = 3.2e-6;
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
 const OIL_SPECIFIC_HEAT: f64 = 1900.0;
-/// Capacity of a cage that is not there, J/K: a node needs one.
-const NO_CAGE: f64 = 0.1;
 /// Shares of the heat of M1: sliding at ball and race, half to each side. Source: heat-and-life, section 3.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
 
@@ -41,6 +38,8 @@ pub(crate) struct Part {
     pub network: BearingNetwork,
     pub losses: WarmBearings,
     pub zone: LoadZone,
+    /// Direction of its radial load from the frame's x axis, rad; 0 where there is no frame.
+    pub load_direction: f64,
     /// Whether the clearance follows the temperatures.
     pub closes: bool,
     /// The line of the lubricant, and where it is known.
@@ -194,6 +193,7 @@ pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Pr
         losses: losses(warm, &zone, Some(viscosity), sides)?,
         network,
         zone,
+        load_direction: 0.0,
         closes: warm.heat.feedback == Feedback::Full,
         viscosity,
         warm: warm.clone(),
@@ -243,12 +243,17 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             tracks: [run.pitch_diameter - gap, run.pitch_diameter + gap],
             ball: run.ball_diameter,
             expansions: [
-                EXPANSION[0],
-                EXPANSION[usize::from(is_hybrid)],
-                EXPANSION[0],
+                STEEL_EXPANSION,
+                if is_hybrid {
+                    CERAMIC_EXPANSION
+                } else {
+                    STEEL_EXPANSION
+                },
+                STEEL_EXPANSION,
             ],
         },
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
+        seats: run.seats,
     };
     // rings share the annulus between bore and outside at the pitch circle's shoulders
     let shoulder = |side: f64| run.pitch_diameter + side * 2.0 * SHOULDER * run.ball_diameter;
@@ -264,7 +269,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     }
     let steel = STEEL_HEAT.specific_heat;
     let ball = run.ball_material.heat();
-    let cage = (run.cage_mass * heat.cage_material.heat().specific_heat).max(NO_CAGE);
+    let cage = run.cage_mass * heat.cage_material.heat().specific_heat;
     let network = BearingNetwork {
         capacities: [
             heat.rotor_capacity.unwrap_or(f64::INFINITY),
@@ -274,6 +279,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             heat.lubricant_mass * OIL_SPECIFIC_HEAT,
             outer_mass * steel,
             heat.housing_capacity,
+            0.0,
+            heat.mount_capacity.unwrap_or(0.0),
         ],
         balls,
         ball_mass,
@@ -298,6 +305,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         outer_seat: heat.outer_seat,
         surroundings: heat.surroundings.unwrap_or(0.0),
         rotor_surroundings: heat.rotor_surroundings,
+        to_core: 0.0,
+        mount: [heat.mount_contact, heat.mount_surroundings],
         ambient: celsius(heat.ambient_temperature),
     };
     Ok((network, zone))

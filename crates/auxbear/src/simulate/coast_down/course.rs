@@ -4,17 +4,14 @@ use crate::problem::Problem;
 use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use std::sync::atomic::{AtomicBool, Ordering};
-use thermal::bearing_network::{
-    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, together,
-};
+use thermal::bearing_network::{LUBRICANT, NODES, Operation, together};
 use thermal::coast_down::{CoastDown as Coast, Coasting};
+use thermal::held::Held;
 use thermal::network::Network;
 use thermal::steady_speed::SteadySpeed;
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
 const LONGEST_STEP: f64 = 0.03;
-/// Capacity of a node that is held over its own.
-const HELD: f64 = 1e7;
 /// Temperature above which nothing of the model holds, °C: hardened steel is soft, oil and grease are gone.
 pub(crate) const BEYOND: f64 = 350.0;
 
@@ -30,23 +27,6 @@ pub(crate) struct Course {
     pub stored: f64,
 }
 
-/// Limits of the nodes of all bearings, °C; none of what has none.
-pub(super) fn limits(built: &Built) -> Vec<Option<f64>> {
-    let of_part = |part: &Part| {
-        let mut limits = [None; NODES.len()];
-        let heat = &part.warm.heat;
-        for node in [INNER_RACE, BALLS, OUTER_RACE] {
-            limits[node] = Some(heat.race_limit - ICE_POINT);
-        }
-        if part.warm.cage_mass > 0.0 {
-            limits[CAGE] = Some(heat.cage_limit - ICE_POINT);
-        }
-        limits[LUBRICANT] = Some(heat.lubricant_limit - ICE_POINT);
-        limits
-    };
-    built.parts.iter().flat_map(of_part).collect()
-}
-
 /// Follows it; with limits the nodes are held at them from the moment they get there.
 pub(super) fn follow(
     built: &Built,
@@ -59,7 +39,7 @@ pub(super) fn follow(
         .flat_map(|part| part.network.capacities)
         .collect();
     let nodes = capacities.len();
-    let mut held = vec![false; nodes];
+    let mut held = Held::at(limits.map_or(vec![None; nodes], <[_]>::to_vec));
     let mut taken = vec![0.0; nodes];
     let mut state = Coasting::at(
         start.time,
@@ -70,6 +50,8 @@ pub(super) fn follow(
     state.heats.clone_from(&start.heats);
     state.given = start.given;
     state.at_nodes = start.at_nodes.clone();
+    // what a run before it has warmed beyond its limit is held from here on
+    held.begin(&mut state.temperatures);
     let mut rows = start.rows.clone();
     if start.ended.is_none() || rows.is_empty() {
         rows.push(row(built, &state, &taken));
@@ -91,19 +73,15 @@ pub(super) fn follow(
             break End::Beyond;
         }
         let machine = Coast {
-            network: network(built, &state, &held)?,
+            network: network(built, &state, held.marks())?,
             losses: built.losses(state.time),
             inertia: built.inertia,
             sides,
             tolerance: built.end.tolerance,
         };
-        let (before, stop) = (
-            state.time,
-            built
-                .end
-                .stop_speed
-                .max(state.speed * (-LONGEST_STEP).exp()),
-        );
+        let before = state.time;
+        let given = state.at_nodes.given.clone();
+        let stop = (built.end.stop_speed).max(state.speed * (-LONGEST_STEP).exp());
         let until = match state.time < built.brake_start {
             true => built.end.longest.min(built.brake_start),
             false => built.end.longest,
@@ -111,21 +89,15 @@ pub(super) fn follow(
         if let Err(endless) = machine.step(&mut state, stop, until) {
             break End::Endless(endless);
         }
-        let mut powers = vec![0.0; nodes];
-        for node in 0..nodes {
-            let Some(limit) = limits.and_then(|limits| limits[node]) else {
-                continue;
-            };
-            let above = state.temperatures[node] - limit;
-            if !held[node] && above <= 0.0 {
-                continue;
-            }
-            let capacity = capacities[node] * if held[node] { HELD } else { 1.0 };
-            let heat = sides * capacity * above;
-            taken[node] += heat;
-            powers[node] = heat / (state.time - before);
-            state.temperatures[node] = limit;
-            held[node] = heat > 0.0;
+        let reached = state.at_nodes.given.iter().zip(&given);
+        let reached: Vec<f64> = reached
+            .map(|(now, before)| (now - before) / sides)
+            .collect();
+        let mut powers = held.end(&capacities, &mut state.temperatures, &reached);
+        for (power, taken) in powers.iter_mut().zip(&mut taken) {
+            *power *= sides;
+            *taken += *power;
+            *power /= state.time - before;
         }
         rows.push(row(built, &state, &powers));
     };
@@ -161,15 +133,6 @@ fn network(built: &Built, state: &Coasting, held: &[bool]) -> Result<Network, Bo
         .clone()
         .map(|(part, temperatures)| part.zone.loads(clearance(part, temperatures)))
         .collect();
-    let mut networks: Vec<BearingNetwork> = (built.parts.iter())
-        .map(|part| part.network.clone())
-        .collect();
-    let capacities = networks
-        .iter_mut()
-        .flat_map(|network| &mut network.capacities);
-    for (capacity, held) in capacities.zip(held) {
-        *capacity *= if *held { HELD } else { 1.0 };
-    }
     let operations = each.zip(&loads).map(|((part, temperatures), loads)| {
         let kelvin = temperatures[LUBRICANT] + ICE_POINT;
         Operation {
@@ -178,8 +141,9 @@ fn network(built: &Built, state: &Coasting, held: &[bool]) -> Result<Network, Bo
             viscosity: part.losses.oil.viscosity(kelvin).max(1e-6),
         }
     });
-    let all: Vec<_> = networks.iter().zip(operations).collect();
-    together(&all).map_err(|why| {
+    let networks = built.parts.iter().map(|part| &part.network);
+    let all: Vec<_> = networks.zip(operations).collect();
+    together(&all, held).map_err(|why| {
         use crate::problem::Code;
         use crate::scenario::UNNAMED;
         let needed = "finite capacities and conductances are needed";
@@ -207,7 +171,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         .iter()
         .zip(state.temperatures.chunks(NODES.len()));
     let bearings = each.map(of_part).collect();
-    let growth = match network(built, state, &vec![false; taken.len()]) {
+    let growth = match network(built, state, &[]) {
         Ok(network) => SteadySpeed {
             network,
             losses,

@@ -1,13 +1,13 @@
 //! Every named result of a run-out with its law, source and valid range.
 
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
-use crate::result::outcome::Value;
 use crate::simulate::bearing::races as shared;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{RatedBearing, passages_per_turn, repetitions};
+use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
 use thermal::losses::Losses;
 
@@ -27,7 +27,7 @@ pub(crate) fn name(ran: &Ran, list: &mut List) {
         let growth = ran.free.rows.iter().map(|row| row.growth);
         if k == 0 {
             let most = growth.fold(f64::NEG_INFINITY, f64::max);
-            list.number("peak_growth_rate", "1/s", Ok(most), &GROWTH);
+            list.peak_growth(Ok(most));
         }
         life(ran, k, part, list);
     }
@@ -125,42 +125,26 @@ fn temperatures(ran: &Ran, k: usize, list: &mut List) {
         };
         let passed = ran.first(|row| row.temperatures[node.place()] - limit);
         let never = || format!("it stays {:.1} K below its limit", limit - peak);
-        list.awaited(&of("#_limit_time"), passed.ok_or_else(never), &LIMIT);
         let held = (ran.held.as_ref()).filter(|held| held.taken[node.place()] > 0.0);
-        let most = held.map(|held| {
+        let taken = held.map(|held| {
             let rows = held.rows.iter();
-            rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max)
+            let most = rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max);
+            [most, held.taken[node.place()]]
         });
-        list.number(&of("#_heat_to_take"), "W", most.ok_or_else(never), &TAKE);
-        let energy = held.map(|held| held.taken[node.place()]);
-        list.number(
-            &of("#_energy_to_take"),
-            "J",
-            energy.ok_or_else(never),
-            &TAKE,
-        );
+        list.limit(part, node.name(), passed.ok_or_else(never), taken);
     }
 }
 
 /// The run-out whose nodes are held, which has times of its own.
 fn held(ran: &Ran, list: &mut List) {
     let rows = || ran.held.iter().flat_map(|held| &held.rows);
-    let times = rows().map(|row| row.time).collect();
-    list.push("held_times", "s", Value::List(times), &TAKE);
-    let Some(held) = &ran.held else { return };
-    for (k, part) in ran.parts() {
-        for (node, name) in NODES.iter().enumerate() {
-            let place = k * NODES.len() + node;
-            if held.taken[place] > 0.0 {
-                let powers = rows().map(|row| row.taken[place]).collect();
-                list.push(
-                    &of_part(&part.name, &format!("{name}_powers_to_take")),
-                    "W",
-                    Value::List(powers),
-                    &TAKE,
-                );
-            }
-        }
+    let each = ran.parts().flat_map(|(k, _)| ran.nodes(k));
+    let needy = each.filter(|node| (ran.held.iter()).any(|held| held.taken[node.place()] > 0.0));
+    list.held_times(rows().map(|row| row.time).collect());
+    for node in needy {
+        let powers = rows().map(|row| row.taken[node.place()]).collect();
+        let part = &ran.built.parts[node.bearing].name;
+        list.powers_to_take(part, node.name(), powers);
     }
 }
 
@@ -189,6 +173,10 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     let share = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
         .map(|rating| used(ran, k, part, rating, &|_| 1.0));
+    let whole =
+        |points: &Result<_, String>| points.as_ref().map(shared::used_by).map_err(String::clone);
+    let points = share;
+    let share = whole(&points);
     list.number(&of("life_share"), "1", share.clone(), &LIFE);
     let lubricated = (part.warm.dynamic_load_rating)
         .zip(part.warm.static_load_rating)
@@ -201,9 +189,10 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     list.number(
         &of("life_share_with_lubricant"),
         "1",
-        lubricated,
+        whole(&lubricated),
         &LUBRICATED,
     );
+    list.life_by_point(&part.name, lubricated.or(points));
     for (name, survival) in [
         ("runs_until_one_percent_fail", 0.99),
         ("runs_until_ten_percent_fail", 0.9),
@@ -230,8 +219,14 @@ fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     shared::viscosity_ratio(&part.warm, viscosity, row.speed)
 }
 
-/// Share of the rating life of one bearing that the run-out uses, with a life factor at each row.
-fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> f64) -> f64 {
+/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row.
+fn used(
+    ran: &Ran,
+    k: usize,
+    part: &Part,
+    rating: f64,
+    factor: &dyn Fn(&Row) -> f64,
+) -> [Vec<f64>; 2] {
     let warm = &part.warm;
     let gamma = warm.ball_diameter / warm.pitch_diameter;
     let bearing = RatedBearing {
@@ -255,8 +250,11 @@ fn used(ran: &Ran, k: usize, part: &Part, rating: f64, factor: &dyn Fn(&Row) -> 
             inner += cube / PLACES as f64;
         }
     }
-    let outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
-    bearing.damage([&[inner * passages[0]], &outer])
+    let mut outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
+    // from the load line to the frame's x axis
+    let turned = part.load_direction / TAU * PLACES as f64;
+    outer.rotate_right(turned.round().rem_euclid(PLACES as f64) as usize % PLACES);
+    bearing.by_point([&[inner * passages[0]], &outer])
 }
 
 const STOP: Origin = Origin {
@@ -294,16 +292,6 @@ const PEAK: Origin = Origin {
     source: "crates/thermal/src/bearing_network.rs; heat-and-life, section 2",
     valid: "bodies of one temperature; conductances of contacts and seats within a factor of two",
 };
-const LIMIT: Origin = Origin {
-    law: "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
-    source: "makers' catalogues",
-    valid: "as the temperatures",
-};
-const TAKE: Origin = Origin {
-    law: "a second run-out in which every node stays at its limit once it is there: largest power taken from it, and the sum",
-    source: "heat-and-life, section 5",
-    valid: "all bearings together; cooling that acts on the node itself",
-};
 const CLEARANCE: Origin = Origin {
     law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
     source: "crates/thermal/src/clearance.rs; heat-and-life, section 5",
@@ -313,11 +301,6 @@ const BALLS: Origin = Origin {
     law: "Q = K (δ cos φ − P_d/2)^1.5 with Σ Q cos φ = load",
     source: "crates/physics/src/load_zone.rs",
     valid: "quasi-static, one ball on the load line",
-};
-const GROWTH: Origin = Origin {
-    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
-    source: "crates/thermal/src/steady_speed.rs; heat-and-life, section 5",
-    valid: "the speed of that instant held",
 };
 const KAPPA: Origin = Origin {
     law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above",

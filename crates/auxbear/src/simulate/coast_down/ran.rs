@@ -5,7 +5,7 @@ use crate::simulate::coast_down::build::{Built, Part};
 use crate::simulate::coast_down::course::{self, Course};
 use crate::simulate::coast_down::rows::{Row, RowOfBearing};
 use std::sync::atomic::AtomicBool;
-use thermal::bearing_network::{CAGE, NODES};
+use thermal::bearing_network::NODES;
 
 /// A run-out, and the same with its nodes held at their limits where one is passed.
 pub(crate) struct Ran<'a> {
@@ -18,7 +18,8 @@ pub(crate) struct Ran<'a> {
 
 /// Computes a run-out.
 pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a>, Box<Problem>> {
-    let limits = course::limits(built);
+    let each = built.parts.iter().flat_map(|part| part.warm.limits());
+    let limits: Vec<_> = each.collect();
     let free = course::follow(built, None, interrupt)?;
     let passes = |row: &Row| {
         let mut nodes = row.temperatures.iter().zip(&limits);
@@ -62,9 +63,9 @@ impl Ran<'_> {
 
     /// The nodes of a bearing that are there: a full complement has no cage.
     pub fn nodes(&self, bearing: usize) -> impl Iterator<Item = NodeOf> {
-        let with_cage = self.built.parts[bearing].warm.cage_mass > 0.0;
+        let network = &self.built.parts[bearing].network;
         (0..NODES.len())
-            .filter(move |node| *node != CAGE || with_cage)
+            .filter(|node| network.has(*node))
             .map(move |node| NodeOf { bearing, node })
     }
 

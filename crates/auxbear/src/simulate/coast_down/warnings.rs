@@ -5,7 +5,7 @@ use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::End;
 use physics::viscosity::Viscosity;
-use thermal::bearing_network::LUBRICANT;
+use thermal::bearing_network::{LUBRICANT, NODES};
 
 /// Of a run-out by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
@@ -50,17 +50,36 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
         .clone()
         .find(|row| row.growth > 0.0 && row.clearance() < 0.0)?;
     let most = rows.map(|row| row.growth).fold(0.0, f64::max);
-    Some(warning(
+    let closed = |k: &usize| row.bearings[*k].clearance;
+    let first = (0..row.bearings.len()).min_by(|a, b| closed(a).total_cmp(&closed(b)))?;
+    let temperatures = row.temperatures.chunks(NODES.len()).nth(first)?;
+    let changes = ran.built.parts[first].zone.changes_at(temperatures);
+    Some(away(row.time, most, changes))
+}
+
+/// A bearing that runs away from a time on, s, with the largest rate, 1/s, and what inner ring, balls and outer ring have added to its clearance
+/// until then, m.
+pub(crate) fn away(time: f64, rate: f64, changes: [f64; 3]) -> Warning {
+    let [inner, balls, outer] = changes.map(|change| format!("{:+.1} µm", 1e6 * change));
+    warning(
         "AB2311",
         format!(
             "The bearing runs away: from {} on its balls are preloaded by their own warmth and every kelvin makes more heat than it \
-             takes away; a disturbance grows {:.1} times each {}. More clearance, better cooling of the inner race, or hybrid balls \
-             keep it open.",
-            words(row.time),
+             takes away; a disturbance grows {:.1} times each {} ({rate:.2e} 1/s). To its clearance the inner ring has added {inner}, \
+             the balls {balls}, the outer ring {outer}. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
+            words(time),
             std::f64::consts::E,
-            words(1.0 / most)
+            words(1.0 / rate),
         ),
-    ))
+    )
+}
+
+/// What holding the limits takes: the largest power, W, and all of it, J.
+pub(crate) fn to_take(most: f64, all: f64) -> String {
+    let kilojoules = 1e-3 * all;
+    format!(
+        " To hold the limits {most:.0} W at most, {kilojoules:.2} kJ in all, must be taken away."
+    )
 }
 
 fn limits(ran: &Ran) -> Option<Warning> {
@@ -95,11 +114,7 @@ fn limits(ran: &Ran) -> Option<Warning> {
         let most = rows
             .map(|row| row.taken.iter().sum::<f64>())
             .fold(0.0, f64::max);
-        let all: f64 = held.taken.iter().sum();
-        format!(
-            " To hold the limits {most:.0} W at most, {:.2} kJ in all, must be taken away.",
-            1e-3 * all
-        )
+        to_take(most, held.taken.iter().sum())
     });
     Some(warning(
         "AB2310",

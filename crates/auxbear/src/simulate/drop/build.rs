@@ -121,8 +121,13 @@ fn auxiliary_bearing(
         centre_held: given.inner_race_centre_held,
         torque: given.inner_race_torque,
     };
+    let mut warm = bearing::networks::built(part.warm.as_deref(), given)?;
+    if let (Some(warm), Some((layer, area))) = (&mut warm, part.layer_of_core()) {
+        let capacity = layer.capacity(area);
+        warm.network.with_layer(capacity, layer.to_core(area));
+    }
     let around = AuxiliaryBearingConstants {
-        warm: bearing::networks::built(part.warm.as_deref(), given)?,
+        warm,
         ..around(part, inner_race, constants)
     };
     Ok((around, built))

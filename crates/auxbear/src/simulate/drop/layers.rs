@@ -11,7 +11,7 @@ const DEPTHS: (f64, f64) = (1e-3, 10e-3);
 pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
     let contact = &part.contact;
     let length = contact.width?;
-    let [rotor, race] = contact.metals;
+    let race = contact.metals[1];
     let bore = 0.5 * contact.bore_diameter;
     // a ring of that mass: π ((R + h)² − R²) ρ L = m
     let of_mass = || {
@@ -21,13 +21,9 @@ pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
         let square = mass / (PI * race.material.density * length);
         ((bore * bore + square).sqrt() - bore).clamp(DEPTHS.0, DEPTHS.1)
     };
-    let rotor_depth = rotor.layer.unwrap_or(DEPTHS.1).min(bore);
     let race_depth = race.layer.unwrap_or_else(of_mass);
     Some(Surfaces {
-        layers: [
-            Layer::new(rotor.material, rotor_depth),
-            Layer::new(race.material, race_depth),
-        ],
+        layers: [contact.rotor_layer(), Layer::new(race.material, race_depth)],
         length,
         modulus: contact.modulus,
     })

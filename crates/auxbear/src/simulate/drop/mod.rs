@@ -22,8 +22,11 @@ pub(crate) mod warnings;
 mod windows;
 
 use crate::options::Options;
-use crate::result::outcome::{Contact, Members, Outcome, Picture, Spread, Stop, Work};
+use crate::result::outcome::{
+    Contact, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Work,
+};
 use crate::scenario::{Drop, Scenario};
+use crate::simulate::bearing::races::LIFE_BY_POINT;
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
@@ -95,8 +98,14 @@ pub(crate) fn run(
             let draws = |k: usize| k.checked_sub(1).map(|k| varied[k].drawn.clone());
             drawn = whole().map(|k| draws(k).unwrap_or_default()).collect();
         }
-        for k in whole() {
-            table.push(name(k));
+        let all: Vec<Vec<Quantity>> = whole().map(name).collect();
+        for quantity in &mut named {
+            if quantity.name.ends_with(LIFE_BY_POINT) {
+                quantity.value = mean_of(&all, &quantity.name);
+            }
+        }
+        for results in all {
+            table.push(results);
         }
         let least = chaotic_from(scenario, drop);
         for quantity in &mut named {
@@ -130,6 +139,26 @@ pub(crate) fn run(
             .collect(),
         files: Vec::new(),
     }
+}
+
+/// Mean of a list over the members that have it.
+fn mean_of(members: &[Vec<Quantity>], name: &str) -> Value {
+    let lists = members
+        .iter()
+        .flatten()
+        .filter_map(|found| match &found.value {
+            Value::List(values) if found.name == name => Some(values),
+            _ => None,
+        });
+    let (mut sum, mut count) = (Vec::new(), 0.0);
+    for values in lists {
+        sum.resize(values.len(), 0.0);
+        for (sum, value) in sum.iter_mut().zip(values) {
+            *sum += value;
+        }
+        count += 1.0;
+    }
+    Value::List(sum.into_iter().map(|sum: f64| sum / count).collect())
 }
 
 /// Relative deviation of members that starts make chaotic: below it no reader sees it.

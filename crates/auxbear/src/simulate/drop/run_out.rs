@@ -171,7 +171,12 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
             return Err("the temperatures of a bearing are not followed".to_string());
         };
         let mut one = part(warm, name.to_string(), sides).map_err(|problem| problem.found)?;
-        let contact = &machine.constants.bearings[k].contact;
+        let constants = &machine.constants.bearings[k];
+        let contact = &constants.contact;
+        if let Some(warm) = &constants.warm {
+            one.network.clone_from(&warm.network);
+        }
+        one.load_direction = drop.gravity.direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
         parts.push(one);
         temperatures.extend(&warmth.temperatures);
@@ -218,6 +223,10 @@ fn named(
     list.number("windows", "", Ok(bounced.scatter.len() as f64), &WINDOWS);
     let scatter = bounced.scatter.iter().copied().fold(0.0, f64::max);
     list.number("window_scatter", "1", Ok(scatter), &WINDOWS);
+    let after = 0.5 * found.built.inertia * start.speed * start.speed;
+    let sides = f64::from(found.built.sides);
+    let change = (bounced.kinetic).map_or(0.0, |before| after - sides * before);
+    list.number("change_of_model", "J", Ok(change), &CHANGE);
     quantities::name(found, &mut list);
     list.push(
         "natural_frequencies",
@@ -375,7 +384,7 @@ const CHANGE: Origin = Origin {
     law: "the rotor has pressed on every inner race, rotor and race, and cage, within 1 % of rolling, for 20 turns of every cage; kinetic \
           energy, temperatures and speed go on as they are",
     source: "crates/model/src/system/machine/bearing_record.rs; heat-and-life, section 6",
-    valid: "what is lost or made by the change: nothing",
+    valid: "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window",
 };
 const WINDOWS: Origin = Origin {
     law: "while the rotor does not roll: mean heats over 80 turns at held speed, 5 % slower from window to window; the largest standard error \

@@ -68,6 +68,8 @@ pub(super) struct Bounced {
     pub scatter: Vec<f64>,
     /// Steps of all of them.
     pub steps: u64,
+    /// Kinetic energy of one side at the end of the last, J.
+    pub kinetic: Option<f64>,
 }
 
 /// What one more part of a window says.
@@ -138,7 +140,9 @@ pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBoo
         before = Some(window);
     };
     built.start.ended = end;
+    let content = way.machine.content(&way.state);
     Bounced {
+        kinetic: (!scatter.is_empty()).then_some(content.translation + content.spin),
         scatter,
         steps: way.steps,
     }
@@ -443,7 +447,7 @@ fn network(built: &Built) -> Result<thermal::network::Network, &'static str> {
             (&part.network, operation)
         })
         .collect();
-    together(&all).map_err(|_| "the network of a bearing has no finite values")
+    together(&all, &[]).map_err(|_| "the network of a bearing has no finite values")
 }
 
 /// What is known at a window.

@@ -1,0 +1,134 @@
+//! The heat that must be taken from the nodes of a bearing to hold them at their limits, in whatever is computed in time.
+
+use auxbear::result::outcome::{Outcome, Value};
+use auxbear::run::{Options, run};
+use auxbear::scenario::{BuiltIn, Scenario};
+use std::sync::atomic::AtomicBool;
+
+const SPIN_UP: &str = include_str!("../../../scenarios/spin_up_warming.toml");
+const RIG: &str = include_str!("../../../scenarios/rig_test_3_warming.toml");
+const DROP: &str = include_str!("../../../scenarios/drop_whirl_closing.toml");
+
+fn ran(text: &str, sets: &[&str]) -> Outcome {
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    let scenario = Scenario::parse(text, "held.toml", &sets, &BuiltIn).unwrap();
+    let never = AtomicBool::new(false);
+    run(&scenario, &Options::unwatched(&never)).unwrap()
+}
+
+fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
+    let found = outcome.quantities.iter().find(|q| q.name == name);
+    &found.unwrap_or_else(|| panic!("{name}")).value
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    match value(outcome, name) {
+        Value::Number(value) => *value,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
+    match value(outcome, name) {
+        Value::List(values) => values,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn has(outcome: &Outcome, code: &str) -> bool {
+    outcome.warnings.iter().any(|warning| warning.code == code)
+}
+
+/// Σ P Δt of the curve of a node, J; the first span begins at most 10 ms before its end.
+fn under(outcome: &Outcome, node: &str) -> [f64; 2] {
+    let (times, powers) = (
+        list(outcome, "held_times"),
+        list(outcome, &format!("{node}_powers_to_take")),
+    );
+    let steps = times.windows(2).zip(&powers[1..]);
+    let sum: f64 = steps.map(|(pair, power)| power * (pair[1] - pair[0])).sum();
+    [sum, sum + 11e-3 * powers[0]]
+}
+
+#[test]
+fn to_hold_the_oil_of_a_spin_up_all_must_be_taken_that_a_lake_of_it_would_keep() {
+    // without M1 all of the moment heats the oil, at any temperature
+    let sets = [
+        "run.duration=2 s",
+        "heat.feedback=none",
+        "bearing.moment.f1_factor=0",
+    ];
+    let limited = ran(
+        SPIN_UP,
+        &[&sets[..], &["heat.lubricant_limit=25.0001 degC"]].concat(),
+    );
+    let lake = ran(
+        SPIN_UP,
+        &[&sets[..], &["heat.lubricant_mass=1000 kg"]].concat(),
+    );
+    let taken = number(&limited, "lubricant_energy_to_take");
+    let kept = number(&lake, "stored_heat_in_lubricant");
+    assert!(
+        kept > 5.0 && (taken / kept - 1.0).abs() < 1e-3,
+        "{taken} {kept}"
+    );
+    let [least, most] = under(&limited, "lubricant");
+    assert!((least..=most).contains(&taken), "{least} {taken} {most}");
+    // it rises with the speed and falls as nothing but the mean torque goes on
+    let peak = number(&limited, "lubricant_heat_to_take");
+    let powers = list(&limited, "lubricant_powers_to_take");
+    assert_eq!(powers.iter().copied().fold(0.0, f64::max), peak);
+    assert!(has(&limited, "AB2310") && number(&limited, "lubricant_limit_time") < 0.1);
+    // it tells, and changes nothing
+    let free = ran(SPIN_UP, &sets);
+    for name in [
+        "peak_lubricant_temperature",
+        "heat_made",
+        "heat_to_surroundings",
+    ] {
+        assert_eq!(number(&free, name), number(&limited, name), "{name}");
+    }
+}
+
+#[test]
+fn a_node_that_never_gets_there_needs_nothing_and_has_no_curve() {
+    let outcome = ran(
+        SPIN_UP,
+        &["run.duration=0.5 s", "heat.lubricant_limit=25.05 degC"],
+    );
+    assert!(number(&outcome, "lubricant_energy_to_take") > 0.0);
+    assert!(
+        matches!(value(&outcome, "balls_heat_to_take"), Value::None { why } if why.contains("below its limit"))
+    );
+    let curve = outcome
+        .quantities
+        .iter()
+        .find(|q| q.name == "balls_powers_to_take");
+    assert!(curve.is_none());
+    let free = ran(SPIN_UP, &["run.duration=0.5 s"]);
+    assert!(list(&free, "held_times").is_empty());
+}
+
+#[test]
+fn drops_and_rigs_tell_it_too_and_lanes_the_same() {
+    let sets = ["run.duration=0.3 s", "heat.race_limit=25.5 degC"];
+    let drop = ran(DROP, &sets);
+    let name = "inner_race_energy_to_take";
+    let taken = number(&drop, name);
+    // half of the friction of rotor and race, beside what the balls send
+    let made = number(&drop, "heat_made_in_inner_race");
+    assert!(taken > 0.5 * made && taken < 1.5 * made, "{taken} {made}");
+    let [least, most] = under(&drop, "inner_race");
+    assert!((least..=most).contains(&taken), "{least} {taken} {most}");
+    let many = ran(DROP, &[&sets[..], &["repeat.count=8"]].concat());
+    assert_eq!(
+        many.members.values(name)[0].unwrap().to_bits(),
+        taken.to_bits()
+    );
+
+    let rig = ran(
+        RIG,
+        &["run.duration=2 s", "heat.lubricant_limit=25.01 degC"],
+    );
+    assert!(number(&rig, "lubricant_energy_to_take") > 0.0);
+}
