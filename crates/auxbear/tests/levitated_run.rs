@@ -130,7 +130,7 @@ fn a_loss_without_magnets_or_before_standstill_is_refused() {
         let law = format!("auxiliary_bearing.{end}.bearing.moment");
         [
             format!("{law}.law=palmgren"),
-            format!("{law}.lubrication=oil bath"),
+            format!("{law}.lubrication=grease"),
             format!("{law}.viscosity=20 mm^2/s"),
         ]
     });
