@@ -131,7 +131,10 @@ fn a_loss_without_magnets_or_before_standstill_is_refused() {
         [
             format!("{law}.law=palmgren"),
             format!("{law}.lubrication=grease"),
-            format!("{law}.viscosity=20 mm^2/s"),
+            format!(
+                "{law}.viscosity_points=[[\"40 degC\", \"22 mm^2/s\"], [\"100 degC\", \"5 mm^2/s\"]]"
+            ),
+            format!("{law}.temperature=25 degC"),
         ]
     });
     let laws = laws.concat();
