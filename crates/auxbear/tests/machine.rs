@@ -571,7 +571,7 @@ fn a_machine_says_what_is_asked_of_its_rotor() {
     let speeds = &speeds.expect("speeds of the diagrams").values;
     // besides the eleven those of the critical speeds
     assert!(speeds.len() < 40, "{}", speeds.len());
-    near(*speeds.last().unwrap(), 1256.637_061, 1e-8);
+    near(*speeds.last().unwrap(), 1_256.637_061, 1e-8);
     let error = parsed(&asked.replace("rpm", "mm"), &[]).unwrap_err();
     assert!(error.contains("analysis.speed_to"), "{error}");
     let error = parsed(STIFF, &["analysis.speed_too=1 rpm"]).unwrap_err();

@@ -10,7 +10,7 @@
 //! [`Levitation::release`] change the states; nothing else jumps.
 
 use crate::parts::{Actuator, Amplifier, Control, Sensor, Timing};
-use crate::{C64, LinearControl, Refused, StateSpace, checks};
+use crate::{Refused, StateSpace, checks};
 use number::Real;
 use smallvec::{SmallVec, smallvec};
 use std::ops::Range;
@@ -227,34 +227,6 @@ impl Levitation {
                 rates[at] = current_rate(actuator, command, states[at], velocities[index]);
             }
         }
-    }
-
-    /// What a displacement (m) of every sensor makes of each state, the largest over slow, usual and quick motions: a measure of
-    /// what matters in it. 1 where nothing reaches it.
-    #[must_use]
-    pub fn scales(&self, displacement: f64) -> Vec<f64> {
-        let linear = self.linear();
-        let control = LinearControl::new(self);
-        let size = control.a.nrows();
-        let mut largest = vec![0.0_f64; size];
-        for omega in [1e2, 1e3, 1e4] {
-            let turning =
-                nalgebra::DMatrix::from_diagonal_element(size, size, C64::new(0.0, omega));
-            let inputs = control.by_displacement.map(C64::from);
-            let Some(found) = (turning - control.a.map(C64::from)).lu().solve(&inputs) else {
-                continue;
-            };
-            for (own, row) in largest.iter_mut().zip(found.row_iter()) {
-                *own = own.max(displacement * row.iter().map(|entry| entry.norm()).sum::<f64>());
-            }
-        }
-        // a sampled loop has held commands in place of a delay's states
-        let own = |name: &String| linear.names().iter().position(|of| of == name);
-        let of = |name| own(name).map_or(0.0, |at| largest[at]);
-        let scales = self.names().iter().map(of);
-        scales
-            .map(|scale| if scale > 0.0 { scale } else { 1.0 })
-            .collect()
     }
 
     /// Signals of an instant from the states: errors, commands, currents.

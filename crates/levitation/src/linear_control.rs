@@ -1,6 +1,6 @@
 //! The matrices of sensors, controller, delay and amplifiers, taken from the rates that a time run uses.
 
-use crate::Levitation;
+use crate::{C64, Levitation};
 use nalgebra::{DMatrix, DVector};
 
 /// ẋ = A x + B_y y + B_v v + constant, i = C x + D y + constant.
@@ -57,6 +57,33 @@ impl LinearControl {
             constant_rates,
             constant_currents,
         }
+    }
+
+    /// What a displacement (m) of every sensor makes of each state, the largest over slow, usual and quick motions: a measure of
+    /// what matters in it. 1 where nothing reaches it.
+    #[must_use]
+    pub fn scales(levitation: &Levitation, displacement: f64) -> Vec<f64> {
+        let linear = levitation.linear();
+        let control = LinearControl::new(levitation);
+        let size = control.a.nrows();
+        let mut largest = vec![0.0_f64; size];
+        for omega in [1e2, 1e3, 1e4] {
+            let turning = DMatrix::from_diagonal_element(size, size, C64::new(0.0, omega));
+            let inputs = control.by_displacement.map(C64::from);
+            let Some(found) = (turning - control.a.map(C64::from)).lu().solve(&inputs) else {
+                continue;
+            };
+            for (own, row) in largest.iter_mut().zip(found.row_iter()) {
+                *own = own.max(displacement * row.iter().map(|entry| entry.norm()).sum::<f64>());
+            }
+        }
+        // a sampled loop has held commands in place of a delay's states
+        let own = |name: &String| linear.names().iter().position(|of| of == name);
+        let of = |name| own(name).map_or(0.0, |at| largest[at]);
+        let scales = levitation.names().iter().map(of);
+        scales
+            .map(|scale| if scale > 0.0 { scale } else { 1.0 })
+            .collect()
     }
 }
 

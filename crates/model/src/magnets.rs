@@ -12,7 +12,7 @@
 //! A sampled controller changes its states at landed instants; nothing else jumps.
 
 use crate::rotor::{GeometricCentre, Node, RotorAt, RotorConstants, RotorMotion};
-use ::levitation::{Levitation, OfAxes};
+use ::levitation::{Levitation, LinearControl, OfAxes};
 use number::{Gather, Mask, Real, Vec2};
 use physics::magnet::Magnet;
 use smallvec::{SmallVec, smallvec};
@@ -129,7 +129,7 @@ impl MagnetsConstants {
     pub fn error_scale(&self, scale: &mut [f64], displacement: f64) {
         if let Some(control) = &self.control {
             scale.fill(1.0);
-            let own = control.levitation.scales(displacement);
+            let own = LinearControl::scales(&control.levitation, displacement);
             scale[..own.len()].copy_from_slice(&own);
         }
     }

@@ -8,6 +8,7 @@ pub mod ensemble;
 mod feedback;
 mod layers;
 pub(crate) mod magnets;
+mod magnets_in_time;
 pub(crate) mod members;
 pub(crate) mod method;
 mod mount;

@@ -4,11 +4,12 @@ use crate::catalogue::geometry::millimetres;
 use crate::problem::{Code, Problem};
 use crate::scenario::several::path_of;
 use crate::scenario::{Drop, RotorModel, Shaft, Spin, UNNAMED};
+use crate::simulate::drop::magnets_in_time::{self, OnMagnets};
 use crate::simulate::drop::torque;
 use crate::simulate::levitated;
 use levitation::response::{equilibrium, start};
-use levitation::{ClosedLoop, Levitation, Plant, Timing, weight};
-use model::magnets::{AxisConstants, ControlConstants, MagnetConstants, MagnetsConstants};
+use levitation::{ClosedLoop, Plant, weight};
+use model::magnets::MagnetsConstants;
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::seal::SealConstants;
 use nalgebra::{DMatrix, DVector};
@@ -16,7 +17,6 @@ use number::Vec2;
 use physics::magnet::Magnet;
 use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
 use std::cmp::Ordering;
-use std::sync::Arc;
 
 /// A bent rotor in the coordinates of the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +79,7 @@ pub(crate) fn build(
     shaft: &Shaft,
     gravity: Vec2<f64>,
 ) -> Result<BuiltShaft, Box<Problem>> {
-    lost_later(drop, shaft)?;
+    magnets_in_time::lost_later(drop, shaft)?;
     let rotor = &shaft.model.rotor;
     let matrices = Matrices::new(rotor);
     let basis = basis(shaft, rotor, &matrices)?;
@@ -96,7 +96,8 @@ pub(crate) fn build(
         None => on_supports(drop, rotor, &matrices, &within, &loads)?,
     };
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
-    let magnets = on_magnets.and_then(|own| magnets(shaft, &within.basis, &position, &own));
+    let at = |node: usize| row(&within.basis, node);
+    let magnets = on_magnets.and_then(|own| magnets_in_time::built(shaft, &at, &position, &own));
     let seals = staying(&shaft.model, &within.basis, &still, &carried);
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
@@ -122,19 +123,6 @@ pub(crate) fn build(
         velocity,
         held,
     })
-}
-
-/// Refuses a loss of power after the start where there is none to lose, or where the run has no end of its own.
-fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>> {
-    let found = match (&shaft.model.levitation, &drop.run_out) {
-        _ if shaft.power_lost <= 0.0 => return Ok(()),
-        (None, _) => "no magnets, whose power could be lost",
-        (_, Some(_)) => "run.until = \"standstill\"",
-        _ => return Ok(()),
-    };
-    let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
-    let problem = Problem::new(Code::Conflict, UNNAMED, found, allowed);
-    Err(Box::new(problem.on_key("levitation.power_lost_at")))
 }
 
 /// Free modes up to the cut, and the residual flexibility at each place that carries something.
@@ -264,14 +252,6 @@ struct Held {
     carried: Vec<(usize, Vec2<f64>)>,
     magnets: Option<OnMagnets>,
     modes: Vec<HeldMode>,
-}
-
-/// Magnets that hold a rotor.
-struct OnMagnets {
-    /// Control currents of their axes, A.
-    currents: Vec<f64>,
-    /// States of their controllers.
-    states: Vec<f64>,
 }
 
 /// The steady motion on magnets, which must hold the rotor.
@@ -438,75 +418,6 @@ fn staying(
             })
         })
         .collect()
-}
-
-/// The magnets: with their controllers until the power is lost, or as their currents decay from the start on.
-fn magnets(
-    shaft: &Shaft,
-    basis: &Basis,
-    position: &[Vec2<f64>],
-    held: &OnMagnets,
-) -> Option<MagnetsConstants> {
-    let model = shaft.model.levitation.as_ref()?;
-    let controlled = shaft.power_lost > 0.0;
-    if !controlled && shaft.decay_time <= 0.0 {
-        return None;
-    }
-    let levitation = &model.levitation;
-    let along = |angle: f64| Vec2::new(angle.cos(), angle.sin());
-    let pair = |k: usize| [2 * k, 2 * k + 1];
-    let magnet = |(k, (_, node, _)): (usize, &(String, usize, usize))| MagnetConstants {
-        node: row(basis, *node),
-        axes: pair(k)
-            .map(|axis| AxisConstants {
-                direction: along(levitation.actuators()[axis].axis.angle),
-                law: levitation.actuators()[axis].magnet,
-                current: held.currents[axis],
-                largest_current: levitation.actuators()[axis].largest_current,
-            })
-            .to_vec(),
-    };
-    let sensor = |(k, (_, _, node)): (usize, &(String, usize, usize))| {
-        let angles = pair(k).map(|axis| along(levitation.sensors()[axis].axis.angle));
-        (row(basis, *node), angles.to_vec())
-    };
-    let all = || model.magnets.iter().enumerate();
-    Some(MagnetsConstants {
-        magnets: all().map(magnet).collect(),
-        decay_rate: 1.0 / shaft.decay_time,
-        lost: shaft.power_lost,
-        control: controlled.then(|| {
-            let sensors: Vec<_> = all().map(sensor).collect();
-            ControlConstants {
-                start: sampled(levitation, &sensors, position, held.states.clone()),
-                levitation: Arc::new(levitation.clone()),
-                sensors,
-            }
-        }),
-    })
-}
-
-/// States of the levitation after the sample of the start.
-fn sampled(
-    levitation: &Levitation,
-    sensors: &[(Vec<f64>, Vec<Vec2<f64>>)],
-    position: &[Vec2<f64>],
-    mut states: Vec<f64>,
-) -> Vec<f64> {
-    let Timing::Sampled { computation, .. } = levitation.timing() else {
-        return states;
-    };
-    let mut sensed = Vec::new();
-    for (node, directions) in sensors {
-        let pairs = node.iter().zip(position);
-        let at = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
-        sensed.extend(directions.iter().map(|along| along.dot(at)));
-    }
-    levitation.sample(&mut states, &sensed, &mut levitation.signals());
-    if computation == 0.0 {
-        levitation.release(&mut states);
-    }
-    states
 }
 
 /// Refuses bearings that the rotor touches before its release, and those that let it reach a magnet.
