@@ -22,7 +22,7 @@
 //! From the span on in which a node passes its limit, a second set of temperatures takes the same heats through the same
 //! conductances with the nodes held at their limits: what must be taken from them for that.
 //!
-//! Source: heat-and-life, sections 2 and 3. Range: a body is one temperature only after about 0.1 s; before that the surfaces
+//! Source: derived; book/src/theory/heat.md. Range: a body is one temperature only after about 0.1 s; before that the surfaces
 //! tell more.
 
 use crate::bearing;
@@ -49,7 +49,7 @@ const LOOKS: f64 = 50e-3;
 const ICE_POINT: f64 = 273.15;
 /// Least viscosity, m²/s.
 const LEAST_VISCOSITY: f64 = 2e-6;
-/// What carries the load-dependent part of the steady moment. Source: heat-and-life, section 3.
+/// What carries the load-dependent part of the steady moment. Source: derived; book/src/theory/heat.md.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
 
 /// Constants of a bearing that warms.
@@ -193,7 +193,7 @@ pub struct Seen {
 /// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node; a node takes what the
 /// mount makes.
 ///
-/// Source: heat-and-life, section 3.
+/// Source: derived; book/src/theory/heat.md.
 /// Valid: races, rotor and sleeve of steel.
 pub fn shares(
     ball: ThermalMaterial,

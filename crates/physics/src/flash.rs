@@ -45,7 +45,7 @@ fn falling(z: f64) -> f64 {
 /// Steady surface rise under a uniform band that moves: T* = πkvT/(2αq) at X = vx/2α from its middle, downstream
 /// positive, with Λ = vb/2α.
 ///
-/// Source: heat-and-life, section 4; Jaeger 1942, closed: I₊(Λ+X) + I₋(Λ−X) in the band, differences of them outside.
+/// Source: J. C. Jaeger 1942, closed: I₊(Λ+X) + I₋(Λ−X) in the band, differences of them outside.
 /// Valid: steady, Λ > 0.
 pub fn band_rise(half_length: f64, place: f64) -> f64 {
     if place.abs() <= half_length {

@@ -6,7 +6,7 @@
 //! What carries a node over its limit within a step is taken at its end; a node whose other heats no longer hold it up is free
 //! again. A node that never gets there needs nothing.
 //!
-//! Source: heat-and-life, section 5.
+//! Source: derived; book/src/theory/heat.md.
 
 /// Limits, and which nodes are held at them.
 #[derive(Clone, Debug, PartialEq)]

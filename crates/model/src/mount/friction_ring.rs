@@ -6,7 +6,7 @@
 //! Loading from rest follows e_y tanh(s/e_y) for m = 2; unloading is elastic; m → ∞ is the Jenkins element. Rate-independent.
 //! Small m creeps under small vibration about a preload: m ≥ 8 unless measured.
 //!
-//! Source: machine.md section 3. Trial stages of a step may leave |e| ≤ e_y: the larger of both stands for e_y there.
+//! Source: derived; book/src/theory/drop.md, mounts. Trial stages of a step may leave |e| ≤ e_y: the larger of both stands for e_y there.
 
 use number::{Real, Vec2, constants};
 

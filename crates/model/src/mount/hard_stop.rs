@@ -3,7 +3,7 @@
 //! ```text
 //!   d = |s| - gap > 0:   F = -N s/|s|,   N = k d (1 + a ḋ)₊,   ḋ = v·s/|s|
 //! ```
-//! Source: machine.md section 3.
+//! Source: derived; book/src/theory/drop.md, mounts.
 
 use number::{Real, Vec2, constants};
 

@@ -3,7 +3,7 @@
 //! ```text
 //!   outer race ──/\/\/── d ──[  ]── housing      F = -k (s - d),  ḋ = (s - d)/τ
 //! ```
-//! Source: machine.md section 3. Dynamic stiffness of a sum of branches: K(jω) = Σ k jωτ/(1 + jωτ); passive for k, τ ≥ 0.
+//! Source: derived; book/src/theory/drop.md, mounts. Dynamic stiffness of a sum of branches: K(jω) = Σ k jωτ/(1 + jωτ); passive for k, τ ≥ 0.
 
 use number::{Real, Vec2, constants};
 

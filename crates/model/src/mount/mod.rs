@@ -12,7 +12,7 @@
 //! c_0 is chosen so that the weight of the bearing is balanced at c_o = 0; a mount without a spring carries it by a force that
 //! does not yield. States: d of each branch, e of the ring, h and ḣ of the housing. All start at rest.
 //!
-//! Source: machine.md section 3. Assumes: isotropic, massless but for the housing. Does not model: a housing that several
+//! Source: derived; book/src/theory/drop.md, mounts. Assumes: isotropic, massless but for the housing. Does not model: a housing that several
 //! bearings share, tilt.
 
 pub mod friction_ring;

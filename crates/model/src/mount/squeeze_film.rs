@@ -6,7 +6,7 @@
 //! ```
 //! ε = |s|/c, r outwards, t across. The π film by Gauss's rule with 64 points. Beyond ε = 0.999 the film is that of 0.999.
 //!
-//! Source: machine.md section 3. Assumes: L/D < 0.5, open ends, no inertia of the oil; a π film needs ambient pressure at
+//! Source: derived; book/src/theory/drop.md, mounts. Assumes: L/D < 0.5, open ends, no inertia of the oil; a π film needs ambient pressure at
 //! cavitation.
 
 use number::{Gather, Real, Vec2, constants};

@@ -9,7 +9,7 @@
 //! with the cubes of its loads between those seen. Points of the inner ring turn with it, so that a load that goes round with the
 //! shaft stays where it is.
 //!
-//! Source: heat-and-life, sections 4, 7 and 8. Range: a flash that lasts shorter than a look may be missed where no load changes.
+//! Source: derived; book/src/theory/heat.md. Range: a flash that lasts shorter than a look may be missed where no load changes.
 
 use super::sampling::Peak;
 use crate::bearing::{BearingConstants, PlanarConstants};
