@@ -83,7 +83,7 @@ pub fn band_maximum(half_length: f64) -> (f64, f64) {
 ///
 /// The integrand begins as z ln z; z = 2Λu⁴ makes it smooth enough for Simpson's rule.
 ///
-/// Source: heat-and-life, section 4; integral of [`band_rise`].
+/// Source: integral of [`band_rise`].
 /// Valid: steady, Λ > 0.
 pub fn band_mean(half_length: f64) -> f64 {
     let n = 400;
@@ -102,7 +102,7 @@ pub fn band_mean(half_length: f64) -> f64 {
 ///
 /// Argument: Pe = va/2α.
 ///
-/// Source: heat-and-life, section 4; Tian and Kennedy 1994 (from memory: check before quoting).
+/// Source: Tian and Kennedy 1994 (from memory: check before quoting).
 /// Valid: within 2.3 % and 3.8 % of the exact values.
 pub fn circle_fit(peclet: f64) -> [f64; 2] {
     [
@@ -257,7 +257,7 @@ impl SkiddingContact {
     ///
     /// Arguments: sliding power W, load N, speeds of the surfaces of ball and race past the contact m/s.
     ///
-    /// Source: heat-and-life, section 4; the fit of the Péclet number between rest and Blok's law is ours.
+    /// Source: the fit of the Péclet number between rest and Blok's law is ours.
     /// Valid: within 4 % of [`ellipse_maximum`] for aspects up to 15; steady, which takes b/U and at rest b²/α; no film, no asperities.
     pub fn flash(&self, power: f64, load: f64, speeds: [f64; 2]) -> f64 {
         let [across, along] = self.axes.map(|axis| axis * load.cbrt());
@@ -275,7 +275,7 @@ impl SkiddingContact {
 ///
 /// Arguments: flux W/m², half-length b m, speed of the surface past the patch m/s, time since the touch s, effusivity.
 ///
-/// Source: heat-and-life, section 4; derived.
+/// Source: derived.
 /// Valid: Λ = vb/2α > 5 (4 %).
 pub fn flash_rise(
     flux: f64,
@@ -292,7 +292,7 @@ pub fn flash_rise(
 ///
 /// Argument: f = patch over track area of that body.
 ///
-/// Source: heat-and-life, section 4; fit of [ζ(−½, f) − ζ(−½)]/√f.
+/// Source: fit of [ζ(−½, f) − ζ(−½)]/√f.
 /// Valid: 0 to 1, within 0.009.
 pub fn return_factor(share: f64) -> f64 {
     1.0 - 0.7302 * share.sqrt() - 0.2698 * share.powf(1.5)

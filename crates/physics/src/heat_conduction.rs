@@ -16,7 +16,7 @@ pub struct ThermalMaterial {
 
 /// Bearing steel: 46 W/(m K), 7850 kg/m³, 460 J/(kg K).
 ///
-/// Source: heat-and-life, section 9; 40 to 50 W/(m K), 450 to 480 J/(kg K).
+/// Source: 40 to 50 W/(m K), 450 to 480 J/(kg K).
 pub const STEEL_HEAT: ThermalMaterial = ThermalMaterial {
     conductivity: 46.0,
     density: BEARING_STEEL.density,
@@ -25,7 +25,7 @@ pub const STEEL_HEAT: ThermalMaterial = ThermalMaterial {
 
 /// Silicon nitride: 35 W/(m K), 3190 kg/m³, 800 J/(kg K).
 ///
-/// Source: heat-and-life, section 9; 30 to 40 W/(m K), 680 to 800 J/(kg K).
+/// Source: 30 to 40 W/(m K), 680 to 800 J/(kg K).
 pub const SILICON_NITRIDE_HEAT: ThermalMaterial = ThermalMaterial {
     conductivity: 35.0,
     density: SILICON_NITRIDE.density,
@@ -42,7 +42,7 @@ impl ThermalMaterial {
     }
     /// Effusivity e = √(k ρ c), W √s/(m² K): what a surface takes up in a short time.
     ///
-    /// Source: heat-and-life, section 2; definition.
+    /// Source: definition.
     /// Valid: any body.
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.specific_heat).sqrt()
@@ -72,7 +72,7 @@ pub fn erfc(x: f64) -> f64 {
 
 /// Integral of erfc from x to infinity: e^(−x²)/√π − x erfc x.
 ///
-/// Source: heat-and-life, section 2; definition.
+/// Source: definition.
 /// Valid: x ≥ 0.
 pub fn ierfc(x: f64) -> f64 {
     (-x * x).exp() / PI.sqrt() - x * erfc(x)
@@ -82,7 +82,7 @@ pub fn ierfc(x: f64) -> f64 {
 ///
 /// Arguments: flux W/m², time s, depth m.
 ///
-/// Source: heat-and-life, section 2; derived.
+/// Source: derived.
 /// Valid: depth well inside the body, time > 0.
 pub fn half_space_rise(material: ThermalMaterial, flux: f64, time: f64, depth: f64) -> f64 {
     let spread = (material.diffusivity() * time).sqrt();
@@ -94,7 +94,7 @@ pub fn half_space_rise(material: ThermalMaterial, flux: f64, time: f64, depth: f
 /// Arguments: flux W/m², thickness m, time s, depth m from the heated face. By images below αt = 0.05 L², where the
 /// series is rounding noise; by the series above.
 ///
-/// Source: heat-and-life, section 2; derived.
+/// Source: derived.
 /// Valid: 0 ≤ depth ≤ thickness, time > 0.
 pub fn slab_rise(
     material: ThermalMaterial,
@@ -130,7 +130,7 @@ pub fn slab_rise(
 
 /// Temperature of the common face of two half-spaces that touch: (e₁T₁ + e₂T₂)/(e₁ + e₂).
 ///
-/// Source: heat-and-life, section 2; derived.
+/// Source: derived.
 /// Valid: perfect contact, times before a back face is felt.
 pub fn touch_temperature(
     first: ThermalMaterial,
@@ -144,7 +144,7 @@ pub fn touch_temperature(
 
 /// Effusivity of two bodies in series: e₁e₂/(e₁ + e₂).
 ///
-/// Source: heat-and-life, section 2; derived, equal flux from both sides.
+/// Source: derived, equal flux from both sides.
 /// Valid: perfect contact.
 pub fn joint_effusivity(first: ThermalMaterial, second: ThermalMaterial) -> f64 {
     let (a, b) = (first.effusivity(), second.effusivity());
@@ -153,7 +153,7 @@ pub fn joint_effusivity(first: ThermalMaterial, second: ThermalMaterial) -> f64 
 
 /// Flux between two half-spaces at a time after they touched: e₁₂ (T₁ − T₂)/√(πt), W/m².
 ///
-/// Source: heat-and-life, section 2; derived.
+/// Source: derived.
 /// Valid: as [`touch_temperature`].
 pub fn touch_flux(
     first: ThermalMaterial,

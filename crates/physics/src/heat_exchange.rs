@@ -5,7 +5,7 @@ use crate::hertz::carlson_rf;
 use std::f64::consts::PI;
 
 /// Stefan and Boltzmann's constant, W/(m² K⁴).
-/// Source: heat-and-life, section 2.
+/// Source: derived; book/src/theory/heat.md.
 pub const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
 /// Molar gas constant, J/(mol K), in the digits of the reference cases.
 pub const GAS_CONSTANT: f64 = 8.31446;
@@ -18,7 +18,7 @@ pub const AIR_ADIABATIC_EXPONENT: f64 = 1.4;
 ///
 /// Arguments: semi-axes a ≥ b in m, conductivity W/(m K).
 ///
-/// Source: heat-and-life, section 2; Carlson's form of the
+/// Source: Carlson's form of the
 /// elliptic integral.
 /// Valid: contact at rest, small beside the body.
 pub fn constriction_resistance(semi_major: f64, semi_minor: f64, conductivity: f64) -> f64 {
@@ -77,7 +77,7 @@ impl ContactConductance {
     }
     /// √(G_s² + G_m²), W/K: within 1.5 % of the exact one for a/b ≥ 3, 5.5 % for a circle.
     ///
-    /// Source: heat-and-life, section 2; compared with boundary elements.
+    /// Source: compared with boundary elements.
     /// Valid: Ub/2α to 4; above, the rolling limit rules and is exact.
     pub fn blend(&self) -> f64 {
         self.at_rest.hypot(self.rolling)
@@ -86,7 +86,7 @@ impl ContactConductance {
     ///
     /// Arguments: film thickness m, conductivity of the film W/(m K).
     ///
-    /// Source: heat-and-life, section 2; resistances in series.
+    /// Source: resistances in series.
     /// Valid: film thin beside the ellipse.
     pub fn with_film(&self, thickness: f64, conductivity: f64, semi_axes: [f64; 2]) -> f64 {
         let film = thickness / (conductivity * PI * semi_axes[0] * semi_axes[1]);
@@ -114,7 +114,7 @@ pub fn rolling_line_conductance(
 ///
 /// Arguments: normal force N, bore radius and radial clearance m, length m, contact modulus E* Pa.
 ///
-/// Source: heat-and-life, section 2; H. Hertz 1881.
+/// Source: H. Hertz 1881.
 /// Valid: b < 0.1 R₀, c₀/R₀ > 1e-3; edges and tilt not modelled.
 pub fn line_half_width(force: f64, bore: f64, clearance: f64, length: f64, modulus: f64) -> f64 {
     let radius = bore * (bore - clearance) / clearance;
@@ -123,7 +123,7 @@ pub fn line_half_width(force: f64, bore: f64, clearance: f64, length: f64, modul
 
 /// Conductance through the wall of a tube: 2πkL/ln(r₂/r₁), W/K.
 ///
-/// Source: heat-and-life, section 2; derived.
+/// Source: derived.
 /// Valid: steady, no flow along the axis.
 pub fn cylinder_wall(conductivity: f64, length: f64, inner: f64, outer: f64) -> f64 {
     2.0 * PI * conductivity * length / (outer / inner).ln()
@@ -134,7 +134,7 @@ pub fn cylinder_wall(conductivity: f64, length: f64, inner: f64, outer: f64) -> 
 /// Arguments: conductivities W/(m K); roughness σ m and slope m of both surfaces combined; pressure and hardness of the
 /// softer body, Pa.
 ///
-/// Source: heat-and-life, section 2; Cooper, Mikic and Yovanovich 1969.
+/// Source: Cooper, Mikic and Yovanovich 1969.
 /// Valid: p/H 1e-6 to 2e-2 (from memory: check before quoting).
 pub fn pressed_joint(
     conductivities: [f64; 2],
@@ -152,7 +152,7 @@ pub fn pressed_joint(
 ///
 /// Arguments: accommodation α, pressure Pa, temperature K.
 ///
-/// Source: heat-and-life, section 2; kinetic theory of a diatomic gas.
+/// Source: kinetic theory of a diatomic gas.
 /// Valid: mean free path long beside the gap; else in series with the continuum value.
 pub fn free_molecular_air(accommodation: f64, pressure: f64, temperature: f64) -> f64 {
     let gamma = AIR_ADIABATIC_EXPONENT;
@@ -165,7 +165,7 @@ pub fn free_molecular_air(accommodation: f64, pressure: f64, temperature: f64) -
 ///
 /// Arguments, the inner body first: temperatures K, areas m², emissivities.
 ///
-/// Source: heat-and-life, section 2; derived.
+/// Source: derived.
 /// Valid: diffuse grey surfaces, ends closed.
 pub fn coaxial_radiation(temperatures: [f64; 2], areas: [f64; 2], emissivities: [f64; 2]) -> f64 {
     let resistance = 1.0 / emissivities[0] + areas[0] / areas[1] * (1.0 / emissivities[1] - 1.0);
@@ -177,7 +177,7 @@ pub fn coaxial_radiation(temperatures: [f64; 2], areas: [f64; 2], emissivities: 
 ///
 /// Arguments: bore, outside diameter and width, m.
 ///
-/// Source: heat-and-life, section 2; ISO 15312, 0.016 W/mm² at 50 K.
+/// Source: ISO 15312, 0.016 W/mm² at 50 K.
 /// Valid: in air, not in vacuum.
 pub fn to_surroundings(bore: f64, outside: f64, width: f64) -> f64 {
     let area = PI * width * (outside + bore);
@@ -188,7 +188,7 @@ pub fn to_surroundings(bore: f64, outside: f64, width: f64) -> f64 {
 ///
 /// Arguments: speed of the stream m/s, length along it m, conductivity W/(m K), kinematic viscosity m²/s, ρc J/(m³ K).
 ///
-/// Source: heat-and-life, section 2; laminar flat plate (a well-known book prints 0.0332, a tenth, which nobody settles).
+/// Source: laminar flat plate (a well-known book prints 0.0332, a tenth, which nobody settles).
 /// Valid: laminar; of a bearing u is a third of the cage's surface speed, x its pitch diameter.
 pub fn stream_transfer(
     speed: f64,

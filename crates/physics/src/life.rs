@@ -1,7 +1,7 @@
 //! Rolling contact fatigue: rating loads of a ball, damage of any history, factors of life.
 
 /// Weibull slope e of bearings, 10/9.
-/// Source: heat-and-life, section 8; Lundberg and Palmgren (from memory: check before quoting).
+/// Source: Lundberg and Palmgren (from memory: check before quoting).
 pub const WEIBULL_SLOPE: f64 = 10.0 / 9.0;
 
 /// Geometry that the rating load of a ball asks for.
@@ -25,7 +25,7 @@ impl RatedBearing {
     /// Q_ci = C/(0.407 Z cos^0.7 α) · {1 + b^(10/3)}^0.3, Q_ce with 0.389 and b^(−10/3),
     /// b = 1.044 ((1−γ)/(1+γ))^1.72 (f_i(2f_e−1)/(f_e(2f_i−1)))^0.41.
     ///
-    /// Source: heat-and-life, section 8; ISO/TS 16281.
+    /// Source: ISO/TS 16281.
     /// Valid: one row of balls, C of the standard.
     pub fn ball_rating_loads(&self) -> [f64; 2] {
         let [inner, outer] = self.grooves;
@@ -96,7 +96,7 @@ pub fn bearing_damage(inner: f64, outer: f64) -> f64 {
 
 /// Repetitions of a damage that the share `survival` of bearings outlives: [ln(1/S)/ln(1/0.9)]^(9/10)/D.
 ///
-/// Source: heat-and-life, section 8; Weibull, slope 10/9.
+/// Source: Weibull, slope 10/9.
 /// Valid: 0 < S < 1.
 pub fn repetitions(damage: f64, survival: f64) -> f64 {
     weibull(survival, WEIBULL_SLOPE) / damage
@@ -116,7 +116,7 @@ fn weibull(survival: f64, slope: f64) -> f64 {
 
 /// Reliability factor of catalogues, a1 = [ln(1/S)/ln(1/0.9)]^(1/1.5).
 ///
-/// Source: heat-and-life, section 8; Weibull, slope 1.5.
+/// Source: Weibull, slope 1.5.
 /// Valid: S ≥ 0.9.
 pub fn reliability_factor(survival: f64) -> f64 {
     weibull(survival, 1.5)
@@ -124,7 +124,7 @@ pub fn reliability_factor(survival: f64) -> f64 {
 
 /// Reliability factor of ISO 281:2007: 0.95 times [`reliability_factor`] + 0.05.
 ///
-/// Source: heat-and-life, section 8; ISO 281:2007.
+/// Source: ISO 281:2007.
 /// Valid: S ≥ 0.9.
 pub fn reliability_factor_iso(survival: f64) -> f64 {
     0.95 * reliability_factor(survival) + 0.05
@@ -134,7 +134,7 @@ pub fn reliability_factor_iso(survival: f64) -> f64 {
 ///
 /// Arguments: viscosity ratio κ, e_C C_u/P. κ above 4 counts as 4, and below 0.1 gives 0.1.
 ///
-/// Source: heat-and-life, section 8; ISO 281:2007 (from memory: check before quoting).
+/// Source: ISO 281:2007 (from memory: check before quoting).
 /// Valid: κ ≥ 0.1; below, no factor holds.
 pub fn iso_life_factor(kappa: f64, load_ratio: f64) -> f64 {
     if kappa < 0.1 {
@@ -159,7 +159,7 @@ pub fn iso_life_factor(kappa: f64, load_ratio: f64) -> f64 {
 ///
 /// Arguments: speed 1/min, pitch diameter mm.
 ///
-/// Source: heat-and-life, section 8; ISO 281:2007 (from memory: check before quoting).
+/// Source: ISO 281:2007 (from memory: check before quoting).
 /// Valid: n > 0; steps by 2 % at 1000/min.
 pub fn reference_viscosity(speed_rpm: f64, pitch_diameter_mm: f64) -> f64 {
     let speed = if speed_rpm < 1000.0 {

@@ -2,7 +2,7 @@
 
 /// Stiffness of ball and both races in series: (K_i^(−2/3) + K_o^(−2/3))^(−3/2), N/m^1.5.
 ///
-/// Source: heat-and-life, section 5; H. Hertz 1881, approaches add.
+/// Source: H. Hertz 1881, approaches add.
 /// Valid: elastic contacts in series.
 pub fn joint_stiffness(inner: f64, outer: f64) -> f64 {
     (inner.powf(-2.0 / 3.0) + outer.powf(-2.0 / 3.0)).powf(-1.5)
@@ -12,7 +12,7 @@ pub fn joint_stiffness(inner: f64, outer: f64) -> f64 {
 ///
 /// Arguments: stiffness N/m^1.5, displacement δ m, diametral clearance P_d m, angle rad.
 ///
-/// Source: heat-and-life, section 7; H. Hertz 1881.
+/// Source: H. Hertz 1881.
 /// Valid: quasi-static; elastic contacts, no centrifugal force.
 pub fn ball_load(stiffness: f64, displacement: f64, clearance: f64, angle: f64) -> f64 {
     let approach = displacement * angle.cos() - 0.5 * clearance;

@@ -4,7 +4,7 @@
 ///
 /// Arguments: load N, ball diameter m, groove radius over D, γ, `inner` for the inner race (−).
 ///
-/// Source: heat-and-life, section 7; Palmgren (from memory: check before quoting).
+/// Source: Palmgren (from memory: check before quoting).
 /// Valid: ratio 1e-5 to 1e-3, 58 HRC and more, slow loading.
 pub fn permanent_indentation(
     load: f64,
@@ -19,7 +19,7 @@ pub fn permanent_indentation(
 
 /// Safety of a ball's load: Q_lim/Q = (p_lim/p)³.
 ///
-/// Source: heat-and-life, section 7; H. Hertz 1881, p ~ Q^(1/3).
+/// Source: H. Hertz 1881, p ~ Q^(1/3).
 /// Valid: elastic contact.
 pub fn ball_load_safety(limit_pressure: f64, pressure: f64) -> f64 {
     (limit_pressure / pressure).powi(3)
@@ -27,7 +27,7 @@ pub fn ball_load_safety(limit_pressure: f64, pressure: f64) -> f64 {
 
 /// Static safety s0 = C0/P0.
 ///
-/// Source: heat-and-life, section 7; ISO 76.
+/// Source: ISO 76.
 /// Valid: P0 above 0.
 pub fn static_safety(static_rating: f64, equivalent_load: f64) -> f64 {
     static_rating / equivalent_load
@@ -37,7 +37,7 @@ pub fn static_safety(static_rating: f64, equivalent_load: f64) -> f64 {
 ///
 /// Arguments: wear coefficient k m²/N, force N, distance m.
 ///
-/// Source: heat-and-life, section 7; Archard (from memory: check before quoting).
+/// Source: Archard (from memory: check before quoting).
 /// Valid: k of the pair and its film.
 pub fn wear_volume(coefficient: f64, force: f64, distance: f64) -> f64 {
     coefficient * force * distance

@@ -14,7 +14,7 @@
 //!
 //! The conductances are those of an instant: a run takes them anew at each of its steps.
 //!
-//! Source: heat-and-life, section 2.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::network::{Ground, Link, Network, NetworkError};
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
@@ -58,12 +58,12 @@ pub const MOUNT: usize = 8;
 /// What gives heat to the surroundings.
 pub const GROUNDS: [usize; 4] = [HOUSING, ROTOR, ROTOR_CORE, MOUNT];
 
-/// Conductivity of oil, W/(m K), and its ρc, J/(m³ K). Source: heat-and-life, section 2; mineral oils.
+/// Conductivity of oil, W/(m K), and its ρc, J/(m³ K). Source: mineral oils.
 const OIL: (f64, f64) = (0.14, 1.67e6);
-/// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: heat-and-life,
-/// section 2.
+/// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: usual ground steel,
+/// assumed; book/src/theory/heat.md.
 pub const GROUND_STEEL: (f64, f64, f64) = (0.8e-6, 0.1, 3e9);
-/// Between a ball and its pocket, W/K. Source: assumed, as in the example of heat-and-life; small beside the lubricant's.
+/// Between a ball and its pocket, W/K. Source: assumed; small beside the lubricant's.
 const POCKET: f64 = 5e-3;
 
 /// How rotor and inner race touch.

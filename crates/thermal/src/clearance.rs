@@ -20,7 +20,7 @@ impl ThermalClearance {
     ///
     /// Arguments: temperatures of inner ring, balls and outer ring, °C.
     ///
-    /// Source: heat-and-life, section 5; free expansion.
+    /// Source: free expansion.
     /// Valid: rings free to grow, each at one temperature.
     pub fn at(&self, inner: f64, balls: f64, outer: f64) -> f64 {
         let [of_inner, of_balls, of_outer] = self.changes(inner, balls, outer);
@@ -57,7 +57,7 @@ pub struct Seat {
 impl Seat {
     /// Δ = Δ_0 + (α_in ΔT_in − α_out ΔT_out) d, m, at temperatures of the nodes, °C, with the reference temperature.
     ///
-    /// Source: heat-and-life, section 5.
+    /// Source: derived; book/src/theory/heat.md.
     /// Valid: as [`ThermalClearance::at`].
     pub fn at(&self, temperatures: &[f64], reference: f64) -> f64 {
         let [inside, outside] =
@@ -76,7 +76,7 @@ impl Seat {
 ///
 /// Argument: stiffness of ball and both races in series, N/m^1.5.
 ///
-/// Source: heat-and-life, section 5; H. Hertz 1881.
+/// Source: H. Hertz 1881.
 /// Valid: elastic contacts.
 pub fn preload(stiffness: f64, clearance: f64) -> f64 {
     stiffness * (-0.5 * clearance).max(0.0).powf(1.5)

@@ -16,7 +16,7 @@
 //!
 //! Not here: what the rotor does meanwhile. Whirl, lost contact and passing resonances need a run in motion.
 //!
-//! Source: heat-and-life, section 6.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::losses::{Losses, moments, to_nodes};
 use crate::network::Network;

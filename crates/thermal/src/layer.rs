@@ -13,7 +13,7 @@
 //!
 //! Temperatures are rises above the start. What a layer gives to the core behind it is drawn from its mean, by its user.
 //!
-//! Source: heat-and-life, section 4; the series of a slab under constant flux.
+//! Source: the series of a slab under constant flux.
 
 use physics::heat_conduction::ThermalMaterial;
 use std::f64::consts::PI;

@@ -13,7 +13,7 @@
 //!
 //! Not modelled: asperities, which are hotter than the mean of the patch; uneven pressure along the contact; cooling by oil.
 //!
-//! Source: heat-and-life, section 4.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::layer::{Answer, HalfStep, Layer, LayerState};
 use physics::flash::{flash_rise, return_factor};

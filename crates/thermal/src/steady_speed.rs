@@ -8,7 +8,7 @@
 //! only the change of the powers limits its length. At an instant the eigenvalues of the whole, losses included, say what
 //! comes next: a positive real part is a runaway, and its inverse the time in which it grows by e.
 //!
-//! Source: heat-and-life, sections 2 and 5.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::losses::{Losses, moments, to_nodes};
 use crate::network::Network;

@@ -8,7 +8,7 @@
 //! the oil beyond its points, down to 2 mm²/s: a bearing that runs away leaves every range, and a run that stopped there
 //! would hide it.
 //!
-//! Source: heat-and-life, sections 5 and 6; the laws are those of `physics`.
+//! Source: the laws are those of `physics`.
 
 use crate::clearance::{ThermalClearance, preload};
 use crate::load_zone::LoadZone;

@@ -7,7 +7,7 @@
 //! Nodes and losses stand bearing by bearing, two losses each; the last loss is that of the rotor, whose heat leaves with brake
 //! and gas.
 //!
-//! Source: heat-and-life, section 6.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::bearing_network::NODES;
 use crate::losses::Losses;

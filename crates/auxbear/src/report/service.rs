@@ -13,7 +13,7 @@
 //! member. Every drop begins as its run
 //! did: lubricant and temperatures have recovered.
 //!
-//! Source: heat-and-life, sections 7 and 8.
+//! Source: derived; book/src/theory/heat.md.
 
 use super::directory::read;
 use crate::problem::{Code, Problem};

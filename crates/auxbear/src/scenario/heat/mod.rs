@@ -79,7 +79,7 @@ words! {
 }
 
 impl CageMaterial {
-    /// What it is as a body that conducts. Source: heat-and-life, section 9.
+    /// What it is as a body that conducts. Source: derived; book/src/theory/heat.md.
     pub fn heat(self) -> ThermalMaterial {
         let material = |conductivity, density, specific_heat| ThermalMaterial {
             conductivity,
@@ -277,7 +277,7 @@ impl Warm {
     }
 }
 
-/// Expansion of bearing steel, 1/K. Source: heat-and-life, section 9.
+/// Expansion of bearing steel, 1/K. Source: derived; book/src/theory/heat.md.
 pub(crate) const STEEL_EXPANSION: f64 = 11.5e-6;
 
 /// Seats of the rings whose fits are given; the inner one on a sleeve that is one body with the ring.

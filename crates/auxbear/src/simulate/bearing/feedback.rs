@@ -7,7 +7,7 @@
 //! have moved enough to matter. M1 of balls that their rings preload is that of the radial load which presses them as hard, as in
 //! a run-out.
 //!
-//! Source: heat-and-life, section 5. Assumes: rings at one temperature each; rings and balls free to grow.
+//! Source: derived; book/src/theory/heat.md. Assumes: rings at one temperature each; rings and balls free to grow.
 
 use crate::scenario::{Bearing, Feedback, Moment, Traction, Warm};
 use crate::simulate::bearing::build::bearing as constants_of;

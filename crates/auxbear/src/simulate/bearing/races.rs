@@ -189,7 +189,7 @@ const DENTS: Origin = Origin {
 const LIFE: Origin = Origin {
     law: "Σ Q³ of the balls that pass each point of both rings over the rating loads of ISO/TS 16281, to the power 10/9: share of the \
           life L10, which 10 % of bearings do not reach",
-    source: "heat-and-life, section 8; crates/physics/src/life.rs, crates/model/src/system/race_record.rs",
+    source: "book/src/theory/heat.md; crates/physics/src/life.rs, crates/model/src/system/race_record.rs",
     valid: "Q below that of half the dynamic rating; without lubricant factor (0.1 to 50). Blows that dent count by \
             largest_indentation",
 };
@@ -197,19 +197,19 @@ const BY_POINT: Origin = Origin {
     law: "S/(z 10⁶ Q_c³), S = Σ Q³ over the balls that pass a point; of the outer ring from the frame's x axis on, of the inner one from its angle 0 \
           at the release, one value where it is the same all round. life_share_with_lubricant, else life_share, is the mean of their powers 10/9 to the \
           power 9/10, of both rings",
-    source: "heat-and-life, section 8; crates/physics/src/life.rs",
+    source: "book/src/theory/heat.md; crates/physics/src/life.rs",
     valid: "as life_share; of repeated runs the mean of the members. Drops of one bearing add up point by point (auxbear service)",
 };
 const DROPS: Origin = Origin {
     law: "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
           life_share",
-    source: "Weibull, slope 10/9; heat-and-life, section 8",
+    source: "Weibull, slope 10/9; book/src/theory/heat.md",
     valid: "rolling fatigue alone, of what was computed ball by ball; an order, never a promise: single bearings scatter 50 to 1",
 };
 const LUBRICATED: Origin = Origin {
     law: "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \
           warmest lubricant at the mean speed, C_u = C0/22",
-    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; heat-and-life, section 8",
+    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
     valid: "one phase, what was computed ball by ball, P without preload; below κ = 0.1 no factor holds, and 0.1 is taken; heat.contamination decides within a \
             factor of ten",
 };

@@ -321,7 +321,7 @@ fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
 
 const PEAK: Origin = Origin {
     law: "C Ṫ = P + Σ G (T_other − T), P the heats of the ledger over the nodes",
-    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; heat-and-life, sections 2 and 3",
+    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; book/src/theory/heat.md",
     valid: "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
             factor of two. What of the motion follows: heat.feedback",
 };
@@ -333,13 +333,13 @@ const LIMIT: Origin = Origin {
 const TAKE: Origin = Origin {
     law: "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \
           sum. By the heats of this run, or by a second run-out",
-    source: "crates/thermal/src/held.rs; heat-and-life, section 5",
+    source: "crates/thermal/src/held.rs; book/src/theory/heat.md",
     valid: "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
             of a run-out all bearings together",
 };
 const GROWTH: Origin = Origin {
     law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
-    source: "crates/thermal/src/steady_speed.rs; heat-and-life, section 5",
+    source: "crates/thermal/src/steady_speed.rs; book/src/theory/heat.md",
     valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
 const RINGS: Origin = Origin {
@@ -349,7 +349,7 @@ const RINGS: Origin = Origin {
 };
 const CLEARANCE: Origin = Origin {
     law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
-    source: "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/bearing/feedback.rs; heat-and-life, section 5",
+    source: "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/bearing/feedback.rs; book/src/theory/heat.md",
     valid: "rings free to grow, each of one temperature: from about 0.1 s on",
 };
 const HEAT: Origin = Origin {
@@ -359,12 +359,12 @@ const HEAT: Origin = Origin {
 };
 const AT_NODE: Origin = Origin {
     law: "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
-    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; heat-and-life, section 3",
+    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
     valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
 };
 const BY_NODE: Origin = Origin {
     law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",
-    source: "shares of crates/model/src/bearing_heat.rs; heat-and-life, section 3",
+    source: "shares of crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
     valid: "as heat_made: of each loss the sum is the ledger's, the shares are constants or follow the state",
 };
 const RESIDUAL: Origin = Origin {

@@ -21,11 +21,11 @@ use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
 
-/// Expansion of silicon nitride, 1/K. Source: heat-and-life, section 9.
+/// Expansion of silicon nitride, 1/K. Source: derived; book/src/theory/heat.md.
 const CERAMIC_EXPANSION: f64 = 3.2e-6;
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
 const OIL_SPECIFIC_HEAT: f64 = 1900.0;
-/// Shares of the heat of M1: sliding at ball and race, half to each side. Source: heat-and-life, section 3.
+/// Shares of the heat of M1: sliding at ball and race, half to each side. Source: derived; book/src/theory/heat.md.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
 
 /// A bearing of a run-out.

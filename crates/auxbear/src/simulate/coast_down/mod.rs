@@ -5,7 +5,7 @@
 //! made is stored or given away to rounding. A second run-out holds every node at its limit from the moment it gets there: the
 //! heat that must be taken from it for that.
 //!
-//! Source: heat-and-life, sections 2, 3, 5, 6 and 8.
+//! Source: derived; book/src/theory/heat.md., 3, 5, 6 and 8.
 
 pub(crate) mod build;
 pub(crate) mod course;

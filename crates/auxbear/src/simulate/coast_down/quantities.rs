@@ -259,7 +259,7 @@ fn used(
 
 const STOP: Origin = Origin {
     law: "I Ω̇ = −n (M0(ν(T), Ω) + M1(ΣQ)) − c_w Ω², to coast_down.stop_speed",
-    source: "crates/thermal/src/coast_down.rs; heat-and-life, section 6",
+    source: "crates/thermal/src/coast_down.rs; book/src/theory/heat.md",
     valid: "the rotor rolls on its bearings: no whirl, no lost contact, no resonance",
 };
 const TURNS: Origin = Origin {
@@ -279,7 +279,7 @@ const ENERGY: Origin = Origin {
 };
 const HEAT: Origin = Origin {
     law: "kinetic energy lost in each step over the losses by their powers; C ΔT of all nodes; ∫G (T − T_ambient) dt",
-    source: "crates/thermal/src/coast_down.rs, crates/thermal/src/network.rs; heat-and-life, sections 2 and 6",
+    source: "crates/thermal/src/coast_down.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
     valid: "all bearings together; the heat of the gas leaves with it",
 };
 const RESIDUAL: Origin = Origin {
@@ -289,12 +289,12 @@ const RESIDUAL: Origin = Origin {
 };
 const PEAK: Origin = Origin {
     law: "C Ṫ = P + Σ G (T_other − T)",
-    source: "crates/thermal/src/bearing_network.rs; heat-and-life, section 2",
+    source: "crates/thermal/src/bearing_network.rs; book/src/theory/heat.md",
     valid: "bodies of one temperature; conductances of contacts and seats within a factor of two",
 };
 const CLEARANCE: Origin = Origin {
     law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
-    source: "crates/thermal/src/clearance.rs; heat-and-life, section 5",
+    source: "crates/thermal/src/clearance.rs; book/src/theory/heat.md",
     valid: "rings free to grow, each of one temperature",
 };
 const BALLS: Origin = Origin {
@@ -309,11 +309,11 @@ const KAPPA: Origin = Origin {
 };
 const LUBRICATED: Origin = Origin {
     law: "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22",
-    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; heat-and-life, section 8",
+    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
     valid: "below κ = 0.1 no factor holds, and 0.1 is taken; e_C = heat.contamination decides within a factor of ten",
 };
 const LIFE: Origin = Origin {
     law: "Σ turns Q³ at each place of both rings over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",
-    source: "crates/physics/src/life.rs; heat-and-life, section 8",
+    source: "crates/physics/src/life.rs; book/src/theory/heat.md",
     valid: "rolling fatigue alone, without lubricant factor (0.1 to 50); an order, never a promise: single bearings scatter 50 to 1",
 };

@@ -6,7 +6,7 @@
 //! ```
 //! Tracks that close on loaded balls do work on them, which the ledger counts as a source.
 //!
-//! Source: heat-and-life, section 5.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::scenario::{AuxiliaryBearing, Drop};
 use crate::simulate::bearing::feedback::{FollowedBearing, Renewals, State};

@@ -383,13 +383,13 @@ impl Resonances {
 const CHANGE: Origin = Origin {
     law: "the rotor has pressed on every inner race, rotor and race, and cage, within 1 % of rolling, for 20 turns of every cage; kinetic \
           energy, temperatures and speed go on as they are",
-    source: "crates/model/src/system/machine/bearing_record.rs; heat-and-life, section 6",
+    source: "crates/model/src/system/machine/bearing_record.rs; book/src/theory/heat.md",
     valid: "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window",
 };
 const WINDOWS: Origin = Origin {
     law: "while the rotor does not roll: mean heats over 80 turns at held speed, 5 % slower from window to window; the largest standard error \
           of a window's power over it",
-    source: "crates/auxbear/src/simulate/drop/windows.rs; heat-and-life, section 6",
+    source: "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
     valid: "what happens at a speed has forgotten how it came there",
 };
 const FREQUENCIES: Origin = Origin {
@@ -399,7 +399,7 @@ const FREQUENCIES: Origin = Origin {
 };
 const RESONANCES: Origin = Origin {
     law: "natural frequencies passed by laws; losses of windows ball by ball at 1.03, 1 and 0.97 of each over those of the laws, less 1, the largest",
-    source: "crates/auxbear/src/simulate/drop/windows.rs; heat-and-life, section 6",
+    source: "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
     valid: "the speed held there as long as it likes: a rotor that passes quickly is lifted less",
 };
 const COURSE: Origin = Origin {

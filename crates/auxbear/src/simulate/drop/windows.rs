@@ -9,7 +9,7 @@
 //!
 //! The spread of the means is that of batches; what scatters more than a tenth is told.
 //!
-//! Source: heat-and-life, section 6.
+//! Source: derived; book/src/theory/heat.md.
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
