@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 const SPIN_UP: &str = include_str!("../../../scenarios/spin_up_warming.toml");
 const RIG: &str = include_str!("../../../scenarios/rig_test_3_warming.toml");
+const RUN_OUT: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
 const DROP: &str = include_str!("../../../scenarios/drop_whirl_closing.toml");
 
 fn ran(text: &str, sets: &[&str]) -> Outcome {
@@ -131,4 +132,28 @@ fn drops_and_rigs_tell_it_too_and_lanes_the_same() {
         &["run.duration=2 s", "heat.lubricant_limit=25.01 degC"],
     );
     assert!(number(&rig, "lubricant_energy_to_take") > 0.0);
+}
+
+/// What a rotor that bounces makes until it rolls is taken too: the way through the windows is held as the drop was.
+#[test]
+fn what_is_taken_goes_on_from_the_drop_through_the_windows_of_its_run_out() {
+    let out = ran(RUN_OUT, &["heat.lubricant_limit=30 degC"]);
+    let powers = list(&out, "run_out.lubricant_powers_to_take");
+    let times = list(&out, "run_out.held_times");
+    let limit = number(&out, "lubricant_limit_time");
+    let start = number(&out, "run_out.start_time");
+    assert!(times[0] < start, "{} before {start}: windows", times[0]);
+    // once there, the oil is held all the way to where the rotor rolls
+    let mut bouncing = times
+        .iter()
+        .zip(powers)
+        .filter(|(time, _)| **time > limit + 2.0);
+    let mut bouncing = bouncing.by_ref().take_while(|(time, _)| **time < start);
+    assert!(bouncing.all(|(_, power)| *power > 1.0), "{powers:?}");
+    let until = times.partition_point(|time| *time <= start);
+    let taken: f64 = (1..until)
+        .map(|k| powers[k] * (times[k] - times[k - 1]))
+        .sum();
+    let all = number(&out, "run_out.lubricant_energy_to_take");
+    assert!(taken > 0.2 * all, "{taken} of {all}");
 }

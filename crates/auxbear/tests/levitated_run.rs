@@ -79,7 +79,7 @@ fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
     let sets = |limit: &str| {
         let text = rig().replace(
             "current_stiffness = \"40 N/A\"",
-            &format!("current_stiffness = \"40 N/A\"\nlargest_current = \"{limit}\""),
+            &format!("current_stiffness = \"40 N/A\"\n{limit}"),
         );
         ran(
             &text,
@@ -87,11 +87,15 @@ fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
         )
     };
     let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2034");
-    let (free, bound) = (sets("5 A"), sets("0.62 A"));
+    let free = sets("largest_current = \"5 A\"");
     let largest = "magnet.drive_end.largest_current_1";
     assert!(number(&free, largest) > 0.64 && !told(&free));
-    // the command is clipped, the amplifier follows it
-    assert!(number(&bound, largest) <= 0.62 && told(&bound));
+    // commands end at the limit, the amplifier follows them; of a pair with 1.6 A of bias at what its coils leave
+    let pair = "gap = \"0.4 mm\"\nlargest_current = \"2.22 A\"";
+    for limit in ["largest_current = \"0.62 A\"", pair] {
+        let bound = sets(limit);
+        assert!(number(&bound, largest) <= 0.6201 && told(&bound), "{limit}");
+    }
 }
 
 /// Members in lanes are what they are alone, also those of a sampled controller, whose states jump.
@@ -111,6 +115,23 @@ fn controllers_in_lanes_have_the_bits_of_a_single_run() {
     }
 }
 
+/// A command that takes effect with the next sample, and one a little earlier.
+#[test]
+fn a_computing_time_of_a_whole_period_is_no_jump() {
+    let largest = |computing: &str| {
+        let computing = format!("levitation.controller.computing_time={computing}");
+        let sets = [
+            "run.duration=10 ms",
+            "levitation.power_lost_at=1 s",
+            SAMPLED[0],
+            SAMPLED[2],
+            &computing,
+        ];
+        number(&ran(&rig(), &sets), "magnet.drive_end.largest_current_1")
+    };
+    near(largest("50 us"), largest("49.9999 us"), 1e-6);
+}
+
 #[test]
 fn a_loss_without_magnets_or_before_standstill_is_refused() {
     let refused = |text: &str, sets: &[&str]| {
@@ -119,6 +140,12 @@ fn a_loss_without_magnets_or_before_standstill_is_refused() {
         let run = run(&scenario, &Options::unwatched(&never)).map(|_| ());
         run.unwrap_err().to_string()
     };
+    let many = [
+        "levitation.power_lost_at=1 s",
+        "levitation.controller.sampling_period=1e-6 us",
+        "levitation.controller.delay=0 s",
+    ];
+    assert!(refused(&rig(), &many).contains("samples in this run"));
     let error = refused(STIFF, &["levitation.power_lost_at=1 ms"]);
     assert!(
         error.contains("power_lost_at") && error.contains("no magnets"),

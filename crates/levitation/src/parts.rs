@@ -59,17 +59,15 @@ pub struct Actuator {
     pub magnet: Magnet<f64>,
     /// Its amplifier.
     pub amplifier: Amplifier,
-    /// Largest control current, A: what the coils leave above the bias; infinite where nothing limits it. Commands of a linear
-    /// magnet end there; the coils of a pair have limits of their own.
+    /// Largest control current, A: what the coils leave above the bias; infinite where nothing limits it. Commands end there.
     pub largest_current: f64,
 }
 
 impl Actuator {
-    /// Where its commands end, A; none where they are volts, or have no limit of their own.
+    /// Where its commands end, A; none where they are volts, or have no limit.
     pub(crate) fn command_limit(&self) -> Option<f64> {
         let volts = matches!(self.amplifier, Amplifier::Voltage { gain: None, .. });
-        let linear = matches!(self.magnet, Magnet::Linear { .. });
-        (linear && !volts && self.largest_current.is_finite()).then_some(self.largest_current)
+        (!volts && self.largest_current.is_finite()).then_some(self.largest_current)
     }
 }
 

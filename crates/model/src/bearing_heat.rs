@@ -148,8 +148,10 @@ impl Growth {
 /// What must be taken from the nodes of a bearing to hold them at their limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldWarmth {
-    held: Held,
-    temperatures: Vec<f64>,
+    /// Which nodes are at their limits now.
+    pub held: Held,
+    /// °C.
+    pub temperatures: Vec<f64>,
     /// Taken from each node until now, J.
     pub taken: OfNodes,
     /// The most that was taken from each in a span, W.

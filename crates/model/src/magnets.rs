@@ -150,9 +150,10 @@ impl MagnetsConstants {
                 if k > 0.0 {
                     events.push((k * period, ControlEvent::Sample));
                 }
-                // one without computing time is released in the start already
+                // one without computing time is released in the start already; none comes after the next sample
                 if k > 0.0 || computation > 0.0 {
-                    events.push((k * period + computation, ControlEvent::Release));
+                    let release = (k * period + computation).min((k + 1.0) * period);
+                    events.push((release, ControlEvent::Release));
                 }
                 k += 1.0;
             }

@@ -22,6 +22,16 @@ impl Held {
         Held { limits, marks }
     }
 
+    /// Those of several bearings as one, their nodes behind each other.
+    pub fn together<'a>(all: impl IntoIterator<Item = &'a Held>) -> Self {
+        let mut whole = Held::at(Vec::new());
+        for own in all {
+            whole.limits.extend(&own.limits);
+            whole.marks.extend(&own.marks);
+        }
+        whole
+    }
+
     /// Which nodes are held: as [`Network::holding`](crate::network::Network::holding) asks.
     pub fn marks(&self) -> &[bool] {
         &self.marks

@@ -140,7 +140,8 @@ impl List {
         taken: Option<[f64; 2]>,
     ) {
         let of = |words: &str| of_part(bearing, &format!("{node}_{words}"));
-        let why = passed.clone().err().unwrap_or_default();
+        let cooled = || "bodies beside it that are held keep it below its limit".to_string();
+        let why = passed.clone().err().unwrap_or_else(cooled);
         let part = |which: usize| taken.map(|taken| taken[which]).ok_or_else(|| why.clone());
         self.awaited(&of("limit_time"), passed, &LIMIT);
         self.number(&of("heat_to_take"), "W", part(0), &TAKE);
@@ -307,7 +308,8 @@ fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
     let hottest = hottest.max_by(|a, b| a.0.total_cmp(&b.0));
     let told = |(above, name, peak, time): (f64, &str, f64, f64)| {
         let held = followed.warmth.held.as_deref();
-        let taken = held.map(|held| to_take(held.most_of_all, held.taken.iter().sum()));
+        let taken =
+            held.map(|held| to_take("this bearing", held.most_of_all, held.taken.iter().sum()));
         let text = format!(
             "Too hot: {} at {peak:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. \
              Hardness, cage and lubricant may change there; this run does not follow that.{}",

@@ -17,6 +17,7 @@ use thermal::bearing_network::{
 };
 use thermal::clearance::ThermalClearance;
 use thermal::coast_down::AtNodes;
+use thermal::held::Held;
 use thermal::load_zone::LoadZone;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
@@ -88,8 +89,22 @@ pub(crate) struct Start {
     pub rows: Vec<Row>,
     /// Why it ended on that way.
     pub ended: Option<End>,
+    /// The same way with the nodes held at their limits, where there was one.
+    pub on_limits: Option<OnLimits>,
     /// The state of the last window: its step is taken again when its end is known.
     kept: Option<Kept>,
+}
+
+/// A way on which nodes are held at their limits.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OnLimits {
+    pub held: Held,
+    /// Of the nodes of all bearings, °C.
+    pub temperatures: Vec<f64>,
+    /// Heat taken from each on the way, J, all bearings.
+    pub taken: Vec<f64>,
+    /// The same over the last step, W.
+    pub powers: Vec<f64>,
 }
 
 /// What a step in slow time changes.
@@ -101,6 +116,7 @@ struct Kept {
     heats: Vec<f64>,
     given: f64,
     at_nodes: AtNodes,
+    on_limits: Option<OnLimits>,
 }
 
 impl Start {
@@ -115,7 +131,21 @@ impl Start {
             given: 0.0,
             rows: Vec::new(),
             ended: None,
+            on_limits: None,
             kept: None,
+        }
+    }
+    /// The same, with nodes that are held at these temperatures, °C.
+    pub fn holding(self, held: Held, temperatures: Vec<f64>) -> Self {
+        let nothing = vec![0.0; temperatures.len()];
+        Start {
+            on_limits: Some(OnLimits {
+                held,
+                temperatures,
+                taken: nothing.clone(),
+                powers: nothing,
+            }),
+            ..self
         }
     }
     /// Keeps where it stands.
@@ -127,6 +157,7 @@ impl Start {
             heats: self.heats.clone(),
             given: self.given,
             at_nodes: self.at_nodes.clone(),
+            on_limits: self.on_limits.clone(),
         });
     }
     /// Goes back to what was kept.
@@ -138,6 +169,7 @@ impl Start {
             self.heats = kept.heats;
             self.given = kept.given;
             self.at_nodes = kept.at_nodes;
+            self.on_limits = kept.on_limits;
         }
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn follow(
         .collect();
     let nodes = capacities.len();
     let mut held = Held::at(limits.map_or(vec![None; nodes], <[_]>::to_vec));
-    let mut taken = vec![0.0; nodes];
+    let (mut taken, mut powers) = (vec![0.0; nodes], vec![0.0; nodes]);
     let mut state = Coasting::at(
         start.time,
         start.speed,
@@ -50,11 +50,19 @@ pub(super) fn follow(
     state.heats.clone_from(&start.heats);
     state.given = start.given;
     state.at_nodes = start.at_nodes.clone();
-    // what a run before it has warmed beyond its limit is held from here on
-    held.begin(&mut state.temperatures);
+    match (&start.on_limits, limits) {
+        // what was held on the way to here is held on
+        (Some(way), Some(_)) => {
+            held.clone_from(&way.held);
+            state.temperatures.clone_from(&way.temperatures);
+            taken.clone_from(&way.taken);
+            powers.clone_from(&way.powers);
+        }
+        _ => held.begin(&mut state.temperatures),
+    }
     let mut rows = start.rows.clone();
     if start.ended.is_none() || rows.is_empty() {
-        rows.push(row(built, &state, &taken));
+        rows.push(row(built, &state, &powers));
     }
     let end = loop {
         if let Some(end) = start.ended {
@@ -93,7 +101,7 @@ pub(super) fn follow(
         let reached: Vec<f64> = reached
             .map(|(now, before)| (now - before) / sides)
             .collect();
-        let mut powers = held.end(&capacities, &mut state.temperatures, &reached);
+        powers = held.end(&capacities, &mut state.temperatures, &reached);
         for (power, taken) in powers.iter_mut().zip(&mut taken) {
             *power *= sides;
             *taken += *power;

@@ -74,12 +74,13 @@ pub(crate) fn away(time: f64, rate: f64, changes: [f64; 3]) -> Warning {
     )
 }
 
-/// What holding the limits takes: the largest power, W, and all of it, J.
-pub(crate) fn to_take(most: f64, all: f64) -> String {
-    let kilojoules = 1e-3 * all;
-    format!(
-        " To hold the limits {most:.0} W at most, {kilojoules:.2} kJ in all, must be taken away."
-    )
+/// What holding the limits takes: the largest power, W, and all of it, J; of one bearing or of all.
+pub(crate) fn to_take(of: &str, most: f64, all: f64) -> String {
+    let energy = match all < 1e3 {
+        true => format!("{all:.1} J"),
+        false => format!("{:.2} kJ", 1e-3 * all),
+    };
+    format!(" To hold the limits {most:.1} W at most, {energy} in all, must be taken from {of}.")
 }
 
 fn limits(ran: &Ran) -> Option<Warning> {
@@ -114,7 +115,7 @@ fn limits(ran: &Ran) -> Option<Warning> {
         let most = rows
             .map(|row| row.taken.iter().sum::<f64>())
             .fold(0.0, f64::max);
-        to_take(most, held.taken.iter().sum())
+        to_take("all bearings", most, held.taken.iter().sum())
     });
     Some(warning(
         "AB2310",

@@ -36,6 +36,14 @@ impl<'a> Context<'a> {
         let shaft = self.drop.shaft.as_deref();
         shaft.filter(|_| self.machine.controlled())
     }
+    /// Size of the spin at which the rotor is released, rad/s: at the start, or when its magnets lose their power; at the end where they
+    /// have it still.
+    pub fn release_speed(&self) -> f64 {
+        let lost = self.finished.record.released;
+        let spin = self.machine.layout().rotor.spin();
+        let now = self.controlled().map(|_| self.finished.ending.state[spin]);
+        lost.or(now).unwrap_or(self.drop.rotor.speed).abs()
+    }
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]
     }

@@ -7,6 +7,26 @@ use model::magnets::{AxisConstants, ControlConstants, MagnetConstants, MagnetsCo
 use number::Vec2;
 use std::sync::Arc;
 
+/// Samples of a run, at most: each ends a step.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Refuses samples that are too many to be landed on.
+fn few_samples(drop: &Drop, shaft: &Shaft, timing: Timing) -> Result<(), Box<Problem>> {
+    let Timing::Sampled { period, .. } = timing else {
+        return Ok(());
+    };
+    let samples = shaft.power_lost.min(drop.run.duration) / period;
+    if samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let found = format!("{samples:.1e} samples in this run");
+    let allowed = "at most 10 million are needed: a longer period, or a shorter run";
+    let problem = Problem::new(Code::ControllerTime, UNNAMED, found, allowed);
+    Err(Box::new(
+        problem.on_key("levitation.controller.sampling_period"),
+    ))
+}
+
 /// Magnets that hold a rotor.
 pub(super) struct OnMagnets {
     /// Control currents of their axes, A.
@@ -21,7 +41,7 @@ pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>>
         _ if shaft.power_lost <= 0.0 => return Ok(()),
         (None, _) => "no magnets, whose power could be lost",
         (_, Some(_)) => "run.until = \"standstill\"",
-        _ => return Ok(()),
+        (Some(model), None) => return few_samples(drop, shaft, model.levitation.timing()),
     };
     let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
     let problem = Problem::new(Code::Conflict, UNNAMED, found, allowed);

@@ -17,6 +17,7 @@ use model::system::machine::record::ROLLS;
 use nalgebra::{DMatrix, DVector};
 use physics::load_zone::displacement;
 use std::sync::atomic::AtomicBool;
+use thermal::held::Held;
 use thermal::warm_machine::RotorDrag;
 
 /// Before the names of the results of a run-out.
@@ -165,6 +166,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
     let whole = f64::from(sides);
     let mut parts: Vec<Part> = Vec::new();
     let mut temperatures: Vec<f64> = Vec::new();
+    let (mut held, mut at_limits) = (Vec::new(), Vec::new());
     for (k, name) in context.parts().enumerate() {
         let given = context.given(k).warm.as_deref();
         let (Some(warm), Some(warmth)) = (given, &context.record(k).warmth) else {
@@ -180,6 +182,16 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
         parts.push(one);
         temperatures.extend(&warmth.temperatures);
+        match &warmth.held {
+            Some(own) => {
+                held.push(own.held.clone());
+                at_limits.extend(&own.temperatures);
+            }
+            None => {
+                held.push(Held::at(warm.limits().into_iter().collect()));
+                at_limits.extend(&warmth.temperatures);
+            }
+        }
     }
     let spin = ending.state[machine.layout().rotor.spin()].abs();
     let content = machine.content(&ending.state);
@@ -205,7 +217,8 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
             _ => 0.0,
         },
         end: *end,
-        start: Start::at(ending.time, speed, temperatures, bearings),
+        start: Start::at(ending.time, speed, temperatures, bearings)
+            .holding(Held::together(&held), at_limits),
     })
 }
 

@@ -185,7 +185,7 @@ pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
     let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
     let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
     let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
-    let needed = FEW_MODES * bends.max(context.drop.rotor.speed.abs());
+    let needed = FEW_MODES * bends.max(context.release_speed());
     (given.cutoff < needed).then(|| {
         warning(
             "AB2031",
@@ -234,6 +234,10 @@ const BESIDE: f64 = 1e-6;
 /// A mode of the levitated rotor near the speed at which it is released, with its amplification.
 pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
     let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    // modes are those of the start: a rotor that runs up is released elsewhere
+    if context.controlled().is_some() {
+        return None;
+    }
     let speed = context.drop.rotor.speed.abs();
     let near = built.held.iter().filter(|mode| {
         mode.excited

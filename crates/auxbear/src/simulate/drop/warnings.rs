@@ -234,7 +234,7 @@ fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
     let Some(bearing) = &context.given(k).bearing else {
         return Vec::new();
     };
-    let speed = context.drop.rotor.speed;
+    let speed = context.release_speed();
     let lift_off = shared::lift_off(bearing, speed);
     let warnings = speed_rating(bearing, speed).into_iter().chain(lift_off);
     warnings.map(|warning| (speed.abs(), warning)).collect()

@@ -410,7 +410,8 @@ fn step(built: &mut Built, from: &Window, to: &Window) -> Result<(), &'static st
     let powers: Vec<f64> = (from.nodes.iter().zip(&to.nodes))
         .map(|(a, b)| 0.5 * (a + b) * scale)
         .collect();
-    let network = network(built)?;
+    on_limits(built, &powers, time)?;
+    let network = network(built, &built.start.temperatures, &[])?;
     let given = network.advance(&mut built.start.temperatures, &powers, time);
     built.start.given += sides * given.iter().sum::<f64>();
     (built.start.at_nodes).add(&network, sides, &powers, time, &given);
@@ -419,9 +420,35 @@ fn step(built: &mut Built, from: &Window, to: &Window) -> Result<(), &'static st
     Ok(())
 }
 
-fn network(built: &Built) -> Result<thermal::network::Network, &'static str> {
+/// The same step with the nodes held at their limits.
+fn on_limits(built: &mut Built, powers: &[f64], time: f64) -> Result<(), &'static str> {
+    let Some(mut way) = built.start.on_limits.take() else {
+        return Ok(());
+    };
+    let sides = f64::from(built.sides);
+    let network = network(built, &way.temperatures, way.held.marks())?;
+    let given = network.advance(&mut way.temperatures, powers, time);
+    let capacities: Vec<f64> = (built.parts.iter())
+        .flat_map(|part| part.network.capacities)
+        .collect();
+    let reached = network.by_node(&given);
+    way.powers = way.held.end(&capacities, &mut way.temperatures, &reached);
+    for (power, taken) in way.powers.iter_mut().zip(&mut way.taken) {
+        *power *= sides;
+        *taken += *power;
+        *power /= time;
+    }
+    built.start.on_limits = Some(way);
+    Ok(())
+}
+
+fn network(
+    built: &Built,
+    temperatures: &[f64],
+    held: &[bool],
+) -> Result<thermal::network::Network, &'static str> {
     let each = || {
-        let temperatures = built.start.temperatures.chunks(NODES.len());
+        let temperatures = temperatures.chunks(NODES.len());
         built.parts.iter().zip(temperatures)
     };
     let loads: Vec<Vec<f64>> = each()
@@ -447,7 +474,7 @@ fn network(built: &Built) -> Result<thermal::network::Network, &'static str> {
             (&part.network, operation)
         })
         .collect();
-    together(&all, &[]).map_err(|_| "the network of a bearing has no finite values")
+    together(&all, held).map_err(|_| "the network of a bearing has no finite values")
 }
 
 /// What is known at a window.
@@ -476,6 +503,9 @@ fn row(built: &Built, window: &Window) -> Row {
         moments: [moment(sum(0)), moment(sum(1)), moment(*rotor)],
         bearings: each.enumerate().map(of_part).collect(),
         growth: f64::NAN,
-        taken: vec![0.0; start.temperatures.len()],
+        taken: match &start.on_limits {
+            Some(way) => way.powers.clone(),
+            None => vec![0.0; start.temperatures.len()],
+        },
     }
 }
