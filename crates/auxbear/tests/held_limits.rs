@@ -140,7 +140,7 @@ fn what_is_taken_goes_on_from_the_drop_through_the_windows_of_its_run_out() {
     let out = ran(RUN_OUT, &["heat.lubricant_limit=30 degC"]);
     let powers = list(&out, "run_out.lubricant_powers_to_take");
     let times = list(&out, "run_out.held_times");
-    let limit = number(&out, "lubricant_limit_time");
+    let limit = number(&out, "run_out.lubricant_limit_time");
     let start = number(&out, "run_out.start_time");
     assert!(times[0] < start, "{} before {start}: windows", times[0]);
     // once there, the oil is held all the way to where the rotor rolls

@@ -42,7 +42,7 @@ impl Observer<RotorMachine> for States {
 }
 
 /// Tolerance of screening accuracy.
-const SCREENING: f64 = 5e-2;
+const SCREENING: f64 = 3e-2;
 /// Unit of a channel: 0.1 m/s of a centre or of a surface, spins by their radii, modes by what they move the rotor by in a bearing;
 /// positions by what that makes of them in a step.
 fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
