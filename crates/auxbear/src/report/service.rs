@@ -17,6 +17,7 @@
 
 use super::directory::read;
 use crate::problem::{Code, Problem};
+use model::system::layout::of_part;
 use physics::life::{bearing_damage, mean_damage, repetitions, survival};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -236,17 +237,10 @@ fn together(runs: &[Run], bearing: &str) -> Result<f64, String> {
     Ok(bearing_damage(inner, outer))
 }
 
-fn named(bearing: &str, name: &str) -> String {
-    match bearing {
-        "" => name.to_string(),
-        bearing => format!("{bearing}.{name}"),
-    }
-}
-
 impl Run<'_> {
     /// A list of numbers; empty where there is none.
     fn list(&self, bearing: &str, name: &str) -> Vec<f64> {
-        let found = self.summary["quantities"][named(bearing, name)]["value"].as_array();
+        let found = self.summary["quantities"][of_part(bearing, name)]["value"].as_array();
         let numbers = found.into_iter().flatten().filter_map(Value::as_f64);
         numbers.collect()
     }
@@ -274,7 +268,7 @@ impl Run<'_> {
     /// The first of these results that there is; the reason why it has no value.
     fn first(&self, bearing: &str, names: &[&str]) -> Result<Option<Found>, String> {
         for name in names {
-            let name = named(bearing, name);
+            let name = of_part(bearing, name);
             let found = &self.summary["quantities"][&name];
             if found.is_null() {
                 continue;

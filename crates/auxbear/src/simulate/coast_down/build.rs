@@ -174,7 +174,30 @@ impl Start {
     }
 }
 
+/// Ends a step of nodes that are held, in which so much heat reached each, J of a side: adds what was taken, J of all sides, and
+/// returns it over the step, W.
+pub(crate) fn hold(
+    (held, temperatures): (&mut Held, &mut [f64]),
+    capacities: &[f64],
+    reached: &[f64],
+    (sides, time): (f64, f64),
+    taken: &mut [f64],
+) -> Vec<f64> {
+    let mut powers = held.end(capacities, temperatures, reached);
+    for (power, taken) in powers.iter_mut().zip(taken) {
+        *power *= sides;
+        *taken += *power;
+        *power /= time;
+    }
+    powers
+}
+
 impl Built {
+    /// Capacities of the nodes of all bearings, J/K.
+    pub fn capacities(&self) -> Vec<f64> {
+        let parts = self.parts.iter();
+        parts.flat_map(|part| part.network.capacities).collect()
+    }
     /// The losses of the machine at a time.
     pub fn losses(&self, time: f64) -> WarmMachine {
         let mut rotor = self.rotor;

@@ -1,7 +1,7 @@
 //! A run-out step by step, and the same with nodes that are held at their limits.
 
 use crate::problem::Problem;
-use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, hold};
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::{LUBRICANT, NODES, Operation, together};
@@ -35,9 +35,7 @@ pub(super) fn follow(
 ) -> Result<Course, Box<Problem>> {
     let start = &built.start;
     let sides = f64::from(built.sides);
-    let capacities: Vec<f64> = (built.parts.iter())
-        .flat_map(|part| part.network.capacities)
-        .collect();
+    let capacities = built.capacities();
     let nodes = capacities.len();
     let mut held = Held::at(limits.map_or(vec![None; nodes], <[_]>::to_vec));
     let (mut taken, mut powers) = (vec![0.0; nodes], vec![0.0; nodes]);
@@ -101,12 +99,13 @@ pub(super) fn follow(
         let reached: Vec<f64> = reached
             .map(|(now, before)| (now - before) / sides)
             .collect();
-        powers = held.end(&capacities, &mut state.temperatures, &reached);
-        for (power, taken) in powers.iter_mut().zip(&mut taken) {
-            *power *= sides;
-            *taken += *power;
-            *power /= state.time - before;
-        }
+        powers = hold(
+            (&mut held, &mut state.temperatures),
+            &capacities,
+            &reached,
+            (sides, state.time - before),
+            &mut taken,
+        );
         rows.push(row(built, &state, &powers));
     };
     let rises = state.temperatures.iter().zip(&built.warm_from);

@@ -7,7 +7,7 @@ use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
 
-/// Share of the time with power at a limit from which on it is told.
+/// Share of the time with power at a limit from which on it is reported.
 const LONG_AT_LIMIT: f64 = 1e-4;
 
 /// Name of a value of an axis of a magnet: both axes of each stand in turn.

@@ -13,7 +13,7 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start, hold};
 use crate::simulate::coast_down::course::BEYOND;
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
@@ -428,16 +428,13 @@ fn on_limits(built: &mut Built, powers: &[f64], time: f64) -> Result<(), &'stati
     let sides = f64::from(built.sides);
     let network = network(built, &way.temperatures, way.held.marks())?;
     let given = network.advance(&mut way.temperatures, powers, time);
-    let capacities: Vec<f64> = (built.parts.iter())
-        .flat_map(|part| part.network.capacities)
-        .collect();
-    let reached = network.by_node(&given);
-    way.powers = way.held.end(&capacities, &mut way.temperatures, &reached);
-    for (power, taken) in way.powers.iter_mut().zip(&mut way.taken) {
-        *power *= sides;
-        *taken += *power;
-        *power /= time;
-    }
+    way.powers = hold(
+        (&mut way.held, &mut way.temperatures),
+        &built.capacities(),
+        &network.by_node(&given),
+        (sides, time),
+        &mut way.taken,
+    );
     built.start.on_limits = Some(way);
     Ok(())
 }
