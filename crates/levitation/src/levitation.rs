@@ -40,6 +40,7 @@ struct Block {
 
 impl Block {
     /// What it gives at an instant, or at a sample.
+    #[inline(always)]
     fn output<R: Real>(&self, states: &[R], signals: &mut Signals<R>) {
         let filter = self
             .stepped
@@ -178,6 +179,7 @@ impl Levitation {
     ///
     /// - `displacements` of every sensor axis along its direction, m
     /// - `velocities` of every magnet axis along its direction, m/s: they induce voltage
+    #[inline(always)]
     pub fn rate<R: Real>(
         &self,
         states: &[R],
@@ -230,6 +232,7 @@ impl Levitation {
     }
 
     /// Signals of an instant from the states: errors, commands, currents.
+    #[inline(always)]
     pub fn read<R: Real>(&self, states: &[R], displacements: &[R], signals: &mut Signals<R>) {
         for (index, sensor) in self.sensors.iter().enumerate() {
             let signal = match self.layout.sensors[index] {

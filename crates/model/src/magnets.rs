@@ -13,7 +13,7 @@
 
 use crate::rotor::{GeometricCentre, Node, RotorAt, RotorConstants, RotorMotion};
 use ::levitation::{Levitation, LinearControl, OfAxes};
-use number::{Gather, Mask, Real, Vec2};
+use number::{Gather, Mask, Real, Vec2, Vectorized};
 use physics::magnet::Magnet;
 use smallvec::{SmallVec, smallvec};
 use std::ops::Range;
@@ -292,12 +292,27 @@ impl<R: Real> Magnets<R> {
         let mut out = OfAxes::new();
         for (node, directions) in &control.sensors {
             let at = node.centre(rotor).position;
-            out.extend(directions.iter().map(|along| along.dot(at)));
+            for along in directions {
+                out.push(along.dot(at));
+            }
+        }
+        out
+    }
+
+    /// The rotor at each magnet.
+    #[inline(always)]
+    fn centres(&self, rotor: &RotorMotion<R>) -> SmallVec<[GeometricCentre<R>; 4]> {
+        let mut out = SmallVec::new();
+        for (node, _) in &self.list {
+            out.push(node.centre(rotor));
         }
         out
     }
 
     /// Control currents of all axes, A; with power also the rates of the controllers.
+    ///
+    /// Loops, not iterators: their closures would be left outside the vector unit.
+    #[inline(always)]
     fn currents(
         &self,
         now: Instant<R>,
@@ -305,21 +320,30 @@ impl<R: Real> Magnets<R> {
         states: &[R],
         rates: &mut [R],
     ) -> OfAxes<R> {
+        let mut currents = OfAxes::new();
         let Some(control) = &self.control else {
-            let axes = self.list.iter().flat_map(|(_, axes)| axes);
-            return axes.map(|axis| axis.current).collect();
+            for (_, axes) in &self.list {
+                for axis in axes {
+                    currents.push(axis.current);
+                }
+            }
+            return currents;
         };
-        let kept = control.kept.iter().map(|at| states[*at]);
+        for at in &control.kept {
+            currents.push(states[*at]);
+        }
         let on = now.powered.greater(R::zero());
         if !on.any() {
             rates.fill(R::zero());
-            return kept.collect();
+            return currents;
         }
         let levitation = &control.levitation;
         let mut signals = levitation.signals();
         let mut velocities = OfAxes::new();
         for ((_, axes), centre) in self.list.iter().zip(centres) {
-            velocities.extend(axes.iter().map(|axis| axis.direction.dot(centre.velocity)));
+            for axis in axes {
+                velocities.push(axis.direction.dot(centre.velocity));
+            }
         }
         let sensed = Self::sensed(control, rotor);
         let (own, others) = rates.split_at_mut(levitation.states());
@@ -329,9 +353,10 @@ impl<R: Real> Magnets<R> {
         for rate in own {
             *rate = R::select(on, *rate, R::zero());
         }
-        (signals.currents.iter().zip(kept))
-            .map(|(current, kept)| R::select(on, *current, kept))
-            .collect()
+        for (current, now) in currents.iter_mut().zip(&signals.currents) {
+            *current = R::select(on, *now, *current);
+        }
+        currents
     }
 
     /// What is left of the bias, 1 with power.
@@ -342,6 +367,7 @@ impl<R: Real> Magnets<R> {
     }
 
     /// What each magnet does; the rates of the controllers go to `rates`.
+    #[inline(always)]
     pub fn pull(
         &self,
         now: Instant<R>,
@@ -349,22 +375,13 @@ impl<R: Real> Magnets<R> {
         states: &[R],
         rates: &mut [R],
     ) -> Pulls<R> {
-        let nodes = self.list.iter();
-        let centres: SmallVec<[GeometricCentre<R>; 4]> =
-            nodes.map(|(node, _)| node.centre(rotor)).collect();
-        let currents = self.currents(now, (rotor, &centres), states, rates);
-        let share = self.bias_share(now);
-        let mut currents = currents.iter();
-        let mut out = Pulls::new();
-        for ((_, axes), centre) in self.list.iter().zip(centres) {
-            let mut force = Vec2::zero();
-            for (axis, current) in axes.iter().zip(&mut currents) {
-                let gap = axis.direction.dot(centre.position);
-                force += axis.direction * axis.law.force(*current * share, gap, share);
-            }
-            out.push(Pull { centre, force });
-        }
-        out
+        R::vectorized(Act {
+            magnets: self,
+            now,
+            rotor,
+            states,
+            rates,
+        })
     }
 
     /// Adds what they do to lists over the coordinates.
@@ -376,6 +393,47 @@ impl<R: Real> Magnets<R> {
     }
 }
 
+/// What magnets do, as a task: it is compiled once, apart from the steps of a machine.
+struct Act<'a, R: Real> {
+    magnets: &'a Magnets<R>,
+    now: Instant<R>,
+    rotor: &'a RotorMotion<'a, R>,
+    states: &'a [R],
+    rates: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for Act<'_, R> {
+    type Output = Pulls<R>;
+    #[inline(always)]
+    fn run(self) -> Pulls<R> {
+        let Act {
+            magnets,
+            now,
+            rotor,
+            states,
+            rates,
+        } = self;
+        let centres = magnets.centres(rotor);
+        let currents = magnets.currents(now, (rotor, &centres), states, rates);
+        let share = magnets.bias_share(now);
+        let mut first = 0;
+        let mut out = Pulls::new();
+        for ((_, axes), centre) in magnets.list.iter().zip(&centres) {
+            let mut force = Vec2::zero();
+            for (axis, current) in axes.iter().zip(&currents[first..]) {
+                let gap = axis.direction.dot(centre.position);
+                force += axis.direction * axis.law.force(*current * share, gap, share);
+            }
+            first += axes.len();
+            out.push(Pull {
+                centre: *centre,
+                force,
+            });
+        }
+        out
+    }
+}
+
 impl Magnets<f64> {
     /// Control currents of all axes in a state, A; without power what is left of them.
     pub fn currents_in(
@@ -384,8 +442,7 @@ impl Magnets<f64> {
         rotor: &RotorMotion<f64>,
         states: &[f64],
     ) -> OfAxes<f64> {
-        let nodes = self.list.iter();
-        let centres: SmallVec<[_; 4]> = nodes.map(|(node, _)| node.centre(rotor)).collect();
+        let centres = self.centres(rotor);
         let mut rates: SmallVec<[f64; 64]> = smallvec![0.0; states.len()];
         let all = self.currents(now, (rotor, &centres), states, &mut rates);
         let share = self.bias_share(now);

@@ -55,6 +55,21 @@ impl<R: Real> FullComplement<R> {
         }
     }
 
+    /// Adds a force and a moment to the rates of a ball's speeds: radial, orbit, spin. No closure: the compiler would leave it outside the vector unit.
+    #[inline(always)]
+    fn push(
+        &self,
+        [radial, orbit, spin]: &mut [&mut [R]; 3],
+        ball: usize,
+        at: &Place<R>,
+        (force, moment): (Vec2<R>, R),
+    ) {
+        let acceleration = force * self.inverse_mass;
+        radial[ball] += acceleration.dot(at.e_r);
+        orbit[ball] += acceleration.dot(at.e_r.turned()) / at.radius;
+        spin[ball] += moment * self.inverse_inertia;
+    }
+
     /// Adds the contacts of neighbours to the rates and to the reaction; the cage's rates become the balls' means.
     #[inline(always)]
     fn act(
@@ -69,12 +84,7 @@ impl<R: Real> FullComplement<R> {
         let mut forces = detail.chunks_exact_mut(n).nth(super::cage::POCKET_LIST);
         let rates = split_mut(rate, OF_CENTRED_CAGE, n);
         let [_, d_radial_speed, _, d_orbit_speed, d_spin] = rates;
-        let mut push = |ball: usize, at: &Place<R>, force: Vec2<R>, moment: R| {
-            let acceleration = force * self.inverse_mass;
-            d_radial_speed[ball] += acceleration.dot(at.e_r);
-            d_orbit_speed[ball] += acceleration.dot(at.e_r.turned()) / at.radius;
-            d_spin[ball] += moment * self.inverse_inertia;
-        };
+        let mut speeds = [d_radial_speed, d_orbit_speed, d_spin];
         let zero = R::zero();
         let (mut damping, mut sliding, mut largest) = (zero, zero, zero);
         let start = place(&lists, 0);
@@ -87,8 +97,8 @@ impl<R: Real> FullComplement<R> {
                 place(&lists, next)
             };
             let touch = self.pair.react(&first, &second);
-            push(ball, &first, -touch.force, touch.moment);
-            push(next, &second, touch.force, touch.moment);
+            self.push(&mut speeds, ball, &first, (-touch.force, touch.moment));
+            self.push(&mut speeds, next, &second, (touch.force, touch.moment));
             damping += touch.damping_heat;
             sliding += touch.sliding_heat;
             largest = largest.max(touch.normal);
