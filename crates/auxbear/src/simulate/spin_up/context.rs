@@ -74,7 +74,7 @@ pub(crate) fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
         run: &spin_up.run,
         known: built.machine.tangents(),
         bends: false,
-        design: DESIGN,
+        design: [DESIGN; 2],
         screening: SCREENING,
     }
 }

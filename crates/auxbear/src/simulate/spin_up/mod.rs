@@ -29,7 +29,7 @@ pub(crate) fn run(
 ) -> Outcome {
     let start = built.machine.start();
     let clock = Instant::now();
-    let stepping = asked(spin_up, built).stepping(|| false);
+    let stepping = asked(spin_up, built).stepping(|| 0.0);
     let (record, ending, warming) = integrate(built, &start, (spin_up, stepping), options);
     let seconds = clock.elapsed().as_secs_f64();
     let context = Context {
