@@ -98,6 +98,27 @@ fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
     }
 }
 
+/// A mount too soft for the magnets' negative stiffness lets the rotor come to a pole: the run keeps what it has and names it.
+#[test]
+fn a_rotor_that_comes_to_a_pole_ends_there() {
+    let pair = "current_stiffness = \"40 N/A\"\ngap = \"0.4 mm\"\nlargest_current = \"3 A\"";
+    let text = rig()
+        .replace("current_stiffness = \"40 N/A\"", pair)
+        .replace("{ value = \"2e7 N/m\"", "{ value = \"2e4 N/m\"")
+        .replace("{ value = \"6e6 N/m\"", "{ value = \"2e4 N/m\"");
+    let outcome = ran(
+        &text,
+        &["levitation.decay_time=20 ms", "run.duration=0.2 s"],
+    );
+    assert_eq!(outcome.stop.reason, "diverged");
+    let told = &outcome.stop.text;
+    assert!(
+        told.contains("pole") && told.contains("magnet.other_end.axis_"),
+        "{told}"
+    );
+    assert!(!column(&outcome, "rotor.speed").is_empty());
+}
+
 /// Members in lanes are what they are alone, also those of a sampled controller, whose states jump.
 #[test]
 fn controllers_in_lanes_have_the_bits_of_a_single_run() {

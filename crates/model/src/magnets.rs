@@ -449,6 +449,19 @@ impl Magnets<f64> {
         all.iter().map(|current| current * share).collect()
     }
 
+    /// How far the rotor has come to a pole along each axis, of the gap there.
+    pub fn towards_poles(&self, rotor: &RotorMotion<f64>) -> OfAxes<f64> {
+        let centres = self.centres(rotor);
+        let magnets = self.list.iter().zip(&centres);
+        magnets
+            .flat_map(|((_, axes), centre)| {
+                let share =
+                    |axis: &Axis<f64>| (axis.direction.dot(centre.position) / axis.law.gap()).abs();
+                axes.iter().map(share)
+            })
+            .collect()
+    }
+
     /// What happens to the states of the controllers at a landed instant; `magnets` are their channels.
     pub fn happen(
         &self,

@@ -143,6 +143,14 @@ impl<R: Real> Magnet<R> {
         }
     }
 
+    /// Gap g₀ to each pole with the rotor in the centre, m; infinite of a linear magnet, which has none.
+    pub fn gap(&self) -> R {
+        match self {
+            Self::Linear { .. } => R::splat(f64::INFINITY),
+            Self::Pair(pair) => pair.gap,
+        }
+    }
+
     /// Force on the rotor along the axis, N.
     ///
     /// Formula: k_i e i + k_s e² x, or k[(e i₀ + i)²/(g₀ - x)² - (e i₀ - i)²/(g₀ + x)²], coil currents within [0, i_max]

@@ -1,11 +1,12 @@
 //! What a run shows of magnets whose controllers act in time, or whose currents decay.
 
 use crate::result::list::{List, Origin};
-use crate::result::outcome::{Column, Warning, warning};
+use crate::result::outcome::{Column, Stop, Warning, warning};
 use crate::scenario::Shaft;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
+use crate::simulate::ending;
 
 /// Share of the time with power at a limit from which on it is reported.
 const LONG_AT_LIMIT: f64 = 1e-4;
@@ -19,6 +20,31 @@ fn of_axis(given: &Shaft, axis: usize, what: &str) -> String {
         name.map_or("", String::as_str),
         axis % 2 + 1
     )
+}
+
+/// Share of its gap from which on a run that diverges does so at a magnet's pole.
+const AT_POLE: f64 = 0.8;
+
+/// How a run ended; where it diverged because the rotor came to a pole, which.
+pub(crate) fn stop(context: &Context) -> Stop {
+    let ending = &context.finished.ending;
+    let mut stop = ending::stop(ending);
+    let shares = context.machine.towards_poles(&ending.state);
+    let nearest = (shares.iter().enumerate()).max_by(|a, b| a.1.total_cmp(b.1));
+    let diverged = matches!(ending.stop, solve::Stop::Diverged { .. });
+    if let (Some((axis, share)), Some(given), true) = (nearest, &context.drop.shaft, diverged)
+        && *share > AT_POLE
+    {
+        stop.text = format!(
+            "Diverged at {:.4} ms: the rotor has come {:.0} % of the way to a pole along {}, where the pull grows without bound. What should \
+             hold it before, auxiliary bearings and their mounts, lets it come so far: it needs a smaller clearance, or a mount \
+             that is stiffer or has a stop.",
+            1e3 * ending.time,
+            100.0 * share,
+            of_axis(given, axis, "axis")
+        );
+    }
+    stop
 }
 
 /// Names what the controllers did.

@@ -33,7 +33,7 @@ use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::ending::{settings_at, stop};
+use crate::simulate::ending::settings_at;
 use crate::simulate::stepping::Stepping;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -82,7 +82,7 @@ pub(crate) fn run(
     let seconds = clock.elapsed().as_secs_f64();
     let stop_of = |k: usize| match &after[k] {
         Some(after) => after.stop.clone(),
-        None => stop(&finished[k].ending),
+        None => magnets::stop(&contexts[k]),
     };
     let name = |k: usize| {
         let mut named = quantities::name(&contexts[k]);

@@ -158,6 +158,13 @@ impl RotorMachine {
         let states = &state[self.layout.magnets.clone()];
         magnets.currents_in(now, &self.layout.rotor.motion(state), states)
     }
+    /// How far the rotor has come to a pole along each axis of the magnets, of the gap there.
+    pub fn towards_poles(&self, state: &[f64]) -> OfAxes<f64> {
+        let magnets = self.one.magnets.as_ref();
+        magnets.map_or_else(OfAxes::new, |own| {
+            own.towards_poles(&self.layout.rotor.motion(state))
+        })
+    }
     /// The rotor's geometric centre at its node in a bearing, from the datum of that.
     #[inline(always)]
     pub fn node(&self, bearing: usize, state: &[f64]) -> GeometricCentre<f64> {
