@@ -28,6 +28,7 @@ pub use constants::{Coordinate, RotorConstants, TorqueTables, Unbalance};
 pub use motion::{GeometricCentre, Node, RotorAt, RotorMotion};
 
 use crate::table::Lines;
+use motion::products;
 use number::{Gather, Real, Vec2};
 use shaft::{Shaft, ShaftReaction};
 
@@ -199,11 +200,13 @@ impl<R: Real> Rotor<R> {
         let turns = self.shaft.as_ref().is_some_and(Shaft::turns);
         let mut bend = R::zero();
         if turns {
-            let square = motion.spin.square();
-            for k in 0..n {
-                let offset = self.offset(k, motion);
-                bend += px[k] * (ax[k] + square * offset.x) + py[k] * (ay[k] + square * offset.y);
-            }
+            // N = (a c - b s, a s + b c)
+            let [a, b] = &self.unbalance;
+            let ([px, py], [ax, ay]) = ([&*px, &*py], [&*ax, &*ay]);
+            let [x, y] = [products(px, [ax, a, b]), products(py, [ay, a, b])];
+            let (s, c) = (motion.sine, motion.cosine);
+            let across = (x[1] * c - x[2] * s) + (y[1] * s + y[2] * c);
+            bend = (x[0] + y[0]) + motion.spin.square() * across;
         }
         let drag = motion.spin * (self.drag[0] + self.drag[1] * motion.spin.abs());
         let others = moment - drag + (shaft.moment - bend);
@@ -233,12 +236,8 @@ impl<R: Real> Rotor<R> {
     /// Moment of gravity about the origin, N m.
     #[inline(always)]
     pub fn weight_moment(&self, motion: &RotorMotion<R>, gravity: Vec2<R>) -> R {
-        let mut moment = R::zero();
-        let [x, y] = motion.position;
-        for (weight, (x, y)) in self.weight.iter().zip(x.iter().zip(y)) {
-            moment += Vec2::new(*x, *y).cross(gravity) * *weight;
-        }
-        moment
+        let [x, y] = products(&self.weight, motion.position);
+        Vec2::new(x, y).cross(gravity)
     }
 }
 

@@ -90,6 +90,34 @@ pub struct GeometricCentre<R> {
     pub velocity: Vec2<R>,
 }
 
+/// So many sums run side by side, because one sum after the other is a long wait.
+const WAYS: usize = 4;
+
+/// Products of a row with lists.
+#[inline(always)]
+pub(super) fn products<R: Real, const K: usize>(row: &[R], lists: [&[R]; K]) -> [R; K] {
+    let mut part = [[R::zero(); WAYS]; K];
+    let lists = lists.map(|list| &list[..row.len()]);
+    let whole = row.len() / WAYS * WAYS;
+    for from in (0..whole).step_by(WAYS) {
+        for (part, list) in part.iter_mut().zip(&lists) {
+            for i in 0..WAYS {
+                part[i] += row[from + i] * list[from + i];
+            }
+        }
+    }
+    for (i, k) in (whole..row.len()).enumerate() {
+        for (part, list) in part.iter_mut().zip(&lists) {
+            part[i] += row[k] * list[k];
+        }
+    }
+    let mut sums = [R::zero(); K];
+    for (sum, part) in sums.iter_mut().zip(&part) {
+        *sum = (part[0] + part[1]) + (part[2] + part[3]);
+    }
+    sums
+}
+
 /// A node of the rotor.
 #[derive(Clone, Debug)]
 pub struct Node<R> {
@@ -124,12 +152,8 @@ impl<R: Real> Node<R> {
     /// Its entry of lists over the coordinates, x and y.
     #[inline(always)]
     pub fn along(&self, x: &[R], y: &[R]) -> Vec2<R> {
-        let mut sum = Vec2::zero();
-        for (shape, (x, y)) in self.row.iter().zip(x.iter().zip(y)) {
-            sum.x += *shape * *x;
-            sum.y += *shape * *y;
-        }
-        sum
+        let [x, y] = products(&self.row, [x, y]);
+        Vec2::new(x, y)
     }
     /// C - G at an angle of the rotor.
     #[inline(always)]
@@ -141,12 +165,12 @@ impl<R: Real> Node<R> {
     #[inline(always)]
     pub fn centre(&self, motion: &RotorMotion<R>) -> GeometricCentre<R> {
         let arm = self.arm(motion);
-        let [x, y] = motion.position;
-        let [vx, vy] = motion.velocity;
+        let ([x, y], [vx, vy]) = (motion.position, motion.velocity);
+        let [x, y, vx, vy] = products(&self.row, [x, y, vx, vy]);
         GeometricCentre {
             arm,
-            position: self.along(x, y) + arm - self.datum,
-            velocity: self.along(vx, vy) + arm.turned() * motion.spin,
+            position: Vec2::new(x, y) + arm - self.datum,
+            velocity: Vec2::new(vx, vy) + arm.turned() * motion.spin,
         }
     }
     /// Acceleration of the geometric centre, for those of the coordinates: it has the centripetal and the spin-up part of the arm.

@@ -19,6 +19,8 @@ struct Matrix<R> {
     entries: Vec<R>,
     /// Row by row, where all lanes have the same: an eighth of the memory to read.
     shared: Option<Vec<f64>>,
+    /// Its diagonal, where nothing stands beside it: damping by masses and stiffnesses, which the coordinates make diagonal.
+    diagonal: Option<Vec<R>>,
     /// Times N at φ = 0, x then y.
     of_unbalance: [Vec<R>; 2],
 }
@@ -79,7 +81,10 @@ impl<R: Real> Matrix<R> {
         };
         let same = |lane: usize| of(constants(lane)) == of(constants(0));
         let shared = R::LANES > 1 && (0..R::LANES).all(same);
+        let diagonal = (0..R::LANES).all(|lane| is_diagonal(of(constants(lane)), count));
+        let along = |k: usize| R::from_lanes(|lane| of(constants(lane))[k * (count + 1)]);
         (length > 0).then(|| Matrix {
+            diagonal: diagonal.then(|| (0..count).map(along).collect()),
             shared: shared.then(|| of(constants(0)).to_vec()),
             entries: (0..count)
                 .step_by(R::GROUP)
@@ -102,6 +107,13 @@ impl<R: Real> Matrix<R> {
     fn times<const K: usize>(&self, from: usize, vectors: [&[R]; K]) -> [R::Group; K] {
         let count = vectors[0].len();
         let mut sums = [R::Group::zero(); K];
+        if let Some(diagonal) = &self.diagonal {
+            let entry = R::load_group(diagonal, from);
+            for (sum, vector) in sums.iter_mut().zip(&vectors) {
+                *sum = entry * R::load_group(vector, from);
+            }
+            return sums;
+        }
         if let Some(shared) = &self.shared {
             for (j, entry) in shared[from * count..(from + 1) * count].iter().enumerate() {
                 let entry = R::Group::splat(*entry);
@@ -126,6 +138,20 @@ impl<R: Real> Matrix<R> {
         turned(&self.of_unbalance, from, [s, c])
     }
 }
+
+/// Whether what stands beside the diagonal is no more than the roundings of the coordinates.
+fn is_diagonal(matrix: &[f64], count: usize) -> bool {
+    let at = |row: usize, column: usize| matrix[row * count + column];
+    let small = |row: usize, column: usize| {
+        let size = (at(row, row) * at(column, column)).abs().sqrt();
+        at(row, column).abs() <= ROUNDING * size
+    };
+    let mut rows = 0..if matrix.is_empty() { 0 } else { count };
+    rows.all(|row| (0..count).all(|column| row == column || small(row, column)))
+}
+
+/// Of an entry beside the diagonal over the mean of both on it.
+const ROUNDING: f64 = 1e-9;
 
 /// Entries from `from` of a list of vectors turned by φ.
 #[inline(always)]
