@@ -2,14 +2,15 @@
 
 use crate::problem::{Code, Problem};
 use crate::scenario::bearing::fits::{Fits, HOUSING_FIT};
-use crate::scenario::heat::Atmosphere;
+use crate::scenario::heat::{Atmosphere, HOUSING_SIZE};
 use crate::scenario::spin_up::DriveKind;
 use crate::scenario::system::SystemName;
 use crate::scenario::values::{Value, Values};
+use physics::air::SEA_LEVEL;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{pressed_joint, to_surroundings};
 use std::f64::consts::PI;
-use thermal::bearing_network::GROUND_STEEL;
+use thermal::passage::GROUND_STEEL;
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.80665;
@@ -62,7 +63,8 @@ impl Values {
         };
         let how = "0.005 g/mm² times outer_diameter and width";
         self.fill("heat.lubricant_mass", GREASE * outside * width, how)?;
-        let ring = 0.25 * PI * 3.0 * outside * outside * width * STEEL_HEAT.density;
+        let thick = HOUSING_SIZE * HOUSING_SIZE - 1.0;
+        let ring = 0.25 * PI * thick * outside * outside * width * STEEL_HEAT.density;
         let how = "a steel ring around the bearing, outside twice its diameter; assumed";
         self.fill(
             "heat.housing_capacity",
@@ -86,13 +88,56 @@ impl Values {
             let seat = pressed_seat(pressure) * PI * outside * width;
             self.fill("heat.outer_seat", seat, &how)?;
         }
-        if self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum) {
+        self.open_surfaces(planes, [outside, width])?;
+        let by_rule = self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum);
+        if by_rule && !self.exchanges("heat.housing_emissivity") {
             let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";
             self.fill(
                 "heat.surroundings",
                 to_surroundings(bore, outside, width),
                 how,
             )?;
+        }
+        if !self.exchanges("heat.emissivity") || self.lacks("heat.rotor_area") {
+            let how = "the rotor gives its heat to the bearings alone, as in vacuum; assumed";
+            self.fill("heat.rotor_surroundings", 0.0, how)?;
+        }
+        Ok(())
+    }
+
+    /// Whether gas or the emissivity of a surface says how it exchanges heat.
+    fn exchanges(&self, emissivity: &str) -> bool {
+        self.number("heat.gas_pressure").is_some() || self.radiates(emissivity)
+    }
+
+    fn radiates(&self, emissivity: &str) -> bool {
+        self.number(emissivity).is_some_and(|share| share > 0.0)
+    }
+
+    /// Surfaces that exchange heat with their surroundings, and the air that does.
+    fn open_surfaces(&mut self, planes: f64, [outside, width]: [f64; 2]) -> Done {
+        let radiates = ["heat.emissivity", "heat.housing_emissivity"];
+        if radiates.iter().any(|path| self.radiates(path)) {
+            let how = "air at sea level, ISO 2533";
+            self.fill("heat.gas_pressure", SEA_LEVEL, how)?;
+        }
+        // outside of a ring and both its faces
+        let diameter = HOUSING_SIZE * outside;
+        let faces = 0.5 * PI * (diameter * diameter - outside * outside);
+        let how = "outside and faces of a ring twice outer_diameter, of the same width; assumed";
+        self.fill("heat.housing_area", PI * diameter * width + faces, how)?;
+        if let (Some(mass), Some(inertia)) = (
+            self.number("rotor.mass"),
+            self.number("rotor.polar_inertia"),
+        ) {
+            let how = "sqrt(8 polar_inertia / mass): as a solid cylinder";
+            self.fill("heat.rotor_diameter", (8.0 * inertia / mass).sqrt(), how)?;
+            if let Some(diameter) = self.number("heat.rotor_diameter") {
+                let side = 4.0 * mass / (STEEL_HEAT.density * diameter);
+                let area = (side + 0.5 * PI * diameter * diameter) / planes;
+                let how = "a solid steel cylinder of rotor_diameter and mass, over planes; assumed";
+                self.fill("heat.rotor_area", area, how)?;
+            }
         }
         Ok(())
     }

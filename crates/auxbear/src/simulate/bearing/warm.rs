@@ -9,7 +9,7 @@ use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::warnings::{away, beyond, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
-use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES};
+use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES, PASSES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -98,6 +98,7 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
             [made_in(node), stored_in[node], warmth.given_from[node]],
         );
     }
+    list.conductances("", warmth.passes);
     // what this bearing never makes is not listed
     for (kind, flow) in kinds().zip(&warmth.flows) {
         if flow.iter().any(|heat| *heat != 0.0) {
@@ -170,6 +171,13 @@ impl List {
         add("stored_heat_in", kept);
         if GROUNDS.contains(&node) {
             add("heat_to_surroundings_from", given);
+        }
+    }
+    /// Least and largest conductance of each pass of a network, W/K.
+    pub(crate) fn conductances(&mut self, bearing: &str, passes: [[f64; 2]; PASSES.len()]) {
+        for (name, both) in PASSES.into_iter().zip(passes) {
+            let name = of_part(bearing, &format!("{name}_conductances"));
+            self.push(&name, "W/K", Value::List(both.to_vec()), &PASSED);
         }
     }
     /// Heat of a kind over the nodes, J.
@@ -363,6 +371,11 @@ const AT_NODE: Origin = Origin {
     law: "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
     source: "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
     valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
+};
+const PASSED: Origin = Origin {
+    law: "least and largest conductance of the way: as given, or a rough line, gas between surfaces and in the open, radiation",
+    source: "crates/thermal/src/passage.rs, crates/physics/src/air.rs; book/src/theory/heat.md",
+    valid: "at the ends of spans or steps; within a factor of two",
 };
 const BY_NODE: Origin = Origin {
     law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",

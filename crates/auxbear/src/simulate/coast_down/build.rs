@@ -12,13 +12,12 @@ use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::palmgren::Palmgren;
 use physics::viscosity::{Viscosity, WaltherLine};
 use std::f64::consts::{PI, TAU};
-use thermal::bearing_network::{
-    BALLS, BearingNetwork, INNER_RACE, LUBRICANT, Landing, NODES, OUTER_RACE,
-};
+use thermal::bearing_network::{BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
 use thermal::clearance::ThermalClearance;
 use thermal::coast_down::AtNodes;
 use thermal::held::Held;
 use thermal::load_zone::LoadZone;
+use thermal::passage::{Line, Passage};
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
 
@@ -346,8 +345,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         ball,
         film: heat.film_thickness,
         landing: match heat.rotor_contact {
-            Some(conductance) => Landing::Given(conductance),
-            None => Landing::Line {
+            Some(conductance) => Passage::Given(conductance),
+            None => Passage::Line(Line {
                 load: run.radial_load,
                 bore: 0.5 * heat.bore_diameter,
                 clearance: heat
@@ -355,11 +354,12 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
                     .unwrap_or(0.01 * heat.bore_diameter),
                 length: heat.width,
                 modulus: contact_modulus(BEARING_STEEL, BEARING_STEEL),
-            },
+                medium: heat.medium(),
+            }),
         },
         outer_seat: heat.outer_seat,
-        surroundings: heat.surroundings.unwrap_or(0.0),
-        rotor_surroundings: heat.rotor_surroundings,
+        surroundings: heat.open_housing().unwrap_or(Passage::Given(0.0)),
+        rotor_surroundings: heat.open_rotor(),
         to_core: 0.0,
         mount: [heat.mount_contact, heat.mount_surroundings],
         ambient: celsius(heat.ambient_temperature),

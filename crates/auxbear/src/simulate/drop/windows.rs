@@ -13,8 +13,8 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start, hold};
-use crate::simulate::coast_down::course::BEYOND;
+use crate::simulate::coast_down::build::{Built, Part, Start, hold};
+use crate::simulate::coast_down::course::{self, BEYOND};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
@@ -30,7 +30,7 @@ use solve::Settings;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use thermal::bearing_network::{BearingNetwork, LUBRICANT, NODES, Operation, together};
+use thermal::bearing_network::{LUBRICANT, NODES};
 
 /// Speed of a window over that before.
 const RATIO: f64 = 0.95;
@@ -444,34 +444,8 @@ fn network(
     temperatures: &[f64],
     held: &[bool],
 ) -> Result<thermal::network::Network, &'static str> {
-    let each = || {
-        let temperatures = temperatures.chunks(NODES.len());
-        built.parts.iter().zip(temperatures)
-    };
-    let loads: Vec<Vec<f64>> = each()
-        .map(|(part, temperatures)| part.zone.loads(part.zone.clearance_at(temperatures)))
-        .collect();
-    let operation =
-        |((part, temperatures), loads): ((&Part, &[f64]), &'_ Vec<f64>)| -> (f64, f64, Vec<f64>) {
-            let kelvin = temperatures[LUBRICANT] + ICE_POINT;
-            (
-                part.losses.ratio * built.start.speed,
-                part.losses.oil.viscosity(kelvin).max(1e-6),
-                loads.clone(),
-            )
-        };
-    let states: Vec<(f64, f64, Vec<f64>)> = each().zip(&loads).map(operation).collect();
-    let all: Vec<(&BearingNetwork, Operation)> = (built.parts.iter().zip(&states))
-        .map(|(part, (speed, viscosity, loads))| {
-            let operation = Operation {
-                speed: *speed,
-                loads,
-                viscosity: *viscosity,
-            };
-            (&part.network, operation)
-        })
-        .collect();
-    together(&all, held).map_err(|_| "the network of a bearing has no finite values")
+    course::network(built, (built.start.speed, temperatures), held)
+        .map_err(|_| "the network of a bearing has no finite values")
 }
 
 /// What is known at a window.
