@@ -314,6 +314,31 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
 }
 
 #[test]
+fn a_housing_that_grows_away_from_its_ring_conducts_less_and_is_told_in_the_run_out() {
+    let unmounted = SHIPPED.replace("operating_diametral", "unmounted_diametral");
+    let housing = |expansion: &str| {
+        let expansion = format!("heat.housing_expansion={expansion}");
+        let fits = [
+            "rotor.unbalance_eccentricity=0.5 um",
+            "bearing.fits.outer_diameter=47 mm",
+            "bearing.fits.housing_outer_diameter=80 mm",
+            "bearing.fits.housing_interference=1 um",
+            &expansion,
+        ];
+        let scenario = parsed(&unmounted, &fits).unwrap();
+        let never = AtomicBool::new(false);
+        run(&scenario, &Options::unwatched(&never)).unwrap()
+    };
+    let (steel, aluminium) = (housing("11.5e-6 1/K"), housing("23e-6 1/K"));
+    let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2321");
+    assert!(told(&aluminium) && !told(&steel));
+    let seat = |outcome| list(outcome, "run_out.outer_seat_conductances").to_vec();
+    // its gap alone is left: less than at any time of the housing that grows with it
+    assert!(seat(&aluminium)[0] < 0.9 * seat(&steel)[0]);
+    assert!(number(&aluminium, "run_out.relative_heat_residual") < 1e-9);
+}
+
+#[test]
 fn what_cannot_run_out_is_refused() {
     for (sets, code, words) in [
         (&["heat.network=off"][..], "AB0109", "heat.network = \"on\""),

@@ -98,6 +98,8 @@ pub struct Warmth {
     pub given_from: OfNodes,
     /// Least and largest conductance of each of the network's passes, W/K.
     pub passes: [[f64; 2]; PASSES.len()],
+    /// When a ring became loose on the rotor and in its housing, s.
+    pub loose: [Option<f64>; 2],
     /// Time and temperatures at the end of each span, where they are kept.
     pub course: Vec<(f64, OfNodes)>,
     keep: bool,
@@ -347,6 +349,7 @@ impl Warmth {
                 .network
                 .passes(0.0, &[part.start; NODES.len()])
                 .map(|one| [one; 2]),
+            loose: [None; 2],
             course: Vec::new(),
             keep,
             until: 0.0,
@@ -396,6 +399,10 @@ impl Warmth {
         let passes = part.network.passes(seen.spin, &self.temperatures);
         for ([least, most], now) in self.passes.iter_mut().zip(passes) {
             (*least, *most) = (least.min(now), most.max(now));
+        }
+        let loose = part.network.loose(seen.spin, &self.temperatures);
+        for (when, loose) in self.loose.iter_mut().zip(loose) {
+            *when = when.or(loose.then_some(self.until));
         }
         let powers: Vec<f64> = nodes.iter().map(|heat| heat / span).collect();
         let (at, keep) = ((seen.time, span), self.keep);

@@ -94,8 +94,8 @@ pub struct BearingNetwork {
     pub film: f64,
     /// Rotor on inner race.
     pub landing: Passage,
-    /// Outer race to housing, W/K.
-    pub outer_seat: f64,
+    /// Outer race to housing.
+    pub outer_seat: Passage,
     /// Housing to its surroundings.
     pub surroundings: Passage,
     /// Rotor to its surroundings.
@@ -238,9 +238,19 @@ impl BearingNetwork {
         let room = self.ambient;
         [
             (self.landing).conductance(speed, [at(ROTOR), at(INNER_RACE)]),
-            self.outer_seat,
+            (self.outer_seat).conductance(0.0, [at(OUTER_RACE), at(HOUSING)]),
             (self.surroundings).conductance(0.0, [at(HOUSING), room]),
             (self.rotor_surroundings).conductance(speed, [at(self.open_rotor()), room]),
+        ]
+    }
+
+    /// Whether the inner ring on the rotor and the outer ring in its housing have lost the interference that they had, at a speed and at
+    /// temperatures as those of [`BearingNetwork::passes`].
+    pub fn loose(&self, speed: f64, temperatures: &[f64]) -> [bool; 2] {
+        let at = |node: usize| temperatures[node];
+        [
+            (self.landing).is_loose(speed, [at(ROTOR), at(INNER_RACE)]),
+            (self.outer_seat).is_loose(0.0, [at(OUTER_RACE), at(HOUSING)]),
         ]
     }
 }
@@ -296,7 +306,7 @@ mod tests {
             ball: STEEL_HEAT,
             film: 0.3e-6,
             landing: Passage::Given(0.1),
-            outer_seat: 6.0,
+            outer_seat: Passage::Given(6.0),
             surroundings: Passage::Given(0.9),
             rotor_surroundings: Passage::Given(0.0),
             to_core: 40.0,

@@ -9,6 +9,7 @@ use crate::scenario::values::{Value, Values};
 use physics::air::SEA_LEVEL;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{pressed_joint, to_surroundings};
+use physics::ring::PressFit;
 use std::f64::consts::PI;
 use thermal::passage::GROUND_STEEL;
 
@@ -79,14 +80,10 @@ impl Values {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }
-        if self.lacks("heat.outer_seat") {
-            let (pressure, whence) = self.pressure_of_outer_seat()?;
-            let how = format!(
-                "ground steel pressed with {:.2} MPa on π outer_diameter width; {whence}",
-                1e-6 * pressure
-            );
-            let seat = pressed_seat(pressure) * PI * outside * width;
-            self.fill("heat.outer_seat", seat, &how)?;
+        if self.lacks("heat.outer_seat") && !self.outer_seat_follows()? {
+            let how = "ground steel pressed with 1 MPa on π outer_diameter width; assumed";
+            let seat = pressed_seat(FIT_PRESSURE) * PI * outside * width;
+            self.fill("heat.outer_seat", seat, how)?;
         }
         self.open_surfaces(planes, [outside, width])?;
         let by_rule = self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum);
@@ -142,27 +139,32 @@ impl Values {
         Ok(())
     }
 
-    /// Pressure on the seat of the outer ring, Pa, and whence it is known.
-    fn pressure_of_outer_seat(&self) -> Result<(f64, &'static str), Box<Problem>> {
-        let fit = self.number(HOUSING_FIT).unwrap_or(0.0);
-        if fit < 0.0 {
+    /// Fits of both rings, where they are given and what is pressed together is known.
+    pub(crate) fn known_fits(&self) -> [Option<PressFit>; 2] {
+        let sizes = (self.number("bearing.pitch_diameter"))
+            .zip(self.number("bearing.ball_diameter"))
+            .filter(|_| self.number(HOUSING_FIT).is_some());
+        let Some((pitch, ball)) = sizes else {
+            return [None; 2];
+        };
+        let fits = Fits::from_values(self);
+        [fits.on_shaft(pitch - ball), fits.in_housing(pitch + ball)]
+            .map(|fit| fit.filter(|fit| fit.interference != 0.0))
+    }
+
+    /// Whether the outer ring conducts by its fit, which is given; refuses a loose one of which nothing else is known.
+    fn outer_seat_follows(&self) -> Result<bool, Box<Problem>> {
+        let follows = self.known_fits()[1].is_some();
+        if self.number(HOUSING_FIT).unwrap_or(0.0) < 0.0 && !follows {
             return Err(Box::new(self.problem(
                 Code::MissingKey,
                 "heat.outer_seat",
                 self.place(HOUSING_FIT),
                 "no value",
-                format!("a conductance is needed: {HOUSING_FIT} leaves the ring loose, and no rule of a pressed seat holds"),
+                format!("a conductance is needed, or bearing.fits.outer_diameter and housing_outer_diameter: {HOUSING_FIT} leaves the ring loose, and no rule of a pressed seat holds"),
             )));
         }
-        let track = (self.number("bearing.pitch_diameter"))
-            .zip(self.number("bearing.ball_diameter"))
-            .map(|(pitch, ball)| pitch + ball);
-        let pressed = track.filter(|_| fit > 0.0);
-        let pressed = pressed.and_then(|track| Fits::from_values(self).in_housing(track));
-        Ok(match pressed {
-            Some(fit) => (fit.pressure(), "thick rings (Lamé)"),
-            None => (FIT_PRESSURE, "assumed"),
-        })
+        Ok(follows)
     }
 
     /// The shaft that stands in the inner race of a rig.
@@ -171,7 +173,8 @@ impl Values {
         let capacity = volume * STEEL_HEAT.density * STEEL_HEAT.specific_heat;
         let how = "a steel shaft of the bore, four widths long; assumed";
         self.fill("heat.rotor_capacity", capacity, how)?;
-        if self.chosen("drive.kind") == Some(DriveKind::SlidingRotor) {
+        let slides = self.chosen("drive.kind") == Some(DriveKind::SlidingRotor);
+        if slides || self.known_fits()[0].is_some() {
             return Ok(());
         }
         let how = "ground steel pressed with 1 MPa on π bore_diameter width; assumed";

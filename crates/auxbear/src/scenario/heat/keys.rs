@@ -226,7 +226,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.rotor_contact",
         Kind::Quantity("W/K"),
         "0.15 W/K",
-        "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft.",
+        "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft, which follows bearing.fits.shaft_interference, temperatures and speed where they are given.",
     )
     .not_negative()
     .optional("that of two rough ground surfaces of steel along the width of the bearing, rolling on each other with heat.radial_air_clearance")
@@ -249,7 +249,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Conductance from outer race to housing. A loose ring in vacuum has a thousandth of a pressed one; O-rings and wire mesh have what their maker says.",
     )
     .not_negative()
-    .derived("ground steel pressed with 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed")
+    .derived("where bearing.fits.housing_interference and what it presses are given that of ground steel under its pressure, which follows the temperatures down to the gap of a loose ring; else under 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed")
     .when(FOLLOWED),
     Key::new(
         "heat.surroundings",

@@ -5,12 +5,12 @@ pub(crate) mod derive;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::ball_material;
-use crate::scenario::bearing::fits::{Fits, SHAFT_FIT};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
+use physics::air::SEA_LEVEL;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::ring::PressFit;
 use physics::viscosity::Viscosity;
@@ -18,10 +18,8 @@ use thermal::bearing_network::{
     BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
 };
 use thermal::clearance::Seat;
-use thermal::passage::{Medium, Open, Passage};
-
-/// Ice point, K.
-pub(crate) const ICE_POINT: f64 = 273.15;
+pub(crate) use thermal::passage::ICE_POINT;
+use thermal::passage::{Medium, Open, Passage, Pressed};
 
 words! {
     /// Whether temperatures are followed.
@@ -174,8 +172,8 @@ pub struct Heat {
     pub rotor_contact: Option<f64>,
     /// Radial clearance of the rotor in the race, m, where no conductance is given.
     pub radial_air_clearance: Option<f64>,
-    /// Outer race to housing, W/K.
-    pub outer_seat: f64,
+    /// Outer race to housing, W/K; none where it follows the fit.
+    pub outer_seat: Option<f64>,
     /// Housing to its surroundings, W/K; none where gas and radiation take the heat, or nothing does.
     pub surroundings: Option<f64>,
     /// Rotor to its surroundings, W/K, where it is given.
@@ -295,32 +293,27 @@ pub(crate) const STEEL_EXPANSION: f64 = 11.5e-6;
 
 /// Seats of the rings whose fits are given; the inner one on a sleeve that is one body with the ring.
 fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
-    let known = values
-        .number("bearing.pitch_diameter")
-        .zip(values.number("bearing.ball_diameter"))
-        .filter(|_| values.number(SHAFT_FIT).is_some());
-    let Some((pitch, ball)) = known else {
-        return [None; 2];
-    };
-    let fits = Fits::from_values(values);
+    let [shaft, housing] = values.known_fits();
     let seat = |fit: PressFit, nodes, expansions, growth: fn(&PressFit) -> f64| {
         let unit = PressFit {
             interference: 1.0,
             ..fit
         };
-        (fit.interference != 0.0).then(|| Seat {
+        Seat {
             interference: fit.interference,
             diameter: 2.0 * fit.joint_radius,
             nodes,
             expansions,
             closes: 2.0 * growth(&unit),
-        })
+            presses: unit.pressure(),
+            spins: fit.lost_by_spin(),
+        }
     };
-    let shaft = fits.on_shaft(pitch - ball).and_then(|fit| {
+    let shaft = shaft.map(|fit| {
         let expansions = [heat.shaft_expansion, STEEL_EXPANSION];
         seat(fit, [INNER_RACE; 2], expansions, PressFit::outside_growth)
     });
-    let housing = fits.in_housing(pitch + ball).and_then(|fit| {
+    let housing = housing.map(|fit| {
         let expansions = [STEEL_EXPANSION, heat.housing_expansion];
         seat(
             fit,
@@ -331,6 +324,9 @@ fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
     });
     [shaft, housing]
 }
+
+/// Emissivity of a seat that is loose, where none is given. Source: bright steel, 0.1 to 0.3 (from memory).
+const BRIGHT_STEEL: f64 = 0.2;
 
 /// Diameter of a housing over the outer diameter of its bearing, where nothing else is known. Source: assumed.
 pub(crate) const HOUSING_SIZE: f64 = 2.0;
@@ -377,6 +373,27 @@ impl Heat {
         }
     }
 
+    /// A ring on a seat whose fit is known; air where nothing is said of it, bright steel where no emissivity is.
+    pub(crate) fn pressed(&self, seat: Seat) -> Passage {
+        let air = match self.atmosphere {
+            Atmosphere::Air => SEA_LEVEL,
+            Atmosphere::Vacuum => 0.0,
+        };
+        let emissivity = match self.emissivity > 0.0 {
+            true => self.emissivity,
+            false => BRIGHT_STEEL,
+        };
+        Passage::Pressed(Pressed {
+            seat,
+            reference: self.start_temperature - ICE_POINT,
+            length: self.width,
+            medium: Medium {
+                pressure: self.gas_pressure.unwrap_or(air),
+                emissivities: [emissivity; 2],
+            },
+        })
+    }
+
     /// Mass of an inner ring of this inertia between bore and shoulder, kg.
     fn ring_of(&self, inertia: f64, bearing: &Section<'_>) -> f64 {
         let depth = 2.0 * SHOULDER * bearing.number("ball_diameter");
@@ -401,7 +418,7 @@ impl Heat {
             housing_capacity: heat.number("housing_capacity"),
             rotor_contact: heat.maybe("rotor_contact"),
             radial_air_clearance: heat.maybe("radial_air_clearance"),
-            outer_seat: heat.number("outer_seat"),
+            outer_seat: heat.maybe("outer_seat"),
             surroundings: heat.maybe("surroundings"),
             rotor_surroundings: heat.maybe("rotor_surroundings"),
             gas_pressure: heat.maybe("gas_pressure"),

@@ -6,7 +6,7 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::warnings::{away, beyond, to_take};
+use crate::simulate::coast_down::warnings::{away, beyond, first_loose, loose_ring, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
 use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES, PASSES};
@@ -271,18 +271,11 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
 
 /// A ring that loses its fit.
 fn loose(followed: &Followed) -> Option<(f64, Warning)> {
-    let times = followed.state?.loose;
-    let seats = [
-        "the inner ring on its shaft",
-        "the outer ring in its housing",
-    ];
-    let (time, seat) = (times.into_iter().zip(seats))
-        .filter_map(|(time, seat)| Some((time?, seat)))
-        .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let text = format!(
-        "After {time:.3} s {seat} has lost its interference to unequal warmth: it may creep, and conducts like a gap. This run follows neither."
-    );
-    Some((1.0 / (1.0 + time), warning("AB2321", text)))
+    let of_clearance = followed.state.map_or([None; 2], |state| state.loose);
+    let times = [0, 1].map(|seat| of_clearance[seat].or(followed.warmth.loose[seat]));
+    let (time, seat) = first_loose(times)?;
+    let when = format!("{time:.3} s");
+    Some((1.0 / (1.0 + time), loose_ring(&when, seat)))
 }
 
 /// What of a bearing does not follow its temperatures, though it is asked to.

@@ -12,7 +12,9 @@ use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::palmgren::Palmgren;
 use physics::viscosity::{Viscosity, WaltherLine};
 use std::f64::consts::{PI, TAU};
-use thermal::bearing_network::{BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
+use thermal::bearing_network::{
+    BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
+};
 use thermal::clearance::ThermalClearance;
 use thermal::coast_down::AtNodes;
 use thermal::held::Held;
@@ -324,6 +326,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     let steel = STEEL_HEAT.specific_heat;
     let ball = run.ball_material.heat();
     let cage = run.cage_mass * heat.cage_material.heat().specific_heat;
+    let on_rotor = run.seats[0].filter(|seat| seat.nodes[0] == ROTOR);
     let network = BearingNetwork {
         capacities: [
             heat.rotor_capacity.unwrap_or(f64::INFINITY),
@@ -344,9 +347,10 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         contacts,
         ball,
         film: heat.film_thickness,
-        landing: match heat.rotor_contact {
-            Some(conductance) => Passage::Given(conductance),
-            None => Passage::Line(Line {
+        landing: match (heat.rotor_contact, on_rotor) {
+            (Some(conductance), _) => Passage::Given(conductance),
+            (None, Some(seat)) => heat.pressed(seat),
+            (None, None) => Passage::Line(Line {
                 load: run.radial_load,
                 bore: 0.5 * heat.bore_diameter,
                 clearance: heat
@@ -357,7 +361,10 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
                 medium: heat.medium(),
             }),
         },
-        outer_seat: heat.outer_seat,
+        outer_seat: match (heat.outer_seat, run.seats[1]) {
+            (None, Some(seat)) => heat.pressed(seat),
+            (given, _) => Passage::Given(given.unwrap_or(0.0)),
+        },
         surroundings: heat.open_housing().unwrap_or(Passage::Given(0.0)),
         rotor_surroundings: heat.open_rotor(),
         to_core: 0.0,
