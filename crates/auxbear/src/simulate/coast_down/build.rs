@@ -97,7 +97,7 @@ pub(crate) struct Start {
 }
 
 /// A way on which nodes are held at their limits.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct OnLimits {
     pub held: Held,
     /// Of the nodes of all bearings, °C.
@@ -106,10 +106,29 @@ pub(crate) struct OnLimits {
     pub taken: Vec<f64>,
     /// The same over the last step, W.
     pub powers: Vec<f64>,
+    /// What is known of it.
+    pub rows: Vec<Row>,
+    /// How much later it comes to the same speed, s.
+    pub delay: f64,
+}
+
+impl OnLimits {
+    /// Nothing taken yet.
+    pub fn from(held: Held, temperatures: Vec<f64>, rows: Vec<Row>) -> Self {
+        let nothing = vec![0.0; temperatures.len()];
+        OnLimits {
+            held,
+            temperatures,
+            taken: nothing.clone(),
+            powers: nothing,
+            rows,
+            delay: 0.0,
+        }
+    }
 }
 
 /// What a step in slow time changes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 struct Kept {
     time: f64,
     speed: f64,
@@ -138,14 +157,8 @@ impl Start {
     }
     /// The same, with nodes that are held at these temperatures, °C.
     pub fn holding(self, held: Held, temperatures: Vec<f64>) -> Self {
-        let nothing = vec![0.0; temperatures.len()];
         Start {
-            on_limits: Some(OnLimits {
-                held,
-                temperatures,
-                taken: nothing.clone(),
-                powers: nothing,
-            }),
+            on_limits: Some(OnLimits::from(held, temperatures, Vec::new())),
             ..self
         }
     }

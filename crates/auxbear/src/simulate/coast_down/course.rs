@@ -23,6 +23,9 @@ pub(crate) struct Course {
     pub end: End,
     /// Heat taken from each node to hold it, J, all bearings.
     pub taken: Vec<f64>,
+    /// Which nodes are held at its end, and the heat taken from each over the last step, W.
+    pub held: Held,
+    pub powers: Vec<f64>,
     /// Heat stored since the start, J, all bearings.
     pub stored: f64,
 }
@@ -48,6 +51,7 @@ pub(super) fn follow(
     state.heats.clone_from(&start.heats);
     state.given = start.given;
     state.at_nodes = start.at_nodes.clone();
+    let mut rows = start.rows.clone();
     match (&start.on_limits, limits) {
         // what was held on the way to here is held on
         (Some(way), Some(_)) => {
@@ -55,10 +59,11 @@ pub(super) fn follow(
             state.temperatures.clone_from(&way.temperatures);
             taken.clone_from(&way.taken);
             powers.clone_from(&way.powers);
+            rows.clone_from(&way.rows);
+            state.time += way.delay;
         }
         _ => held.begin(&mut state.temperatures),
     }
-    let mut rows = start.rows.clone();
     if start.ended.is_none() || rows.is_empty() {
         rows.push(row(built, &state, &powers));
     }
@@ -120,6 +125,8 @@ pub(super) fn follow(
         state,
         end,
         taken,
+        held,
+        powers,
         stored,
     })
 }
