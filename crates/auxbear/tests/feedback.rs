@@ -252,6 +252,120 @@ fn fits_follow_the_temperatures_and_a_ring_that_gets_loose_is_told() {
     assert!(by_fits.abs() > 0.05 * free.abs());
 }
 
+/// Conductance of a seat of ground steel, 0.8 µm and 3 GPa, at an interference: W/K. Air of 2.4 µm and the jump of temperature beside the
+/// metal, in a gap that it lies in once it is loose.
+fn seat(fit: physics::ring::PressFit, length: f64, kelvin: f64) -> f64 {
+    let area = std::f64::consts::TAU * fit.joint_radius * length;
+    let metal = 1.25 * 46.0 * (0.1 / 0.8e-6) * (fit.pressure() / 3e9).powf(0.95);
+    let k = physics::air::conductivity(kelvin);
+    let jump = k / physics::heat_exchange::free_molecular_air(1.0, 101_325.0, kelvin);
+    let (least, gap) = (2.4e-6 + jump, (-fit.interference).max(0.0));
+    area * (metal + k / (least * (least + gap)).sqrt())
+}
+
+fn both(outcome: &Outcome, name: &str) -> [f64; 2] {
+    match &outcome
+        .quantities
+        .iter()
+        .find(|q| q.name == name)
+        .unwrap()
+        .value
+    {
+        Value::List(list) => [list[0], list[1]],
+        other => panic!("{name} is {other:?}"),
+    }
+}
+
+#[test]
+fn seats_conduct_by_the_pressure_that_warmth_and_speed_leave_them() {
+    use physics::ring::PressFit;
+    let steel = physics::materials::BEARING_STEEL;
+    let tube = |bore: f64, joint: f64, outside: f64, interference: f64| PressFit {
+        inner_material: steel,
+        outer_material: steel,
+        bore_radius: 0.5 * bore,
+        joint_radius: 0.5 * joint,
+        outside_radius: 0.5 * outside,
+        interference,
+    };
+    let fits = [
+        "drive.final_speed=2000 rad/s",
+        "bearing.fits.bore_diameter=25 mm",
+        "bearing.fits.outer_diameter=47 mm",
+        "bearing.fits.housing_outer_diameter=80 mm",
+        "bearing.fits.housing_interference=6 um",
+        "heat.housing_expansion=23e-6 1/K",
+        "bearing.fits.shaft_interference=12 um",
+    ];
+    let unmounted = WARMING.replace("operating_diametral", "unmounted_diametral");
+    let warm = spun_of(&unmounted, &fits);
+    let rows = column(&warm, "time").len();
+    let at = |node: &str, row: usize| column(&warm, &format!("{node}.temperature"))[row];
+    let extremes = |of: &dyn Fn(usize) -> f64| {
+        let each: Vec<f64> = (0..rows).map(of).collect();
+        let most = each.iter().copied().fold(0.0, f64::max);
+        [each.iter().copied().fold(most, f64::min), most]
+    };
+    let rise = |node: &str, row: usize| at(node, row) - at(node, 0);
+    let outer = extremes(&|row| {
+        let fit = 6e-6 + (11.5e-6 * rise("outer_race", row) - 23e-6 * rise("housing", row)) * 47e-3;
+        let mean = 0.5 * (at("outer_race", row) + at("housing", row));
+        seat(tube(42.35e-3, 47e-3, 80e-3, fit), 12e-3, mean)
+    });
+    // the inner ring grows more than the shaft in it as both turn: 12 µm less what that takes
+    let spin = column(&warm, "bearing.inner_race.speed");
+    let inner = extremes(&|row| {
+        let warmer = 11.5e-6 * (rise("rotor", row) - rise("inner_race", row)) * 25e-3;
+        let free = tube(0.0, 25e-3, 29.65e-3, 12e-6);
+        let lost = 12e-6 * (spin[row] / free.lift_off_speed()).powi(2);
+        let fit = tube(0.0, 25e-3, 29.65e-3, 12e-6 + warmer - lost);
+        seat(fit, 12e-3, 0.5 * (at("rotor", row) + at("inner_race", row)))
+    });
+    for (name, expected) in [("outer_seat", outer), ("rotor_contact", inner)] {
+        let found = both(&warm, &format!("{name}_conductances"));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!(
+                (found / expected - 1.0).abs() < 2e-3,
+                "{name}: {found} {expected}"
+            );
+        }
+        assert!(found[1] > 1.02 * found[0], "{name}: {found:?}");
+    }
+    // what is given stays; with fits and without feedback the motion is that without network
+    let given = spun_of(
+        &unmounted,
+        &[&fits[..], &["heat.outer_seat=6 W/K"]].concat(),
+    );
+    assert_eq!(both(&given, "outer_seat_conductances"), [6.0; 2]);
+    let still = spun_of(&unmounted, &[&fits[..], &["heat.feedback=none"]].concat());
+    let off: Vec<&str> = fits
+        .iter()
+        .copied()
+        .filter(|set| !set.starts_with("heat"))
+        .collect();
+    let alone = spun_of(&unmounted, &[&off[..], &["heat.network=off"]].concat());
+    assert_eq!(
+        column(&still, "bearing.inner_race.speed"),
+        column(&alone, "bearing.inner_race.speed")
+    );
+    // in vacuum a ring that gets loose sees radiation alone, and that is said without feedback too
+    let loose = [
+        "bearing.fits.shaft_interference=0.1 um",
+        "heat.feedback=none",
+    ];
+    let vacuum = [
+        "heat.atmosphere=vacuum",
+        "heat.surroundings=1 W/K",
+        "heat.emissivity=0.2",
+    ];
+    let lost = spun_of(&unmounted, &[&fits[..6], &loose, &vacuum].concat());
+    let [least, _] = both(&lost, "rotor_contact_conductances");
+    let bore = std::f64::consts::PI * 25e-3 * 12e-3;
+    let black = 4.0 * 5.670374419e-8 * bore * at("rotor", 0).powi(3);
+    assert!((least / (black / 9.0) - 1.0).abs() < 0.1, "{least} {black}");
+    assert!(lost.warnings.iter().any(|w| w.code == "AB2321"));
+}
+
 #[test]
 fn a_spin_up_without_feedback_is_the_one_without_network() {
     let (with, without) = (spun(&["heat.feedback=none"]), spun(&["heat.network=off"]));

@@ -31,8 +31,8 @@ use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::WaltherLine;
 use thermal::bearing_network::{
-    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, ROTOR,
-    together,
+    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, PASSES,
+    ROTOR, together,
 };
 use thermal::held::Held;
 use thermal::steady_speed::SteadySpeed;
@@ -96,6 +96,10 @@ pub struct Warmth {
     pub flows: [OfNodes; HEATS],
     /// The heat given to the surroundings, by the nodes that give it, J.
     pub given_from: OfNodes,
+    /// Least and largest conductance of each of the network's passes, W/K.
+    pub passes: [[f64; 2]; PASSES.len()],
+    /// When a ring became loose on the rotor and in its housing, s.
+    pub loose: [Option<f64>; 2],
     /// Time and temperatures at the end of each span, where they are kept.
     pub course: Vec<(f64, OfNodes)>,
     keep: bool,
@@ -341,6 +345,11 @@ impl Warmth {
             given: 0.0,
             flows: [[0.0; NODES.len()]; HEATS],
             given_from: [0.0; NODES.len()],
+            passes: part
+                .network
+                .passes(0.0, &[part.start; NODES.len()])
+                .map(|one| [one; 2]),
+            loose: [None; 2],
             course: Vec::new(),
             keep,
             until: 0.0,
@@ -381,11 +390,20 @@ impl Warmth {
             speed: seen.spin,
             loads: &part.loads,
             viscosity: part.viscosity_at(lubricant),
+            temperatures: &self.temperatures,
         };
         // a state that is none ends the run elsewhere
         let Ok(network) = part.network.at(operation) else {
             return;
         };
+        let passes = part.network.passes(seen.spin, &self.temperatures);
+        for ([least, most], now) in self.passes.iter_mut().zip(passes) {
+            (*least, *most) = (least.min(now), most.max(now));
+        }
+        let loose = part.network.loose(seen.spin, &self.temperatures);
+        for (when, loose) in self.loose.iter_mut().zip(loose) {
+            *when = when.or(loose.then_some(self.until));
+        }
         let powers: Vec<f64> = nodes.iter().map(|heat| heat / span).collect();
         let (at, keep) = ((seen.time, span), self.keep);
         if let Some(other) = &mut self.held {

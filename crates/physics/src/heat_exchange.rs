@@ -168,8 +168,24 @@ pub fn free_molecular_air(accommodation: f64, pressure: f64, temperature: f64) -
 /// Source: derived.
 /// Valid: diffuse grey surfaces, ends closed.
 pub fn coaxial_radiation(temperatures: [f64; 2], areas: [f64; 2], emissivities: [f64; 2]) -> f64 {
+    radiation_conductance(temperatures, areas, emissivities) * (temperatures[0] - temperatures[1])
+}
+
+/// The same over the difference of the temperatures, W/K: σA₁(T₁² + T₂²)(T₁ + T₂)/(1/ε₁ + (A₁/A₂)(1/ε₂ − 1)).
+///
+/// Arguments as those of [`coaxial_radiation`]; an infinite second area is a room.
+///
+/// Source: derived.
+/// Valid: exact at these temperatures; as [`coaxial_radiation`].
+pub fn radiation_conductance(
+    temperatures: [f64; 2],
+    areas: [f64; 2],
+    emissivities: [f64; 2],
+) -> f64 {
     let resistance = 1.0 / emissivities[0] + areas[0] / areas[1] * (1.0 / emissivities[1] - 1.0);
-    STEFAN_BOLTZMANN * areas[0] * (temperatures[0].powi(4) - temperatures[1].powi(4)) / resistance
+    let [first, second] = temperatures;
+    let slope = (first * first + second * second) * (first + second);
+    STEFAN_BOLTZMANN * areas[0] * slope / resistance
 }
 
 /// Conductance of a mounted radial bearing to its surroundings: 320 W/(m² K) · πB(D + d), W/K; above 0.05 m² times

@@ -19,6 +19,7 @@
 //! | [`inlet_rolling`] | rolling resistance of the oil in the inlet of a contact |
 //! | [`heat_conduction`] | heat that flows into half-spaces and slabs, bodies that touch |
 //! | [`heat_exchange`] | conductances: contacts, walls, fits, gas, radiation, surroundings |
+//! | [`air`] | air that takes heat, at any pressure |
 //! | [`flash`] | surface temperatures under heat that moves |
 //! | [`load_zone`] | loads of the balls under a radial load |
 //! | [`life`] | rolling contact fatigue: ratings, damage, factors |
@@ -41,6 +42,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod air;
 pub mod angular_contact;
 #[cfg(test)]
 mod bearing_6005;

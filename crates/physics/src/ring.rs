@@ -79,12 +79,24 @@ impl PressFit {
     /// Source: growths of [`outside_growth`] and [`bore_growth`].
     /// Valid: as [`outside_growth`]; infinite where the inner tube grows faster.
     pub fn lift_off_speed(&self) -> f64 {
-        let apart = bore_growth(self.outer_material, self.joint_radius, self.outside_radius)
-            - outside_growth(self.inner_material, self.bore_radius, self.joint_radius);
+        let apart = self.lost_by_spin();
         if apart <= 0.0 {
             return f64::INFINITY;
         }
-        (0.5 * self.interference.max(0.0) / apart).sqrt()
+        (self.interference.max(0.0) / apart).sqrt()
+    }
+
+    /// Diametral interference that both lose when they spin, over the square of their speed, m s².
+    ///
+    /// Formula: 2 (u_bore of the outer tube - u_outside of the inner one)/Ω², both free
+    ///
+    /// - the fields of [`PressFit`]
+    ///
+    /// Source: growths of [`outside_growth`] and [`bore_growth`].
+    /// Valid: as [`outside_growth`].
+    pub fn lost_by_spin(&self) -> f64 {
+        2.0 * (bore_growth(self.outer_material, self.joint_radius, self.outside_radius)
+            - outside_growth(self.inner_material, self.bore_radius, self.joint_radius))
     }
 }
 

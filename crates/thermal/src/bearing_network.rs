@@ -17,10 +17,9 @@
 //! Source: derived; book/src/theory/heat.md.
 
 use crate::network::{Ground, Link, Network, NetworkError};
+use crate::passage::Passage;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
-use physics::heat_exchange::{
-    ContactConductance, line_half_width, pressed_joint, rolling_line_conductance, stream_transfer,
-};
+use physics::heat_exchange::{ContactConductance, stream_transfer};
 use physics::hertz::PointContact;
 use std::f64::consts::PI;
 
@@ -55,36 +54,22 @@ pub const ROTOR_CORE: usize = 7;
 /// What the housing stands on, where that is a node of its own.
 pub const MOUNT: usize = 8;
 
+/// What heat passes outside of the bearing, as the keys call it: rotor to inner race, outer race to housing, housing and rotor to their
+/// surroundings.
+pub const PASSES: [&str; 4] = [
+    "rotor_contact",
+    "outer_seat",
+    "surroundings",
+    "rotor_surroundings",
+];
+
 /// What gives heat to the surroundings.
 pub const GROUNDS: [usize; 4] = [HOUSING, ROTOR, ROTOR_CORE, MOUNT];
 
 /// Conductivity of oil, W/(m K), and its ρc, J/(m³ K). Source: mineral oils.
 const OIL: (f64, f64) = (0.14, 1.67e6);
-/// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: usual ground steel,
-/// assumed; book/src/theory/heat.md.
-pub const GROUND_STEEL: (f64, f64, f64) = (0.8e-6, 0.1, 3e9);
 /// Between a ball and its pocket, W/K. Source: assumed; small beside the lubricant's.
 const POCKET: f64 = 5e-3;
-
-/// How rotor and inner race touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Landing {
-    /// A conductance, W/K.
-    Given(f64),
-    /// A line of ground steel under a load.
-    Line {
-        /// Force of the rotor on this bearing, N.
-        load: f64,
-        /// Radius of the bore, m.
-        bore: f64,
-        /// Radial clearance of the rotor in it, m.
-        clearance: f64,
-        /// Length along the axis, m.
-        length: f64,
-        /// Contact modulus E*, Pa.
-        modulus: f64,
-    },
-}
 
 /// Constants of the network of one bearing.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,13 +93,13 @@ pub struct BearingNetwork {
     /// Film between balls and races, m.
     pub film: f64,
     /// Rotor on inner race.
-    pub landing: Landing,
-    /// Outer race to housing, W/K.
-    pub outer_seat: f64,
-    /// Housing to its surroundings, W/K.
-    pub surroundings: f64,
-    /// Rotor to its surroundings, W/K.
-    pub rotor_surroundings: f64,
+    pub landing: Passage,
+    /// Outer race to housing.
+    pub outer_seat: Passage,
+    /// Housing to its surroundings.
+    pub surroundings: Passage,
+    /// Rotor to its surroundings.
+    pub rotor_surroundings: Passage,
     /// Rotor's surface layer to its core, W/K.
     pub to_core: f64,
     /// Mount to housing and to its surroundings, W/K.
@@ -132,6 +117,8 @@ pub struct Operation<'a> {
     pub loads: &'a [f64],
     /// Kinematic viscosity of the lubricant, m²/s.
     pub viscosity: f64,
+    /// Temperatures of the nodes, °C.
+    pub temperatures: &'a [f64],
 }
 
 impl BearingNetwork {
@@ -173,8 +160,9 @@ impl BearingNetwork {
             conductance,
             temperature: self.ambient,
         };
+        let passes = self.passes(operation.speed, operation.temperatures);
         let mut links = vec![
-            link(ROTOR, INNER_RACE, self.landing(operation.speed.abs())),
+            link(ROTOR, INNER_RACE, passes[0]),
             link(INNER_RACE, BALLS, inner),
             link(BALLS, OUTER_RACE, outer),
             link(BALLS, CAGE, POCKET * self.balls),
@@ -182,19 +170,14 @@ impl BearingNetwork {
             link(BALLS, LUBRICANT, to_balls),
             link(CAGE, LUBRICANT, to_cage),
             link(OUTER_RACE, LUBRICANT, to_outer),
-            link(OUTER_RACE, HOUSING, self.outer_seat),
+            link(OUTER_RACE, HOUSING, passes[1]),
             link(ROTOR, ROTOR_CORE, self.to_core),
             link(HOUSING, MOUNT, self.mount[0]),
         ];
         links.retain(|link| link.nodes.iter().all(|node| self.has(node - from)));
-        let of_rotor = if self.has(ROTOR_CORE) {
-            ROTOR_CORE
-        } else {
-            ROTOR
-        };
         let mut grounds = vec![
-            ground(HOUSING, self.surroundings),
-            ground(of_rotor, self.rotor_surroundings),
+            ground(HOUSING, passes[2]),
+            ground(self.open_rotor(), passes[3]),
         ];
         if self.has(MOUNT) {
             grounds.push(ground(MOUNT, self.mount[1]));
@@ -241,27 +224,34 @@ impl BearingNetwork {
         .map(|area| transfer * area)
     }
 
-    /// Rotor to inner race, W/K.
-    fn landing(&self, speed: f64) -> f64 {
-        match self.landing {
-            Landing::Given(conductance) => conductance,
-            Landing::Line {
-                load,
-                bore,
-                clearance,
-                length,
-                modulus,
-            } => {
-                let half = line_half_width(load, bore, clearance, length, modulus);
-                let (roughness, slope, hardness) = GROUND_STEEL;
-                let area = 2.0 * half * length;
-                let metal = [STEEL_HEAT.conductivity; 2];
-                let joint = area * pressed_joint(metal, roughness, slope, load / area, hardness);
-                let rolling =
-                    rolling_line_conductance(length, half, speed * bore, STEEL_HEAT, STEEL_HEAT);
-                joint * rolling / (joint + rolling)
-            }
+    /// The node of the rotor that gives heat to its surroundings.
+    fn open_rotor(&self) -> usize {
+        match self.has(ROTOR_CORE) {
+            true => ROTOR_CORE,
+            false => ROTOR,
         }
+    }
+
+    /// Conductances of the [`PASSES`] at a speed of the inner race, rad/s, and at temperatures of the nodes, °C: W/K.
+    pub fn passes(&self, speed: f64, temperatures: &[f64]) -> [f64; PASSES.len()] {
+        let at = |node: usize| temperatures[node];
+        let room = self.ambient;
+        [
+            (self.landing).conductance(speed, [at(ROTOR), at(INNER_RACE)]),
+            (self.outer_seat).conductance(0.0, [at(OUTER_RACE), at(HOUSING)]),
+            (self.surroundings).conductance(0.0, [at(HOUSING), room]),
+            (self.rotor_surroundings).conductance(speed, [at(self.open_rotor()), room]),
+        ]
+    }
+
+    /// Whether the inner ring on the rotor and the outer ring in its housing have lost the interference that they had, at a speed and at
+    /// temperatures as those of [`BearingNetwork::passes`].
+    pub fn loose(&self, speed: f64, temperatures: &[f64]) -> [bool; 2] {
+        let at = |node: usize| temperatures[node];
+        [
+            (self.landing).is_loose(speed, [at(ROTOR), at(INNER_RACE)]),
+            (self.outer_seat).is_loose(0.0, [at(OUTER_RACE), at(HOUSING)]),
+        ]
     }
 }
 
@@ -315,16 +305,10 @@ mod tests {
             contacts: [contact(Race::Inner, 0.515), contact(Race::Outer, 0.525)],
             ball: STEEL_HEAT,
             film: 0.3e-6,
-            landing: Landing::Line {
-                load: 40.0,
-                bore: 12.5e-3,
-                clearance: 0.25e-3,
-                length: 12e-3,
-                modulus,
-            },
-            outer_seat: 6.0,
-            surroundings: 0.9,
-            rotor_surroundings: 0.0,
+            landing: Passage::Given(0.1),
+            outer_seat: Passage::Given(6.0),
+            surroundings: Passage::Given(0.9),
+            rotor_surroundings: Passage::Given(0.0),
             to_core: 40.0,
             mount: [1.0, 0.0],
             ambient: 25.0,
@@ -336,6 +320,7 @@ mod tests {
             speed,
             loads,
             viscosity: 2e-5,
+            temperatures: &[25.0; NODES.len()],
         }
     }
 
@@ -356,18 +341,9 @@ mod tests {
     }
 
     #[test]
-    fn a_rough_line_insulates_in_proportion_to_the_load() {
-        // ground surfaces at 40 N: about 0.13 W/K
-        let bearing = bearing();
-        let found = bearing.landing(2000.0);
-        assert!((0.08..0.2).contains(&found), "{found}");
-        assert_eq!(bearing.landing(0.0), 0.0);
-    }
-
-    #[test]
     fn a_layer_and_its_core_come_to_one_temperature_with_their_conductance() {
         let mut network = BearingNetwork {
-            landing: Landing::Given(0.0),
+            landing: Passage::Given(0.0),
             ..bearing()
         };
         network.capacities[ROTOR] = 1800.0;

@@ -52,6 +52,10 @@ pub struct Seat {
     pub expansions: [f64; 2],
     /// Clearance that the track loses to an interference, over it.
     pub closes: f64,
+    /// Pressure on the seat over the interference, Pa/m.
+    pub presses: f64,
+    /// Interference that is lost when both spin, over the square of their speed, m s².
+    pub spins: f64,
 }
 
 impl Seat {
@@ -60,8 +64,12 @@ impl Seat {
     /// Source: derived; book/src/theory/heat.md.
     /// Valid: as [`ThermalClearance::at`].
     pub fn at(&self, temperatures: &[f64], reference: f64) -> f64 {
-        let [inside, outside] =
-            [0, 1].map(|k| self.expansions[k] * (temperatures[self.nodes[k]] - reference));
+        self.between(self.nodes.map(|node| temperatures[node]), reference)
+    }
+
+    /// The same at the temperatures of what is inside and outside of it, °C.
+    pub fn between(&self, temperatures: [f64; 2], reference: f64) -> f64 {
+        let [inside, outside] = [0, 1].map(|k| self.expansions[k] * (temperatures[k] - reference));
         self.interference + (inside - outside) * self.diameter
     }
 
@@ -131,6 +139,8 @@ mod tests {
             nodes: [0, 1],
             expansions: [STEEL, 23e-6],
             closes: 0.8,
+            presses: 0.0,
+            spins: 0.0,
         };
         // an aluminium housing as warm as its ring: (11.5 − 23)e-6 · 47 mm · 5 K
         assert!((seat.at(&[25.0, 25.0], 20.0) - (4e-6 - 2.7025e-6)).abs() < 1e-15);

@@ -5,6 +5,7 @@
 //! | [`network`] | nodes and conductances, stepped exactly |
 //! | [`held`] | nodes held at their limits, and the heat that this takes |
 //! | [`bearing_network`] | nodes and conductances of an auxiliary bearing |
+//! | [`passage`] | what heat passes between two bodies: metal, gas, radiation |
 //! | [`load_zone`] | its balls under a radial load |
 //! | [`losses`] | what brakes and heats, at a speed and at temperatures |
 //! | [`coast_down`] | a rotor that runs out, in steps of its speed |
@@ -25,6 +26,7 @@ pub mod layer;
 pub mod load_zone;
 pub mod losses;
 pub mod network;
+pub mod passage;
 pub mod rubbing_contact;
 pub mod steady_speed;
 pub mod warm_bearing;

@@ -13,11 +13,10 @@
 use crate::clearance::{ThermalClearance, preload};
 use crate::load_zone::LoadZone;
 use crate::losses::Losses;
+use crate::passage::ICE_POINT;
 use physics::palmgren::{FADING_SPEED, Palmgren};
 use physics::viscosity::WaltherLine;
 
-/// Ice point, K.
-const ICE_POINT: f64 = 273.15;
 /// Least viscosity, m²/s.
 const LEAST_VISCOSITY: f64 = 2e-6;
 

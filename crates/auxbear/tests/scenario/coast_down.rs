@@ -194,9 +194,81 @@ fn n_equal_runs_use_n_times_the_life_and_no_rating_gives_none() {
     );
 }
 
+fn both(outcome: &Outcome, name: &str) -> [f64; 2] {
+    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    match &quantity.unwrap_or_else(|| panic!("no {name}")).value {
+        Value::List(list) => [list[0], list[1]],
+        other => panic!("{name} is {other:?}"),
+    }
+}
+
+#[test]
+fn surfaces_radiate_and_air_takes_heat_by_their_sizes() {
+    const SIGMA: f64 = 5.670374419e-8;
+    let vacuum = ["heat.atmosphere=vacuum", "heat.ambient_temperature=25 degC"];
+    let with = |more: &[&str]| outcome(&[&vacuum[..], more].concat());
+    let radiates = with(&["heat.emissivity=0.2", "heat.housing_emissivity=0.8"]);
+    // a ring of 94 by 47 by 12 mm, outside and faces, of 0.8: from rest at 25 °C to its peak
+    let area = std::f64::consts::PI * (0.094 * 0.012 + 0.5 * (0.094f64.powi(2) - 0.047f64.powi(2)));
+    let exact = |t: f64| 0.8 * SIGMA * area * (t * t + 298.15 * 298.15) * (t + 298.15);
+    let [least, most] = both(&radiates, "surroundings_conductances");
+    let start = radiates
+        .history
+        .iter()
+        .find(|c| c.name == "housing.temperature");
+    let start = start.unwrap().values[0];
+    assert!(
+        (least / exact(start) - 1.0).abs() < 1e-9,
+        "{least} {}",
+        exact(start)
+    );
+    let peak = exact(number(&radiates, "peak_housing_temperature"));
+    assert!((most / peak - 1.0).abs() < 1e-9, "{most} {peak}");
+    assert!(number(&radiates, "relative_heat_residual") < 1e-9);
+    // between rotor and race walls of 0.2 add a ninth of what black ones of that bore would
+    let still = with(&["heat.housing_emissivity=0.8"]);
+    let [bare, wide] = ["rotor_contact_conductances"; 2].map(|name| both(&still, name)[0]);
+    assert_eq!(bare, wide);
+    let added = both(&radiates, "rotor_contact_conductances")[0] - bare;
+    let gap = std::f64::consts::PI * 0.0245 * 0.012;
+    let grey = 4.0 * SIGMA * gap * start.powi(3) / (5.0 + 4.0 * 0.98);
+    assert!((added / grey - 1.0).abs() < 0.05, "{added} {grey}");
+    assert_eq!(both(&still, "rotor_surroundings_conductances"), [0.0; 2]);
+    // what is given counts, whatever radiates
+    let given = with(&["heat.housing_emissivity=0.8", "heat.surroundings=0.7 W/K"]);
+    assert_eq!(both(&given, "surroundings_conductances"), [0.7; 2]);
+    // air takes less the thinner it is, down to what radiation leaves
+    let open = |pressure: &str| {
+        let pressure = format!("heat.gas_pressure={pressure}");
+        let run = outcome(&[&pressure, "heat.rotor_surroundings=0 W/K"]);
+        ["surroundings_conductances", "rotor_contact_conductances"].map(|name| both(&run, name)[1])
+    };
+    let taken = ["1 bar", "10 mbar", "1 Pa"].map(open);
+    for pass in 0..2 {
+        assert!(
+            taken.windows(2).all(|two| two[1][pass] < two[0][pass]),
+            "{taken:?}"
+        );
+    }
+    // in free flight 1.17 W/m²K per Pa across the gap
+    let thin = taken[2][1] - both(&still, "rotor_contact_conductances")[1];
+    let bore = std::f64::consts::PI * 0.025 * 0.012;
+    assert!((thin / (1.17 * bore) - 1.0).abs() < 0.1, "{thin}");
+}
+
 #[test]
 fn what_cannot_be_is_refused_with_its_key() {
     for (sets, words) in [
+        (
+            &[
+                "heat.atmosphere=vacuum",
+                "heat.surroundings=1 W/K",
+                "heat.gas_pressure=1 Pa",
+            ][..],
+            "heat.atmosphere",
+        ),
+        (&["heat.gas_pressure=1 bar"], "Reynolds"),
+        (&["heat.emissivity=1.2"], "heat.emissivity"),
         (&["heat.atmosphere=vacuum"][..], "heat.surroundings"),
         (
             &[

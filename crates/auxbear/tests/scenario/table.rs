@@ -120,6 +120,9 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.contact_angle=15 deg",
         ],
         "heat.atmosphere" => &["heat.surroundings=0.8 W/K"],
+        "heat.gas_pressure" | "heat.emissivity" | "heat.housing_emissivity" => {
+            &["heat.rotor_surroundings=0 W/K"]
+        }
         "contact.surface.wear_coefficient" | "heat.rotor_bodies" => &["contact.width=12 mm"],
         "heat.mount_contact" | "heat.mount_surroundings" => &["heat.mount_capacity=30 J/K"],
         "bearing.inner_race_growth" => &["bearing.fits.bore_diameter=25 mm"],

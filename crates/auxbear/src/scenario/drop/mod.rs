@@ -279,8 +279,10 @@ impl Drop {
         for k in 0..self.auxiliary_bearings.len() {
             let load = self.weight(k);
             let capacity = self.rotor.mass * self.share(k) * STEEL_HEAT.specific_heat;
-            if let Some(warm) = &mut self.auxiliary_bearings[k].warm {
+            let part = &mut self.auxiliary_bearings[k];
+            if let Some(warm) = &mut part.warm {
                 warm.radial_load = load;
+                warm.heat.radial_air_clearance = Some(part.contact.radial_air_clearance);
                 warm.heat.rotor_capacity.get_or_insert(capacity);
             }
         }

@@ -4,7 +4,9 @@ use crate::problem::Code;
 use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::moment::Moment;
 use crate::scenario::checks::{Check, Context};
-use crate::scenario::heat::{Atmosphere, Warm};
+use crate::scenario::heat::{Atmosphere, Heat, Warm};
+use physics::air::{LARGEST_REYNOLDS, reynolds};
+use thermal::passage::Passage;
 
 impl Context<'_> {
     fn refuse_warm(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
@@ -24,9 +26,9 @@ impl Context<'_> {
             let needed = "more than heat.bore_diameter is needed";
             return self.refuse_warm(Code::OutOfRange, path, self.text(path), needed);
         }
-        if heat.surroundings.is_none() {
+        if heat.open_housing().is_none() {
             let path = "heat.surroundings";
-            let needed = "a conductance is needed in vacuum, where no rule of the trade holds: through the housing's flange, or by radiation (about 6 W/(m² K) of its surface between black walls at room temperature)";
+            let needed = "a conductance is needed in vacuum, where no rule of the trade holds: through the housing's flange; or heat.housing_emissivity, by which it radiates";
             let place = self.values.place("heat.atmosphere");
             let (values, needed) = (self.values, needed.to_string());
             let code = Code::MissingKey;
@@ -41,6 +43,7 @@ impl Context<'_> {
                 "0 is needed beside heat.atmosphere = \"vacuum\": no gas brakes the rotor there";
             return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
         }
+        self.stirs(heat)?;
         for (path, limit) in [
             ("heat.race_limit", heat.race_limit),
             ("heat.cage_limit", heat.cage_limit),
@@ -55,6 +58,36 @@ impl Context<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses a rotor that stirs the gas faster than any law knows.
+    fn stirs(&self, heat: &Heat) -> Check {
+        let Passage::Open(open) = heat.open_rotor() else {
+            return Ok(());
+        };
+        let speed = self.values.number("rotor.speed").unwrap_or(0.0);
+        let found = match open.pressure > 0.0 {
+            true => reynolds(
+                open.diameter,
+                speed,
+                heat.ambient_temperature,
+                open.pressure,
+            ),
+            false => 0.0,
+        };
+        if found <= LARGEST_REYNOLDS {
+            return Ok(());
+        }
+        let needed = format!(
+            "a conductance is needed: the rotor stirs gas of this pressure with a Reynolds number of {found:.1e}, and the law of a cylinder ends at {LARGEST_REYNOLDS:.1e}; 0 W/K leaves its heat to the bearings"
+        );
+        Err(Box::new(self.values.problem(
+            Code::MissingKey,
+            "heat.rotor_surroundings",
+            self.values.place("heat.gas_pressure"),
+            "no value",
+            needed,
+        )))
     }
 
     /// What a run-out needs to know besides: what brakes it, and how that follows warmth and clearance.

@@ -2,14 +2,16 @@
 
 use crate::problem::{Code, Problem};
 use crate::scenario::bearing::fits::{Fits, HOUSING_FIT};
-use crate::scenario::heat::Atmosphere;
+use crate::scenario::heat::{Atmosphere, HOUSING_SIZE};
 use crate::scenario::spin_up::DriveKind;
 use crate::scenario::system::SystemName;
 use crate::scenario::values::{Value, Values};
+use physics::air::SEA_LEVEL;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{pressed_joint, to_surroundings};
+use physics::ring::PressFit;
 use std::f64::consts::PI;
-use thermal::bearing_network::GROUND_STEEL;
+use thermal::passage::GROUND_STEEL;
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.80665;
@@ -62,7 +64,8 @@ impl Values {
         };
         let how = "0.005 g/mm² times outer_diameter and width";
         self.fill("heat.lubricant_mass", GREASE * outside * width, how)?;
-        let ring = 0.25 * PI * 3.0 * outside * outside * width * STEEL_HEAT.density;
+        let thick = HOUSING_SIZE * HOUSING_SIZE - 1.0;
+        let ring = 0.25 * PI * thick * outside * outside * width * STEEL_HEAT.density;
         let how = "a steel ring around the bearing, outside twice its diameter; assumed";
         self.fill(
             "heat.housing_capacity",
@@ -77,16 +80,14 @@ impl Values {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }
-        if self.lacks("heat.outer_seat") {
-            let (pressure, whence) = self.pressure_of_outer_seat()?;
-            let how = format!(
-                "ground steel pressed with {:.2} MPa on π outer_diameter width; {whence}",
-                1e-6 * pressure
-            );
-            let seat = pressed_seat(pressure) * PI * outside * width;
-            self.fill("heat.outer_seat", seat, &how)?;
+        if self.lacks("heat.outer_seat") && !self.outer_seat_follows()? {
+            let how = "ground steel pressed with 1 MPa on π outer_diameter width; assumed";
+            let seat = pressed_seat(FIT_PRESSURE) * PI * outside * width;
+            self.fill("heat.outer_seat", seat, how)?;
         }
-        if self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum) {
+        self.open_surfaces(planes, [outside, width])?;
+        let by_rule = self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum);
+        if by_rule && !self.exchanges("heat.housing_emissivity") {
             let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";
             self.fill(
                 "heat.surroundings",
@@ -94,30 +95,76 @@ impl Values {
                 how,
             )?;
         }
+        if !self.exchanges("heat.emissivity") || self.lacks("heat.rotor_area") {
+            let how = "the rotor gives its heat to the bearings alone, as in vacuum; assumed";
+            self.fill("heat.rotor_surroundings", 0.0, how)?;
+        }
         Ok(())
     }
 
-    /// Pressure on the seat of the outer ring, Pa, and whence it is known.
-    fn pressure_of_outer_seat(&self) -> Result<(f64, &'static str), Box<Problem>> {
-        let fit = self.number(HOUSING_FIT).unwrap_or(0.0);
-        if fit < 0.0 {
+    /// Whether gas or the emissivity of a surface says how it exchanges heat.
+    fn exchanges(&self, emissivity: &str) -> bool {
+        self.number("heat.gas_pressure").is_some() || self.radiates(emissivity)
+    }
+
+    fn radiates(&self, emissivity: &str) -> bool {
+        self.number(emissivity).is_some_and(|share| share > 0.0)
+    }
+
+    /// Surfaces that exchange heat with their surroundings, and the air that does.
+    fn open_surfaces(&mut self, planes: f64, [outside, width]: [f64; 2]) -> Done {
+        let radiates = ["heat.emissivity", "heat.housing_emissivity"];
+        if radiates.iter().any(|path| self.radiates(path)) {
+            let how = "air at sea level, ISO 2533";
+            self.fill("heat.gas_pressure", SEA_LEVEL, how)?;
+        }
+        // outside of a ring and both its faces
+        let diameter = HOUSING_SIZE * outside;
+        let faces = 0.5 * PI * (diameter * diameter - outside * outside);
+        let how = "outside and faces of a ring twice outer_diameter, of the same width; assumed";
+        self.fill("heat.housing_area", PI * diameter * width + faces, how)?;
+        if let (Some(mass), Some(inertia)) = (
+            self.number("rotor.mass"),
+            self.number("rotor.polar_inertia"),
+        ) {
+            let how = "sqrt(8 polar_inertia / mass): as a solid cylinder";
+            self.fill("heat.rotor_diameter", (8.0 * inertia / mass).sqrt(), how)?;
+            if let Some(diameter) = self.number("heat.rotor_diameter") {
+                let side = 4.0 * mass / (STEEL_HEAT.density * diameter);
+                let area = (side + 0.5 * PI * diameter * diameter) / planes;
+                let how = "a solid steel cylinder of rotor_diameter and mass, over planes; assumed";
+                self.fill("heat.rotor_area", area, how)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Fits of both rings, where they are given and what is pressed together is known.
+    pub(crate) fn known_fits(&self) -> [Option<PressFit>; 2] {
+        let sizes = (self.number("bearing.pitch_diameter"))
+            .zip(self.number("bearing.ball_diameter"))
+            .filter(|_| self.number(HOUSING_FIT).is_some());
+        let Some((pitch, ball)) = sizes else {
+            return [None; 2];
+        };
+        let fits = Fits::from_values(self);
+        [fits.on_shaft(pitch - ball), fits.in_housing(pitch + ball)]
+            .map(|fit| fit.filter(|fit| fit.interference != 0.0))
+    }
+
+    /// Whether the outer ring conducts by its fit, which is given; refuses a loose one of which nothing else is known.
+    fn outer_seat_follows(&self) -> Result<bool, Box<Problem>> {
+        let follows = self.known_fits()[1].is_some();
+        if self.number(HOUSING_FIT).unwrap_or(0.0) < 0.0 && !follows {
             return Err(Box::new(self.problem(
                 Code::MissingKey,
                 "heat.outer_seat",
                 self.place(HOUSING_FIT),
                 "no value",
-                format!("a conductance is needed: {HOUSING_FIT} leaves the ring loose, and no rule of a pressed seat holds"),
+                format!("a conductance is needed, or bearing.fits.outer_diameter and housing_outer_diameter: {HOUSING_FIT} leaves the ring loose, and no rule of a pressed seat holds"),
             )));
         }
-        let track = (self.number("bearing.pitch_diameter"))
-            .zip(self.number("bearing.ball_diameter"))
-            .map(|(pitch, ball)| pitch + ball);
-        let pressed = track.filter(|_| fit > 0.0);
-        let pressed = pressed.and_then(|track| Fits::from_values(self).in_housing(track));
-        Ok(match pressed {
-            Some(fit) => (fit.pressure(), "thick rings (Lamé)"),
-            None => (FIT_PRESSURE, "assumed"),
-        })
+        Ok(follows)
     }
 
     /// The shaft that stands in the inner race of a rig.
@@ -126,7 +173,8 @@ impl Values {
         let capacity = volume * STEEL_HEAT.density * STEEL_HEAT.specific_heat;
         let how = "a steel shaft of the bore, four widths long; assumed";
         self.fill("heat.rotor_capacity", capacity, how)?;
-        if self.chosen("drive.kind") == Some(DriveKind::SlidingRotor) {
+        let slides = self.chosen("drive.kind") == Some(DriveKind::SlidingRotor);
+        if slides || self.known_fits()[0].is_some() {
             return Ok(());
         }
         let how = "ground steel pressed with 1 MPa on π bore_diameter width; assumed";

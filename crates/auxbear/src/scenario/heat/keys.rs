@@ -19,6 +19,15 @@ pub(crate) const IS_FOLLOWED: Condition = Condition {
 
 const FOLLOWED: &[Condition] = &[IS_FOLLOWED];
 
+const FOLLOWED_IN_AIR: &[Condition] = &[
+    IS_FOLLOWED,
+    Condition {
+        path: "heat.atmosphere",
+        values: &["air"],
+        reason: "a vacuum has no gas; what is left of it takes heat as air of that pressure",
+    },
+];
+
 const FOLLOWED_WITH_CAGE: &[Condition] = &[
     IS_FOLLOWED,
     Condition {
@@ -84,6 +93,60 @@ pub(crate) const KEYS: &[Key] = &[
         "What surrounds the bearing: in vacuum heat.surroundings has no default.",
     )
     .assumed("air", "most machines; a vacuum takes far less heat away")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.gas_pressure",
+        Kind::Quantity("Pa"),
+        "1 bar",
+        "Pressure of the air, from free flight of its molecules to the atmosphere: with it the gas between rotor and inner race conducts, and what takes heat from the housing (unless heat.surroundings is given) and from the rotor (heat.rotor_surroundings) is computed of their surfaces.",
+    )
+    .positive()
+    .derived("sea level where an emissivity is given; else no gas is computed, and heat.surroundings follows a rule of the trade")
+    .when(FOLLOWED_IN_AIR),
+    Key::new(
+        "heat.emissivity",
+        Kind::Coefficient,
+        "0.2",
+        "Emissivity of rotor and inner race, which radiate to each other, and the rotor to its surroundings: bright steel 0.1 to 0.3, oxidised 0.8.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .default("0.0", "no radiation is computed")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.housing_emissivity",
+        Kind::Coefficient,
+        "0.8",
+        "Emissivity of the housing, which radiates to its surroundings unless heat.surroundings is given: painted or oxidised 0.8.",
+    )
+    .within(Range::FromTo(0.0, 1.0))
+    .default("0.0", "no radiation is computed")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.housing_area",
+        Kind::Quantity("m^2"),
+        "0.03 m^2",
+        "Surface of the housing of one bearing that gas and radiation take heat from.",
+    )
+    .positive()
+    .derived("outside and faces of a ring twice as large as the bearing, of its width: assumed")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.rotor_diameter",
+        Kind::Quantity("m"),
+        "100 mm",
+        "Diameter of the rotor as a cylinder that turns in gas.",
+    )
+    .positive()
+    .derived("sqrt(8 rotor.polar_inertia / rotor.mass), where they are given")
+    .when(FOLLOWED),
+    Key::new(
+        "heat.rotor_area",
+        Kind::Quantity("m^2"),
+        "0.1 m^2",
+        "Surface of the part of the rotor that warms with one bearing.",
+    )
+    .positive()
+    .derived("a solid steel cylinder of heat.rotor_diameter and rotor.mass, over rotor.planes: assumed")
     .when(FOLLOWED),
     Key::new(
         "heat.feedback",
@@ -163,7 +226,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.rotor_contact",
         Kind::Quantity("W/K"),
         "0.15 W/K",
-        "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft.",
+        "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft, which follows bearing.fits.shaft_interference, temperatures and speed where they are given.",
     )
     .not_negative()
     .optional("that of two rough ground surfaces of steel along the width of the bearing, rolling on each other with heat.radial_air_clearance")
@@ -186,7 +249,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Conductance from outer race to housing. A loose ring in vacuum has a thousandth of a pressed one; O-rings and wire mesh have what their maker says.",
     )
     .not_negative()
-    .derived("ground steel pressed with 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed")
+    .derived("where bearing.fits.housing_interference and what it presses are given that of ground steel under its pressure, which follows the temperatures down to the gap of a loose ring; else under 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed")
     .when(FOLLOWED),
     Key::new(
         "heat.surroundings",
@@ -195,7 +258,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Conductance from the housing to its surroundings.",
     )
     .not_negative()
-    .derived("ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter), in air")
+    .derived("gas and radiation of heat.housing_area, where heat.gas_pressure or heat.housing_emissivity is given; else in air ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)")
     .when(FOLLOWED),
     Key::new(
         "heat.rotor_surroundings",
@@ -204,7 +267,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Conductance from the rotor to its surroundings.",
     )
     .not_negative()
-    .assumed("0 W/K", "the rotor gives its heat to the bearings alone, as in vacuum")
+    .derived("gas and radiation of heat.rotor_area, where heat.gas_pressure or heat.emissivity is given; else 0 W/K, as in vacuum: the rotor gives its heat to the bearings alone")
     .when(FOLLOWED),
     Key::new(
         "heat.shaft_expansion",

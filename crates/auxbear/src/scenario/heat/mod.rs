@@ -5,12 +5,12 @@ pub(crate) mod derive;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::ball_material;
-use crate::scenario::bearing::fits::{Fits, SHAFT_FIT};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
+use physics::air::SEA_LEVEL;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::ring::PressFit;
 use physics::viscosity::Viscosity;
@@ -18,9 +18,8 @@ use thermal::bearing_network::{
     BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
 };
 use thermal::clearance::Seat;
-
-/// Ice point, K.
-pub(crate) const ICE_POINT: f64 = 273.15;
+pub(crate) use thermal::passage::ICE_POINT;
+use thermal::passage::{Medium, Open, Passage, Pressed};
 
 words! {
     /// Whether temperatures are followed.
@@ -173,12 +172,24 @@ pub struct Heat {
     pub rotor_contact: Option<f64>,
     /// Radial clearance of the rotor in the race, m, where no conductance is given.
     pub radial_air_clearance: Option<f64>,
-    /// Outer race to housing, W/K.
-    pub outer_seat: f64,
-    /// Housing to its surroundings, W/K; none in vacuum where it is not given.
+    /// Outer race to housing, W/K; none where it follows the fit.
+    pub outer_seat: Option<f64>,
+    /// Housing to its surroundings, W/K; none where gas and radiation take the heat, or nothing does.
     pub surroundings: Option<f64>,
-    /// Rotor to its surroundings, W/K.
-    pub rotor_surroundings: f64,
+    /// Rotor to its surroundings, W/K, where it is given.
+    pub rotor_surroundings: Option<f64>,
+    /// Pressure of the air, Pa, where gas is computed.
+    pub gas_pressure: Option<f64>,
+    /// Emissivity of rotor and inner race; 0 where they do not radiate.
+    pub emissivity: f64,
+    /// Emissivity of the housing; 0 where it does not radiate.
+    pub housing_emissivity: f64,
+    /// Surface of the housing of one bearing, m².
+    pub housing_area: f64,
+    /// Diameter of the rotor as a cylinder, m, where it is known.
+    pub rotor_diameter: Option<f64>,
+    /// Its surface for one bearing, m², where it is known.
+    pub rotor_area: Option<f64>,
     /// Expansion of shaft or sleeve, 1/K.
     pub shaft_expansion: f64,
     /// Expansion of the housing, 1/K.
@@ -282,32 +293,27 @@ pub(crate) const STEEL_EXPANSION: f64 = 11.5e-6;
 
 /// Seats of the rings whose fits are given; the inner one on a sleeve that is one body with the ring.
 fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
-    let known = values
-        .number("bearing.pitch_diameter")
-        .zip(values.number("bearing.ball_diameter"))
-        .filter(|_| values.number(SHAFT_FIT).is_some());
-    let Some((pitch, ball)) = known else {
-        return [None; 2];
-    };
-    let fits = Fits::from_values(values);
+    let [shaft, housing] = values.known_fits();
     let seat = |fit: PressFit, nodes, expansions, growth: fn(&PressFit) -> f64| {
         let unit = PressFit {
             interference: 1.0,
             ..fit
         };
-        (fit.interference != 0.0).then(|| Seat {
+        Seat {
             interference: fit.interference,
             diameter: 2.0 * fit.joint_radius,
             nodes,
             expansions,
             closes: 2.0 * growth(&unit),
-        })
+            presses: unit.pressure(),
+            spins: fit.lost_by_spin(),
+        }
     };
-    let shaft = fits.on_shaft(pitch - ball).and_then(|fit| {
+    let shaft = shaft.map(|fit| {
         let expansions = [heat.shaft_expansion, STEEL_EXPANSION];
         seat(fit, [INNER_RACE; 2], expansions, PressFit::outside_growth)
     });
-    let housing = fits.in_housing(pitch + ball).and_then(|fit| {
+    let housing = housing.map(|fit| {
         let expansions = [STEEL_EXPANSION, heat.housing_expansion];
         seat(
             fit,
@@ -319,10 +325,75 @@ fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
     [shaft, housing]
 }
 
+/// Emissivity of a seat that is loose, where none is given. Source: bright steel, 0.1 to 0.3 (from memory).
+const BRIGHT_STEEL: f64 = 0.2;
+
+/// Diameter of a housing over the outer diameter of its bearing, where nothing else is known. Source: assumed.
+pub(crate) const HOUSING_SIZE: f64 = 2.0;
+
 /// Depth of a shoulder below the pitch circle, over the diameter of a ball.
 pub(crate) const SHOULDER: f64 = 0.3;
 
 impl Heat {
+    /// The way of the rotor's heat to its surroundings.
+    pub(crate) fn open_rotor(&self) -> Passage {
+        let given = Passage::Given(self.rotor_surroundings.unwrap_or(0.0));
+        let size = self.rotor_diameter.zip(self.rotor_area);
+        match (self.rotor_surroundings, size) {
+            (None, Some(size)) => self.open(size, self.emissivity).unwrap_or(given),
+            _ => given,
+        }
+    }
+
+    /// The way of the housing's heat to its surroundings; none where there is none.
+    pub(crate) fn open_housing(&self) -> Option<Passage> {
+        let size = (HOUSING_SIZE * self.outer_diameter, self.housing_area);
+        let given = self.surroundings.map(Passage::Given);
+        given.or_else(|| self.open(size, self.housing_emissivity))
+    }
+
+    /// Gas and radiation around a cylinder of a diameter, m, and a surface, m²; none where there is neither.
+    fn open(&self, (diameter, area): (f64, f64), emissivity: f64) -> Option<Passage> {
+        let any = self.gas_pressure.is_some() || emissivity > 0.0;
+        any.then(|| {
+            Passage::Open(Open {
+                diameter,
+                area,
+                emissivity,
+                pressure: self.gas_pressure.unwrap_or(0.0),
+            })
+        })
+    }
+
+    /// What fills the gap of rotor and inner race.
+    pub(crate) fn medium(&self) -> Medium {
+        Medium {
+            pressure: self.gas_pressure.unwrap_or(0.0),
+            emissivities: [self.emissivity; 2],
+        }
+    }
+
+    /// A ring on a seat whose fit is known; air where nothing is said of it, bright steel where no emissivity is.
+    pub(crate) fn pressed(&self, seat: Seat) -> Passage {
+        let air = match self.atmosphere {
+            Atmosphere::Air => SEA_LEVEL,
+            Atmosphere::Vacuum => 0.0,
+        };
+        let emissivity = match self.emissivity > 0.0 {
+            true => self.emissivity,
+            false => BRIGHT_STEEL,
+        };
+        Passage::Pressed(Pressed {
+            seat,
+            reference: self.start_temperature - ICE_POINT,
+            length: self.width,
+            medium: Medium {
+                pressure: self.gas_pressure.unwrap_or(air),
+                emissivities: [emissivity; 2],
+            },
+        })
+    }
+
     /// Mass of an inner ring of this inertia between bore and shoulder, kg.
     fn ring_of(&self, inertia: f64, bearing: &Section<'_>) -> f64 {
         let depth = 2.0 * SHOULDER * bearing.number("ball_diameter");
@@ -347,9 +418,15 @@ impl Heat {
             housing_capacity: heat.number("housing_capacity"),
             rotor_contact: heat.maybe("rotor_contact"),
             radial_air_clearance: heat.maybe("radial_air_clearance"),
-            outer_seat: heat.number("outer_seat"),
+            outer_seat: heat.maybe("outer_seat"),
             surroundings: heat.maybe("surroundings"),
-            rotor_surroundings: heat.number("rotor_surroundings"),
+            rotor_surroundings: heat.maybe("rotor_surroundings"),
+            gas_pressure: heat.maybe("gas_pressure"),
+            emissivity: heat.number("emissivity"),
+            housing_emissivity: heat.number("housing_emissivity"),
+            housing_area: heat.number("housing_area"),
+            rotor_diameter: heat.maybe("rotor_diameter"),
+            rotor_area: heat.maybe("rotor_area"),
             shaft_expansion: heat.maybe("shaft_expansion").unwrap_or(STEEL_EXPANSION),
             housing_expansion: heat.maybe("housing_expansion").unwrap_or(STEEL_EXPANSION),
             rotor_bodies: heat.chosen("rotor_bodies").unwrap_or(RotorBodies::One),

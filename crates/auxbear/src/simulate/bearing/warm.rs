@@ -6,10 +6,10 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::warnings::{away, beyond, to_take};
+use crate::simulate::coast_down::warnings::{away, beyond, first_loose, loose_ring, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
-use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES};
+use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES, PASSES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -98,6 +98,7 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
             [made_in(node), stored_in[node], warmth.given_from[node]],
         );
     }
+    list.conductances("", warmth.passes);
     // what this bearing never makes is not listed
     for (kind, flow) in kinds().zip(&warmth.flows) {
         if flow.iter().any(|heat| *heat != 0.0) {
@@ -170,6 +171,13 @@ impl List {
         add("stored_heat_in", kept);
         if GROUNDS.contains(&node) {
             add("heat_to_surroundings_from", given);
+        }
+    }
+    /// Least and largest conductance of each pass of a network, W/K.
+    pub(crate) fn conductances(&mut self, bearing: &str, passes: [[f64; 2]; PASSES.len()]) {
+        for (name, both) in PASSES.into_iter().zip(passes) {
+            let name = of_part(bearing, &format!("{name}_conductances"));
+            self.push(&name, "W/K", Value::List(both.to_vec()), &PASSED);
         }
     }
     /// Heat of a kind over the nodes, J.
@@ -263,18 +271,11 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
 
 /// A ring that loses its fit.
 fn loose(followed: &Followed) -> Option<(f64, Warning)> {
-    let times = followed.state?.loose;
-    let seats = [
-        "the inner ring on its shaft",
-        "the outer ring in its housing",
-    ];
-    let (time, seat) = (times.into_iter().zip(seats))
-        .filter_map(|(time, seat)| Some((time?, seat)))
-        .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let text = format!(
-        "After {time:.3} s {seat} has lost its interference to unequal warmth: it may creep, and conducts like a gap. This run follows neither."
-    );
-    Some((1.0 / (1.0 + time), warning("AB2321", text)))
+    let of_clearance = followed.state.map_or([None; 2], |state| state.loose);
+    let times = [0, 1].map(|seat| of_clearance[seat].or(followed.warmth.loose[seat]));
+    let (time, seat) = first_loose(times)?;
+    let when = format!("{time:.3} s");
+    Some((1.0 / (1.0 + time), loose_ring(&when, seat)))
 }
 
 /// What of a bearing does not follow its temperatures, though it is asked to.
@@ -363,6 +364,11 @@ const AT_NODE: Origin = Origin {
     law: "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
     source: "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
     valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
+};
+const PASSED: Origin = Origin {
+    law: "least and largest conductance of the way: as given, or a rough line, gas between surfaces and in the open, radiation",
+    source: "crates/thermal/src/passage.rs, crates/physics/src/air.rs; book/src/theory/heat.md",
+    valid: "at the ends of spans or steps; within a factor of two",
 };
 const BY_NODE: Origin = Origin {
     law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",

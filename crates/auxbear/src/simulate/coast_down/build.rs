@@ -13,12 +13,13 @@ use physics::palmgren::Palmgren;
 use physics::viscosity::{Viscosity, WaltherLine};
 use std::f64::consts::{PI, TAU};
 use thermal::bearing_network::{
-    BALLS, BearingNetwork, INNER_RACE, LUBRICANT, Landing, NODES, OUTER_RACE,
+    BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
 };
 use thermal::clearance::ThermalClearance;
 use thermal::coast_down::AtNodes;
 use thermal::held::Held;
 use thermal::load_zone::LoadZone;
+use thermal::passage::{Line, Passage};
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
 
@@ -96,7 +97,7 @@ pub(crate) struct Start {
 }
 
 /// A way on which nodes are held at their limits.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct OnLimits {
     pub held: Held,
     /// Of the nodes of all bearings, °C.
@@ -105,10 +106,29 @@ pub(crate) struct OnLimits {
     pub taken: Vec<f64>,
     /// The same over the last step, W.
     pub powers: Vec<f64>,
+    /// What is known of it.
+    pub rows: Vec<Row>,
+    /// How much later it comes to the same speed, s.
+    pub delay: f64,
+}
+
+impl OnLimits {
+    /// Nothing taken yet.
+    pub fn from(held: Held, temperatures: Vec<f64>, rows: Vec<Row>) -> Self {
+        let nothing = vec![0.0; temperatures.len()];
+        OnLimits {
+            held,
+            temperatures,
+            taken: nothing.clone(),
+            powers: nothing,
+            rows,
+            delay: 0.0,
+        }
+    }
 }
 
 /// What a step in slow time changes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 struct Kept {
     time: f64,
     speed: f64,
@@ -137,14 +157,8 @@ impl Start {
     }
     /// The same, with nodes that are held at these temperatures, °C.
     pub fn holding(self, held: Held, temperatures: Vec<f64>) -> Self {
-        let nothing = vec![0.0; temperatures.len()];
         Start {
-            on_limits: Some(OnLimits {
-                held,
-                temperatures,
-                taken: nothing.clone(),
-                powers: nothing,
-            }),
+            on_limits: Some(OnLimits::from(held, temperatures, Vec::new())),
             ..self
         }
     }
@@ -325,6 +339,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     let steel = STEEL_HEAT.specific_heat;
     let ball = run.ball_material.heat();
     let cage = run.cage_mass * heat.cage_material.heat().specific_heat;
+    let on_rotor = run.seats[0].filter(|seat| seat.nodes[0] == ROTOR);
     let network = BearingNetwork {
         capacities: [
             heat.rotor_capacity.unwrap_or(f64::INFINITY),
@@ -345,9 +360,10 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         contacts,
         ball,
         film: heat.film_thickness,
-        landing: match heat.rotor_contact {
-            Some(conductance) => Landing::Given(conductance),
-            None => Landing::Line {
+        landing: match (heat.rotor_contact, on_rotor) {
+            (Some(conductance), _) => Passage::Given(conductance),
+            (None, Some(seat)) => heat.pressed(seat),
+            (None, None) => Passage::Line(Line {
                 load: run.radial_load,
                 bore: 0.5 * heat.bore_diameter,
                 clearance: heat
@@ -355,11 +371,15 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
                     .unwrap_or(0.01 * heat.bore_diameter),
                 length: heat.width,
                 modulus: contact_modulus(BEARING_STEEL, BEARING_STEEL),
-            },
+                medium: heat.medium(),
+            }),
         },
-        outer_seat: heat.outer_seat,
-        surroundings: heat.surroundings.unwrap_or(0.0),
-        rotor_surroundings: heat.rotor_surroundings,
+        outer_seat: match (heat.outer_seat, run.seats[1]) {
+            (None, Some(seat)) => heat.pressed(seat),
+            (given, _) => Passage::Given(given.unwrap_or(0.0)),
+        },
+        surroundings: heat.open_housing().unwrap_or(Passage::Given(0.0)),
+        rotor_surroundings: heat.open_rotor(),
         to_core: 0.0,
         mount: [heat.mount_contact, heat.mount_surroundings],
         ambient: celsius(heat.ambient_temperature),

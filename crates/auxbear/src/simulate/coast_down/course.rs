@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::{LUBRICANT, NODES, Operation, together};
 use thermal::coast_down::{CoastDown as Coast, Coasting};
 use thermal::held::Held;
-use thermal::network::Network;
+use thermal::network::{Network, NetworkError};
 use thermal::steady_speed::SteadySpeed;
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
@@ -23,6 +23,9 @@ pub(crate) struct Course {
     pub end: End,
     /// Heat taken from each node to hold it, J, all bearings.
     pub taken: Vec<f64>,
+    /// Which nodes are held at its end, and the heat taken from each over the last step, W.
+    pub held: Held,
+    pub powers: Vec<f64>,
     /// Heat stored since the start, J, all bearings.
     pub stored: f64,
 }
@@ -48,6 +51,7 @@ pub(super) fn follow(
     state.heats.clone_from(&start.heats);
     state.given = start.given;
     state.at_nodes = start.at_nodes.clone();
+    let mut rows = start.rows.clone();
     match (&start.on_limits, limits) {
         // what was held on the way to here is held on
         (Some(way), Some(_)) => {
@@ -55,10 +59,11 @@ pub(super) fn follow(
             state.temperatures.clone_from(&way.temperatures);
             taken.clone_from(&way.taken);
             powers.clone_from(&way.powers);
+            rows.clone_from(&way.rows);
+            state.time += way.delay;
         }
         _ => held.begin(&mut state.temperatures),
     }
-    let mut rows = start.rows.clone();
     if start.ended.is_none() || rows.is_empty() {
         rows.push(row(built, &state, &powers));
     }
@@ -79,7 +84,8 @@ pub(super) fn follow(
             break End::Beyond;
         }
         let machine = Coast {
-            network: network(built, &state, held.marks())?,
+            network: network(built, (state.speed, &state.temperatures), held.marks())
+                .map_err(no_network)?,
             losses: built.losses(state.time),
             inertia: built.inertia,
             sides,
@@ -119,6 +125,8 @@ pub(super) fn follow(
         state,
         end,
         taken,
+        held,
+        powers,
         stored,
     })
 }
@@ -131,31 +139,35 @@ fn clearance(part: &Part, temperatures: &[f64]) -> f64 {
     }
 }
 
-fn network(built: &Built, state: &Coasting, held: &[bool]) -> Result<Network, Box<Problem>> {
-    let each = built
-        .parts
-        .iter()
-        .zip(state.temperatures.chunks(NODES.len()));
-    let loads: Vec<Vec<f64>> = each
-        .clone()
+/// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
+pub(crate) fn network(
+    built: &Built,
+    (speed, temperatures): (f64, &[f64]),
+    held: &[bool],
+) -> Result<Network, NetworkError> {
+    let each = || (built.parts.iter()).zip(temperatures.chunks(NODES.len()));
+    let loads: Vec<Vec<f64>> = each()
         .map(|(part, temperatures)| part.zone.loads(clearance(part, temperatures)))
         .collect();
-    let operations = each.zip(&loads).map(|((part, temperatures), loads)| {
+    let operations = each().zip(&loads).map(|((part, temperatures), loads)| {
         let kelvin = temperatures[LUBRICANT] + ICE_POINT;
         Operation {
-            speed: part.losses.ratio * state.speed,
+            speed: part.losses.ratio * speed,
             loads,
             viscosity: part.losses.oil.viscosity(kelvin).max(1e-6),
+            temperatures,
         }
     });
     let networks = built.parts.iter().map(|part| &part.network);
     let all: Vec<_> = networks.zip(operations).collect();
-    together(&all, held).map_err(|why| {
-        use crate::problem::Code;
-        use crate::scenario::UNNAMED;
-        let needed = "finite capacities and conductances are needed";
-        Box::new(Problem::new(Code::Impossible, UNNAMED, why.to_string(), needed).on_key("heat"))
-    })
+    together(&all, held)
+}
+
+fn no_network(why: NetworkError) -> Box<Problem> {
+    use crate::problem::Code;
+    use crate::scenario::UNNAMED;
+    let needed = "finite capacities and conductances are needed";
+    Box::new(Problem::new(Code::Impossible, UNNAMED, why.to_string(), needed).on_key("heat"))
 }
 
 fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
@@ -178,7 +190,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         .iter()
         .zip(state.temperatures.chunks(NODES.len()));
     let bearings = each.map(of_part).collect();
-    let growth = match network(built, state, &[]) {
+    let growth = match network(built, (state.speed, &state.temperatures), &[]) {
         Ok(network) => SteadySpeed {
             network,
             losses,

@@ -8,7 +8,7 @@ use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use physics::life::{RatedBearing, passages_per_turn, repetitions};
 use std::f64::consts::TAU;
-use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE};
+use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE, PASSES};
 use thermal::losses::Losses;
 
 /// Places of the outer ring that its life is summed over.
@@ -85,6 +85,15 @@ fn heats(ran: &Ran, list: &mut List) {
             let [made, given] = [at.made[node.place()], at.given[node.place()]];
             list.node_heats(&part.name, node.node, [made, kept, given]);
         }
+        let mut passes = [[f64::INFINITY, 0.0]; PASSES.len()];
+        for row in &free.rows {
+            let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
+            let now = (part.network).passes(part.losses.ratio * row.speed, temperatures);
+            for ([least, most], now) in passes.iter_mut().zip(now) {
+                (*least, *most) = (least.min(now), most.max(now));
+            }
+        }
+        list.conductances(&part.name, passes);
         // windows have other losses, whose heat is known by nodes alone
         if ran.built.start.heats.iter().any(|heat| *heat != 0.0) {
             continue;

@@ -1,11 +1,12 @@
 //! A run-out as it was computed, and what its rows say.
 
 use crate::problem::Problem;
-use crate::simulate::coast_down::build::{Built, Part};
+use crate::simulate::coast_down::build::{Built, OnLimits, Part, Start};
 use crate::simulate::coast_down::course::{self, Course};
 use crate::simulate::coast_down::rows::{Row, RowOfBearing};
 use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::NODES;
+use thermal::held::Held;
 
 /// A run-out, and the same with its nodes held at their limits where one is passed.
 pub(crate) struct Ran<'a> {
@@ -56,6 +57,43 @@ impl NodeOf {
 }
 
 impl Ran<'_> {
+    /// Where another run-out goes on, at the end of this one: the last row is that of its first.
+    pub fn start(&self) -> Start {
+        let before = |course: &Course| {
+            course
+                .rows
+                .split_last()
+                .map_or(Vec::new(), |all| all.1.to_vec())
+        };
+        let state = &self.free.state;
+        let bearings = self.built.parts.len();
+        let mut start = Start::at(
+            state.time,
+            state.speed,
+            state.temperatures.clone(),
+            bearings,
+        );
+        start.heats.clone_from(&state.heats);
+        start.given = state.given;
+        start.at_nodes = state.at_nodes.clone();
+        start.rows = before(&self.free);
+        start.on_limits = Some(match &self.held {
+            Some(course) => OnLimits {
+                held: course.held.clone(),
+                temperatures: course.state.temperatures.clone(),
+                taken: course.taken.clone(),
+                powers: course.powers.clone(),
+                rows: before(course),
+                delay: course.state.time - state.time,
+            },
+            None => {
+                let held = Held::at(self.limits.clone());
+                OnLimits::from(held, state.temperatures.clone(), start.rows.clone())
+            }
+        });
+        start
+    }
+
     /// The bearings with their places.
     pub fn parts(&self) -> impl Iterator<Item = (usize, &Part)> {
         self.built.parts.iter().enumerate()

@@ -3,7 +3,7 @@
 use crate::result::outcome::{Warning, warning};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
-use crate::simulate::coast_down::rows::End;
+use crate::simulate::coast_down::rows::{End, Row};
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{LUBRICANT, NODES};
 
@@ -23,7 +23,8 @@ pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
             Some(_) => [None, None, too_fast(ran, k)],
             None => [stays_closed(ran, k), viscosity(ran, k), too_fast(ran, k)],
         };
-        list.extend(found.into_iter().flatten().map(|found| Warning {
+        let found = found.into_iter().chain([loose(ran, k)]);
+        list.extend(found.flatten().map(|found| Warning {
             text: match part.name.is_empty() {
                 true => found.text,
                 false => format!("{}: {}", part.name, found.text),
@@ -72,6 +73,49 @@ pub(crate) fn away(time: f64, rate: f64, changes: [f64; 3]) -> Warning {
             words(1.0 / rate),
         ),
     )
+}
+
+/// Which of both rings becomes loose first, with the time.
+pub(crate) fn first_loose(times: [Option<f64>; 2]) -> Option<(f64, &'static str)> {
+    let seats = [
+        "the inner ring on its shaft",
+        "the outer ring in its housing",
+    ];
+    (times.into_iter().zip(seats))
+        .filter_map(|(time, seat)| Some((time?, seat)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// A ring that is loose from a time on, in words.
+pub(crate) fn loose_ring(when: &str, seat: &str) -> Warning {
+    warning(
+        "AB2321",
+        format!(
+            "After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from \
+             there on, and it may creep, which this run does not follow."
+        ),
+    )
+}
+
+/// A ring that loses its fit on the way.
+fn loose(ran: &Ran, k: usize) -> Option<Warning> {
+    let part = &ran.built.parts[k];
+    let at = |row: &Row| {
+        let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
+        let by_heat = part
+            .network
+            .loose(part.losses.ratio * row.speed, temperatures);
+        let by_size = part.zone.loose(temperatures);
+        [0, 1].map(|seat| by_heat[seat] || by_size[seat])
+    };
+    let rows = &ran.free.rows;
+    let before = at(&rows[0]);
+    let times = [0, 1].map(|seat| {
+        let later = rows.iter().find(|row| !before[seat] && at(row)[seat]);
+        later.map(|row| row.time)
+    });
+    let (time, seat) = first_loose(times)?;
+    Some(loose_ring(&words(time), seat))
 }
 
 /// What holding the limits takes: the largest power, W, and all of it, J; of one bearing or of all.

@@ -14,6 +14,7 @@ pub(crate) mod method;
 mod mount;
 pub(crate) mod orders;
 pub(crate) mod quantities;
+mod returns;
 pub(crate) mod run_out;
 pub mod shaft;
 pub(crate) mod shaft_results;

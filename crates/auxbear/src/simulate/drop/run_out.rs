@@ -10,7 +10,8 @@ use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::{self, history, quantities, warnings};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::windows::{self, Bounced};
+use crate::simulate::drop::returns::{self, EXCESS, Return, Returned};
+use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use crate::simulate::ending;
 use model::system::layout::of_part;
 use model::system::machine::record::ROLLS;
@@ -49,70 +50,131 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         Err(why) => return Some(After::none(Vec::new(), broken(stop, why))),
     };
     let bounced = match goes_on && !rolls {
-        true => windows::follow(context, &mut built, interrupt),
+        true => windows::follow(context, &mut built, Stretch::UNTIL_ROLLING, interrupt),
         false => Bounced::default(),
     };
     // what a run-out finds has its names, also where there is none
     let at_once = AtomicBool::new(true);
-    let found = ran(&built, if goes_on { interrupt } else { &at_once });
-    let found = match found {
+    let first = Change::at(&built, &bounced);
+    let frequencies = frequencies(context, &built);
+    let found = match goes_on {
+        true => returns::follow(context, &mut built, &frequencies, interrupt),
+        false => Ok(Returned::default()),
+    };
+    let found = found.and_then(|returned| {
+        let interrupt = if goes_on { interrupt } else { &at_once };
+        Ok((ran(&built, interrupt)?, returned))
+    });
+    let (found, returned) = match found {
         Ok(found) => found,
         Err(problem) => return Some(After::none(Vec::new(), broken(stop, problem.found))),
     };
-    let passed = passed(context, &found);
-    let (excess, looked) = match goes_on {
-        true => windows::looked_at(context, &found, &passed, interrupt),
-        false => Default::default(),
+    let went = Went {
+        bounced,
+        first,
+        frequencies,
+        returned,
     };
-    let resonances = Resonances { passed, excess };
-    let quantities = named(context, &found, &bounced, &resonances);
+    let quantities = named(&found, &went);
     if !goes_on {
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
     }
     let mut list = warnings::of_course(&found);
-    let first = scatters(&bounced).into_iter().chain(resonances.warning());
+    let first = scatters(&went).into_iter().chain(lifted(&went.returned));
     list.splice(0..0, first.chain(slides(context, &found)));
     let ended = coast_down::stop(&found.free);
     Some(After {
         quantities,
         warnings: list,
         stop: Stop {
-            text: format!("{} {}", way(context, &found, &bounced), ended.text),
+            text: format!("{} {}", way(context, &went), ended.text),
             ..ended
         },
-        steps: found.free.state.steps as u64 + bounced.steps + looked,
+        steps: found.free.state.steps as u64 + went.steps(),
     })
 }
 
-/// How the run went from ball by ball into slow time, in words.
-fn way(context: &Context, found: &Ran, bounced: &Bounced) -> String {
-    let start = &found.built.start;
-    let rolled = format!(
-        "From {:.4} s on the rotor rolled, losing no more than that, and ran out by laws, from {:.1} rad/s.",
-        start.time, start.speed
-    );
-    match (bounced.scatter.len(), &start.ended) {
-        (0, None) => rolled,
-        (count, ended) => {
-            let last = match ended {
-                None => rolled,
-                Some(_) => "It never rolled.".to_string(),
-            };
-            format!(
-                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them. {last}",
-                context.finished.ending.time
-            )
+/// The first change from motion to laws.
+struct Change {
+    time: f64,
+    speed: f64,
+    /// Whether there was one.
+    never: bool,
+    /// Kinetic energy after it less that before, J.
+    energy: f64,
+}
+
+impl Change {
+    fn at(built: &Built, bounced: &Bounced) -> Self {
+        let start = &built.start;
+        let after = 0.5 * built.inertia * start.speed * start.speed;
+        let sides = f64::from(built.sides);
+        Change {
+            time: start.time,
+            speed: start.speed,
+            never: start.ended.is_some(),
+            energy: (bounced.kinetic).map_or(0.0, |before| after - sides * before),
         }
     }
+}
+
+/// How the run went between its fidelities.
+struct Went {
+    bounced: Bounced,
+    first: Change,
+    /// Natural frequencies of the rotor that rolls, below the speed of the first change, the highest first, rad/s.
+    frequencies: Vec<f64>,
+    returned: Returned,
+}
+
+impl Went {
+    /// Windows of all stretches.
+    fn windows(&self) -> impl Iterator<Item = &Bounced> {
+        let again = self.returned.list.iter().map(|again| &again.windows);
+        std::iter::once(&self.bounced).chain(again)
+    }
+    fn steps(&self) -> u64 {
+        self.windows().map(|windows| windows.steps).sum::<u64>() + self.returned.looked
+    }
+    /// Relative standard errors of the powers of all windows.
+    fn scatter(&self) -> Vec<f64> {
+        let each = self.windows().flat_map(|windows| &windows.scatter);
+        each.copied().collect()
+    }
+}
+
+/// How the run went from ball by ball into slow time and back, in words.
+fn way(context: &Context, went: &Went) -> String {
+    let first = &went.first;
+    let rolled = format!(
+        "From {:.4} s on the rotor rolled, losing no more than that, and ran out by laws, from {:.1} rad/s.",
+        first.time, first.speed
+    );
+    let mut list = match (went.bounced.scatter.len(), first.never) {
+        (0, false) => vec![rolled],
+        (count, never) => {
+            let last = match never {
+                false => rolled,
+                true => "It never rolled.".to_string(),
+            };
+            vec![format!(
+                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them. {last}",
+                context.finished.ending.time
+            )]
+        }
+    };
+    list.extend(went.returned.list.iter().map(Return::words));
+    list.join(" ")
 }
 
 /// Relative standard error of a window's power above which it is told.
 const SCATTERS: f64 = 0.1;
 
 /// Windows whose means are not sure.
-fn scatters(bounced: &Bounced) -> Option<Warning> {
-    let worst = bounced.scatter.iter().copied().fold(0.0, f64::max);
+fn scatters(went: &Went) -> Option<Warning> {
+    let each = went.scatter();
+    let worst = each.iter().copied().fold(0.0, f64::max);
     (worst > SCATTERS).then(|| {
         warning(
             "AB2319",
@@ -120,7 +182,7 @@ fn scatters(bounced: &Bounced) -> Option<Warning> {
                 "While the rotor does not roll, the mean power of a window is known within {:.0} % (standard error of {} windows, the worst): the \
                  run-out is as uncertain there.",
                 100.0 * worst,
-                bounced.scatter.len()
+                each.len()
             ),
         )
     })
@@ -223,35 +285,60 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
 }
 
 /// The results under their names: those of the run-out, and its course over time.
-fn named(
-    context: &Context,
-    found: &Ran,
-    bounced: &Bounced,
-    resonances: &Resonances,
-) -> Vec<Quantity> {
+fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
     let mut list = List(Vec::new());
-    let start = &found.built.start;
-    list.number("start_time", "s", Ok(start.time), &CHANGE);
-    list.number("start_speed", "rad/s", Ok(start.speed), &CHANGE);
-    list.number("windows", "", Ok(bounced.scatter.len() as f64), &WINDOWS);
-    let scatter = bounced.scatter.iter().copied().fold(0.0, f64::max);
-    list.number("window_scatter", "1", Ok(scatter), &WINDOWS);
-    let after = 0.5 * found.built.inertia * start.speed * start.speed;
-    let sides = f64::from(found.built.sides);
-    let change = (bounced.kinetic).map_or(0.0, |before| after - sides * before);
-    list.number("change_of_model", "J", Ok(change), &CHANGE);
+    let first = &went.first;
+    list.number("start_time", "s", Ok(first.time), &CHANGE);
+    list.number("start_speed", "rad/s", Ok(first.speed), &CHANGE);
+    let scatter = went.scatter();
+    list.number("windows", "", Ok(scatter.len() as f64), &WINDOWS);
+    let worst = scatter.iter().copied().fold(0.0, f64::max);
+    list.number("window_scatter", "1", Ok(worst), &WINDOWS);
+    list.number("change_of_model", "J", Ok(first.energy), &CHANGE);
     quantities::name(found, &mut list);
-    list.push(
-        "natural_frequencies",
-        "rad/s",
-        Value::List(frequencies(context, found)),
-        &FREQUENCIES,
-    );
-    for (name, unit, list_of) in [
-        ("passed_frequencies", "rad/s", &resonances.passed),
-        ("resonance_excess", "1", &resonances.excess),
+    let returned = &went.returned;
+    let frequencies = went.frequencies.iter().rev().copied().collect();
+    let of_returns = |of: fn(&Return) -> f64| returned.list.iter().map(of).collect();
+    for (name, unit, values, origin) in [
+        ("natural_frequencies", "rad/s", frequencies, &FREQUENCIES),
+        (
+            "passed_frequencies",
+            "rad/s",
+            returned.passed.clone(),
+            &RESONANCES,
+        ),
+        (
+            "resonance_excess",
+            "1",
+            returned.excess.clone(),
+            &RESONANCES,
+        ),
+        (
+            "return_times",
+            "s",
+            of_returns(|again| again.from[0]),
+            &RETURNS,
+        ),
+        (
+            "return_speeds",
+            "rad/s",
+            of_returns(|again| again.from[1]),
+            &RETURNS,
+        ),
+        (
+            "return_end_times",
+            "s",
+            of_returns(|again| again.to[0]),
+            &RETURNS,
+        ),
+        (
+            "return_changes_of_model",
+            "J",
+            of_returns(|again| again.change),
+            &RETURNS,
+        ),
     ] {
-        list.push(name, unit, Value::List(list_of.clone()), &RESONANCES);
+        list.push(name, unit, Value::List(values), origin);
     }
     let parts: Vec<&str> = (found.parts())
         .map(|(_, part)| part.name.as_str())
@@ -282,16 +369,16 @@ fn named(
     list.0.into_iter().map(rename).collect()
 }
 
-/// Natural frequencies of the rotor on bearings in which it rolls, below the speed that the run-out starts with, rad/s: mount, balls
-/// under the weight and landing surface in series, without gyroscopic moments.
-fn frequencies(context: &Context, found: &Ran) -> Vec<f64> {
+/// Natural frequencies of the rotor on bearings in which it rolls, below the speed that the run-out starts with, the highest first, rad/s:
+/// mount, balls under the weight and landing surface in series, without gyroscopic moments.
+fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
     let constants = &context.machine.constants;
     let own = &constants.rotor.coordinates;
     let n = own.len();
     let mut stiffness = DMatrix::from_diagonal(&DVector::from_fn(n, |k, _| {
         own[k].mass * own[k].frequency * own[k].frequency
     }));
-    for (bearing, part) in constants.bearings.iter().zip(&found.built.parts) {
+    for (bearing, part) in constants.bearings.iter().zip(&built.parts) {
         let zone = &part.zone;
         let clearance = zone.clearance.at_reference;
         let at = |load: f64| displacement(load, zone.stiffness, clearance, &zone.angles, 1.0);
@@ -315,82 +402,52 @@ fn frequencies(context: &Context, found: &Ran) -> Vec<f64> {
         .iter()
         .map(|square| square.max(0.0).sqrt())
         .collect();
-    list.retain(|frequency| *frequency > 0.0 && *frequency < found.built.start.speed);
-    list.sort_by(f64::total_cmp);
+    list.retain(|frequency| *frequency > 0.0 && *frequency < built.start.speed);
+    list.sort_by(|a, b| b.total_cmp(a));
     list
 }
 
-/// Share of what friction carries that a bearing may ask of it.
-const MARGIN: f64 = 1.2;
-
-/// Bearings that brake harder than friction of rotor and race may carry: the rotor slides in them.
+/// Bearings that brake harder than friction of rotor and race may carry, where no windows follow that: the rotor slides in them.
 fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
     let of_bearing = |(k, part): (usize, &Part)| {
-        let most =
-            found.rows(k).map(|row| row.moment).fold(0.0, f64::max) / f64::from(found.built.sides);
-        let contact = &context.machine.constants.bearings[k].contact;
-        let carried = contact.friction
-            * part.warm.radial_load
-            * (contact.bore_radius - contact.radial_clearance);
+        let most = returns::asked(context, found, k, part)?;
         let name = match part.name.as_str() {
             "" => "The bearing".to_string(),
             name => name.to_string(),
         };
-        (MARGIN * most > carried).then(|| {
-            warning(
-                "AB2318",
-                format!(
-                    "{name} brakes with up to {:.3} N mm in the run-out, and friction of rotor and race carries {:.3} N mm: they may slide on \
-                     each other there, which heats the surfaces and which this run-out does not see.",
-                    1e3 * most,
-                    1e3 * carried
-                ),
-            )
-        })
+        Some(warning(
+            "AB2318",
+            format!(
+                "{name} brakes with up to {:.3} N mm in the run-out by laws, and friction of rotor and race carries {:.3} N mm: they may slide on \
+                 each other there, which heats the surfaces and which this run-out does not see.",
+                1e3 * most,
+                1e3 * returns::carried(context, k, part)
+            ),
+        ))
     };
     found.parts().filter_map(of_bearing).collect()
 }
 
-/// Natural frequencies that the rotor passes by laws, the highest first, rad/s.
-fn passed(context: &Context, found: &Ran) -> Vec<f64> {
-    let last = found.free.rows.last().map_or(0.0, |row| row.speed);
-    let mut list = frequencies(context, found);
-    list.retain(|frequency| *frequency > last);
-    list.reverse();
-    list
-}
-
-/// Natural frequencies passed by laws, and how much more the bearings take there than the laws say.
-struct Resonances {
-    passed: Vec<f64>,
-    excess: Vec<f64>,
-}
-
-/// Excess above which the rotor is not one that rolls.
-const EXCESS: f64 = 0.1;
-
-impl Resonances {
-    /// Where it does not roll.
-    fn warning(&self) -> Option<Warning> {
-        let found = self.passed.iter().zip(&self.excess);
-        let lifted = found.filter(|(_, excess)| excess.is_nan() || **excess > EXCESS);
-        let list: Vec<String> = lifted
-            .map(|(frequency, excess)| match excess.is_nan() {
-                true => format!("{frequency:.0} rad/s, where no window ended"),
-                false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * excess),
-            })
-            .collect();
-        (!list.is_empty()).then(|| {
-            warning(
-                "AB2317",
-                format!(
-                    "The run-out by laws passes natural frequencies of the rotor on its rolling bearings at which unbalance lifts it from rolling, by \
-                     windows ball by ball around them ({} loss than the laws say): forces, heat and time are underrated there.",
-                    list.join("; ")
-                ),
-            )
+/// Natural frequencies at which the rotor does not roll.
+fn lifted(returned: &Returned) -> Option<Warning> {
+    let found = returned.passed.iter().zip(&returned.excess);
+    let lifted = found.filter(|(_, excess)| excess.is_nan() || **excess > EXCESS);
+    let list: Vec<String> = lifted
+        .map(|(frequency, excess)| match excess.is_nan() {
+            true => format!("{frequency:.0} rad/s, where no window ended and laws went on"),
+            false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * excess),
         })
-    }
+        .collect();
+    (!list.is_empty()).then(|| {
+        warning(
+            "AB2317",
+            format!(
+                "The run-out passes natural frequencies of the rotor on its rolling bearings at which unbalance lifts it from rolling ({} loss than the laws \
+                 say): windows ball by ball follow it there, each as long as it likes at its speed. A rotor that passes quickly is lifted less.",
+                list.join("; ")
+            ),
+        )
+    })
 }
 
 const CHANGE: Origin = Origin {
@@ -414,6 +471,12 @@ const RESONANCES: Origin = Origin {
     law: "natural frequencies passed by laws; losses of windows ball by ball at 1.03, 1 and 0.97 of each over those of the laws, less 1, the largest",
     source: "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
     valid: "the speed held there as long as it likes: a rotor that passes quickly is lifted less",
+};
+const RETURNS: Origin = Origin {
+    law: "back from laws to windows ball by ball within 5 % of a natural frequency whose windows lose a tenth more, or where 1.2 of the moment of a \
+          bearing is more than friction of rotor and race carries; until that is behind and two windows agree with the laws",
+    source: "crates/auxbear/src/simulate/drop/returns.rs; book/src/theory/heat.md",
+    valid: "as run_out.windows; changes: ½IΩ² of the laws that go on less kinetic energy of the motion, which bounces",
 };
 const COURSE: Origin = Origin {
     law: "the run-out over run_out.over_time.time",

@@ -13,8 +13,8 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, Start, hold};
-use crate::simulate::coast_down::course::BEYOND;
+use crate::simulate::coast_down::build::{Built, Part, Start, hold};
+use crate::simulate::coast_down::course::{self, BEYOND};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
@@ -30,10 +30,10 @@ use solve::Settings;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use thermal::bearing_network::{BearingNetwork, LUBRICANT, NODES, Operation, together};
+use thermal::bearing_network::{LUBRICANT, NODES};
 
 /// Speed of a window over that before.
-const RATIO: f64 = 0.95;
+pub(super) const RATIO: f64 = 0.95;
 /// Turns of the rotor in which a window settles, more than the turns of the cage after which it counts as rolling, and in each of its
 /// batches; and the longest that either takes, s.
 const SETTLING: (f64, f64) = (60.0, 1.0);
@@ -61,8 +61,25 @@ struct Batch {
     nodes: Vec<f64>,
 }
 
+/// What windows follow.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    /// Speed above which they go on whatever they find, rad/s.
+    pub until: f64,
+    /// Speed of each over that before, there.
+    pub ratio: f64,
+}
+
+impl Stretch {
+    /// A rotor that does not roll yet, until it does.
+    pub const UNTIL_ROLLING: Stretch = Stretch {
+        until: f64::INFINITY,
+        ratio: RATIO,
+    };
+}
+
 /// How the windows went.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Bounced {
     /// Relative standard error of the power of each window.
     pub scatter: Vec<f64>,
@@ -89,12 +106,18 @@ struct Way<'a> {
     steps: u64,
 }
 
-/// Follows the rotor until it rolls, or until there is a reason to end; `built` starts there afterwards.
-pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBool) -> Bounced {
+/// Follows the rotor through a stretch and until it rolls, or until there is a reason to end; `built` starts there afterwards.
+pub(super) fn follow(
+    context: &Context,
+    built: &mut Built,
+    stretch: Stretch,
+    interrupt: &AtomicBool,
+) -> Bounced {
     let mut way = Way::from_end_of(context, interrupt);
     let mut scatter = Vec::new();
     let mut before: Option<Window> = None;
     let mut agreeing = 0;
+    let mut ratio = RATIO;
     let end = loop {
         if interrupt.load(Ordering::Relaxed) {
             break Some(End::Interrupted);
@@ -108,7 +131,8 @@ pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBoo
         if !(built.start.temperatures.iter()).all(|now| now.abs() < BEYOND) {
             break Some(End::Beyond);
         }
-        let window = match way.window(built) {
+        let leaves = built.start.speed <= stretch.until;
+        let window = match way.window(built, leaves) {
             Ok(Some(window)) => window,
             Ok(None) => break None,
             Err(_) if interrupt.load(Ordering::Relaxed) => break Some(End::Interrupted),
@@ -121,20 +145,28 @@ pub(super) fn follow(context: &Context, built: &mut Built, interrupt: &AtomicBoo
         if let Some(last) = &before {
             // the step that led here, with what is known at both of its ends
             built.start.undo();
-            if let Err(why) = step(built, last, &window) {
+            if let Err(why) = step(built, last, &window, ratio) {
                 break Some(End::Lost(why));
             }
         }
-        agreeing = match rolling(built, &window) {
+        agreeing = match leaves && rolling(built, &window) {
             true => agreeing + 1,
             false => 0,
         };
         if agreeing == AGREEING {
             break None;
         }
-        built.start.rows.push(row(built, &window));
+        let row = row(built, &window);
+        if let Some(way) = &mut built.start.on_limits {
+            way.rows.push(Row {
+                time: row.time + way.delay,
+                ..row.clone()
+            });
+        }
+        built.start.rows.push(row);
         built.start.keep();
-        if let Err(why) = step(built, &window, &window) {
+        ratio = if leaves { RATIO } else { stretch.ratio };
+        if let Err(why) = step(built, &window, &window, ratio) {
             break Some(End::Lost(why));
         }
         before = Some(window);
@@ -169,7 +201,7 @@ pub(super) fn looked_at(
             };
             let mut built = found.built.clone();
             built.start = Start::at(row.time, speed, row.temperatures.clone(), built.parts.len());
-            match way.window(&built) {
+            match way.window(&built, true) {
                 Ok(Some(window)) => worst = worst.max(excess(&built, &window)),
                 Ok(None) => {}
                 Err(_) => return f64::NAN,
@@ -214,8 +246,12 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// Means at the speed and the temperatures that the run-out has come to; none where the rotor rolls.
-    fn window(&mut self, built: &Built) -> Result<Option<Window>, &'static str> {
+    /// Means at the speed and the temperatures that the run-out has come to; none where the rotor rolls and that ends it.
+    fn window(
+        &mut self,
+        built: &Built,
+        until_rolling: bool,
+    ) -> Result<Option<Window>, &'static str> {
         let speed = built.start.speed;
         let drop = conditioned(self.context.drop, built);
         let made =
@@ -240,7 +276,7 @@ impl<'a> Way<'a> {
             settings,
             steps: stepping.steps,
             interval: f64::INFINITY,
-            until_rolling: true,
+            until_rolling,
             threads: Some(1),
             interrupt: self.interrupt,
             progress: &|_| {},
@@ -380,9 +416,9 @@ fn conditioned(drop: &Drop, built: &Built) -> Drop {
 }
 
 /// One step in slow time from the speed of a window, with the powers of its start and of its end.
-fn step(built: &mut Built, from: &Window, to: &Window) -> Result<(), &'static str> {
+fn step(built: &mut Built, from: &Window, to: &Window, ratio: f64) -> Result<(), &'static str> {
     let speed = built.start.speed;
-    let after = (RATIO * speed).max(built.end.stop_speed);
+    let after = (ratio * speed).max(built.end.stop_speed);
     let sides = f64::from(built.sides);
     let whole = |window: &Window| sides * window.powers.iter().sum::<f64>();
     // I ln(1/r) ½ (Ω/M + Ω'/M'), M = P/Ω
@@ -444,34 +480,8 @@ fn network(
     temperatures: &[f64],
     held: &[bool],
 ) -> Result<thermal::network::Network, &'static str> {
-    let each = || {
-        let temperatures = temperatures.chunks(NODES.len());
-        built.parts.iter().zip(temperatures)
-    };
-    let loads: Vec<Vec<f64>> = each()
-        .map(|(part, temperatures)| part.zone.loads(part.zone.clearance_at(temperatures)))
-        .collect();
-    let operation =
-        |((part, temperatures), loads): ((&Part, &[f64]), &'_ Vec<f64>)| -> (f64, f64, Vec<f64>) {
-            let kelvin = temperatures[LUBRICANT] + ICE_POINT;
-            (
-                part.losses.ratio * built.start.speed,
-                part.losses.oil.viscosity(kelvin).max(1e-6),
-                loads.clone(),
-            )
-        };
-    let states: Vec<(f64, f64, Vec<f64>)> = each().zip(&loads).map(operation).collect();
-    let all: Vec<(&BearingNetwork, Operation)> = (built.parts.iter().zip(&states))
-        .map(|(part, (speed, viscosity, loads))| {
-            let operation = Operation {
-                speed: *speed,
-                loads,
-                viscosity: *viscosity,
-            };
-            (&part.network, operation)
-        })
-        .collect();
-    together(&all, held).map_err(|_| "the network of a bearing has no finite values")
+    course::network(built, (built.start.speed, temperatures), held)
+        .map_err(|_| "the network of a bearing has no finite values")
 }
 
 /// What is known at a window.
