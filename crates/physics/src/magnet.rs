@@ -144,6 +144,9 @@ impl<R: Real> Magnet<R> {
     }
 
     /// Gap g₀ to each pole with the rotor in the centre, m; infinite of a linear magnet, which has none.
+    ///
+    /// Source: as given.
+    /// Valid: always.
     pub fn gap(&self) -> R {
         match self {
             Self::Linear { .. } => R::splat(f64::INFINITY),

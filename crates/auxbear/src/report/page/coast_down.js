@@ -137,12 +137,13 @@ function asksForRunOut(run) {
 
 function runOutFigures(run, runs) {
   const slow = runOutOf(run);
+  const way = element("p", {}, run.prefix ? run.letter + ": " : null, (run.summary.stop || {}).text || "");
   if (!slow) return [notInThisRun(quantityOf(run, "run_out.stop_time").why || "there is no run-out", run)];
-  return [...temperatureFigures(slow, runs), ...closingFigures(slow, runs), ...heatFigures(slow, runs)];
+  return [way, ...temperatureFigures(slow, runs), ...closingFigures(slow, runs), ...heatFigures(slow, runs)];
 }
 
 function runOutSection(runs) {
-  const lead = element("p", { class: "lead" }, "From where the rotor rolls in its bearings: in slow time, rolling until it stands. Times count from the release.");
+  const lead = element("p", { class: "lead" }, "In slow time until it stands: by laws while the rotor rolls in its bearings, between windows ball by ball where it does not. Times count from the release.");
   return section("run-out", "Run-out until standstill", lead, runs.map((run) => runOutFigures(run, runs)));
 }
 

@@ -55,7 +55,9 @@ function stateTile(run) {
   const complete = run.summary.complete === true;
   const time = isNumber(stop.time_s) && systemOf(run).facts ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
-  return tile("Run", complete ? "complete" : "not complete", [[time, reason].filter(Boolean).join(": ")], verdictState(run, !complete));
+  // how a run-out went stands with its pictures
+  const last = reason.split(/(?<=\.) (?=[A-Z])/).at(-1);
+  return tile("Run", complete ? "complete" : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, !complete));
 }
 
 function forceNote(run) {
