@@ -372,7 +372,7 @@ fn where_friction_hardly_carries_the_bearing_the_run_out_is_followed_ball_by_bal
         |sets: &[&str]| run(&parsed(SHIPPED, sets).unwrap(), &Options::unwatched(&never)).unwrap();
     let found = with(&["contact.friction_coefficient=0.03"]);
     assert!(goes_back(&found, "hardly carries what the bearing brakes")[0] > 4);
-    assert!(!found.warnings.iter().any(|w| w.code == "AB2318"));
+    assert!(found.warnings.iter().any(|w| w.code == "AB2318"));
     // μ W r over 1.2 of each bearing, by hand: lost before the return, carried behind it
     let carried = 0.03 * 4.0 * 9.80665 * (12.5e-3 - 0.25e-3) / 1.2;
     let moments = ["speed_dependent", "load_dependent"]
@@ -389,18 +389,22 @@ fn where_friction_hardly_carries_the_bearing_the_run_out_is_followed_ball_by_bal
 
 #[test]
 fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
-    let sets = [
-        "mount.stiffness=1e6 N/m",
-        "mount.damping=35 N s/m",
-        "rotor.unbalance_eccentricity=100 um",
-        "coast_down.stop_speed=350 rad/s",
-    ];
-    let never = AtomicBool::new(false);
-    let found = run(
-        &parsed(SHIPPED, &sets).unwrap(),
-        &Options::unwatched(&never),
-    )
-    .unwrap();
+    let with = |unbalance: &str| {
+        let unbalance = format!("rotor.unbalance_eccentricity={unbalance}");
+        let sets = [
+            "mount.stiffness=1e6 N/m",
+            "mount.damping=35 N s/m",
+            &unbalance,
+            "coast_down.stop_speed=350 rad/s",
+        ];
+        let never = AtomicBool::new(false);
+        run(
+            &parsed(SHIPPED, &sets).unwrap(),
+            &Options::unwatched(&never),
+        )
+        .unwrap()
+    };
+    let found = with("85 um");
     let windows = goes_back(&found, "near the natural frequency of 491 rad/s");
     // from 1.05 to 0.95 of it in steps of 1.5 %, and on until it rolls
     assert!(windows[0] >= 7, "{windows:?}");
@@ -411,6 +415,15 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     // laws before it: the windows of the beginning had ended
     assert!(number(&found, "run_out.start_speed") > 1.5 * speed);
     assert!(found.warnings.iter().any(|w| w.code == "AB2317"));
+    // a little more unbalance, and it whirls out of the model there: no law goes on
+    let lost = with("100 um");
+    assert_eq!(lost.stop.reason, "left the model");
+    assert!(
+        lost.stop.text.contains("a displacement exceeded"),
+        "{}",
+        lost.stop.text
+    );
+    assert_eq!(list(&lost, "run_out.return_times").len(), 1);
 }
 
 #[test]
@@ -436,6 +449,31 @@ fn a_housing_that_grows_away_from_its_ring_conducts_less_and_is_told_in_the_run_
     // its gap alone is left: less than at any time of the housing that grows with it
     assert!(seat(&aluminium)[0] < 0.9 * seat(&steel)[0]);
     assert!(number(&aluminium, "run_out.relative_heat_residual") < 1e-9);
+}
+
+/// A ring a little loose in vacuum: where it expands into its seat it conducts ten times as much, and settles there. Held for a whole step
+/// of many seconds, its conductance threw it from one side to the other by ten kelvin.
+#[test]
+fn a_ring_that_warms_into_its_seat_settles_there() {
+    let unmounted = SHIPPED.replace("operating_diametral", "unmounted_diametral");
+    let sets = [
+        "heat.atmosphere=vacuum",
+        "heat.surroundings=0.3 W/K",
+        "bearing.fits.outer_diameter=47 mm",
+        "bearing.fits.housing_outer_diameter=80 mm",
+        "bearing.fits.housing_interference=-6 um",
+        "coast_down.stop_speed=800 rad/s",
+    ];
+    let never = AtomicBool::new(false);
+    let scenario = parsed(&unmounted, &sets).unwrap();
+    let found = run(&scenario, &Options::unwatched(&never)).unwrap();
+    let seat = list(&found, "run_out.outer_seat_conductances");
+    assert!(seat[0] < 0.2 && seat[1] > 3.0 * seat[0], "{seat:?}");
+    let race = list(&found, "run_out.over_time.outer_race.temperature");
+    let warm = race.iter().position(|now| *now > 311.0).unwrap();
+    let jumps = race[warm..].windows(2).map(|two| (two[1] - two[0]).abs());
+    let largest = jumps.fold(0.0, f64::max);
+    assert!(race.len() > warm + 4 && largest < 2.0, "{race:?}");
 }
 
 #[test]

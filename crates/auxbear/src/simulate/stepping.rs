@@ -10,8 +10,8 @@ const SCREENING_EXPLICIT: f64 = 1e-3;
 
 /// Stiffness λ/ω of sliding friction above which linearly implicit steps are the quicker ones at design accuracy, where they know all that
 /// is stiff and the rotor does not bend. Measured on the reference drop: with a reference speed of traction of 0.03 m/s, 11, both cost
-/// the same; at 0.01 m/s, 33, explicit ones cost twice as much and leave 8e-6 of the energy.
-const STIFF: f64 = 14.0;
+/// the same; at 0.025 m/s explicit ones leave 5e-6 of the energy, at 0.01 m/s, 33, they cost twice as much.
+const STIFF: f64 = 10.0;
 /// The same where something else binds them as it does explicit ones.
 const STIFF_BOUND: f64 = 60.0;
 
@@ -44,6 +44,14 @@ pub(crate) struct Asked<'a> {
     pub design: [f64; 2],
     /// Tolerance of linearly implicit steps at screening accuracy.
     pub screening: f64,
+}
+
+/// The tolerance of these steps, of explicit and of linearly implicit ones.
+fn of([explicit, implicit]: [f64; 2], steps: Steps) -> f64 {
+    match steps {
+        Steps::Explicit => explicit,
+        Steps::Implicit => implicit,
+    }
 }
 
 impl Stepping {
@@ -80,8 +88,7 @@ impl Asked<'_> {
             Steps::Explicit
         };
         let tolerance = match (screening, steps) {
-            (false, Steps::Explicit) => self.design[0],
-            (false, Steps::Implicit) => self.design[1],
+            (false, steps) => of(self.design, steps),
             (true, Steps::Implicit) => self.screening,
             (true, Steps::Explicit) => SCREENING_EXPLICIT,
         };
@@ -89,7 +96,7 @@ impl Asked<'_> {
     }
 
     /// Steps that are not those that were asked for, or coarser ones than the accuracy means.
-    pub fn warnings(&self) -> Vec<Warning> {
+    pub fn warnings(&self, steps: Steps) -> Vec<Warning> {
         let Asked {
             run,
             known,
@@ -99,7 +106,7 @@ impl Asked<'_> {
         } = *self;
         let mut list = Vec::new();
         if let (Accuracy::Design, Some(tolerance)) = (run.accuracy, run.tolerance)
-            && let largest = design[0].max(design[1])
+            && let largest = of(design, steps)
             && tolerance > largest
         {
             list.push(warning(

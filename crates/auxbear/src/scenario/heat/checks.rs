@@ -65,7 +65,14 @@ impl Context<'_> {
         let Passage::Open(open) = heat.open_rotor() else {
             return Ok(());
         };
-        let speed = self.values.number("rotor.speed").unwrap_or(0.0);
+        let speeds = [
+            "rotor.speed",
+            "drive.rotor_speed",
+            "drive.final_speed",
+            "rig.speed",
+        ];
+        let speeds = speeds.iter().filter_map(|path| self.values.number(path));
+        let speed = speeds.map(f64::abs).fold(0.0, f64::max);
         let found = match open.pressure > 0.0 {
             true => reynolds(
                 open.diameter,

@@ -116,9 +116,10 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.housing_emissivity",
         Kind::Coefficient,
         "0.8",
-        "Emissivity of the housing, which radiates to its surroundings unless heat.surroundings is given: painted or oxidised 0.8.",
+        "Emissivity of the housing, which radiates to its surroundings: painted or oxidised 0.8.",
     )
     .within(Range::FromTo(0.0, 1.0))
+    .excludes("heat.surroundings")
     .default("0.0", "no radiation is computed")
     .when(FOLLOWED),
     Key::new(
@@ -128,6 +129,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Surface of the housing of one bearing that gas and radiation take heat from.",
     )
     .positive()
+    .excludes("heat.surroundings")
     .derived("outside and faces of a ring twice as large as the bearing, of its width: assumed")
     .when(FOLLOWED),
     Key::new(
@@ -246,7 +248,7 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.outer_seat",
         Kind::Quantity("W/K"),
         "6 W/K",
-        "Conductance from outer race to housing. A loose ring in vacuum has a thousandth of a pressed one; O-rings and wire mesh have what their maker says.",
+        "Conductance from outer race to housing. A loose ring in vacuum has a hundredth of a pressed one; O-rings and wire mesh have what their maker says.",
     )
     .not_negative()
     .derived("where bearing.fits.housing_interference and what it presses are given that of ground steel under its pressure, which follows the temperatures down to the gap of a loose ring; else under 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed")

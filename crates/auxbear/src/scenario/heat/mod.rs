@@ -374,7 +374,7 @@ impl Heat {
     }
 
     /// A ring on a seat whose fit is known; air where nothing is said of it, bright steel where no emissivity is.
-    pub(crate) fn pressed(&self, seat: Seat) -> Passage {
+    pub(crate) fn pressed(&self, seat: Seat, load: f64) -> Passage {
         let air = match self.atmosphere {
             Atmosphere::Air => SEA_LEVEL,
             Atmosphere::Vacuum => 0.0,
@@ -387,6 +387,7 @@ impl Heat {
             seat,
             reference: self.start_temperature - ICE_POINT,
             length: self.width,
+            load,
             medium: Medium {
                 pressure: self.gas_pressure.unwrap_or(air),
                 emissivities: [emissivity; 2],

@@ -207,6 +207,13 @@ pub(crate) fn hold(
 }
 
 impl Built {
+    /// Whether a ring on a seat follows the temperatures.
+    pub(crate) fn seats_follow(&self) -> bool {
+        let each = self.parts.iter().map(|part| &part.network);
+        each.into_iter()
+            .any(|own| own.landing.is_pressed() || own.outer_seat.is_pressed())
+    }
+
     /// Capacities of the nodes of all bearings, J/K.
     pub fn capacities(&self) -> Vec<f64> {
         let parts = self.parts.iter();
@@ -362,7 +369,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         film: heat.film_thickness,
         landing: match (heat.rotor_contact, on_rotor) {
             (Some(conductance), _) => Passage::Given(conductance),
-            (None, Some(seat)) => heat.pressed(seat),
+            (None, Some(seat)) => heat.pressed(seat, run.radial_load),
             (None, None) => Passage::Line(Line {
                 load: run.radial_load,
                 bore: 0.5 * heat.bore_diameter,
@@ -375,7 +382,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             }),
         },
         outer_seat: match (heat.outer_seat, run.seats[1]) {
-            (None, Some(seat)) => heat.pressed(seat),
+            (None, Some(seat)) => heat.pressed(seat, run.radial_load),
             (given, _) => Passage::Given(given.unwrap_or(0.0)),
         },
         surroundings: heat.open_housing().unwrap_or(Passage::Given(0.0)),

@@ -5,8 +5,9 @@ use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, hold};
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::{LUBRICANT, NODES, Operation, together};
-use thermal::coast_down::{CoastDown as Coast, Coasting};
+use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
 use thermal::held::Held;
+use thermal::losses::Losses;
 use thermal::network::{Network, NetworkError};
 use thermal::steady_speed::SteadySpeed;
 
@@ -98,7 +99,7 @@ pub(super) fn follow(
             true => built.end.longest.min(built.brake_start),
             false => built.end.longest,
         };
-        if let Err(endless) = machine.step(&mut state, stop, until) {
+        if let Err(endless) = step(&machine, &mut state, stop, until, built.seats_follow()) {
             break End::Endless(endless);
         }
         let reached = state.at_nodes.given.iter().zip(&given);
@@ -130,6 +131,41 @@ pub(super) fn follow(
         stored,
     })
 }
+
+/// Largest change of a temperature in a step where a seat follows it, K: between tight and loose lie tenths of a kelvin, and what it conducts
+/// is held in a step.
+pub(crate) const MOST_CHANGE: f64 = 0.5;
+
+/// Largest difference of two lists of temperatures, K.
+pub(crate) fn largest_change(before: &[f64], after: &[f64]) -> f64 {
+    let changes = before.iter().zip(after).map(|(a, b)| (a - b).abs());
+    changes.fold(0.0, f64::max)
+}
+
+/// One step, short enough for seats that follow the temperatures.
+fn step<L: Losses>(
+    machine: &Coast<L>,
+    state: &mut Coasting,
+    stop: f64,
+    until: f64,
+    seats_follow: bool,
+) -> Result<(), Endless> {
+    let mut stop = stop;
+    loop {
+        let mut tried = state.clone();
+        machine.step(&mut tried, stop, until)?;
+        let moved = largest_change(&state.temperatures, &tried.temperatures);
+        let slowed = (state.speed / tried.speed).ln();
+        if !seats_follow || moved <= MOST_CHANGE || slowed < LEAST_SLOWING {
+            *state = tried;
+            return Ok(());
+        }
+        stop = state.speed * (-slowed * (0.8 * MOST_CHANGE / moved).max(0.1)).exp();
+    }
+}
+
+/// Logarithm of two speeds of which one step goes from one to the other whatever it warms.
+const LEAST_SLOWING: f64 = 1e-6;
 
 /// The clearance of a bearing at the temperatures of its nodes, m.
 fn clearance(part: &Part, temperatures: &[f64]) -> f64 {

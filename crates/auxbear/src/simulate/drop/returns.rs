@@ -7,7 +7,7 @@
 //! The run-out is computed by laws to the first of these; from there on windows ball by ball follow (`windows.rs`) until the stretch is behind
 //! and two of them agree with the laws, and then laws again. Speed, temperatures, heats and time go on as they are at both changes.
 //!
-//! Where a window does not end, laws go on, and nothing after it is followed again.
+//! Where a window does not end the run ends: laws do not know what happens there.
 //!
 //! Not modelled: that a rotor which passes a resonance in less than its motion needs to build up is lifted less than in a window, which
 //! holds its speed.
@@ -26,7 +26,7 @@ use std::sync::atomic::AtomicBool;
 const AROUND: [f64; 2] = [1.05, 0.95];
 const FINE: f64 = 0.985;
 /// Excess of a window at a natural frequency above which the rotor is not one that rolls.
-pub(super) const EXCESS: f64 = 0.1;
+const EXCESS: f64 = 0.1;
 /// Share of what friction carries that a bearing may ask of it.
 const MARGIN: f64 = 1.2;
 /// Most returns of a run-out.
@@ -49,8 +49,6 @@ pub(super) struct Return {
     pub from: [f64; 2],
     pub to: [f64; 2],
     pub windows: Bounced,
-    /// Why laws went on before it was behind.
-    pub lost: Option<&'static str>,
     /// Kinetic energy of the run-out that goes on less that of the motion, J.
     pub change: f64,
 }
@@ -99,13 +97,6 @@ pub(super) fn follow(
         built.start = found.start();
         let start = [built.start.time, built.start.speed];
         let bounced = windows::follow(context, built, stretch, interrupt);
-        let lost = match built.start.ended {
-            Some(End::Lost(why)) => Some(why),
-            _ => None,
-        };
-        if lost.is_some() {
-            built.start.ended = None;
-        }
         let speed = built.start.speed;
         let after = 0.5 * built.inertia * speed * speed;
         let sides = f64::from(built.sides);
@@ -115,20 +106,21 @@ pub(super) fn follow(
             to: [built.start.time, speed],
             change: (bounced.kinetic).map_or(0.0, |motion| after - sides * motion),
             windows: bounced,
-            lost,
         });
-        if lost.is_some() {
-            break;
-        }
     }
     Ok(returned)
+}
+
+/// Whether windows at a natural frequency say that the rotor does not roll there, or do not end.
+pub(super) fn lifts(excess: f64) -> bool {
+    excess.is_nan() || excess > EXCESS
 }
 
 /// Where a run-out by laws must go back to motion next: from this speed on, how, and why.
 fn next(context: &Context, found: &Ran, returned: &Returned) -> Option<(f64, Stretch, Why)> {
     let start = found.built.start.speed;
     let lifting = (returned.passed.iter().zip(&returned.excess))
-        .filter(|(frequency, excess)| **excess > EXCESS && AROUND[1] * **frequency < start)
+        .filter(|(frequency, excess)| lifts(**excess) && AROUND[1] * **frequency < start)
         .map(|(frequency, _)| {
             let stretch = Stretch {
                 until: AROUND[1] * frequency,
@@ -200,11 +192,8 @@ impl Return {
         };
         let [time, speed] = self.from;
         let [until, slower] = self.to;
-        let lost = (self.lost).map_or(String::new(), |reason| {
-            format!(" Laws went on from there and to the end, since {reason}.")
-        });
         format!(
-            "From {time:.4} s and {speed:.1} rad/s to {until:.4} s and {slower:.1} rad/s it was followed in {} windows ball by ball again, {why}.{lost}",
+            "From {time:.4} s and {speed:.1} rad/s to {until:.4} s and {slower:.1} rad/s it was followed in {} windows ball by ball again, {why}.",
             self.windows.scatter.len()
         )
     }

@@ -10,7 +10,7 @@ use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::{self, history, quantities, warnings};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::returns::{self, EXCESS, Return, Returned};
+use crate::simulate::drop::returns::{self, Return, Returned, Why, lifts};
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use crate::simulate::ending;
 use model::system::layout::of_part;
@@ -82,7 +82,10 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
     }
     let mut list = warnings::of_course(&found);
     let first = scatters(&went).into_iter().chain(lifted(&went.returned));
-    list.splice(0..0, first.chain(slides(context, &found)));
+    let sliding = slid(&went.returned)
+        .into_iter()
+        .chain(slides(context, &found));
+    list.splice(0..0, first.chain(sliding));
     let ended = coast_down::stop(&found.free);
     Some(After {
         quantities,
@@ -147,10 +150,14 @@ impl Went {
 /// How the run went from ball by ball into slow time and back, in words.
 fn way(context: &Context, went: &Went) -> String {
     let first = &went.first;
-    let rolled = format!(
-        "From {:.4} s on the rotor rolled, losing no more than that, and ran out by laws, from {:.1} rad/s.",
-        first.time, first.speed
-    );
+    let at_once = (went.returned.list.first()).is_some_and(|again| again.from[0] <= first.time);
+    let rolled = match at_once {
+        true => String::new(),
+        false => format!(
+            "From {:.4} s on the rotor rolled, losing what laws say, and ran out by them, from {:.1} rad/s.",
+            first.time, first.speed
+        ),
+    };
     let mut list = match (went.bounced.scatter.len(), first.never) {
         (0, false) => vec![rolled],
         (count, never) => {
@@ -165,6 +172,7 @@ fn way(context: &Context, went: &Went) -> String {
         }
     };
     list.extend(went.returned.list.iter().map(Return::words));
+    list.retain(|sentence| !sentence.is_empty());
     list.join(" ")
 }
 
@@ -407,6 +415,22 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
     list
 }
 
+/// How long windows followed a rotor whose friction hardly carries what a bearing brakes.
+fn slid(returned: &Returned) -> Option<Warning> {
+    let mut slides = (returned.list.iter()).filter(|again| matches!(again.why, Why::Traction(_)));
+    let first = slides.next()?;
+    let last = slides.next_back().unwrap_or(first);
+    Some(warning(
+        "AB2318",
+        format!(
+            "From {:.1} s to {:.1} s, {:.0} to {:.0} rad/s, friction of rotor and race hardly carries what the bearings brake: they may slide on each other \
+             all that time. Its heat is part of run_out.load_dependent_heat and warms both bodies; how hot their surfaces get and what is worn off is not \
+             computed.",
+            first.from[0], last.to[0], first.from[1], last.to[1]
+        ),
+    ))
+}
+
 /// Bearings that brake harder than friction of rotor and race may carry, where no windows follow that: the rotor slides in them.
 fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
     let of_bearing = |(k, part): (usize, &Part)| {
@@ -431,10 +455,10 @@ fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
 /// Natural frequencies at which the rotor does not roll.
 fn lifted(returned: &Returned) -> Option<Warning> {
     let found = returned.passed.iter().zip(&returned.excess);
-    let lifted = found.filter(|(_, excess)| excess.is_nan() || **excess > EXCESS);
+    let lifted = found.filter(|(_, excess)| lifts(**excess));
     let list: Vec<String> = lifted
         .map(|(frequency, excess)| match excess.is_nan() {
-            true => format!("{frequency:.0} rad/s, where no window ended and laws went on"),
+            true => format!("{frequency:.0} rad/s, where no window ended"),
             false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * excess),
         })
         .collect();

@@ -155,7 +155,9 @@ pub(crate) fn of(
         shaft_results::thick(context, k).into_iter().collect()
     }));
     list.extend(shaft_results::few_modes(context));
-    list.extend(asked(context).warnings());
+    let known = context.machine.tangents();
+    let stepping = method::stepping(drop, context.built, known);
+    list.extend(asked(context).warnings(stepping.steps));
     if drop.rotor.planes > 1 {
         list.push(warning(
             "AB1007",

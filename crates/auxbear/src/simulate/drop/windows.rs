@@ -15,6 +15,7 @@ use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
 use crate::simulate::coast_down::build::{Built, Part, Start, hold};
 use crate::simulate::coast_down::course::{self, BEYOND};
+use crate::simulate::coast_down::course::{MOST_CHANGE, largest_change};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
@@ -373,6 +374,7 @@ fn outcome(finished: &Finished) -> Piece {
         solve::Stop::Finished => Piece::Whole,
         solve::Stop::Halted(ROLLS) => Piece::Rolls,
         solve::Stop::Interrupted => Piece::Lost("it was interrupted"),
+        solve::Stop::Halted(why) => Piece::Lost(why),
         _ => Piece::Lost("a window ball by ball did not end as planned"),
     }
 }
@@ -447,14 +449,31 @@ fn step(built: &mut Built, from: &Window, to: &Window, ratio: f64) -> Result<(),
         .map(|(a, b)| 0.5 * (a + b) * scale)
         .collect();
     on_limits(built, &powers, time)?;
-    let network = network(built, &built.start.temperatures, &[])?;
-    let given = network.advance(&mut built.start.temperatures, &powers, time);
-    built.start.given += sides * given.iter().sum::<f64>();
-    (built.start.at_nodes).add(&network, sides, &powers, time, &given);
+    let mut left = time;
+    while left > 0.0 {
+        let network = network(built, &built.start.temperatures, &[])?;
+        let mut span = left;
+        let (warmed, given) = loop {
+            let mut warmed = built.start.temperatures.clone();
+            let given = network.advance(&mut warmed, &powers, span);
+            let moved = largest_change(&built.start.temperatures, &warmed);
+            if !built.seats_follow() || moved <= MOST_CHANGE || span < LEAST_SHARE * time {
+                break (warmed, given);
+            }
+            span *= (0.8 * MOST_CHANGE / moved).max(0.1);
+        };
+        built.start.temperatures = warmed;
+        built.start.given += sides * given.iter().sum::<f64>();
+        (built.start.at_nodes).add(&network, sides, &powers, span, &given);
+        left -= span;
+    }
     built.start.time += time;
     built.start.speed = after;
     Ok(())
 }
+
+/// Least share of a step that is taken at once.
+const LEAST_SHARE: f64 = 1e-3;
 
 /// The same step with the nodes held at their limits.
 fn on_limits(built: &mut Built, powers: &[f64], time: f64) -> Result<(), &'static str> {

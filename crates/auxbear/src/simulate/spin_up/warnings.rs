@@ -50,7 +50,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let asked = asked(context.spin_up, context.built);
     let most = asked.largest_residual(shared::LARGEST_RESIDUAL);
     list.extend(shared::residual(quantities, most));
-    list.extend(asked.warnings());
+    list.extend(asked.warnings(asked.stepping(|| 0.0).steps));
     if bearing.inner_race_centre_held && load > 0.0 {
         list.push(warning(
             "AB1020",
