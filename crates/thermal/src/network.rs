@@ -166,6 +166,17 @@ impl Network {
         })
     }
 
+    /// C⁻¹ (grounds − G T): what the temperatures change by without powers, K/s.
+    pub fn relaxing(&self, temperatures: &[f64]) -> DVector<f64> {
+        let none = vec![0.0; self.capacities.len()];
+        let mut rates = self.decay() * DVector::from_column_slice(temperatures);
+        let grounds = self.sources(&none);
+        for ((rate, source), capacity) in rates.iter_mut().zip(&grounds).zip(&self.capacities) {
+            *rate += source / capacity;
+        }
+        rates
+    }
+
     /// Time constants 1/λ, s, shortest first; infinite for what only stores.
     pub fn time_constants(&self) -> Vec<f64> {
         let mut constants: Vec<f64> = self.rates.iter().map(|rate| 1.0 / rate).collect();

@@ -123,6 +123,16 @@ impl<L: Losses> SteadySpeed<L> {
 
     /// Largest real part of the eigenvalues of C⁻¹(∂P/∂T − G), 1/s: above 0 the machine runs away.
     pub fn growth(&self, temperatures: &[f64]) -> f64 {
+        self.growth_of(temperatures, &|_| None)
+    }
+
+    /// The same where conductances follow the temperatures, as those of a seat: −(∂G/∂T) T joins in. `follows` gives the network at other
+    /// temperatures; none where there is none.
+    pub fn growth_of(
+        &self,
+        temperatures: &[f64],
+        follows: &dyn Fn(&[f64]) -> Option<Network>,
+    ) -> f64 {
         let n = temperatures.len();
         let mut matrix = self.network.decay();
         for column in 0..n {
@@ -130,12 +140,16 @@ impl<L: Losses> SteadySpeed<L> {
             let at = |sign: f64| {
                 let mut moved = temperatures.to_vec();
                 moved[column] += sign * delta;
-                self.powers(&moved)
+                let relaxing = follows(&moved).map(|network| network.relaxing(temperatures));
+                (self.powers(&moved), relaxing)
             };
             let (above, below) = (at(1.0), at(-1.0));
             for row in 0..n {
-                let slope = (above[row] - below[row]) / (2.0 * delta);
+                let slope = (above.0[row] - below.0[row]) / (2.0 * delta);
                 matrix[(row, column)] += slope / self.network.capacity(row);
+                if let (Some(above), Some(below)) = (&above.1, &below.1) {
+                    matrix[(row, column)] += (above[row] - below[row]) / (2.0 * delta);
+                }
             }
         }
         // a node that exchanges nothing with the others has no part in it
@@ -214,6 +228,32 @@ mod tests {
             assert!((ours / exact - 1.0).abs() < 2e-4, "{slope}: {ours} {exact}");
             let stored = 10.0 * ours;
             assert!((state.made - stored - state.given).abs() < 1e-9 * state.made);
+        }
+    }
+
+    #[test]
+    fn a_way_that_closes_as_it_warms_runs_away() {
+        // C Ṫ = p − G (1 − k (T − 25)) (T − 25): λ = −G (1 − 2 k y)/C, above 0 from y = 1/(2k) on
+        let machine = machine(0.0);
+        let at = |temperatures: &[f64]| {
+            let ground = Ground {
+                node: 0,
+                conductance: 0.5 * (1.0 - 0.02 * (temperatures[0] - 25.0)),
+                temperature: 25.0,
+            };
+            Network::new(&[10.0], &[], &[ground]).ok()
+        };
+        for rise in [10.0, 24.0, 26.0, 40.0] {
+            let temperatures = [25.0 + rise];
+            let there = SteadySpeed {
+                network: at(&temperatures).unwrap(),
+                ..machine.clone()
+            };
+            let exact = -0.5 * (1.0 - 0.04 * rise) / 10.0;
+            let found = there.growth_of(&temperatures, &at);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
+            // held, it would never
+            assert!(there.growth(&temperatures) < 0.0);
         }
     }
 

@@ -226,6 +226,10 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         .iter()
         .zip(state.temperatures.chunks(NODES.len()));
     let bearings = each.map(of_part).collect();
+    let follows = |temperatures: &[f64]| {
+        let seats = built.seats_follow();
+        seats.then(|| network(built, (state.speed, temperatures), &[]).ok())?
+    };
     let growth = match network(built, (state.speed, &state.temperatures), &[]) {
         Ok(network) => SteadySpeed {
             network,
@@ -233,7 +237,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
             speed: state.speed,
             tolerance: 1.0,
         }
-        .growth(&state.temperatures),
+        .growth_of(&state.temperatures, &follows),
         Err(_) => f64::NAN,
     };
     Row {
