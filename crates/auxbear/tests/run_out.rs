@@ -1,6 +1,6 @@
 //! Temperatures in a drop, and its way on until the rotor stands.
 
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::result::outcome::{Outcome, Value, Warning};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
@@ -372,7 +372,9 @@ fn where_friction_hardly_carries_the_bearing_the_run_out_is_followed_ball_by_bal
         |sets: &[&str]| run(&parsed(SHIPPED, sets).unwrap(), &Options::unwatched(&never)).unwrap();
     let found = with(&["contact.friction_coefficient=0.03"]);
     assert!(goes_back(&found, "hardly carries what the bearing brakes")[0] > 4);
-    assert!(found.warnings.iter().any(|w| w.code == "AB2318"));
+    // it slides from the beginning on, and is told for all of that time
+    let told = |w: &Warning| w.code == "AB2318" && w.text.contains("Between 1.0 s and 26");
+    assert!(found.warnings.iter().any(told));
     // μ W r over 1.2 of each bearing, by hand: lost before the return, carried behind it
     let carried = 0.03 * 4.0 * 9.80665 * (12.5e-3 - 0.25e-3) / 1.2;
     let moments = ["speed_dependent", "load_dependent"]
@@ -404,8 +406,8 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         )
         .unwrap()
     };
-    let found = with("85 um");
-    let windows = goes_back(&found, "near the natural frequency of 491 rad/s");
+    let found = with("100 um");
+    let windows = goes_back(&found, "near the natural frequency of 464 rad/s");
     // from 1.05 to 0.95 of it in steps of 1.5 %, and on until it rolls
     assert!(windows[0] >= 7, "{windows:?}");
     let frequency = list(&found, "run_out.passed_frequencies")[0];
@@ -415,15 +417,16 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     // laws before it: the windows of the beginning had ended
     assert!(number(&found, "run_out.start_speed") > 1.5 * speed);
     assert!(found.warnings.iter().any(|w| w.code == "AB2317"));
+    // 8 kg with 0.5 kg on 2 · 1e6 N/m, softer by balls and landing: below √(k/(m/2 + m_m)) = 471 rad/s
+    assert!((0.97..1.0).contains(&(frequency / (1e6f64 / 4.5).sqrt())));
     // a little more unbalance, and it whirls out of the model there: no law goes on
-    let lost = with("100 um");
+    let lost = with("120 um");
     assert_eq!(lost.stop.reason, "left the model");
     assert!(
         lost.stop.text.contains("a displacement exceeded"),
         "{}",
         lost.stop.text
     );
-    assert_eq!(list(&lost, "run_out.return_times").len(), 1);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::{self, history, quantities, warnings};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::returns::{self, Return, Returned, Why, lifts};
+use crate::simulate::drop::returns::{self, Return, Returned, lifts};
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use crate::simulate::ending;
 use model::system::layout::of_part;
@@ -82,7 +82,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
     }
     let mut list = warnings::of_course(&found);
     let first = scatters(&went).into_iter().chain(lifted(&went.returned));
-    let sliding = slid(&went.returned)
+    let sliding = slid(context, &found, &went)
         .into_iter()
         .chain(slides(context, &found));
     list.splice(0..0, first.chain(sliding));
@@ -378,15 +378,18 @@ fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
 }
 
 /// Natural frequencies of the rotor on bearings in which it rolls, below the speed that the run-out starts with, the highest first, rad/s:
-/// mount, balls under the weight and landing surface in series, without gyroscopic moments.
+/// balls under the weight and landing surface in series, then the moving mass on its mount, without gyroscopic moments.
 fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
     let constants = &context.machine.constants;
     let own = &constants.rotor.coordinates;
     let n = own.len();
-    let mut stiffness = DMatrix::from_diagonal(&DVector::from_fn(n, |k, _| {
-        own[k].mass * own[k].frequency * own[k].frequency
-    }));
-    for (bearing, part) in constants.bearings.iter().zip(&built.parts) {
+    let count = n + constants.bearings.len();
+    let mut stiffness = DMatrix::zeros(count, count);
+    let mut masses: Vec<f64> = own.iter().map(|coordinate| coordinate.mass).collect();
+    for (k, coordinate) in own.iter().enumerate() {
+        stiffness[(k, k)] = coordinate.mass * coordinate.frequency * coordinate.frequency;
+    }
+    for (b, (bearing, part)) in constants.bearings.iter().zip(&built.parts).enumerate() {
         let zone = &part.zone;
         let clearance = zone.clearance.at_reference;
         let at = |load: f64| displacement(load, zone.stiffness, clearance, &zone.angles, 1.0);
@@ -396,13 +399,16 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
         let landing = contact.exponent
             * contact.stiffness.powf(1.0 / contact.exponent)
             * load.powf(1.0 - 1.0 / contact.exponent);
-        let softness = 1.0 / bearing.mount.stiffness + 1.0 / balls + 1.0 / landing;
-        let row = DVector::from_column_slice(&bearing.node);
-        stiffness += &row * row.transpose() / softness;
+        let mut row = DVector::zeros(count);
+        row.rows_mut(0, n).copy_from_slice(&bearing.node);
+        row[n + b] = -1.0;
+        stiffness += &row * row.transpose() / (1.0 / balls + 1.0 / landing);
+        stiffness[(n + b, n + b)] += bearing.mount.stiffness;
+        masses.push(bearing.outer_moving_mass());
     }
-    for (k, a) in own.iter().enumerate() {
-        for (l, b) in own.iter().enumerate() {
-            stiffness[(k, l)] /= (a.mass * b.mass).sqrt();
+    for (k, a) in masses.iter().enumerate() {
+        for (l, b) in masses.iter().enumerate() {
+            stiffness[(k, l)] /= (a * b).sqrt();
         }
     }
     let squares = stiffness.symmetric_eigen().eigenvalues;
@@ -415,18 +421,32 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
     list
 }
 
-/// How long windows followed a rotor whose friction hardly carries what a bearing brakes.
-fn slid(returned: &Returned) -> Option<Warning> {
-    let mut slides = (returned.list.iter()).filter(|again| matches!(again.why, Why::Traction(_)));
-    let first = slides.next()?;
-    let last = slides.next_back().unwrap_or(first);
+/// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
+const SLIDES: f64 = 0.01;
+
+/// How long and how far the rotor slid on its races while windows followed it.
+fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
+    let first = [context.finished.ending.time, went.first.time];
+    let again = went.returned.list.iter();
+    let stretches = std::iter::once((first, &went.bounced))
+        .chain(again.map(|again| ([again.from[0], again.to[0]], &again.windows)));
+    let slides: Vec<_> = stretches
+        .filter(|(_, windows)| windows.friction > SLIDES * windows.lost)
+        .collect();
+    let (begin, end) = (slides.first()?.0[0], slides.last()?.0[1]);
+    let friction: f64 = slides.iter().map(|(_, windows)| windows.friction).sum();
+    let carried = |(k, part): (usize, &Part)| {
+        context.machine.constants.bearings[k].contact.friction * part.warm.radial_load
+    };
+    let force = f64::from(found.built.sides) * found.parts().map(carried).sum::<f64>();
     Some(warning(
         "AB2318",
         format!(
-            "From {:.1} s to {:.1} s, {:.0} to {:.0} rad/s, friction of rotor and race hardly carries what the bearings brake: they may slide on each other \
-             all that time. Its heat is part of run_out.load_dependent_heat and warms both bodies; how hot their surfaces get and what is worn off is not \
-             computed.",
-            first.from[0], last.to[0], first.from[1], last.to[1]
+            "Between {begin:.1} s and {end:.1} s the rotor slides on its races in the windows that follow it: friction makes {friction:.3e} J, over about {:.3e} m of way. \
+             It is in run_out.load_dependent_heat and warms both bodies; sliding_distance, wear and the temperatures of the rubbing surfaces are those of the \
+             first {:.3} s alone.",
+            friction / force,
+            context.finished.ending.time
         ),
     ))
 }

@@ -142,10 +142,10 @@ const PRESSURE_SPEED: Origin = Origin {
 const DISTANCE: Origin = Origin {
     law: "∫|u| dt while rotor and race touch",
     source: "crates/model/src/surface_heat.rs",
-    valid: "always",
+    valid: "of the drop ball by ball; windows of a run-out after it are told by AB2318",
 };
 const WEAR: Origin = Origin {
     law: "(k/μ) E_friction over the landing surface of the race, k = contact.surface.wear_coefficient",
     source: "Archard, by the friction heat; crates/physics/src/severity.rs",
-    valid: "volume worn off both bodies together, spread evenly; k is uncertain by decades",
+    valid: "volume worn off both bodies together, spread evenly; k is uncertain by decades; of the drop ball by ball, not of a run-out after it",
 };

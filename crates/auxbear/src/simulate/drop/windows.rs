@@ -52,6 +52,8 @@ struct Window {
     powers: Vec<f64>,
     /// Over the nodes of all bearings, W.
     nodes: Vec<f64>,
+    /// Of the friction of rotor and races among them, W.
+    friction: f64,
     /// Standard error of the whole power over it.
     scatter: f64,
 }
@@ -60,6 +62,7 @@ struct Window {
 struct Batch {
     powers: Vec<f64>,
     nodes: Vec<f64>,
+    friction: f64,
 }
 
 /// What windows follow.
@@ -88,6 +91,9 @@ pub(super) struct Bounced {
     pub steps: u64,
     /// Kinetic energy of one side at the end of the last, J.
     pub kinetic: Option<f64>,
+    /// Energy lost between them, and what of it friction of rotor and races took, J.
+    pub lost: f64,
+    pub friction: f64,
 }
 
 /// What one more part of a window says.
@@ -119,6 +125,7 @@ pub(super) fn follow(
     let mut before: Option<Window> = None;
     let mut agreeing = 0;
     let mut ratio = RATIO;
+    let (mut lost, mut friction) = (0.0, 0.0);
     let end = loop {
         if interrupt.load(Ordering::Relaxed) {
             break Some(End::Interrupted);
@@ -146,8 +153,12 @@ pub(super) fn follow(
         if let Some(last) = &before {
             // the step that led here, with what is known at both of its ends
             built.start.undo();
-            if let Err(why) = step(built, last, &window, ratio) {
-                break Some(End::Lost(why));
+            match step(built, last, &window, ratio) {
+                Ok(taken) => {
+                    lost += taken[0];
+                    friction += taken[1];
+                }
+                Err(why) => break Some(End::Lost(why)),
             }
         }
         agreeing = match leaves && rolling(built, &window) {
@@ -178,6 +189,8 @@ pub(super) fn follow(
         kinetic: (!scatter.is_empty()).then_some(content.translation + content.spin),
         scatter,
         steps: way.steps,
+        lost,
+        friction,
     }
 }
 
@@ -328,12 +341,13 @@ impl<'a> Way<'a> {
     /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
     fn heats(&self, built: &Built, state: &[f64], span: f64) -> Batch {
         let layout = self.machine.layout();
-        let (mut powers, mut nodes) = (Vec::new(), Vec::new());
+        let (mut powers, mut nodes, mut friction) = (Vec::new(), Vec::new(), 0.0);
         for (k, at) in layout.bearings.iter().enumerate() {
             let heats: [f64; HEATS] =
                 std::array::from_fn(|kind| state[layout.heat(at.heat + kind)] / span);
             let steady = model::bearing_heat::steady_moment(&heats);
             powers.extend([steady, heats.iter().sum::<f64>() - steady]);
+            friction += state[layout.heat(at.rotor_race_friction())] / span;
             let of_nodes: OfNodes = match &self.context.machine.constants.bearings[k].warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
@@ -354,7 +368,11 @@ impl<'a> Way<'a> {
             rotor.torque = 0.0;
         }
         powers.push(others + speed * rotor.moment(speed) / f64::from(built.sides));
-        Batch { powers, nodes }
+        Batch {
+            powers,
+            nodes,
+            friction,
+        }
     }
 }
 
@@ -396,6 +414,7 @@ fn mean(batches: &[Batch]) -> Window {
     let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
     Window {
         nodes: of(batches.iter().map(|batch| &batch.nodes).collect()),
+        friction: batches.iter().map(|batch| batch.friction).sum::<f64>() / count,
         scatter: deviation / (count.sqrt() * whole),
         powers,
     }
@@ -417,8 +436,14 @@ fn conditioned(drop: &Drop, built: &Built) -> Drop {
     warm
 }
 
-/// One step in slow time from the speed of a window, with the powers of its start and of its end.
-fn step(built: &mut Built, from: &Window, to: &Window, ratio: f64) -> Result<(), &'static str> {
+/// One step in slow time from the speed of a window, with the powers of its start and of its end: what it loses, and what of that
+/// friction of rotor and races takes, J.
+fn step(
+    built: &mut Built,
+    from: &Window,
+    to: &Window,
+    ratio: f64,
+) -> Result<[f64; 2], &'static str> {
     let speed = built.start.speed;
     let after = (ratio * speed).max(built.end.stop_speed);
     let sides = f64::from(built.sides);
@@ -469,7 +494,7 @@ fn step(built: &mut Built, from: &Window, to: &Window, ratio: f64) -> Result<(),
     }
     built.start.time += time;
     built.start.speed = after;
-    Ok(())
+    Ok([lost, lost * (from.friction + to.friction) / sum])
 }
 
 /// Least share of a step that is taken at once.
