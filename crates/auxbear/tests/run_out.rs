@@ -407,9 +407,12 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         .unwrap()
     };
     let found = with("100 um");
-    let windows = goes_back(&found, "near the natural frequency of 464 rad/s");
-    // from 1.05 to 0.95 of it in steps of 1.5 %, and on until it rolls
-    assert!(windows[0] >= 7, "{windows:?}");
+    assert!(found.stop.complete(), "{}", found.stop.text);
+    let told = "ball by ball again, near the natural frequency of 464 rad/s";
+    assert!(found.stop.text.contains(told), "{}", found.stop.text);
+    // from 1.05 to 0.95 of it in steps of 1.5 %, and on while it does not roll
+    assert!(number(&found, "run_out.windows") >= 12.0);
+    assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
     let frequency = list(&found, "run_out.passed_frequencies")[0];
     let speed = list(&found, "run_out.return_speeds")[0];
     assert!((speed / (1.05 * frequency) - 1.0).abs() < 1e-12);

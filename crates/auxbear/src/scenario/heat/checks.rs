@@ -36,6 +36,11 @@ impl Context<'_> {
                 values.problem(code, path, place, "no value", needed),
             ));
         }
+        if heat.surroundings.is_some() && heat.housing_emissivity > 0.0 {
+            let path = "heat.housing_emissivity";
+            let needed = "0 is needed beside heat.surroundings, which is all that the housing gives; or leave that out";
+            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+        }
         let windage = self.values.number("rotor.windage").unwrap_or(0.0);
         if heat.atmosphere == Atmosphere::Vacuum && windage > 0.0 {
             let path = "rotor.windage";

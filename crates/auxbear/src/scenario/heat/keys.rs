@@ -119,7 +119,6 @@ pub(crate) const KEYS: &[Key] = &[
         "Emissivity of the housing, which radiates to its surroundings: painted or oxidised 0.8.",
     )
     .within(Range::FromTo(0.0, 1.0))
-    .excludes("heat.surroundings")
     .default("0.0", "no radiation is computed")
     .when(FOLLOWED),
     Key::new(
@@ -129,7 +128,6 @@ pub(crate) const KEYS: &[Key] = &[
         "Surface of the housing of one bearing that gas and radiation take heat from.",
     )
     .positive()
-    .excludes("heat.surroundings")
     .derived("outside and faces of a ring twice as large as the bearing, of its width: assumed")
     .when(FOLLOWED),
     Key::new(
