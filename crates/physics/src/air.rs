@@ -11,8 +11,8 @@ pub const SEA_LEVEL: f64 = 101_325.0;
 const ACCOMMODATION: f64 = 1.0;
 /// Prandtl number of air. Source: tables, 0.69 to 0.71 from 250 to 600 K.
 const PRANDTL: f64 = 0.7;
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.80665;
+/// Standard gravity, m/s². Source: defined, ISO 80000-3.
+pub const GRAVITY: f64 = 9.80665;
 /// Largest Reynolds number ΩD²/(2ν) that the law of [`cylinder_in_air`] was fitted to.
 pub const LARGEST_REYNOLDS: f64 = 4.3e5;
 /// Reynolds number from which on buoyancy has no part in it.

@@ -6,15 +6,13 @@ use crate::scenario::heat::{Atmosphere, HOUSING_SIZE};
 use crate::scenario::spin_up::DriveKind;
 use crate::scenario::system::SystemName;
 use crate::scenario::values::{Value, Values};
-use physics::air::SEA_LEVEL;
+use physics::air::{GRAVITY, SEA_LEVEL};
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{pressed_joint, to_surroundings};
 use physics::ring::PressFit;
 use std::f64::consts::PI;
 use thermal::passage::GROUND_STEEL;
 
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.80665;
 /// Mass of lubricant over outer diameter and width, kg/m².
 const GREASE: f64 = 5.0;
 /// Pressure of a fit of the outer race, Pa.

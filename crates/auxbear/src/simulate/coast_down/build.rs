@@ -209,9 +209,8 @@ pub(crate) fn hold(
 impl Built {
     /// Whether a ring on a seat follows the temperatures.
     pub(crate) fn seats_follow(&self) -> bool {
-        let each = self.parts.iter().map(|part| &part.network);
-        each.into_iter()
-            .any(|own| own.landing.is_pressed() || own.outer_seat.is_pressed())
+        let mut networks = self.parts.iter().map(|part| &part.network);
+        networks.any(|own| own.landing.is_pressed() || own.outer_seat.is_pressed())
     }
 
     /// Capacities of the nodes of all bearings, J/K.
