@@ -60,7 +60,7 @@ fn seen(
     }
     let tolerance = match steps {
         Steps::Explicit => 1e-4,
-        Steps::Implicit => 1e-2,
+        Steps::Extended | Steps::Implicit => 1e-2,
     };
     let runs = Runs {
         machines: &machines,
@@ -77,9 +77,9 @@ fn seen(
 }
 
 /// Asserts that each machine ends alone at every level as it does without a vector unit, and on the lane it has
-/// among the others, by both methods.
+/// among the others, by all methods.
 fn same_bits(machines: &[RotorMachine], end: f64) {
-    for steps in [Steps::Explicit, Steps::Implicit] {
+    for steps in [Steps::Explicit, Steps::Extended, Steps::Implicit] {
         same_bits_by(steps, machines, end);
     }
 }

@@ -1,7 +1,7 @@
 //! One attempted step of all lanes, compiled for the vector unit of the machine.
 
-use crate::bogacki_shampine::{A, C, E, STAGES};
 use crate::method::{Method, Place};
+use crate::scheme::Scheme;
 use crate::system::Batch;
 use crate::workspace::{Judgement, Workspace};
 use number::{Mask, Real, Vectorized};
@@ -13,6 +13,7 @@ pub(crate) struct Attempt<'a, R: Real, B: Batch<R>> {
     pub batch: &'a B,
     pub mode: &'a B::Mode,
     pub work: &'a mut Workspace<R>,
+    pub scheme: &'a Scheme,
     /// `true`: the rates and probes at the start of a step. `false`: a step from there.
     pub begin: bool,
 }
@@ -25,29 +26,41 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
             batch,
             mode,
             work: w,
+            scheme,
             begin,
         } = self;
         let (time, h) = (w.time, w.length);
-        let stages = if begin { 0..1 } else { 1..STAGES };
+        let chain = scheme.chain;
+        let last = chain.len() + 1;
+        let stages = if begin { 0..1 } else { 1..last + 1 };
         for s in stages {
             // what the rate does not depend on is summed only at the end of the step
             let stage = &mut w.next[..w.active];
             let (state, rate, probe): (&[R], &mut [R], &mut [R]) = match s {
                 0 => (&w.state, &mut w.first, &mut w.probe),
                 1 => {
-                    reach(h * R::splat(A[1][0]), &w.state, &w.first, stage);
+                    reach(h * R::splat(chain[0]), &w.state, &w.first, stage);
                     (&w.next, &mut w.second, &mut [])
                 }
                 2 => {
-                    reach(h * R::splat(A[2][1]), &w.state, &w.second, stage);
+                    reach(h * R::splat(chain[1]), &w.state, &w.second, stage);
+                    (&w.next, &mut w.last, &mut [])
+                }
+                _ if s < last => {
+                    reach(h * R::splat(chain[s - 1]), &w.state, &w.last, stage);
                     (&w.next, &mut w.last, &mut [])
                 }
                 _ => {
-                    finish(h, w);
+                    finish(h, scheme, w);
                     (&w.next, &mut w.last, &mut w.next_probe)
                 }
             };
-            let time = time + h * R::splat(C[s]);
+            let instant = match s {
+                0 => 0.0,
+                _ if s < last => chain[s - 1],
+                _ => 1.0,
+            };
+            let time = time + h * R::splat(instant);
             batch.rate(mode, time, state, rate, probe);
         }
         let error = if begin {
@@ -55,34 +68,38 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
             R::zero()
         } else {
             w.next_seen.take(&w.next, &w.next_probe);
-            error(h, &w.second, &w.last, &w.inverse_error)
+            error(h, scheme.error[3], &w.second, &w.last, &w.inverse_error)
         };
         Judgement::of(error, w.last_logarithm)
     }
 }
 
 /// The explicit method, on the vector unit.
-pub(crate) struct Explicit;
+pub(crate) struct Explicit(pub Scheme);
 
 impl<R: Real, B: Batch<R>> Method<R, B> for Explicit {
-    const EVALUATIONS: u64 = STAGES as u64 - 1;
+    fn evaluations(&self) -> u64 {
+        self.0.evaluations()
+    }
     fn begin(&mut self, step: Place<R, B>, _fresh: R::Mask, work: &mut Workspace<R>) {
-        explicit(step, work, true);
+        explicit(step, work, &self.0, true);
     }
     fn attempt(&mut self, step: Place<R, B>, work: &mut Workspace<R>) -> Judgement<R> {
-        explicit(step, work, false)
+        explicit(step, work, &self.0, false)
     }
 }
 
 fn explicit<R: Real, B: Batch<R>>(
     step: Place<R, B>,
     work: &mut Workspace<R>,
+    scheme: &Scheme,
     begin: bool,
 ) -> Judgement<R> {
     R::vectorized(Attempt {
         batch: step.batch,
         mode: step.mode,
         work,
+        scheme,
         begin,
     })
 }
@@ -137,22 +154,19 @@ fn reach<R: Real>(weight: R, state: &[R], rate: &[R], out: &mut [R]) {
 
 /// The end of the step, and what the first three rates say of its error.
 #[inline(always)]
-fn finish<R: Real>(h: R, w: &mut Workspace<R>) {
-    let weight = [
-        h * R::splat(A[3][0]),
-        h * R::splat(A[3][1]),
-        h * R::splat(A[3][2]),
-    ];
+fn finish<R: Real>(h: R, scheme: &Scheme, w: &mut Workspace<R>) {
+    let weight = scheme.step.map(|weight| h * R::splat(weight));
+    let [e1, e2, e3, _] = scheme.error.map(R::splat);
     let rates = w.first.iter().zip(&mut w.second).zip(&w.last);
     for ((next, state), ((k1, k2), k3)) in w.next.iter_mut().zip(&w.state).zip(rates) {
         *next = *state + weight[0] * *k1 + weight[1] * *k2 + weight[2] * *k3;
-        *k2 = R::splat(E[0]) * *k1 + R::splat(E[1]) * *k2 + R::splat(E[2]) * *k3;
+        *k2 = e1 * *k1 + e2 * *k2 + e3 * *k3;
     }
 }
 
 /// Largest error over the channels, each relative to what is allowed there; infinite where any is not a number.
 #[inline(always)]
-fn error<R: Real>(h: R, part: &[R], last: &[R], inverse_error: &[R]) -> R {
+fn error<R: Real>(h: R, of_last: f64, part: &[R], last: &[R], inverse_error: &[R]) -> R {
     let (parts, rest) = part.as_chunks::<WAYS>();
     let (lasts, rest_last) = last.as_chunks::<WAYS>();
     let (inverses, rest_inverse) = inverse_error.as_chunks::<WAYS>();
@@ -161,13 +175,13 @@ fn error<R: Real>(h: R, part: &[R], last: &[R], inverse_error: &[R]) -> R {
     let mut sum = [R::zero(); WAYS];
     for ((part, last), inverse) in parts.iter().zip(lasts).zip(inverses) {
         for i in 0..WAYS {
-            let value = relative(h, part[i], last[i], inverse[i]);
+            let value = relative(h, of_last, part[i], last[i], inverse[i]);
             largest[i] = value.max(largest[i]);
             sum[i] += value;
         }
     }
     for ((part, last), inverse) in rest.iter().zip(rest_last).zip(rest_inverse) {
-        let value = relative(h, *part, *last, *inverse);
+        let value = relative(h, of_last, *part, *last, *inverse);
         largest[0] = value.max(largest[0]);
         sum[0] += value;
     }
@@ -182,8 +196,8 @@ fn error<R: Real>(h: R, part: &[R], last: &[R], inverse_error: &[R]) -> R {
 
 /// Error of one channel relative to what is allowed there.
 #[inline(always)]
-fn relative<R: Real>(h: R, part: R, last: R, inverse: R) -> R {
-    (h * (part + R::splat(E[3]) * last)).abs() * inverse
+fn relative<R: Real>(h: R, of_last: f64, part: R, last: R, inverse: R) -> R {
+    (h * (part + R::splat(of_last) * last)).abs() * inverse
 }
 
 /// Maxima that run side by side.

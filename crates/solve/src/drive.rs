@@ -3,20 +3,12 @@
 use crate::attempt::{Advance, Explicit};
 use crate::implicit::{Implicit, Tangents};
 use crate::method::{Method, Place};
+use crate::scheme::Scheme;
 use crate::step::{LaneOf, Scratch, Step};
 use crate::system::{Batch, Machine};
 use crate::workspace::{Judgement, Workspace};
 use number::{Mask, Real};
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The steps of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Steps {
-    /// Explicit: Bogacki-Shampine 3(2).
-    Explicit,
-    /// Linearly implicit: ROS34PW2, by the tangents of what is stiff.
-    Implicit,
-}
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,7 +136,7 @@ struct Lane<M: Machine> {
     stop: Option<Stop>,
 }
 
-/// Integrates machines side by side, `R::LANES` at a time: a lane whose machine has ended takes the next one that waits.
+/// Integrates machines side by side by explicit steps, `R::LANES` at a time: a lane whose machine has ended takes the next one that waits.
 /// `starts` are their initial states.
 ///
 /// Every lane has its own step: a machine gives bitwise the same result alone, in any company, on any lane and whenever it
@@ -153,6 +145,7 @@ struct Lane<M: Machine> {
 /// # Panics
 /// When there are no machines, or lists of different length.
 pub fn run<R, B, O>(
+    scheme: &Scheme,
     machines: &[&B::Machine],
     starts: &[Vec<f64>],
     observers: &mut [O],
@@ -164,7 +157,7 @@ where
     B: Batch<R>,
     O: Observer<B::Machine>,
 {
-    let method = |_: &B| Explicit;
+    let method = |_: &B| Explicit(*scheme);
     integrate::<R, B, O, _>(method, machines, starts, observers, settings, interrupt)
 }
 
@@ -304,7 +297,7 @@ where
             if lane.stop.is_some() {
                 continue;
             }
-            lane.work.rate_calls += M::EVALUATIONS;
+            lane.work.rate_calls += method.evaluations();
             if !control(lane, &judgement, index, M::GROWTH) {
                 continue;
             }

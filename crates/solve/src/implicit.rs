@@ -365,7 +365,9 @@ impl<R: Real, Room> Implicit<R, Room> {
 }
 
 impl<R: Real, B: Tangents<R>> Method<R, B> for Implicit<R, B::Room> {
-    const EVALUATIONS: u64 = STAGES as u64;
+    fn evaluations(&self) -> u64 {
+        STAGES as u64
+    }
     const GROWTH: f64 = GROWTH;
 
     fn begin(&mut self, step: Place<R, B>, fresh: R::Mask, work: &mut Workspace<R>) {

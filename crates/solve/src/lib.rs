@@ -7,7 +7,7 @@
 //! | subject | file |
 //! |---|---|
 //! | what a problem is | [`system`] |
-//! | the method: Bogacki-Shampine 3(2) with dense output | [`bogacki_shampine`] |
+//! | explicit methods, dense output | [`scheme`]; Bogacki-Shampine 3(2): [`bogacki_shampine`]; Heun 3(2) with an extended region of stability: [`heun`] |
 //! | one attempted step of all lanes | [`attempt`]; what it works with: [`workspace`] |
 //! | the method for stiff problems: ROS34PW2, linearly implicit | [`rosenbrock`] |
 //! | one attempted linearly implicit step of all lanes, by the tangents of the problem's parts | [`implicit`] |
@@ -22,15 +22,20 @@
 pub mod attempt;
 pub mod bogacki_shampine;
 pub mod drive;
+pub mod heun;
 pub mod implicit;
 pub(crate) mod method;
 pub mod rosenbrock;
+pub mod scheme;
 pub mod step;
 pub mod system;
 pub mod watch;
 pub mod workspace;
 
-pub use drive::{Ending, Flow, Observer, Settings, Steps, Stop, Work, run, run_implicit};
+pub use bogacki_shampine::BOGACKI_SHAMPINE;
+pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
+pub use heun::HEUN;
 pub use implicit::Tangents;
+pub use scheme::{Scheme, Steps};
 pub use step::Step;
 pub use system::{Batch, Machine};

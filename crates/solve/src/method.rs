@@ -7,7 +7,7 @@ use number::Real;
 /// How steps are taken.
 pub(crate) trait Method<R: Real, B: Batch<R>> {
     /// Evaluations of the right-hand side in a step.
-    const EVALUATIONS: u64;
+    fn evaluations(&self) -> u64;
     /// Largest growth of a step over the one before.
     const GROWTH: f64 = 5.0;
     /// Rates and probes at the start of the first step, or after a jump; `fresh` are the lanes that start or jumped.

@@ -1,6 +1,6 @@
 //! One accepted step of one lane, as an observer sees it.
 
-use crate::bogacki_shampine::dense_weights;
+use crate::scheme::dense_weights;
 use crate::system::Machine;
 use crate::workspace::Workspace;
 use number::Real;

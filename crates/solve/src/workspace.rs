@@ -1,6 +1,6 @@
 //! What one step of a lane works with, and how it is judged.
 
-use crate::bogacki_shampine::ORDER;
+use crate::scheme::ORDER;
 use crate::system::Machine;
 use number::{Mask, Real};
 

@@ -125,10 +125,12 @@ fn energy_and_angular_momentum_close_through_a_drop() {
     for (steps, tolerance, energy, momentum) in [
         (Steps::Explicit, 1e-4, 1e-5, 1e-7),
         (Steps::Explicit, 1e-6, 1e-7, 1e-9),
+        (Steps::Extended, 1e-3, 1e-5, 1e-7),
+        (Steps::Extended, 1e-5, 1e-7, 1e-9),
         (Steps::Implicit, 1e-4, 1e-5, 1e-7),
     ] {
         let (constants, start) = match steps {
-            Steps::Explicit => (constants.clone(), &start),
+            Steps::Explicit | Steps::Extended => (constants.clone(), &start),
             Steps::Implicit => (known.clone(), &start_known),
         };
         let (of_energy, of_momentum) = residuals(constants, start, steps, tolerance, 0.02);

@@ -38,8 +38,14 @@ impl Task for Side<'_> {
         let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
         let never = AtomicBool::new(false);
         let settings = settings(end, 1e-4);
-        let endings =
-            solve::run::<R, SpinUp<R>, _>(&machines, &starts, &mut seen, &settings, &never);
+        let endings = solve::run::<R, SpinUp<R>, _>(
+            &solve::BOGACKI_SHAMPINE,
+            &machines,
+            &starts,
+            &mut seen,
+            &settings,
+            &never,
+        );
         let seen = seen.into_iter().map(|bits| bits.0);
         endings.into_iter().zip(seen).collect()
     }

@@ -63,6 +63,7 @@ impl Task for Company<'_> {
             step_limit: 1_000_000,
         };
         solve::run::<R, VanDerPols<R>, Trace>(
+            &solve::BOGACKI_SHAMPINE,
             &self.machines.iter().collect::<Vec<_>>(),
             self.starts,
             self.traces,
@@ -146,6 +147,7 @@ fn a_renewed_machine_goes_on_as_the_other_one_from_there() {
     };
     let run = |machine: &VanDerPol, start: &[f64], trace: &mut Trace, from: f64| {
         let mut endings = solve::run::<f64, VanDerPols<f64>, Trace>(
+            &solve::BOGACKI_SHAMPINE,
             &[machine],
             &[start.to_vec()],
             std::slice::from_mut(trace),
@@ -218,6 +220,7 @@ fn machines_that_wait_when_somebody_stops_end_where_they_start() {
         step_limit: 1_000_000,
     };
     let endings = solve::run::<f64, VanDerPols<f64>, Trace>(
+        &solve::BOGACKI_SHAMPINE,
         &machines.iter().collect::<Vec<_>>(),
         &starts,
         &mut traces,

@@ -142,6 +142,7 @@ pub fn run_until<O: Observer<Problem>>(
     interrupt: &AtomicBool,
 ) -> Ending {
     solve::run::<f64, Alone<Problem>, O>(
+        &solve::BOGACKI_SHAMPINE,
         &[problem],
         &[start.to_vec()],
         std::slice::from_mut(observer),

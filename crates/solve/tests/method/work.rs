@@ -20,6 +20,7 @@ fn van_der_pol(stiffness: f64, end: f64) -> Ending {
         step_limit: 1_000_000,
     };
     solve::run::<f64, VanDerPols<f64>, Blind>(
+        &solve::BOGACKI_SHAMPINE,
         &[&machine],
         &[vec![2.0, 0.0]],
         &mut [Blind],

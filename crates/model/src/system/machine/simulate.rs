@@ -65,16 +65,20 @@ impl Task for SideBySide<'_, '_, '_> {
     type Output = Vec<Ending>;
     fn run<R: Real>(self) -> Vec<Ending> {
         let SideBySide { runs, observers } = self;
-        let run = match runs.steps {
-            Steps::Explicit => solve::run::<R, Machines<R>, _>,
-            Steps::Implicit => solve::run_implicit::<R, Machines<R>, _>,
-        };
-        run(
-            runs.machines,
-            runs.starts,
-            observers,
-            &runs.settings,
-            runs.interrupt,
-        )
+        let Runs {
+            machines,
+            starts,
+            settings,
+            interrupt,
+            steps,
+        } = runs;
+        match steps.scheme() {
+            Some(scheme) => solve::run::<R, Machines<R>, _>(
+                scheme, machines, starts, observers, &settings, interrupt,
+            ),
+            None => solve::run_implicit::<R, Machines<R>, _>(
+                machines, starts, observers, &settings, interrupt,
+            ),
+        }
     }
 }

@@ -359,6 +359,7 @@ impl<'a> Run<'a> {
             ..self.settings
         };
         solve::run::<R, SegmentRun<'a, R>, O>(
+            &solve::BOGACKI_SHAMPINE,
             &[&segment],
             &[state.to_vec()],
             std::slice::from_mut(observer),

@@ -13,17 +13,24 @@ pub fn simulate(
     observer: &mut dyn Observer<SpinUpMachine>,
     interrupt: &AtomicBool,
 ) -> Ending {
-    let run = match steps {
-        Steps::Explicit => solve::run::<f64, SpinUp<f64>, _>,
-        Steps::Implicit => solve::run_implicit::<f64, SpinUp<f64>, _>,
+    let (machines, starts, mut observers) = ([machine], [start.to_vec()], [observer]);
+    let mut endings = match steps.scheme() {
+        Some(scheme) => solve::run::<f64, SpinUp<f64>, _>(
+            scheme,
+            &machines,
+            &starts,
+            &mut observers,
+            settings,
+            interrupt,
+        ),
+        None => solve::run_implicit::<f64, SpinUp<f64>, _>(
+            &machines,
+            &starts,
+            &mut observers,
+            settings,
+            interrupt,
+        ),
     };
-    run(
-        &[machine],
-        &[start.to_vec()],
-        &mut [observer],
-        settings,
-        interrupt,
-    )
     // one machine, one ending
-    .remove(0)
+    endings.remove(0)
 }
