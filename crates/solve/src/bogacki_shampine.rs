@@ -8,7 +8,7 @@
 //!   error = h (-5 k1/72 + k2/12 + k3/9 - k4/8)
 //! ```
 //! Source: P. Bogacki, L. F. Shampine, A 3(2) pair of Runge-Kutta formulas, Appl. Math. Lett. 2 (1989) 321.
-//! Coefficients checked in the tests of [`scheme`](crate::scheme) against the order conditions.
+//! Coefficients checked in the tests against the order conditions.
 
 use crate::scheme::Scheme;
 

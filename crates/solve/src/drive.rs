@@ -1,6 +1,8 @@
 //! The loop: per-lane step control, landed instants, endings.
 
 use crate::attempt::{Advance, Explicit};
+use crate::bogacki_shampine::BOGACKI_SHAMPINE;
+use crate::heun::HEUN;
 use crate::implicit::{Implicit, Tangents};
 use crate::method::{Method, Place};
 use crate::scheme::Scheme;
@@ -9,6 +11,28 @@ use crate::system::{Batch, Machine};
 use crate::workspace::{Judgement, Workspace};
 use number::{Mask, Real};
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The steps of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Steps {
+    /// Explicit: Bogacki-Shampine 3(2), the quicker one where accuracy bounds a step.
+    Explicit,
+    /// Explicit: Heun 3(2) with an extended region of stability, the quicker one where stability bounds a step.
+    Extended,
+    /// Linearly implicit: ROS34PW2, by the tangents of what is stiff.
+    Implicit,
+}
+
+impl Steps {
+    /// The scheme of explicit steps.
+    pub fn scheme(self) -> Option<&'static Scheme> {
+        match self {
+            Steps::Explicit => Some(&BOGACKI_SHAMPINE),
+            Steps::Extended => Some(&HEUN),
+            Steps::Implicit => None,
+        }
+    }
+}
 
 /// How to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]

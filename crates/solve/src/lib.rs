@@ -33,9 +33,9 @@ pub mod watch;
 pub mod workspace;
 
 pub use bogacki_shampine::BOGACKI_SHAMPINE;
-pub use drive::{Ending, Flow, Observer, Settings, Stop, Work, run, run_implicit};
+pub use drive::{Ending, Flow, Observer, Settings, Steps, Stop, Work, run, run_implicit};
 pub use heun::HEUN;
 pub use implicit::Tangents;
-pub use scheme::{Scheme, Steps};
+pub use scheme::Scheme;
 pub use step::Step;
 pub use system::{Batch, Machine};

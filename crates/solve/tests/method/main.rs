@@ -8,4 +8,5 @@ mod landings;
 mod lanes;
 mod order;
 mod problems;
+mod schemes;
 mod work;

@@ -1,7 +1,7 @@
 //! Orders of convergence, against closed forms.
 
-use crate::problems::{Blind, Problem, adaptive, equal_steps, run_alone};
-use solve::{Flow, Observer, Step};
+use crate::problems::{Blind, Problem, adaptive, end_by, equal_steps, run_alone};
+use solve::{Flow, HEUN, Observer, Step};
 use std::f64::consts::PI;
 
 /// Eccentricity of the ellipse.
@@ -41,6 +41,24 @@ fn the_order_holds_where_time_enters_the_rate() {
     };
     let order = (error(80) / error(160)).log2();
     assert!((2.8..3.2).contains(&order), "order {order}");
+}
+
+#[test]
+fn the_extended_scheme_has_order_three() {
+    let orbit = |count: u32| {
+        let settings = equal_steps(0.0, 2.0 * PI, count);
+        let start = nearest_point();
+        let end = end_by(&HEUN, &Problem::kepler(), &start, &settings);
+        (end[0] - start[0]).hypot(end[1] - start[1])
+    };
+    let bell = |count: u32| {
+        let settings = equal_steps(0.0, 2.0, count);
+        (end_by(&HEUN, &Problem::bell(), &[1.0], &settings)[0] - 0.2).abs()
+    };
+    let orders = [orbit(400) / orbit(800), bell(80) / bell(160)].map(f64::log2);
+    for order in orders {
+        assert!((2.8..3.2).contains(&order), "orders {orders:?}");
+    }
 }
 
 #[test]

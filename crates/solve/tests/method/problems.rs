@@ -1,7 +1,7 @@
 //! Initial value problems with known answers, and observers that keep what they see.
 
 use number::Real;
-use solve::{Batch, Ending, Flow, Machine, Observer, Settings, Step};
+use solve::{Batch, Ending, Flow, Machine, Observer, Scheme, Settings, Step};
 use std::sync::atomic::AtomicBool;
 
 /// A rate over `f64`: (mode, time, state, rate, probe).
@@ -131,6 +131,20 @@ pub fn run_alone<O: Observer<Problem>>(
 ) -> Ending {
     let interrupt = AtomicBool::new(false);
     run_until(problem, start, observer, settings, &interrupt)
+}
+
+/// The state at the end of one problem by itself, by a scheme.
+pub fn end_by(scheme: &Scheme, problem: &Problem, start: &[f64], settings: &Settings) -> Vec<f64> {
+    let interrupt = AtomicBool::new(false);
+    let mut endings = solve::run::<f64, Alone<Problem>, Blind>(
+        scheme,
+        &[problem],
+        &[start.to_vec()],
+        &mut [Blind],
+        settings,
+        &interrupt,
+    );
+    endings.remove(0).state
 }
 
 /// Runs one problem by itself, until somebody asks to stop.
