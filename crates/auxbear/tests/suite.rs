@@ -13,6 +13,7 @@ mod levitated_run;
 mod machine;
 mod machine_supports;
 mod measurement_file;
+mod oil_range;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;

@@ -16,12 +16,10 @@ use crate::simulate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
 use model::system::energy::{Content, Flows};
 use number::Vec2;
-use physics::viscosity::WaltherLine;
+use physics::viscosity::Viscosity;
 use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
 use thermal::load_zone::LoadZone;
 
-/// Least viscosity, m²/s.
-const LEAST_VISCOSITY: f64 = 2e-6;
 /// Temperatures that the traction of oil films is known at, °C.
 const FILMS: (f64, f64) = (30.0, 100.0);
 /// Contact angle beyond which balls roll off the shoulder, rad.
@@ -34,7 +32,7 @@ const THINS: f64 = 2e-3;
 #[derive(Clone, Debug)]
 pub(crate) struct Follows {
     feedback: Feedback,
-    oil: Option<WaltherLine<f64>>,
+    oil: Option<Viscosity>,
     zone: LoadZone,
     /// ΣQ under the weight without preload, N.
     unpreloaded: f64,
@@ -45,11 +43,10 @@ pub(crate) struct Follows {
 impl Follows {
     /// What follows by these temperatures; none where nothing does.
     pub fn of(warm: &Warm, bearing: &Bearing) -> Option<Self> {
-        let oil = warm.viscosity();
         let zone = network(warm).ok()?.1;
         let follows = Follows {
             feedback: warm.heat.feedback,
-            oil: oil.map(|oil| oil.line()),
+            oil: warm.viscosity(),
             unpreloaded: unpreloaded(&zone),
             zone,
             start: warm.heat.start_temperature - ICE_POINT,
@@ -102,8 +99,16 @@ impl Follows {
     /// Viscosity of the lubricant at these temperatures (°C), m²/s; 1 where none is known.
     pub fn viscosity(&self, temperatures: &[f64]) -> f64 {
         let kelvin = temperatures[LUBRICANT] + ICE_POINT;
-        let of = |oil: &WaltherLine<f64>| oil.viscosity(kelvin).max(LEAST_VISCOSITY);
-        self.oil.as_ref().map_or(1.0, of)
+        self.oil.as_ref().map_or(1.0, |oil| oil.held(kelvin))
+    }
+
+    /// Why the oil of a bearing has no viscosity at these temperatures, °C, where it has none.
+    fn known(&self, bearing: &Bearing, temperatures: &[f64]) -> Result<(), String> {
+        let oil = self.oil.filter(|_| self.thins(bearing));
+        match oil.map(|oil| oil.at(temperatures[LUBRICANT] + ICE_POINT)) {
+            Some(Err(why)) => Err(why.to_string()),
+            _ => Ok(()),
+        }
     }
 
     /// Makes a bearing one of these temperatures, °C.
@@ -196,6 +201,7 @@ impl FollowedBearing {
         time: f64,
     ) -> Result<BearingConstants, String> {
         let mut bearing = self.bearing.clone();
+        self.follows.known(&bearing, nodes)?;
         self.follows.condition(&mut bearing, nodes);
         let constants = ball_contacts(&bearing)
             .and_then(|contacts| constants_of(&bearing, &contacts, self.gravity))

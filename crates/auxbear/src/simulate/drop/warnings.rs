@@ -3,7 +3,7 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
-use crate::scenario::{Fidelity, Moment, Scenario};
+use crate::scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
 use crate::simulate::bearing::quantities::End;
 use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::simulate::bearing::warm;
@@ -119,6 +119,10 @@ pub(crate) fn of(
         }));
         list
     }));
+    if after[0].iter().any(|after| after.says(DRAWN_ON)) {
+        // the run-out says it of all, from where the drop left the data on
+        list.retain(|warning| warning.code != DRAWN_ON);
+    }
     // of repeated runs those of the unperturbed run-out
     list.extend(of_rows(
         contexts,

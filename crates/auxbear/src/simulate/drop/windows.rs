@@ -14,7 +14,7 @@
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
 use crate::simulate::coast_down::build::{Built, Part, Start, hold};
-use crate::simulate::coast_down::course::{self, BEYOND};
+use crate::simulate::coast_down::course;
 use crate::simulate::coast_down::course::{MOST_CHANGE, largest_change};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
@@ -136,8 +136,8 @@ pub(super) fn follow(
         if built.start.time >= built.end.longest {
             break Some(End::Late);
         }
-        if !(built.start.temperatures.iter()).all(|now| now.abs() < BEYOND) {
-            break Some(End::Beyond);
+        if let Some(end) = course::left(built, &built.start.temperatures) {
+            break Some(end);
         }
         let leaves = built.start.speed <= stretch.until;
         let window = match way.window(built, leaves) {
