@@ -284,7 +284,8 @@ impl Viscosity {
 
     /// A viscosity that does not follow the temperature, m²/s.
     ///
-    /// Source: none. Valid: always.
+    /// Source: none.
+    /// Valid: always.
     pub fn constant(viscosity: f64) -> Self {
         Viscosity {
             a: ordinate(viscosity * 1e6),
@@ -319,9 +320,7 @@ impl Viscosity {
         }
     }
 
-    /// The same in a time loop, m²/s, which looks at [`Viscosity::ends`] by itself: beyond them that at the end.
-    ///
-    /// - `temperature`: T, K
+    /// The same in a time loop, m²/s, at a temperature in K; beyond [`Viscosity::ends`], which it looks at by itself, that at the end.
     ///
     /// Source: as [`Viscosity::at`].
     /// Valid: as [`Viscosity::at`].
@@ -334,7 +333,6 @@ impl Viscosity {
     }
 
     /// Least and largest temperature near enough to the points, K.
-    ///
     /// Source: the points.
     /// Valid: always.
     pub fn sure(&self) -> (f64, f64) {
@@ -353,7 +351,8 @@ impl Viscosity {
     ///
     /// - `temperature`: T, K
     ///
-    /// Source: the points. Valid: always.
+    /// Source: the points.
+    /// Valid: always.
     pub fn beyond(&self, temperature: f64) -> f64 {
         let (least, largest) = self.sure;
         (least - temperature).max(temperature - largest).max(0.0)
