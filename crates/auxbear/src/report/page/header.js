@@ -57,7 +57,7 @@ function stateTile(run) {
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
   // how a run-out went stands with its pictures
   const last = reason.split(/(?<=\.) (?=[A-Z])/).at(-1);
-  return tile("Run", complete ? "complete" : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, !complete));
+  return tile("Run", stop.reason === "seized" ? "seized" : complete ? "complete" : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, !complete || stop.reason === "seized"));
 }
 
 function forceNote(run) {

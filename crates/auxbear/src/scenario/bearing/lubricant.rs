@@ -12,9 +12,13 @@ pub(crate) fn drawn_on(oil: &Viscosity, temperature: f64) -> String {
     let [now, least, largest] = [temperature, least, largest].map(|kelvin| kelvin - ICE_POINT);
     let viscosity = 1e6 * oil.held(temperature);
     let digits = if viscosity < 100.0 { 2 } else { 0 };
+    let held = match oil.at(temperature) {
+        Ok(_) => "",
+        Err(_) => ", its end, and held there",
+    };
     format!(
         "{now:.0} °C is {:.0} K beyond the temperatures near its data ({least:.0} to {largest:.0} °C), and the line of ASTM D341 is drawn on to \
-         {viscosity:.digits$} mm²/s, where 1 % at the data has grown to {:.1} %",
+         {viscosity:.digits$} mm²/s{held}, where 1 % at the data has grown to {:.1} %",
         oil.beyond(temperature).ceil(),
         100.0 * oil.error_at(temperature)
     )

@@ -18,6 +18,7 @@ use model::system::energy::{Content, Flows};
 use number::Vec2;
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
+use thermal::clearance::preload;
 use thermal::load_zone::LoadZone;
 
 /// Temperatures that the traction of oil films is known at, °C.
@@ -102,15 +103,6 @@ impl Follows {
         self.oil.as_ref().map_or(1.0, |oil| oil.held(kelvin))
     }
 
-    /// Why the oil of a bearing has no viscosity at these temperatures, °C, where it has none.
-    fn known(&self, bearing: &Bearing, temperatures: &[f64]) -> Result<(), String> {
-        let oil = self.oil.filter(|_| self.thins(bearing));
-        match oil.map(|oil| oil.at(temperatures[LUBRICANT] + ICE_POINT)) {
-            Some(Err(why)) => Err(why.to_string()),
-            _ => Ok(()),
-        }
-    }
-
     /// Makes a bearing one of these temperatures, °C.
     pub fn condition(&self, bearing: &mut Bearing, temperatures: &[f64]) {
         if self.thins(bearing) {
@@ -161,7 +153,8 @@ pub(crate) struct FollowedBearing {
 /// As which it was made last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
-    clearance: f64,
+    /// Diametral, m.
+    pub clearance: f64,
     viscosity: f64,
     /// Least diametral clearance so far, m.
     pub least: f64,
@@ -179,6 +172,11 @@ impl FollowedBearing {
             bearing: bearing.clone(),
             gravity,
         })
+    }
+
+    /// Load of every ball between rings that have closed to a clearance, N.
+    pub fn preload(&self, clearance: f64) -> f64 {
+        preload(self.follows.zone.stiffness, clearance)
     }
 
     /// Whether it is another one at these temperatures of its nodes (°C) than it was in this state.
@@ -201,7 +199,6 @@ impl FollowedBearing {
         time: f64,
     ) -> Result<BearingConstants, String> {
         let mut bearing = self.bearing.clone();
-        self.follows.known(&bearing, nodes)?;
         self.follows.condition(&mut bearing, nodes);
         let constants = ball_contacts(&bearing)
             .and_then(|contacts| constants_of(&bearing, &contacts, self.gravity))

@@ -33,7 +33,7 @@ impl<'a> Followed<'a> {
     }
 
     /// Whether its clearance follows.
-    fn closes(&self) -> bool {
+    pub fn closes(&self) -> bool {
         (self.follows().iter()).any(|follows| follows.closes(self.bearing))
     }
 

@@ -4,6 +4,8 @@
 //! vector unit or the number of threads.
 
 use crate::simulate::drop::feedback::{Following, Now, Warmed};
+use crate::simulate::drop::seizure::Look;
+use crate::simulate::ending::SEIZED;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
@@ -170,6 +172,7 @@ struct Watched<'a> {
     record: Record,
     following: Option<&'a Following>,
     warmed: Option<Box<Warmed>>,
+    seizure: Look,
     /// Until when temperatures were known when they were last looked at, s.
     looked: f64,
     report: &'a Report<'a>,
@@ -188,6 +191,7 @@ impl<'a> Watched<'a> {
             },
             following: member.following.as_deref(),
             warmed: (member.following.is_some()).then(Box::default),
+            seizure: Look::default(),
             looked: 0.0,
             report,
             reported: 0,
@@ -225,10 +229,15 @@ impl Observer<RotorMachine> for Watched<'_> {
             self.reported = thousandths;
         }
         let flow = self.record.step(step);
-        let (Flow::Continue, Some(following), Some(warmed)) = (flow, self.following, &self.warmed)
+        let (Flow::Continue, Some(following), Some(warmed)) =
+            (flow, self.following, &mut self.warmed)
         else {
             return flow;
         };
+        warmed.seized = (self.seizure).at(step, &self.record, (following, warmed));
+        if warmed.seized.is_some() {
+            return Flow::Halt(SEIZED);
+        }
         let now = |k| now(&self.record, step.machine, k);
         let known = (self.record.bearings.iter())
             .filter_map(|bearing| Some(bearing.warmth.as_ref()?.known_until()));

@@ -11,6 +11,7 @@
 use crate::scenario::{AuxiliaryBearing, Drop};
 use crate::simulate::bearing::feedback::{FollowedBearing, Renewals, State};
 use crate::simulate::drop::build::gravity;
+use crate::simulate::drop::seizure::Seizure;
 use model::system::machine::RotorMachine;
 use model::table::Table;
 
@@ -74,6 +75,8 @@ pub(crate) struct Warmed {
     parts: Vec<Option<State>>,
     /// Its machines.
     pub renewals: Renewals<RotorMachine>,
+    /// The bearing that has seized, which ends the run.
+    pub seized: Option<Seizure>,
     /// Why it went on without following, and from when on.
     broken: Option<(f64, String)>,
 }
@@ -93,6 +96,12 @@ impl Following {
             .iter()
             .any(Option::is_some)
             .then_some(Following { parts })
+    }
+
+    /// Load of every ball of a bearing between rings that have closed to a clearance, N; none where it does not follow.
+    pub fn preload(&self, bearing: usize, clearance: f64) -> Option<f64> {
+        let followed = self.parts[bearing].as_ref()?.followed.as_ref()?;
+        Some(followed.preload(clearance))
     }
 
     /// Whether the friction of a contact has moved enough to go on with another one.
