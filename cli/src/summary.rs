@@ -218,8 +218,9 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             outcome.stop.text
         ));
     }
-    if outcome.stop.reason == "seized" {
-        text.push_str(&format!("SEIZED. {}\n", outcome.stop.text));
+    if outcome.stop.complete() && outcome.stop.reason != "finished" {
+        let word = outcome.stop.reason.to_uppercase();
+        text.push_str(&format!("{word}. {}\n", outcome.stop.text));
     }
     text.push_str(&console::table(&rows));
     let next = outcome.quantities.iter().find(|q| q.name == NEXT_TESTS);

@@ -76,7 +76,8 @@ fn a_whirl_that_heats_its_bearing_closes_it_until_it_seizes() {
 }
 
 #[test]
-fn it_does_not_seize_without_feedback_or_with_twice_the_clearance() {
+fn it_does_not_seize_without_feedback_nor_yet_with_twice_the_clearance() {
+    // within the 15 s of the file: with twice the clearance it closes at 6.6 s, and would seize 4.7 s later than with half
     for set in [
         "heat.feedback=none",
         "heat.feedback=viscosity",

@@ -63,7 +63,7 @@ impl<'a> Context<'a> {
     }
     /// How a bearing has seized; none where it has not.
     pub fn seized(&self, bearing: usize) -> Option<&'a Seizure> {
-        let seized = self.finished.warmed.as_deref()?.seized.as_ref();
+        let seized = self.finished.seized.as_ref();
         seized.filter(|seized| seized.bearing == bearing)
     }
     /// Energies and flows at the release.

@@ -4,7 +4,7 @@
 //! vector unit or the number of threads.
 
 use crate::simulate::drop::feedback::{Following, Now, Warmed};
-use crate::simulate::drop::seizure::Look;
+use crate::simulate::drop::seizure::{Look, Seizure};
 use crate::simulate::ending::SEIZED;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
@@ -39,6 +39,8 @@ pub struct Finished {
     pub record: Record,
     /// What has followed its temperatures.
     pub(crate) warmed: Option<Box<Warmed>>,
+    /// The bearing that has seized, which ends the run.
+    pub(crate) seized: Option<Seizure>,
     /// How it ended.
     pub ending: Ending,
 }
@@ -173,6 +175,7 @@ struct Watched<'a> {
     following: Option<&'a Following>,
     warmed: Option<Box<Warmed>>,
     seizure: Look,
+    seized: Option<Seizure>,
     /// Until when temperatures were known when they were last looked at, s.
     looked: f64,
     report: &'a Report<'a>,
@@ -192,6 +195,7 @@ impl<'a> Watched<'a> {
             following: member.following.as_deref(),
             warmed: (member.following.is_some()).then(Box::default),
             seizure: Look::default(),
+            seized: None,
             looked: 0.0,
             report,
             reported: 0,
@@ -210,6 +214,7 @@ impl<'a> Watched<'a> {
             start: member.start.clone(),
             record,
             warmed: self.warmed,
+            seized: self.seized,
             ending,
         }
     }
@@ -229,13 +234,12 @@ impl Observer<RotorMachine> for Watched<'_> {
             self.reported = thousandths;
         }
         let flow = self.record.step(step);
-        let (Flow::Continue, Some(following), Some(warmed)) =
-            (flow, self.following, &mut self.warmed)
+        let (Flow::Continue, Some(following), Some(warmed)) = (flow, self.following, &self.warmed)
         else {
             return flow;
         };
-        warmed.seized = (self.seizure).at(step, &self.record, (following, warmed));
-        if warmed.seized.is_some() {
+        self.seized = (self.seizure).at(step, &self.record, (following, warmed));
+        if self.seized.is_some() {
             return Flow::Halt(SEIZED);
         }
         let now = |k| now(&self.record, step.machine, k);

@@ -11,7 +11,6 @@
 use crate::scenario::{AuxiliaryBearing, Drop};
 use crate::simulate::bearing::feedback::{FollowedBearing, Renewals, State};
 use crate::simulate::drop::build::gravity;
-use crate::simulate::drop::seizure::Seizure;
 use model::system::machine::RotorMachine;
 use model::table::Table;
 
@@ -75,8 +74,6 @@ pub(crate) struct Warmed {
     parts: Vec<Option<State>>,
     /// Its machines.
     pub renewals: Renewals<RotorMachine>,
-    /// The bearing that has seized, which ends the run.
-    pub seized: Option<Seizure>,
     /// Why it went on without following, and from when on.
     broken: Option<(f64, String)>,
 }
