@@ -218,6 +218,10 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
             outcome.stop.text
         ));
     }
+    if outcome.stop.complete() && outcome.stop.reason != "finished" {
+        let word = outcome.stop.reason.to_uppercase();
+        text.push_str(&format!("{word}. {}\n", outcome.stop.text));
+    }
     text.push_str(&console::table(&rows));
     let next = outcome.quantities.iter().find(|q| q.name == NEXT_TESTS);
     if let Some(Value::Text(next)) = next.map(|q| &q.value) {

@@ -425,6 +425,10 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     // a little more unbalance, and it whirls out of the model there: no law goes on
     let lost = with("120 um");
     assert_eq!(lost.stop.reason, "left the model");
+    // its course goes on to where it ends
+    let times = list(&lost, "run_out.over_time.time");
+    assert_eq!(*times.last().unwrap(), lost.stop.time);
+    assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
     assert!(
         lost.stop.text.contains("a displacement exceeded"),
         "{}",

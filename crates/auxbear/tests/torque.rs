@@ -221,12 +221,27 @@ fn lubricants_are_compared_where_they_are_known() {
         (32.0_f64 / 5.4).powf(2.0 / 3.0),
         1e-9,
     );
-    // 150 °C is more than 30 K beyond the points; a grade alone holds at 40 °C
-    assert_eq!(list(&outcome, "lubricant_1_temperatures").len(), 2);
+    // 150 °C is more than 30 K beyond the points, where the line is drawn on; a grade alone holds at 40 °C
+    assert_eq!(list(&outcome, "lubricant_1_temperatures").len(), 3);
     assert_eq!(list(&outcome, "lubricant_2_temperatures").len(), 1);
     assert_eq!(list(&outcome, "lubricant_3_temperatures").len(), 3);
-    let shown = outcome.warnings.iter().filter(|w| w.code == "AB1023");
-    assert_eq!(shown.count(), 2);
+    let shown = |code: &str| -> Vec<String> {
+        let found = outcome.warnings.iter().filter(|w| w.code == code);
+        found.map(|w| w.text.clone()).collect()
+    };
+    assert_eq!(shown("AB1023").len(), 1);
+    let drawn_on = shown("AB2313");
+    assert_eq!(drawn_on.len(), 1);
+    // by hand, 10^10^(A - B lg T) - 0.7: 2.392 mm²/s
+    for part in [
+        "thin",
+        "150 °C is 20 K beyond",
+        "(10 to 130 °C)",
+        "2.39 mm²/s",
+        "1 % at the data",
+    ] {
+        assert!(drawn_on[0].contains(part), "{part}: {}", drawn_on[0]);
+    }
 }
 
 #[test]
@@ -286,10 +301,10 @@ series = "60"
 }
 
 #[test]
-fn a_temperature_outside_the_data_is_an_error() {
+fn a_temperature_at_which_an_oil_has_no_viscosity_is_an_error() {
     let points = "bearing.moment.viscosity_points=[[\"40 degC\", \"100 mm^2/s\"], [\"100 degC\", \"11 mm^2/s\"]]";
     refused(
-        &[points, "bearing.moment.temperature=200 degC"],
+        &[points, "bearing.moment.temperature=600 degC"],
         &["AB0208", "bearing.moment.temperature"],
     );
     refused(

@@ -29,12 +29,13 @@ use crate::bearing;
 use crate::heats::{HEATS, OWN_HEATS};
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
-use physics::viscosity::WaltherLine;
+use physics::viscosity::Viscosity;
 use thermal::bearing_network::{
     BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, PASSES,
     ROTOR, together,
 };
 use thermal::held::Held;
+use thermal::oil_range::{self, BeyondData};
 use thermal::steady_speed::SteadySpeed;
 use thermal::warm_bearing::WarmBearings;
 
@@ -47,8 +48,6 @@ const SPAN: f64 = 10e-3;
 const LOOKS: f64 = 50e-3;
 /// Ice point, K.
 const ICE_POINT: f64 = 273.15;
-/// Least viscosity, m²/s.
-const LEAST_VISCOSITY: f64 = 2e-6;
 /// What carries the load-dependent part of the steady moment. Source: derived; book/src/theory/heat.md.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
 
@@ -64,7 +63,7 @@ pub struct WarmBearing {
     /// That weight, N.
     pub radial_load: f64,
     /// Its lubricant; none where no oil is given, which then has the viscosity of [`Self::viscosity`].
-    pub oil: Option<WaltherLine<f64>>,
+    pub oil: Option<Viscosity>,
     /// Viscosity of the lubricant at the start, m²/s.
     pub viscosity: f64,
     /// The law that divides the steady moment, and says how it follows the temperatures; all of it heats the lubricant where there is none.
@@ -100,6 +99,8 @@ pub struct Warmth {
     pub passes: [[f64; 2]; PASSES.len()],
     /// When a ring became loose on the rotor and in its housing, s.
     pub loose: [Option<f64>; 2],
+    /// Whether the lubricant was hotter or colder than its viscosity is known near.
+    pub beyond_data: Option<BeyondData>,
     /// Time and temperatures at the end of each span, where they are kept.
     pub course: Vec<(f64, OfNodes)>,
     keep: bool,
@@ -293,10 +294,14 @@ impl WarmBearing {
 
     /// Viscosity of the lubricant at a temperature in °C, m²/s.
     pub fn viscosity_at(&self, temperature: f64) -> f64 {
-        let oil = self.oil.as_ref();
-        let of =
-            |oil: &WaltherLine<f64>| oil.viscosity(temperature + ICE_POINT).max(LEAST_VISCOSITY);
-        oil.map_or(self.viscosity, of)
+        (self.oil.as_ref()).map_or(self.viscosity, |oil| oil.held(temperature + ICE_POINT))
+    }
+
+    /// Takes note of a temperature of its lubricant, °C, at a time, s.
+    fn look(&self, found: &mut Option<BeyondData>, temperature: f64, time: f64) {
+        if let Some(oil) = &self.oil {
+            oil_range::look(found, oil, temperature, time);
+        }
     }
 
     /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C).
@@ -335,6 +340,8 @@ impl WarmBearing {
 impl Warmth {
     /// At the start of a run; `keep` says whether its course is kept.
     pub fn new(part: &WarmBearing, keep: bool) -> Self {
+        let mut beyond_data = None;
+        part.look(&mut beyond_data, part.start, 0.0);
         Warmth {
             temperatures: vec![part.start; NODES.len()],
             peaks: [(part.start, 0.0); NODES.len()],
@@ -350,6 +357,7 @@ impl Warmth {
                 .passes(0.0, &[part.start; NODES.len()])
                 .map(|one| [one; 2]),
             loose: [None; 2],
+            beyond_data,
             course: Vec::new(),
             keep,
             until: 0.0,
@@ -449,6 +457,7 @@ impl Warmth {
                 *peak = (*now, seen.time);
             }
         }
+        part.look(&mut self.beyond_data, row[LUBRICANT], seen.time);
         if self.keep {
             self.course.push((seen.time, row));
         }

@@ -6,15 +6,13 @@
 //! | SKF, deep groove | F_r up to C0, F_a up to ¼ C0 (½ C0 for heavier than light series and bores above 12 mm) | SKF General Catalogue (edition 6000), chapter deep groove ball bearings |
 //! | SKF, angular contact | the centrifugal load S3 d_m⁴ n² up to the load of the bearing | beyond it the law extrapolates (own judgement) |
 //! | curve | the measured speeds | its points |
-//! | all, with a viscosity over temperature | the temperatures of the oil's data | [`viscosity`](crate::viscosity) |
 //!
-//! Not reported: a load below the recommended minimum (it needs the dynamic rating), and the fading below 1 rad/s, which
+//! Not reported here: a temperature beyond the data of the oil, which [`viscosity`](crate::viscosity) knows; a load below the recommended minimum (it needs the dynamic rating), and the fading below 1 rad/s, which
 //! every run passes on its way from rest.
 
 use crate::friction::Friction;
 use crate::palmgren::{Palmgren, viscosity_times_speed_mm2_s_rpm};
 use crate::skf::SkfContacts;
-use crate::viscosity::Viscosity;
 use std::fmt;
 
 /// Largest ν n of Palmgren's law, mm²/s · rpm.
@@ -160,25 +158,6 @@ impl Friction<f64> {
     }
 }
 
-/// The departure of a lubricant temperature from the data of its viscosity, if any.
-///
-/// - `viscosity`: the oil
-/// - `temperature`: K
-///
-/// Source: [`Viscosity::range`].
-/// Valid: always.
-pub fn temperature_departure(viscosity: &Viscosity, temperature: f64) -> Option<Departure> {
-    let (least, largest) = viscosity.range();
-    outside(Departure {
-        quantity: "lubricant temperature",
-        value: temperature,
-        least,
-        largest,
-        unit: "K",
-        consequence: "the viscosity is not known there",
-    })
-}
-
 fn palmgren_load(law: &Palmgren<f64>, static_load: f64) -> Option<Departure> {
     outside(Departure {
         quantity: "load",
@@ -207,7 +186,6 @@ mod tests {
     use crate::bearing_6005::{PALMGREN, SKF, SKF_GREASE};
     use crate::moment_curve::MomentCurve;
     use crate::palmgren::PalmgrenCombined;
-    use crate::viscosity::ICE_POINT;
 
     fn at(speed: f64, radial_load: f64, axial_load: f64) -> OperatingPoint {
         OperatingPoint {
@@ -257,18 +235,11 @@ mod tests {
         );
     }
     #[test]
-    fn curve_and_temperature() {
+    fn curve() {
         let law = Friction::Curve(MomentCurve::through(&[(10.0, 0.02), (100.0, 0.03)]).unwrap());
         assert_eq!(quantities(&law, at(-50.0, 1e9, 1e9)), [""; 0]);
         for speed in [5.0, -101.0] {
             assert_eq!(quantities(&law, at(speed, 0.0, 0.0)), ["speed"]);
         }
-        let oil = Viscosity::of_grade(68, (ICE_POINT + 100.0, 8.7e-6)).unwrap();
-        assert_eq!(temperature_departure(&oil, ICE_POINT + 70.0), None);
-        let cold = temperature_departure(&oil, ICE_POINT - 20.0).unwrap();
-        assert_eq!(
-            cold.to_string(),
-            "lubricant temperature 253.15 K is outside 283.15 to 403.15 K: the viscosity is not known there"
-        );
     }
 }

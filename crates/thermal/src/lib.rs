@@ -13,6 +13,7 @@
 //! | [`warm_bearing`] | the losses of bearings whose oil and rings are warm |
 //! | [`warm_machine`] | the losses of a machine whose bearings differ |
 //! | [`clearance`] | the clearance of a warm bearing, its preload once closed |
+//! | [`oil_range`] | when a lubricant leaves the data of its viscosity |
 //! | [`layer`] | the heated layer of a body: surface above mean, stepped exactly |
 //! | [`rubbing_contact`] | two layers that rub: friction power shared so that both sides of the patch are equally hot |
 
@@ -26,6 +27,7 @@ pub mod layer;
 pub mod load_zone;
 pub mod losses;
 pub mod network;
+pub mod oil_range;
 pub mod passage;
 pub mod rubbing_contact;
 pub mod steady_speed;

@@ -5,8 +5,7 @@
 //! ```
 //!
 //! Losses by number: 0 is M0, 1 is M1, 2 is windage, whose heat leaves with the gas. Viscosity goes on along the line of
-//! the oil beyond its points, down to 2 mm²/s: a bearing that runs away leaves every range, and a run that stopped there
-//! would hide it.
+//! the oil beyond its points: a bearing that runs away leaves every range, and a run that stopped there would hide it.
 //!
 //! Source: the laws are those of `physics`.
 
@@ -15,10 +14,7 @@ use crate::load_zone::LoadZone;
 use crate::losses::Losses;
 use crate::passage::ICE_POINT;
 use physics::palmgren::{FADING_SPEED, Palmgren};
-use physics::viscosity::WaltherLine;
-
-/// Least viscosity, m²/s.
-const LEAST_VISCOSITY: f64 = 2e-6;
+use physics::viscosity::Viscosity;
 
 /// Bearings that are all alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +26,7 @@ pub struct WarmBearings {
     /// Moment of one; its viscosity is not used.
     pub moment: Palmgren<f64>,
     /// Oil.
-    pub oil: WaltherLine<f64>,
+    pub oil: Viscosity,
     /// Load of one.
     pub load: BearingLoad,
     /// Windage coefficient c_w, N m s².
@@ -101,13 +97,8 @@ impl WarmBearings {
 
     /// M0 and M1 of one bearing at the speed of its inner race, N m.
     pub fn of_one(&self, speed: f64, temperatures: &[f64]) -> [f64; 2] {
-        let kelvin = temperatures[self.lubricant] + ICE_POINT;
-        let viscosity = match kelvin > 0.0 {
-            true => self.oil.viscosity(kelvin).max(LEAST_VISCOSITY),
-            false => f64::NAN,
-        };
         let moment = Palmgren {
-            viscosity,
+            viscosity: self.oil.held(temperatures[self.lubricant] + ICE_POINT),
             ..self.moment
         };
         let radial = match &self.load {

@@ -74,7 +74,7 @@ mod tests {
     use super::*;
     use crate::warm_bearing::BearingLoad;
     use physics::palmgren::Palmgren;
-    use physics::viscosity::WaltherLine;
+    use physics::viscosity::Viscosity;
 
     fn bearing(pitch_diameter: f64) -> WarmBearings {
         let mut viscous = vec![0.0; NODES.len()];
@@ -90,7 +90,7 @@ mod tests {
                 load_exponent: 0.55,
                 static_load_rating: 5850.0,
             },
-            oil: WaltherLine { a: 0.2, b: 0.0 },
+            oil: Viscosity::constant(5e-5),
             load: BearingLoad::Radial(40.0),
             windage: 0.0,
             lubricant: 4,

@@ -50,6 +50,7 @@ pub(crate) mod words;
 
 pub use bearing::fits::{Fits, Growth};
 pub use bearing::kind::{BallMaterial, BearingType, Fidelity};
+pub(crate) use bearing::lubricant::{DRAWN_ON, drawn_on};
 pub use bearing::lubricant::{Lubricant, LubricantViscosity};
 pub use bearing::lubricant_state::LubricantState;
 pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};

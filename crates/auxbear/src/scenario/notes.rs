@@ -3,8 +3,12 @@
 
 use crate::catalogue::designation::{self, Designation};
 use crate::scenario::bearing::kind::BearingType;
+use crate::scenario::bearing::lubricant::{DRAWN_ON, drawn_on};
+use crate::scenario::heat::Network;
+use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::Values;
+use physics::viscosity::Viscosity;
 use units::display;
 
 /// Something that the user should know of the file's values.
@@ -68,6 +72,7 @@ impl Values {
         list.extend(self.another_bearing());
         list.extend(self.left_out());
         list.extend(self.implausible());
+        list.extend(self.extrapolated());
         list.extend(self.without_effect.iter().map(|path| Note {
             code: "AB1093",
             text: format!(
@@ -77,6 +82,27 @@ impl Values {
             ),
         }));
         list
+    }
+
+    /// An oil beyond the data of its viscosity, where the run does not follow its temperature and say so itself.
+    fn extrapolated(&self) -> Option<Note> {
+        const TEMPERATURE: &str = "bearing.moment.temperature";
+        let points = self.rows("bearing.moment.viscosity_points")?;
+        let temperature = self.number(TEMPERATURE)?;
+        let [one, other] = points.as_slice() else {
+            return None;
+        };
+        let oil = Viscosity::through((one[0], one[1]), (other[0], other[1])).ok()?;
+        let followed = self.chosen("heat.network") == Some(Network::On)
+            || self.system() == SystemName::CoastDown;
+        (!followed && oil.beyond(temperature) > 0.0).then(|| Note {
+            code: DRAWN_ON,
+            text: format!(
+                "{}: the viscosity of the lubricant is extrapolated: {}.",
+                self.shown(TEMPERATURE),
+                drawn_on(&oil, temperature)
+            ),
+        })
     }
 
     /// A shaft whose weight no radial bearing carries.

@@ -309,5 +309,6 @@ fn what_cannot_be_is_refused_with_its_key() {
 fn a_rotor_that_nothing_brakes_is_said_to_turn_on() {
     let run = outcome(&["coast_down.longest=10 s"]);
     assert!(has(&run, "AB2315") && run.stop.time == 10.0);
+    assert!(run.stop.reason == "still turning" && run.stop.complete());
     assert_eq!(value(&run, "stop_time"), None);
 }

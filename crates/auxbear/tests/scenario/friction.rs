@@ -355,8 +355,8 @@ fn temperatures_and_points_that_show_nothing_are_refused() {
     ];
     let shown = |more: &[&str]| message(&with(&law, more));
     assert_eq!(
-        shown(&[POINTS, "bearing.moment.temperature=200 degC"]),
-        "error[AB0208]: a.toml, --set: bearing.moment.temperature: found 200.0 °C is outside the viscosity data, which serve from 10.0 to 130.0 °C; a temperature near those of bearing.moment.viscosity_points is needed, or the viscosity itself"
+        shown(&[POINTS, "bearing.moment.temperature=600 degC"]),
+        "error[AB0208]: a.toml, --set: bearing.moment.temperature: found 600.0 °C, where this oil has no viscosity: its line of ASTM D341 goes from -54.8 °C, 2e7 mm²/s, to 350.0 °C, 0.21 mm²/s or where oils crack; a temperature between those is needed, or the viscosity itself"
     );
     assert_eq!(
         shown(&[POINTS]),

@@ -211,7 +211,7 @@ const GIVEN: Origin = Origin {
 const VISCOSITY: Origin = Origin {
     law: "lg lg(ν + 0.7) = A - B lg T through two points [mm²/s, K], where it is not given",
     source: "ASTM D341, Ubbelohde and Walther (from memory)",
-    valid: "half the span of the two points beyond them, at most 30 K; 2 to 2e7 mm²/s",
+    valid: "0.21 to 2e7 mm²/s; sure half the span of the two points beyond them, at most 30 K, drawn on farther out (AB2313)",
 };
 const FRICTION: Origin = Origin {
     law: "M = M0 + M1 by bearing.moment.law, or by the law named",

@@ -4,7 +4,7 @@ use crate::evaluate::torque::asked::{Asked, law_of};
 use crate::result::assumptions::{assumptions, bath, constants};
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
-use crate::scenario::{BearingType, Moment, Scenario};
+use crate::scenario::{BearingType, DRAWN_ON, Moment, Scenario, drawn_on};
 use physics::friction::Friction;
 use physics::friction_range::{Departure, OperatingPoint};
 
@@ -54,6 +54,17 @@ pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
             ));
         }
     }
+    list.extend(torque.lubricants.iter().filter_map(|lubricant| {
+        let (oil, temperature) = lubricant.farthest(torque)?;
+        let text = drawn_on(&oil, temperature);
+        Some(warning(
+            DRAWN_ON,
+            format!(
+                "The viscosity of {} is extrapolated: {text}.",
+                lubricant.name
+            ),
+        ))
+    }));
     if let Some(limit) = torque.limiting_speed
         && torque.speed_to > limit
     {

@@ -53,11 +53,13 @@ function quantityTile(run, title, name, note, state) {
 function stateTile(run) {
   const stop = run.summary.stop || {};
   const complete = run.summary.complete === true;
+  // a bearing that seizes, a rotor that still turns
+  const word = stop.reason === "finished" && complete ? "complete" : stop.reason;
   const time = isNumber(stop.time_s) && systemOf(run).facts ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
   // how a run-out went stands with its pictures
   const last = reason.split(/(?<=\.) (?=[A-Z])/).at(-1);
-  return tile("Run", complete ? "complete" : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, !complete));
+  return tile("Run", complete ? word : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, word !== "complete"));
 }
 
 function forceNote(run) {

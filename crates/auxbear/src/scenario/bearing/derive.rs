@@ -477,7 +477,7 @@ impl Values {
                 TEMPERATURE,
                 self.place(TEMPERATURE),
                 error.to_string(),
-                "a temperature near those of bearing.moment.viscosity_points is needed, or the viscosity itself",
+                "a temperature between those is needed, or the viscosity itself",
             ))
         })?;
         self.put_derived(

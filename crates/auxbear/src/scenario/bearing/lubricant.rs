@@ -3,6 +3,27 @@
 use physics::viscosity::{ICE_POINT, Viscosity, iso_grade_viscosity};
 use units::{Unit, parse_quantity};
 
+/// Code of the warning that a viscosity is extrapolated.
+pub(crate) const DRAWN_ON: &str = "AB2313";
+
+/// How far an oil is drawn on at a temperature beyond its data, K, in words.
+pub(crate) fn drawn_on(oil: &Viscosity, temperature: f64) -> String {
+    let (least, largest) = oil.sure();
+    let [now, least, largest] = [temperature, least, largest].map(|kelvin| kelvin - ICE_POINT);
+    let viscosity = 1e6 * oil.held(temperature);
+    let digits = if viscosity < 100.0 { 2 } else { 0 };
+    let held = match oil.at(temperature) {
+        Ok(_) => "",
+        Err(_) => ", its end, and held there",
+    };
+    format!(
+        "{now:.0} °C is {:.0} K beyond the temperatures near its data ({least:.0} to {largest:.0} °C), and the line of ASTM D341 is drawn on to \
+         {viscosity:.digits$} mm²/s{held}, where 1 % at the data has grown to {:.1} %",
+        oil.beyond(temperature).ceil(),
+        100.0 * oil.error_at(temperature)
+    )
+}
+
 /// A lubricant to compare.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lubricant {
@@ -143,7 +164,8 @@ mod tests {
             let why = Lubricant::parse(text).unwrap_err();
             assert!(why.contains(told), "{text}: {why}");
         }
-        assert!(at("ISO VG 68", 60.0).is_err());
+        let untold = at("ISO VG 68", 60.0).unwrap_err();
+        assert!(untold.contains("a second one"), "{untold}");
         let untold = Lubricant::parse("ISO VG 68").unwrap().at(None);
         assert!(untold.unwrap_err().contains("bearing.moment.temperature"));
     }

@@ -64,6 +64,21 @@ pub struct Torque {
     pub lubricants: Vec<Lubricant>,
 }
 
+impl Lubricant {
+    /// It where it is farthest beyond its data among the temperatures of a comparison, K; none where it never is.
+    pub(crate) fn farthest(&self, torque: &Torque) -> Option<(Viscosity, f64)> {
+        let LubricantViscosity::OverTemperature(oil) = self.viscosity else {
+            return None;
+        };
+        let all = torque.temperature.iter().chain(&torque.temperatures);
+        let known = all
+            .copied()
+            .filter(|now| oil.at(*now).is_ok() && oil.beyond(*now) > 0.0);
+        let farthest = known.max_by(|a, b| oil.beyond(*a).total_cmp(&oil.beyond(*b)));
+        Some((oil, farthest?))
+    }
+}
+
 /// A law of the friction moment in a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedLaw {

@@ -16,12 +16,11 @@ use crate::simulate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
 use model::system::energy::{Content, Flows};
 use number::Vec2;
-use physics::viscosity::WaltherLine;
+use physics::viscosity::Viscosity;
 use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
+use thermal::clearance::preload;
 use thermal::load_zone::LoadZone;
 
-/// Least viscosity, m²/s.
-const LEAST_VISCOSITY: f64 = 2e-6;
 /// Temperatures that the traction of oil films is known at, °C.
 const FILMS: (f64, f64) = (30.0, 100.0);
 /// Contact angle beyond which balls roll off the shoulder, rad.
@@ -34,7 +33,7 @@ const THINS: f64 = 2e-3;
 #[derive(Clone, Debug)]
 pub(crate) struct Follows {
     feedback: Feedback,
-    oil: Option<WaltherLine<f64>>,
+    oil: Option<Viscosity>,
     zone: LoadZone,
     /// ΣQ under the weight without preload, N.
     unpreloaded: f64,
@@ -45,11 +44,10 @@ pub(crate) struct Follows {
 impl Follows {
     /// What follows by these temperatures; none where nothing does.
     pub fn of(warm: &Warm, bearing: &Bearing) -> Option<Self> {
-        let oil = warm.viscosity();
         let zone = network(warm).ok()?.1;
         let follows = Follows {
             feedback: warm.heat.feedback,
-            oil: oil.map(|oil| oil.line()),
+            oil: warm.viscosity(),
             unpreloaded: unpreloaded(&zone),
             zone,
             start: warm.heat.start_temperature - ICE_POINT,
@@ -102,8 +100,7 @@ impl Follows {
     /// Viscosity of the lubricant at these temperatures (°C), m²/s; 1 where none is known.
     pub fn viscosity(&self, temperatures: &[f64]) -> f64 {
         let kelvin = temperatures[LUBRICANT] + ICE_POINT;
-        let of = |oil: &WaltherLine<f64>| oil.viscosity(kelvin).max(LEAST_VISCOSITY);
-        self.oil.as_ref().map_or(1.0, of)
+        self.oil.as_ref().map_or(1.0, |oil| oil.held(kelvin))
     }
 
     /// Makes a bearing one of these temperatures, °C.
@@ -156,7 +153,8 @@ pub(crate) struct FollowedBearing {
 /// As which it was made last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct State {
-    clearance: f64,
+    /// Diametral, m.
+    pub clearance: f64,
     viscosity: f64,
     /// Least diametral clearance so far, m.
     pub least: f64,
@@ -174,6 +172,11 @@ impl FollowedBearing {
             bearing: bearing.clone(),
             gravity,
         })
+    }
+
+    /// Load of every ball between rings that have closed to a clearance, N.
+    pub fn preload(&self, clearance: f64) -> f64 {
+        preload(self.follows.zone.stiffness, clearance)
     }
 
     /// Whether it is another one at these temperatures of its nodes (°C) than it was in this state.

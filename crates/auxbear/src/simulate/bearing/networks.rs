@@ -40,7 +40,7 @@ pub(crate) fn built(
         start: warm.heat.start_temperature - ICE_POINT,
         loads: zone.loads(zone.clearance.at_reference),
         radial_load: warm.radial_load,
-        oil: oil.map(|oil| oil.line()),
+        oil,
         viscosity: at_start,
         losses,
         shares: shares(

@@ -98,7 +98,7 @@ impl List {
             .zip(followed.part.oil)
             .map(|(rating, oil)| {
                 let warmest = |node: usize| followed.warmth.peaks[node].0;
-                let viscosity = oil.viscosity(warmest(LUBRICANT) + ICE_POINT);
+                let viscosity = oil.held(warmest(LUBRICANT) + ICE_POINT);
                 let kappa = viscosity_ratio(followed.given, viscosity, speed);
                 let hot = warmest(INNER_RACE).max(warmest(OUTER_RACE));
                 life_factor(followed.given, rating, load, kappa, hot)

@@ -6,10 +6,10 @@ use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
-use crate::simulate::coast_down::warnings::{away, beyond, first_loose, loose_ring, to_take};
+use crate::simulate::coast_down::warnings::{away, beyond_data, first_loose, loose_ring, to_take};
 use model::bearing_heat::{WarmBearing, Warmth, kinds};
 use model::system::layout::of_part;
-use thermal::bearing_network::{GROUNDS, LUBRICANT, NODES, PASSES};
+use thermal::bearing_network::{GROUNDS, NODES, PASSES};
 
 /// A bearing whose temperatures were followed.
 pub(crate) struct Followed<'a> {
@@ -33,7 +33,7 @@ impl<'a> Followed<'a> {
     }
 
     /// Whether its clearance follows.
-    fn closes(&self) -> bool {
+    pub fn closes(&self) -> bool {
         (self.follows().iter()).any(|follows| follows.closes(self.bearing))
     }
 
@@ -242,10 +242,11 @@ pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     list.extend(runs_away(followed).or_else(|| closed(followed)));
     list.extend(loose(followed));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
-    let peak = followed.warmth.peaks[LUBRICANT];
-    let oil = followed.given.viscosity();
-    let beyond = oil.and_then(|oil| beyond(&oil, peak, followed.part.start));
-    list.extend(beyond.map(|warning| (peak.0, warning)));
+    let oil = followed.part.oil.zip(followed.warmth.beyond_data);
+    list.extend(oil.map(|(oil, found)| {
+        let error = oil.error_at(found.farthest + ICE_POINT);
+        (error, beyond_data(&oil, &found))
+    }));
     list
 }
 

@@ -10,7 +10,7 @@ use physics::hertz::{BallRace, PointContact, Race};
 use physics::load_zone::joint_stiffness;
 use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::palmgren::Palmgren;
-use physics::viscosity::{Viscosity, WaltherLine};
+use physics::viscosity::Viscosity;
 use std::f64::consts::{PI, TAU};
 use thermal::bearing_network::{
     BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
@@ -19,6 +19,7 @@ use thermal::clearance::ThermalClearance;
 use thermal::coast_down::AtNodes;
 use thermal::held::Held;
 use thermal::load_zone::LoadZone;
+use thermal::oil_range::BeyondData;
 use thermal::passage::{Line, Passage};
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 use thermal::warm_machine::{RotorDrag, WarmMachine};
@@ -88,6 +89,8 @@ pub(crate) struct Start {
     pub at_nodes: AtNodes,
     /// What is known of the way to there.
     pub rows: Vec<Row>,
+    /// Of each bearing: whether its lubricant has been hotter or colder than its viscosity is known near.
+    pub beyond_data: Vec<Option<BeyondData>>,
     /// Why it ended on that way.
     pub ended: Option<End>,
     /// The same way with the nodes held at their limits, where there was one.
@@ -150,6 +153,7 @@ impl Start {
             heats: vec![0.0; 2 * bearings + 1],
             given: 0.0,
             rows: Vec::new(),
+            beyond_data: vec![None; bearings],
             ended: None,
             on_limits: None,
             kept: None,
@@ -159,6 +163,13 @@ impl Start {
     pub fn holding(self, held: Held, temperatures: Vec<f64>) -> Self {
         Start {
             on_limits: Some(OnLimits::from(held, temperatures, Vec::new())),
+            ..self
+        }
+    }
+    /// The same, with lubricants that have been beyond their data before.
+    pub fn beyond(self, beyond_data: Vec<Option<BeyondData>>) -> Self {
+        Start {
+            beyond_data,
             ..self
         }
     }
@@ -435,11 +446,8 @@ pub(crate) fn losses(
         Feedback::Viscosity | Feedback::None => BearingLoad::Radial(run.radial_load),
     };
     let oil = match (run.heat.feedback, viscosity) {
-        (Feedback::Full | Feedback::Viscosity, Some(viscosity)) => viscosity.line(),
-        _ => WaltherLine {
-            a: (1e6 * at_start + 0.7).log10().log10(),
-            b: 0.0,
-        },
+        (Feedback::Full | Feedback::Viscosity, Some(viscosity)) => viscosity,
+        _ => Viscosity::constant(*at_start),
     };
     let mut viscous = vec![0.0; NODES.len()];
     viscous[LUBRICANT] = 1.0;

@@ -81,8 +81,8 @@ pub(super) fn follow(
         if interrupt.load(Ordering::Relaxed) {
             break End::Interrupted;
         }
-        if !state.temperatures.iter().all(|now| now.abs() < BEYOND) {
-            break End::Beyond;
+        if let Some(end) = left(built, &state.temperatures) {
+            break end;
         }
         let machine = Coast {
             network: network(built, (state.speed, &state.temperatures), held.marks())
@@ -130,6 +130,21 @@ pub(super) fn follow(
         powers,
         stored,
     })
+}
+
+/// Why a run-out ends at temperatures of the nodes of all bearings, °C, that no law of it knows.
+pub(crate) fn left(built: &Built, temperatures: &[f64]) -> Option<End> {
+    if !temperatures.iter().all(|now| now.abs() < BEYOND) {
+        return Some(End::Beyond);
+    }
+    let mut each = built.parts.iter().zip(temperatures.chunks(NODES.len()));
+    let thin = each.any(|(part, temperatures)| {
+        let kelvin = temperatures[LUBRICANT] + ICE_POINT;
+        part.losses.oil.at(kelvin).is_err()
+    });
+    thin.then_some(End::Lost(
+        "the lubricant is hotter than the law of its viscosity reaches, to 0.21 mm²/s",
+    ))
 }
 
 /// Largest change of a temperature in a step where a seat follows it, K: between tight and loose lie tenths of a kelvin, and what it conducts
@@ -190,7 +205,7 @@ pub(crate) fn network(
         Operation {
             speed: part.losses.ratio * speed,
             loads,
-            viscosity: part.losses.oil.viscosity(kelvin).max(1e-6),
+            viscosity: part.losses.oil.held(kelvin),
             temperatures,
         }
     });

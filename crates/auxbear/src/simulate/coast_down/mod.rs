@@ -99,7 +99,7 @@ pub(crate) fn stop(course: &Course) -> Stop {
     let (reason, text) = match course.end {
         End::Stands => ("finished", "The rotor stands.".to_string()),
         End::Late => (
-            "finished",
+            "still turning",
             format!("coast_down.longest is reached; the rotor still turns with {speed:.4} rad/s."),
         ),
         End::Interrupted => (

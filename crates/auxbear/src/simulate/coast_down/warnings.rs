@@ -1,11 +1,13 @@
 //! What the user should know before trusting a run-out, the gravest first.
 
 use crate::result::outcome::{Warning, warning};
+use crate::scenario::{DRAWN_ON, drawn_on};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::{End, Row};
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{LUBRICANT, NODES};
+use thermal::oil_range::{self, BeyondData};
 
 /// Of a run-out by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
@@ -199,34 +201,32 @@ fn viscosity(ran: &Ran, bearing: usize) -> Option<Warning> {
         bearing,
         node: LUBRICANT,
     };
-    let start = ran.free.rows[0].temperatures[lubricant.place()];
-    beyond(
-        &ran.built.parts[bearing].viscosity,
-        ran.peak(lubricant),
-        start,
-    )
+    let oil = &ran.built.parts[bearing].viscosity;
+    let mut found = ran.built.start.beyond_data[bearing];
+    for row in &ran.free.rows {
+        let temperature = row.temperatures[lubricant.place()];
+        oil_range::look(&mut found, oil, temperature, row.time);
+    }
+    Some(beyond_data(oil, &found?))
 }
 
-/// A lubricant whose viscosity is not known at its highest temperature, °C with its instant, or at that of the start.
-pub(crate) fn beyond(
-    viscosity: &Viscosity,
-    (hottest, at): (f64, f64),
-    start: f64,
-) -> Option<Warning> {
-    let (least, largest) = viscosity.range();
-    let [least, largest] = [least, largest].map(|kelvin| kelvin - ICE_POINT);
-    let (temperature, when) = match hottest > largest {
-        true => (hottest, format!("after {}", words(at))),
-        false if start < least => (start, "at the start".to_string()),
-        false => return None,
+/// A lubricant hotter or colder than its viscosity is known near.
+pub(crate) fn beyond_data(oil: &Viscosity, found: &BeyondData) -> Warning {
+    let since = match found.since > 0.0 {
+        true => format!("from {} on", words(found.since)),
+        false => "from the start on".to_string(),
     };
-    Some(warning(
-        "AB2313",
+    let at = match found.at > found.since {
+        true => format!(", after {}", words(found.at)),
+        false => String::new(),
+    };
+    warning(
+        DRAWN_ON,
         format!(
-            "The lubricant is at {temperature:.0} °C {when}, beyond the two temperatures that its viscosity is known near ({least:.0} to {largest:.0} °C): \
-             the line of ASTM D341 is drawn on, down to 2 mm²/s."
+            "The viscosity of the lubricant is extrapolated {since}: {}{at}.",
+            drawn_on(oil, found.farthest + ICE_POINT)
         ),
-    ))
+    )
 }
 
 fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {

@@ -197,6 +197,10 @@ fn scatters(went: &Went) -> Option<Warning> {
 }
 
 impl After {
+    /// Whether it warns of this.
+    pub(crate) fn says(&self, code: &str) -> bool {
+        self.warnings.iter().any(|warning| warning.code == code)
+    }
     fn none(quantities: Vec<Quantity>, stop: Stop) -> After {
         After {
             quantities,
@@ -237,6 +241,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
     let mut parts: Vec<Part> = Vec::new();
     let mut temperatures: Vec<f64> = Vec::new();
     let (mut held, mut at_limits) = (Vec::new(), Vec::new());
+    let mut beyond_data = Vec::new();
     for (k, name) in context.parts().enumerate() {
         let given = context.given(k).warm.as_deref();
         let (Some(warm), Some(warmth)) = (given, &context.record(k).warmth) else {
@@ -252,6 +257,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
         parts.push(one);
         temperatures.extend(&warmth.temperatures);
+        beyond_data.push(warmth.beyond_data);
         match &warmth.held {
             Some(own) => {
                 held.push(own.held.clone());
@@ -288,7 +294,8 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
         },
         end: *end,
         start: Start::at(ending.time, speed, temperatures, bearings)
-            .holding(Held::together(&held), at_limits),
+            .holding(Held::together(&held), at_limits)
+            .beyond(beyond_data),
     })
 }
 

@@ -3,7 +3,7 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
-use crate::scenario::{Fidelity, Moment, Scenario};
+use crate::scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
 use crate::simulate::bearing::quantities::End;
 use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::simulate::bearing::warm;
@@ -11,7 +11,7 @@ use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::drop::{magnets, method, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, method, seizure, shaft_results, surfaces};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -117,8 +117,17 @@ pub(crate) fn of(
         list.extend(judged(contexts, |member| {
             (member.followed(k).as_ref()).map_or(Vec::new(), warm::judged)
         }));
+        list.extend(judged(contexts, |member| {
+            let closed = member.followed(k).and_then(|of| of.state?.closed);
+            let seized = member.seized(k).map(|found| seizure::told(found, closed));
+            seized.into_iter().collect()
+        }));
         list
     }));
+    if after[0].iter().any(|after| after.says(DRAWN_ON)) {
+        // the run-out says it of all, from where the drop left the data on
+        list.retain(|warning| warning.code != DRAWN_ON);
+    }
     // of repeated runs those of the unperturbed run-out
     list.extend(of_rows(
         contexts,

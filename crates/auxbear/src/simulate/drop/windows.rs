@@ -14,7 +14,7 @@
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
 use crate::simulate::coast_down::build::{Built, Part, Start, hold};
-use crate::simulate::coast_down::course::{self, BEYOND};
+use crate::simulate::coast_down::course;
 use crate::simulate::coast_down::course::{MOST_CHANGE, largest_change};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
@@ -47,6 +47,7 @@ const AGREEING: usize = 2;
 const AGREES: f64 = 0.02;
 
 /// What was found at a speed.
+#[derive(Clone)]
 struct Window {
     /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
     powers: Vec<f64>,
@@ -136,8 +137,8 @@ pub(super) fn follow(
         if built.start.time >= built.end.longest {
             break Some(End::Late);
         }
-        if !(built.start.temperatures.iter()).all(|now| now.abs() < BEYOND) {
-            break Some(End::Beyond);
+        if let Some(end) = course::left(built, &built.start.temperatures) {
+            break Some(end);
         }
         let leaves = built.start.speed <= stretch.until;
         let window = match way.window(built, leaves) {
@@ -168,14 +169,7 @@ pub(super) fn follow(
         if agreeing == AGREEING {
             break None;
         }
-        let row = row(built, &window);
-        if let Some(way) = &mut built.start.on_limits {
-            way.rows.push(Row {
-                time: row.time + way.delay,
-                ..row.clone()
-            });
-        }
-        built.start.rows.push(row);
+        add_row(built, &window);
         built.start.keep();
         ratio = if leaves { RATIO } else { stretch.ratio };
         if let Err(why) = step(built, &window, &window, ratio) {
@@ -183,6 +177,9 @@ pub(super) fn follow(
         }
         before = Some(window);
     };
+    if let (Some(_), Some(last)) = (end, &before) {
+        ended(built, last);
+    }
     built.start.ended = end;
     let content = way.machine.content(&way.state);
     Bounced {
@@ -526,6 +523,33 @@ fn network(
 ) -> Result<thermal::network::Network, &'static str> {
     course::network(built, (built.start.speed, temperatures), held)
         .map_err(|_| "the network of a bearing has no finite values")
+}
+
+/// Where a run-out ends behind a window, whose moments still count there.
+fn ended(built: &mut Built, last: &Window) {
+    let Some(before) = built.start.rows.last() else {
+        return;
+    };
+    let slower = built.start.speed / before.speed;
+    if built.start.time > before.time && slower > 0.0 {
+        let there = Window {
+            powers: last.powers.iter().map(|power| slower * power).collect(),
+            ..last.clone()
+        };
+        add_row(built, &there);
+    }
+}
+
+/// Writes down what is known at a window, also of the nodes held at their limits.
+fn add_row(built: &mut Built, window: &Window) {
+    let row = row(built, window);
+    if let Some(way) = &mut built.start.on_limits {
+        way.rows.push(Row {
+            time: row.time + way.delay,
+            ..row.clone()
+        });
+    }
+    built.start.rows.push(row);
 }
 
 /// What is known at a window.

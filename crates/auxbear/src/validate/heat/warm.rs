@@ -73,7 +73,7 @@ pub(super) fn shares(inputs: &Value, key: &str, names: &[&str]) -> Result<Vec<f6
 }
 
 /// The line of an oil through two points in °C and mm²/s.
-pub(super) fn oil(inputs: &Value) -> Result<physics::viscosity::WaltherLine<f64>, String> {
+pub(super) fn oil(inputs: &Value) -> Result<physics::viscosity::Viscosity, String> {
     let points = list(inputs, "oil")?;
     let point = |at: usize| -> Result<(f64, f64), String> {
         let pair = points.get(at).and_then(Value::as_array);
@@ -83,8 +83,8 @@ pub(super) fn oil(inputs: &Value) -> Result<physics::viscosity::WaltherLine<f64>
             _ => Err("oil needs two points of temperature and viscosity".to_string()),
         }
     };
-    let line = physics::viscosity::Viscosity::through(point(0)?, point(1)?);
-    Ok(line.map_err(|error| format!("oil: {error:?}"))?.line())
+    physics::viscosity::Viscosity::through(point(0)?, point(1)?)
+        .map_err(|error| format!("oil: {error:?}"))
 }
 
 /// f0, pitch diameter and the rest of Palmgren's moment; without the load's part where the file has none.
