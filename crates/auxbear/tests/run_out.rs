@@ -420,6 +420,15 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     // laws before it: the windows of the beginning had ended
     assert!(number(&found, "run_out.start_speed") > 1.5 * speed);
     assert!(found.warnings.iter().any(|w| w.code == "AB2317"));
+    // lifted off the balls: more than unbalance and half the weight at rest, and told where it is more than the drop before it had
+    let force = number(&found, "run_out.peak_contact_force");
+    assert!(
+        force > 4.0 * (9.81 + 1e-4 * frequency * frequency),
+        "{force}"
+    );
+    let harder = force > number(&found, "peak_contact_force");
+    let told = found.warnings.iter().any(|w| w.code == "AB2323");
+    assert_eq!(told, harder, "{force}");
     // 8 kg with 0.5 kg on 2 · 1e6 N/m, softer by balls and landing: below √(k/(m/2 + m_m)) = 471 rad/s
     assert!((0.97..1.0).contains(&(frequency / (1e6f64 / 4.5).sqrt())));
     // a little more unbalance, and it whirls out of the model there: no law goes on

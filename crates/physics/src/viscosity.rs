@@ -7,7 +7,7 @@
 //! Two measured points fix the line; a single point fixes no slope and holds for its temperature alone.
 //!
 //! C is the standard's term for thin oils, without the 7.5e-4 mm²/s it has at 2 mm²/s: above that nothing is left of it, and ν is
-//! continuous. What this leaves out is 0.4 % of ν at 0.21 mm²/s, below what the law itself leaves open there.
+//! continuous. What this leaves out is less than 0.6 % of ν at 0.21 mm²/s, below what the law itself leaves open there.
 //!
 //! How far from its data a line is sure: half the span of the two points to either side, at most 30 K. There, errors of
 //! 1 % at the points have grown to less than 5 % (a test holds this). Farther out the line is drawn on, and [`Viscosity::error_at`]
@@ -525,7 +525,7 @@ mod tests {
         let [below, at, above] = [-1e-6, 0.0, 1e-6].map(|d| of_shifted(THIN + d));
         assert_eq!((at, above), (2.0, 2.0 + 1e-6));
         assert!(((at - below) / 1e-6 - 1.0).abs() < 4e-3);
-        // without its value at 2 mm²/s subtracted ν would be less by 0.4 % at 0.21 mm²/s, the most
+        // without its value at 2 mm²/s subtracted ν would be less by less than 0.6 % at 0.21 mm²/s, the most
         let whole = |nu: f64| of_shifted(nu + thin(nu)) / nu - 1.0;
         assert!(
             whole(0.21) < 6e-3 && whole(0.21) > whole(1.0),

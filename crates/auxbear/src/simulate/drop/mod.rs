@@ -19,6 +19,7 @@ pub(crate) mod run_out;
 pub(crate) mod seizure;
 pub mod shaft;
 pub(crate) mod shaft_results;
+mod slow_time;
 pub(crate) mod surfaces;
 mod torque;
 pub(crate) mod warnings;

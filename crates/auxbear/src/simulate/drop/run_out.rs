@@ -85,7 +85,9 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
     let sliding = slid(context, &found, &went)
         .into_iter()
         .chain(slides(context, &found));
-    list.splice(0..0, first.chain(sliding));
+    let harder = context.parts().enumerate();
+    let harder = harder.filter_map(|(k, name)| hits_harder(context, &went, k, name));
+    list.splice(0..0, first.chain(harder).chain(sliding));
     let ended = coast_down::stop(&found.free);
     Some(After {
         quantities,
@@ -139,6 +141,13 @@ impl Went {
     }
     fn steps(&self) -> u64 {
         self.windows().map(|windows| windows.steps).sum::<u64>() + self.returned.looked
+    }
+    /// The largest contact force of a bearing in all windows, N, and when, s, and at which speed, rad/s.
+    fn peak(&self, bearing: usize) -> Option<[f64; 3]> {
+        let each = self
+            .windows()
+            .filter_map(|windows| windows.peaks.get(bearing));
+        each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
     }
     /// Relative standard errors of the powers of all windows.
     fn scatter(&self) -> Vec<f64> {
@@ -310,6 +319,11 @@ fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
     let worst = scatter.iter().copied().fold(0.0, f64::max);
     list.number("window_scatter", "1", Ok(worst), &WINDOWS);
     list.number("change_of_model", "J", Ok(first.energy), &CHANGE);
+    for (k, (_, part)) in found.parts().enumerate() {
+        let peak = went.peak(k).ok_or("no windows ball by ball".to_string());
+        let name = of_part(&part.name, "peak_contact_force");
+        list.number(&name, "N", peak.map(|[force, ..]| force), &PEAK);
+    }
     quantities::name(found, &mut list);
     let returned = &went.returned;
     let frequencies = went.frequencies.iter().rev().copied().collect();
@@ -428,6 +442,26 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
     list
 }
 
+/// A bearing that the rotor hits harder in windows than in the drop.
+fn hits_harder(context: &Context, went: &Went, bearing: usize, name: &str) -> Option<Warning> {
+    let [force, time, speed] = went.peak(bearing)?;
+    let before = context.record(bearing).peak_contact_force()?.value;
+    let where_ = match name {
+        "" => String::new(),
+        name => format!("{name}: "),
+    };
+    (force > before).then(|| {
+        warning(
+            "AB2323",
+            format!(
+                "{where_}while it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses with {force:.3e} N, {:.1} times as hard as in the first                  {:.3} s: ball loads, pressures, dents and life of this run are those of the first alone.",
+                force / before,
+                context.finished.ending.time
+            ),
+        )
+    })
+}
+
 /// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
 const SLIDES: f64 = 0.01;
 
@@ -512,6 +546,11 @@ const WINDOWS: Origin = Origin {
           of a window's power over it",
     source: "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
     valid: "what happens at a speed has forgotten how it came there",
+};
+const PEAK: Origin = Origin {
+    law: "the largest contact force of the windows' batches, each 10 turns or 0.2 s",
+    source: "crates/auxbear/src/simulate/drop/windows.rs",
+    valid: "a sample: windows are 5 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest",
 };
 const FREQUENCIES: Origin = Origin {
     law: "eigenvalues of M⁻¹(K + Σ k φφᵀ), k of mount, balls under the weight and landing surface in series",

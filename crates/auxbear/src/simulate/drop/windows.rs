@@ -13,15 +13,15 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::{Built, Part, Start, hold};
+use crate::simulate::coast_down::build::{Built, Part, Start};
 use crate::simulate::coast_down::course;
-use crate::simulate::coast_down::course::{MOST_CHANGE, largest_change};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::method;
+use crate::simulate::drop::slow_time::{Window, step};
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::HEATS;
 use model::bearing_heat::OfNodes;
@@ -46,24 +46,12 @@ const BATCHES: usize = 8;
 const AGREEING: usize = 2;
 const AGREES: f64 = 0.02;
 
-/// What was found at a speed.
-#[derive(Clone)]
-struct Window {
-    /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
-    powers: Vec<f64>,
-    /// Over the nodes of all bearings, W.
-    nodes: Vec<f64>,
-    /// Of the friction of rotor and races among them, W.
-    friction: f64,
-    /// Standard error of the whole power over it.
-    scatter: f64,
-}
-
-/// The same of one batch.
+/// What one batch of a window finds.
 struct Batch {
     powers: Vec<f64>,
     nodes: Vec<f64>,
     friction: f64,
+    peaks: Vec<f64>,
 }
 
 /// What windows follow.
@@ -95,6 +83,19 @@ pub(super) struct Bounced {
     /// Energy lost between them, and what of it friction of rotor and races took, J.
     pub lost: f64,
     pub friction: f64,
+    /// Largest contact force of each bearing, N, and the time and the speed of its window, s and rad/s.
+    pub peaks: Vec<[f64; 3]>,
+}
+
+impl Bounced {
+    fn peak(&mut self, start: &Start, window: &Window) {
+        self.peaks.resize(window.peaks.len(), [0.0; 3]);
+        for (largest, peak) in self.peaks.iter_mut().zip(&window.peaks) {
+            if *peak > largest[0] {
+                *largest = [*peak, start.time, start.speed];
+            }
+        }
+    }
 }
 
 /// What one more part of a window says.
@@ -122,11 +123,10 @@ pub(super) fn follow(
     interrupt: &AtomicBool,
 ) -> Bounced {
     let mut way = Way::from_end_of(context, interrupt);
-    let mut scatter = Vec::new();
+    let mut bounced = Bounced::default();
     let mut before: Option<Window> = None;
     let mut agreeing = 0;
     let mut ratio = RATIO;
-    let (mut lost, mut friction) = (0.0, 0.0);
     let end = loop {
         if interrupt.load(Ordering::Relaxed) {
             break Some(End::Interrupted);
@@ -150,14 +150,15 @@ pub(super) fn follow(
         if window.powers.iter().sum::<f64>() <= 0.0 {
             break Some(End::Lost("nothing brakes the rotor"));
         }
-        scatter.push(window.scatter);
+        bounced.scatter.push(window.scatter);
+        bounced.peak(&built.start, &window);
         if let Some(last) = &before {
             // the step that led here, with what is known at both of its ends
             built.start.undo();
             match step(built, last, &window, ratio) {
                 Ok(taken) => {
-                    lost += taken[0];
-                    friction += taken[1];
+                    bounced.lost += taken[0];
+                    bounced.friction += taken[1];
                 }
                 Err(why) => break Some(End::Lost(why)),
             }
@@ -182,13 +183,9 @@ pub(super) fn follow(
     }
     built.start.ended = end;
     let content = way.machine.content(&way.state);
-    Bounced {
-        kinetic: (!scatter.is_empty()).then_some(content.translation + content.spin),
-        scatter,
-        steps: way.steps,
-        lost,
-        friction,
-    }
+    bounced.kinetic = before.map(|_| content.translation + content.spin);
+    bounced.steps = way.steps;
+    bounced
 }
 
 /// Speeds around a natural frequency at which the rotor is looked at, over it.
@@ -322,7 +319,10 @@ impl<'a> Way<'a> {
             }
             if batch > 0 {
                 let span = finished.ending.time - time;
-                pieces.push(self.heats(built, &state, span));
+                pieces.push(Batch {
+                    peaks: peaks(&finished),
+                    ..self.heats(built, &state, span)
+                });
             }
             time = finished.ending.time;
         }
@@ -369,8 +369,17 @@ impl<'a> Way<'a> {
             powers,
             nodes,
             friction,
+            peaks: Vec::new(),
         }
     }
+}
+
+/// Largest contact force of each bearing, N.
+fn peaks(finished: &Finished) -> Vec<f64> {
+    let bearings = finished.record.bearings.iter();
+    let peak = bearings.map(|record| record.peak_contact_force());
+    peak.map(|peak| peak.map_or(0.0, |peak| peak.value))
+        .collect()
 }
 
 fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
@@ -413,6 +422,14 @@ fn mean(batches: &[Batch]) -> Window {
         nodes: of(batches.iter().map(|batch| &batch.nodes).collect()),
         friction: batches.iter().map(|batch| batch.friction).sum::<f64>() / count,
         scatter: deviation / (count.sqrt() * whole),
+        peaks: (0..batches[0].peaks.len())
+            .map(|k| {
+                batches
+                    .iter()
+                    .map(|batch| batch.peaks[k])
+                    .fold(0.0, f64::max)
+            })
+            .collect(),
         powers,
     }
 }
@@ -431,98 +448,6 @@ fn conditioned(drop: &Drop, built: &Built) -> Drop {
         }
     }
     warm
-}
-
-/// One step in slow time from the speed of a window, with the powers of its start and of its end: what it loses, and what of that
-/// friction of rotor and races takes, J.
-fn step(
-    built: &mut Built,
-    from: &Window,
-    to: &Window,
-    ratio: f64,
-) -> Result<[f64; 2], &'static str> {
-    let speed = built.start.speed;
-    let after = (ratio * speed).max(built.end.stop_speed);
-    let sides = f64::from(built.sides);
-    let whole = |window: &Window| sides * window.powers.iter().sum::<f64>();
-    // I ln(1/r) ½ (Ω/M + Ω'/M'), M = P/Ω
-    let inverse = |speed: f64, power: f64| speed * speed / power;
-    let end_power = match std::ptr::eq(from, to) {
-        // what is not known yet: the moment of the start
-        true => whole(to) * after / speed,
-        false => whole(to),
-    };
-    let time = built.inertia
-        * (speed / after).ln()
-        * 0.5
-        * (inverse(speed, whole(from)) + inverse(after, end_power));
-    if !(time.is_finite() && time > 0.0) {
-        return Err("nothing brakes the rotor");
-    }
-    let lost = 0.5 * built.inertia * (speed - after) * (speed + after);
-    let weight = |k: usize| from.powers[k] + to.powers[k];
-    let sum: f64 = (0..from.powers.len()).map(weight).sum();
-    for (k, heat) in built.start.heats.iter_mut().enumerate() {
-        *heat += lost * weight(k) / sum;
-    }
-    // what reaches the nodes keeps its part of the whole
-    let scale = lost / (sides * time * 0.5 * sum);
-    let powers: Vec<f64> = (from.nodes.iter().zip(&to.nodes))
-        .map(|(a, b)| 0.5 * (a + b) * scale)
-        .collect();
-    on_limits(built, &powers, time)?;
-    let mut left = time;
-    while left > 0.0 {
-        let network = network(built, &built.start.temperatures, &[])?;
-        let mut span = left;
-        let (warmed, given) = loop {
-            let mut warmed = built.start.temperatures.clone();
-            let given = network.advance(&mut warmed, &powers, span);
-            let moved = largest_change(&built.start.temperatures, &warmed);
-            if !built.seats_follow() || moved <= MOST_CHANGE || span < LEAST_SHARE * time {
-                break (warmed, given);
-            }
-            span *= (0.8 * MOST_CHANGE / moved).max(0.1);
-        };
-        built.start.temperatures = warmed;
-        built.start.given += sides * given.iter().sum::<f64>();
-        (built.start.at_nodes).add(&network, sides, &powers, span, &given);
-        left -= span;
-    }
-    built.start.time += time;
-    built.start.speed = after;
-    Ok([lost, lost * (from.friction + to.friction) / sum])
-}
-
-/// Least share of a step that is taken at once.
-const LEAST_SHARE: f64 = 1e-3;
-
-/// The same step with the nodes held at their limits.
-fn on_limits(built: &mut Built, powers: &[f64], time: f64) -> Result<(), &'static str> {
-    let Some(mut way) = built.start.on_limits.take() else {
-        return Ok(());
-    };
-    let sides = f64::from(built.sides);
-    let network = network(built, &way.temperatures, way.held.marks())?;
-    let given = network.advance(&mut way.temperatures, powers, time);
-    way.powers = hold(
-        (&mut way.held, &mut way.temperatures),
-        &built.capacities(),
-        &network.by_node(&given),
-        (sides, time),
-        &mut way.taken,
-    );
-    built.start.on_limits = Some(way);
-    Ok(())
-}
-
-fn network(
-    built: &Built,
-    temperatures: &[f64],
-    held: &[bool],
-) -> Result<thermal::network::Network, &'static str> {
-    course::network(built, (built.start.speed, temperatures), held)
-        .map_err(|_| "the network of a bearing has no finite values")
 }
 
 /// Where a run-out ends behind a window, whose moments still count there.
