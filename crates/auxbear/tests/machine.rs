@@ -379,6 +379,18 @@ fn what_cannot_be_is_refused_with_its_place() {
         let found = built.expect_err(expected);
         assert!(found.contains(expected), "{expected}\n{found}");
     }
+    // one bearing alone, as where somebody looks at one end: the other end would fall without limit
+    let whole = shipped();
+    let second = whole
+        .match_indices("[[auxiliary_bearing]]")
+        .nth(1)
+        .unwrap()
+        .0;
+    let after = second + whole[second..].find("[run]").unwrap();
+    let one = format!("{}{}", &whole[..second], &whole[after..]);
+    let found = parsed(&one, &[]).expect_err("one bearing");
+    let told = "found the only auxiliary bearing; a rotor lands on two nodes at least";
+    assert!(found.contains(told), "{found}");
     let grows = STIFF.replace("damping = \"1000 N s/m\"", "damping = \"-1000 N s/m\"");
     let still = STIFF.replacen("stiffness = \"1e6 N/m\"", "stiffness = \"0 N/m\"", 1);
     for (text, expected) in [

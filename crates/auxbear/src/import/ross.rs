@@ -194,6 +194,12 @@ fn lay_out(draft: &mut Draft, shaft: &[(&str, &str, &Map<String, Value>)]) -> Re
                 ));
             }
         }
+        let shear = element.get("shear_method_calc").and_then(Value::as_str);
+        if let Some(other) = shear.filter(|word| *word != "cowper") {
+            draft.notes.push(format!(
+                "ShaftElement {tag}: shear coefficient of {other}; here it is Cowper's, and frequencies of short pieces differ"
+            ));
+        }
         for key in ["shear_effects", "rotary_inertia", "gyroscopic"] {
             if element.get(key).and_then(Value::as_bool) == Some(false) {
                 draft.notes.push(format!(

@@ -173,15 +173,23 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
         let index = draft.material(name, material);
         let left = draft.nodes.len() - 1;
         if let Some(mass) = number("disk mass")?.filter(|mass| *mass > 0.0) {
+            let name = format!("disk_{}", draft.disks.len() + 1);
+            let mut inertia = |which: &str| -> Result<f64, Box<Problem>> {
+                let given = number(&format!("disk {which} inertia"))?;
+                if given.is_none() {
+                    notes.push(format!(
+                        "{name} of line {line}: no {which} inertia in the table, 0 is written; it does not resist tilting by it"
+                    ));
+                }
+                Ok(given.unwrap_or(0.0))
+            };
             let disk = Disk {
                 node: left,
                 mass,
-                polar: number("disk polar inertia")?.unwrap_or(0.0),
-                diametral: number("disk diametral inertia")?.unwrap_or(0.0),
+                polar: inertia("polar")?,
+                diametral: inertia("diametral")?,
             };
-            draft
-                .disks
-                .push((format!("disk_{}", draft.disks.len() + 1), disk));
+            draft.disks.push((name, disk));
         }
         let start = Annulus { outer, inner };
         let end = Annulus {

@@ -258,6 +258,55 @@ fn a_margin_gives_each_critical_speed_its_verdict() {
     assert!((separation - (288.61681386790144 / speed - 1.0)).abs() < 1e-8);
 }
 
+/// What a narrow search around a peak finds, the whole range finds as well: a peak is not as low as its nearest sampled speeds.
+#[test]
+fn a_peak_is_the_largest_response_whatever_the_speeds_of_the_diagram() {
+    let unbalance = "[[rotor.unbalance]]\nat = \"0.5 m\"\namount = \"10 g mm\"\n";
+    for (damping, quality) in [("20 N s/m", 300.0), ("2000 N s/m", 3.0)] {
+        let damped = format!("stiffness = \"1 MN/m\"\ndamping = \"{damping}\"\n");
+        let text = ROTOR.replace("stiffness = \"1 MN/m\"\n", &damped) + unbalance;
+        let whole = analysed(&text, &["analysis.speed_to=1400 rpm"]);
+        let speed = number(&whole, "response.one.peak_speed");
+        let largest = number(&whole, "response.one.peak_amplitude");
+        // by itself, around that speed
+        let (from, to) = (0.9999 * speed, 1.0001 * speed);
+        let near = [
+            &format!("analysis.speed_from={from} rad/s") as &str,
+            &format!("analysis.speed_to={to} rad/s"),
+        ];
+        let found = number(&analysed(&text, &near), "response.one.peak_amplitude");
+        assert!(
+            (found / largest - 1.0).abs() < 1e-7,
+            "{damping}: {found} {largest}"
+        );
+        assert!(number(&whole, "critical_2.amplification") > quality);
+    }
+    // nothing bounds it without damping
+    let whole = analysed(&(ROTOR.to_string() + unbalance), &[]);
+    let Value::None { why } = value(&whole, "response.one.peak_amplitude") else {
+        panic!("a number");
+    };
+    assert!(why.contains("has no damping"), "{why}");
+}
+
+#[test]
+fn a_critical_speed_at_which_the_mode_grows_has_no_margin() {
+    let crossed =
+        "stiffness = \"1 MN/m\"\nstiffness_xy = \"0.1 MN/m\"\nstiffness_yx = \"-0.1 MN/m\"\n";
+    let text = ROTOR.replace("stiffness = \"1 MN/m\"\n", crossed);
+    let found = analysed(&text, &["analysis.separation_margin=0.001"]);
+    let Value::None { why } = value(&found, "critical_2.amplification") else {
+        panic!("it is damped");
+    };
+    assert_eq!(why, "the mode grows");
+    let word = |name: &str| match value(&found, name) {
+        Value::Text(word) => word,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(word("critical_2.verdict"), "grows");
+    assert_eq!(word("separation_verdict"), "fail");
+}
+
 fn file(name: &str, text: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("auxbear-import-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
@@ -304,6 +353,13 @@ fn a_rotor_saved_by_ross_is_written_without_loss() {
             imported.notes
         );
     }
+    // another shear coefficient than Cowper's is no matter of looks
+    let other = "\"gyroscopic\": true, \"shear_method_calc\": \"hutchinson\"";
+    let other = saved("\"ross_version\": \"2.3.0\",").replace("\"gyroscopic\": true", other);
+    let other = import(&file("shear.json", &other)).unwrap().notes;
+    let told = |note: &String| note.contains("shear coefficient of hutchinson");
+    assert!(other.iter().any(told), "{other:?}");
+    assert!(!imported.notes.iter().any(|note| note.contains("shear")));
     assert_eq!(imported.eigenvalues.len(), 2);
     for compared in &imported.eigenvalues {
         assert!(
@@ -368,6 +424,10 @@ fn a_table_of_sections_becomes_a_shaft() {
         0.1
     );
     assert!(imported.notes.iter().any(|note| note.contains("\"note\"")));
+    for which in ["polar", "diametral"] {
+        let told = format!("disk_1 of line 3: no {which} inertia");
+        assert!(imported.notes.iter().any(|note| note.contains(&told)));
+    }
     for (old, new, wanted) in [
         (
             "length [mm]",

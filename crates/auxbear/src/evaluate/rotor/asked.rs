@@ -44,8 +44,10 @@ pub(crate) struct Found {
     pub(crate) speeds: Vec<f64>,
     /// Response at each of these speeds; empty without unbalance.
     pub(crate) responses: Vec<Option<Response>>,
-    /// Responses at the rated speed and at critical speeds, whose shapes are shown.
+    /// Responses at the rated speed and at the most amplified critical speeds, whose shapes are shown.
     pub(crate) deflections: Vec<Response>,
+    /// The largest response of each watched place; none without unbalance.
+    pub(crate) peaks: Vec<Option<Response>>,
     pub(crate) sag: Option<Sag>,
     pub(crate) map: Vec<MapPoint>,
     /// Error of the eigenvalues at the highest speed against all coordinates; `None` where all are kept.
@@ -185,17 +187,17 @@ impl<'a> Asked<'a> {
         };
         let responder = Responder::within(&self.within);
         let respond = |speed: f64| responder.unbalance(&rotor.unbalance, speed).ok();
-        let (responses, deflections) = match rotor.unbalance.is_empty() || !self.held {
-            true => (Vec::new(), Vec::new()),
-            false => {
-                let shown = criticals.iter().take(DEFLECTIONS).map(|one| one.speed);
-                let shown = std::iter::once(asked.speed).chain(shown);
-                (
-                    speeds.iter().map(|speed| respond(*speed)).collect(),
-                    shown.filter_map(respond).collect(),
-                )
-            }
-        };
+        let (mut responses, mut deflections, mut peaks) = (Vec::new(), Vec::new(), Vec::new());
+        if !rotor.unbalance.is_empty() && self.held {
+            responses = speeds.iter().map(|speed| respond(*speed)).collect();
+            let shown = std::iter::once(asked.speed).chain(most_amplified(&criticals));
+            deflections = shown.filter_map(respond).collect();
+            let at = |node: usize| rotor.displacement(node);
+            let watched = self.watched().into_iter();
+            peaks = watched
+                .map(|(_, node)| peak(&speeds, &responses, at(node), &respond))
+                .collect();
+        }
         let (from, to, count) = (asked.map_from, asked.map_to, asked.map_count);
         let stiffnesses: Vec<f64> = (0..count)
             .map(|k| from * (to / from).powf(k as f64 / (count - 1) as f64))
@@ -245,6 +247,7 @@ impl<'a> Asked<'a> {
             speeds,
             responses,
             deflections,
+            peaks,
             map,
             diagram,
         })
@@ -268,6 +271,19 @@ pub(crate) fn sense(whirl: Whirl) -> f64 {
     }
 }
 
+/// Speeds of the criticals that amplify most, rising; without those that grow.
+fn most_amplified(criticals: &[Critical]) -> Vec<f64> {
+    let mut list: Vec<(f64, f64)> = criticals
+        .iter()
+        .filter_map(|one| Some((one.amplification()?, one.speed)))
+        .collect();
+    list.sort_by(|a, b| b.0.total_cmp(&a.0));
+    list.truncate(DEFLECTIONS);
+    let mut speeds: Vec<f64> = list.into_iter().map(|(_, speed)| speed).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds
+}
+
 /// Speeds close to criticals, where responses peak, between those of the diagram.
 fn refined(diagram: &Campbell, criticals: &[Critical]) -> Vec<f64> {
     let mut speeds = diagram.speeds.clone();
@@ -277,7 +293,7 @@ fn refined(diagram: &Campbell, criticals: &[Critical]) -> Vec<f64> {
     for critical in criticals {
         // A peak is as wide as its damping; without damping it has no width.
         let width = critical.mode.damping_ratio().abs().clamp(1e-5, 0.05);
-        for steps in [-4.0, -2.0, -1.0, -0.5, 0.5, 1.0, 2.0, 4.0] {
+        for steps in [-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0] {
             speeds.push(critical.speed * (1.0 + steps * width));
         }
     }
@@ -285,6 +301,45 @@ fn refined(diagram: &Campbell, criticals: &[Critical]) -> Vec<f64> {
     speeds.sort_by(f64::total_cmp);
     speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
     speeds
+}
+
+/// The largest response at a coordinate: from the largest at these speeds by the golden ratio between its neighbours, 40 times, to
+/// 1e-8 of their distance.
+fn peak(
+    speeds: &[f64],
+    responses: &[Option<Response>],
+    at: usize,
+    respond: &dyn Fn(f64) -> Option<Response>,
+) -> Option<Response> {
+    let of = |one: &Option<Response>| one.as_ref().map_or(-1.0, |one| one.amplitude(at));
+    let largest =
+        (0..speeds.len()).max_by(|a, b| of(&responses[*a]).total_cmp(&of(&responses[*b])));
+    let k = largest?;
+    let mut best = responses[k].clone();
+    let mut low = speeds[k.saturating_sub(1)];
+    let mut high = speeds[(k + 1).min(speeds.len() - 1)];
+    let ratio = 0.5 * (5f64.sqrt() - 1.0);
+    let mut inner = [high - ratio * (high - low), low + ratio * (high - low)];
+    let mut found = inner.map(respond);
+    for _ in 0..40 {
+        let falls = of(&found[0]) > of(&found[1]);
+        let better = &found[usize::from(!falls)];
+        if of(better) > of(&best) {
+            best.clone_from(better);
+        }
+        if falls {
+            (high, inner[1]) = (inner[1], inner[0]);
+            inner[0] = high - ratio * (high - low);
+            found.swap(0, 1);
+            found[0] = respond(inner[0]);
+        } else {
+            (low, inner[0]) = (inner[0], inner[1]);
+            inner[1] = low + ratio * (high - low);
+            found.swap(0, 1);
+            found[1] = respond(inner[1]);
+        }
+    }
+    best
 }
 
 fn no_answer(error: RotorError, key: &str) -> Box<Problem> {

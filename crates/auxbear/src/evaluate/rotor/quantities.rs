@@ -113,7 +113,7 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
         if let Some(margin) = analysis.separation_margin {
             let word = judged(one, separation, asked, margin);
             if word != "no excitation" {
-                let failed = verdict == Some("fail") || word == "fail";
+                let failed = verdict == Some("fail") || word == "fail" || word == "grows";
                 verdict = Some(if failed { "fail" } else { "pass" });
             }
             list.push(
@@ -134,10 +134,12 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
     list.number("first_unstable_speed", "rad/s", unstable(found), &STABILITY);
 }
 
-/// The verdict on one critical speed. What whirls backward is not excited by unbalance where x and y are alike.
+/// The verdict on one critical speed. One at which the mode grows has no margin: nothing but time limits it. What whirls backward is not excited by unbalance where x and y are alike.
 fn judged(one: &Critical, separation: f64, asked: &Asked, margin: f64) -> &'static str {
     let exempt = asked.analysis.exempt_amplification;
-    if one.mode.whirl == Whirl::Backward && asked.within.turns() {
+    if one.amplification().is_none() {
+        "grows"
+    } else if one.mode.whirl == Whirl::Backward && asked.within.turns() {
         "no excitation"
     } else if separation >= margin {
         "pass"
@@ -249,13 +251,18 @@ fn modes(list: &mut List, asked: &Asked, found: &Found) {
 }
 
 fn responses(list: &mut List, asked: &Asked, found: &Found) {
-    for (label, node) in asked.watched() {
+    for (k, (label, node)) in asked.watched().into_iter().enumerate() {
         let at = asked.rotor().displacement(node);
-        let known = || found.responses.iter().flatten();
-        let peak = known().max_by(|a, b| a.amplitude(at).total_cmp(&b.amplitude(at)));
+        let peak = found.peaks.get(k).and_then(Option::as_ref);
         let none = || "no [[rotor.unbalance]] is given".to_string();
         let begin = format!("response.{label}");
         let amplitude = peak.map(|one| one.amplitude(at)).ok_or_else(none);
+        let amplitude = match peak.and_then(|one| undamped(found, one.speed)) {
+            Some(speed) => Err(format!(
+                "at {speed:.2} rad/s a mode has no damping: the response has no bound"
+            )),
+            None => amplitude,
+        };
         list.number(
             &format!("{begin}.peak_amplitude"),
             "m",
@@ -293,6 +300,15 @@ fn responses(list: &mut List, asked: &Asked, found: &Found) {
             );
         }
     }
+}
+
+/// The critical speed without damping at which a peak stands.
+fn undamped(found: &Found, peak: f64) -> Option<f64> {
+    let mut all = found.criticals.iter();
+    let there = all.find(|one| {
+        one.amplification() == Some(f64::INFINITY) && (one.speed / peak - 1.0).abs() < 1e-6
+    });
+    there.map(|one| one.speed)
 }
 
 fn sag(list: &mut List, asked: &Asked, found: &Found) {
@@ -411,7 +427,7 @@ const STABILITY: Origin = Origin {
 const RESPONSE: Origin = Origin {
     law: "(K - jΩD_i - Ω²M + jΩ(D_e + D_i - jΩG)) Q = Σ u Ω² e^{jδ}; half the longer axis of the orbit",
     source: "crates/rotor/src/response.rs",
-    valid: "speeds of the diagram and points close to critical speeds; linear supports",
+    valid: "speeds of the diagram and points close to critical speeds, peaks by search between them; linear supports",
 };
 const SAG: Origin = Origin {
     law: "K q = weight, with the stiffness of the supports at the rated speed",

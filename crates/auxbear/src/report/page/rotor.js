@@ -162,7 +162,7 @@ function campbellFigures(run, runs) {
     const at = (name) => numberOf(run, `critical_${number}.${name}`);
     const amplification = at("amplification");
     const verdict = quantityOf(run, `critical_${number}.verdict`).value;
-    return [number, engineeringText(at("speed"), "rad/s", 5), `${numberText(at("speed"), 5)} rad/s`, wordsAt(run, "critical_whirls")[number - 1], amplification === null ? quantityOf(run, `critical_${number}.amplification`).why : numberText(amplification, 3), percentText(at("separation"), 3), verdict ? element("strong", { class: verdict === "fail" ? "failed" : null }, verdict) : "–"];
+    return [number, engineeringText(at("speed"), "rad/s", 5), `${numberText(at("speed"), 5)} rad/s`, wordsAt(run, "critical_whirls")[number - 1], amplification === null ? quantityOf(run, `critical_${number}.amplification`).why : numberText(amplification, 3), percentText(at("separation"), 3), verdict ? element("strong", { class: verdict === "fail" || verdict === "grows" ? "failed" : null }, verdict) : "–"];
   });
   return [
     figure(shareOfRun(run, runs, "Campbell diagram"), "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
@@ -216,7 +216,7 @@ function rotorResponseFigures(run, runs) {
     figure(shareOfRun(run, runs, "Amplitude"), "Half the longer axis of the orbit under all unbalances together.", curves({ series: of("amplitude", 1e6, true), ...axes, upright: "amplitude [µm]", logarithmic: true, height: 340 })),
     figure(shareOfRun(run, runs, "Phase"), "How far the displacement in x is behind the mark on the rotor that angles count from.", curves({ series: lags, ...axes, upright: "lag [°]", height: 260 })),
     figure(shareOfRun(run, runs, "Peaks"), null, plainTable(["place", "largest amplitude", "at", "at the rated speed"], rows)),
-    shapes.length ? figure(shareOfRun(run, runs, "Deflected shapes"), "Amplitude along the shaft, at the rated and at critical speeds.", curves({ series: shapes, across: "z [mm]", upright: "amplitude [µm]", logarithmic: true, height: 300 })) : null,
+    shapes.length ? figure(shareOfRun(run, runs, "Deflected shapes"), "Amplitude along the shaft, at the rated speed and at the four critical speeds that amplify most.", curves({ series: shapes, across: "z [mm]", upright: "amplitude [µm]", logarithmic: true, height: 300 })) : null,
   ];
 }
 
@@ -309,7 +309,7 @@ function levitationFigures(run, runs) {
     figure(shareOfRun(run, runs, "Axes of the magnets"), "Static state under weight; amplitude of the current under all unbalances; largest |S| of one axis with all others closed. Zones are quoted from memory of ISO 14839-3.", plainTable(["axis", "static stiffness", "static current", "static displacement", "unbalance current", "peak |S| at standstill", "at speed", "at", "zone of both"], rows)),
     figure(shareOfRun(run, runs, "Sensitivity at standstill"), null, sensitivityCurves(run, "standstill")),
     figure(shareOfRun(run, runs, `Sensitivity at ${rated}`), null, sensitivityCurves(run, "rated")),
-    figure(shareOfRun(run, runs, `Open loops at ${rated} (Nyquist)`), "One axis opened, all others closed: the distance from -1 is 1/|S|. A loop that stays outside a circle keeps the sensitivity below its bound.", nyquistCurves(run, "rated")),
+    figure(shareOfRun(run, runs, `Open loops at ${rated} (Nyquist)`), "One axis opened, all others closed: the distance from -1 is 1/|S|. A loop that stays outside a circle keeps the sensitivity below its bound. What lies farther than 2 from the axis, or beside the picture, is left out: whether the loop is stable is said by its eigenvalues.", nyquistCurves(run, "rated")),
     figure(shareOfRun(run, runs, `Open loops at ${rated} (Bode)`), "Size and phase of the same.", bodeCurves(run, "rated")),
     figure(shareOfRun(run, runs, `Poles of the closed loop at ${rated}`), "Those of filters and integrators included, up to the highest frequency of the sensitivity.", curves({ series: [{ x: re.map((value) => -value), y: im, colour: LINE_COLOURS[0], line: false, dots: true, radius: 3 }], across: "decay -Re λ [1/s]", upright: "Im λ [rad/s]", decades: true, height: 320 }), plainTable(["Re λ", "Im λ", "sense", "damping ratio"], poles)),
   ];

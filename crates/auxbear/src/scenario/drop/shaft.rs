@@ -7,7 +7,7 @@ use crate::scenario::rotor::build::{self, RotorModel};
 use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts;
 use crate::scenario::values::Values;
-use rotor::{Properties, properties};
+use rotor::{Place, Properties, properties};
 
 /// A rotor that bends.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,20 +108,7 @@ impl Shaft {
             .iter()
             .map(|own| node(own, &model))
             .collect::<Result<Vec<_>, _>>()?;
-        if nodes.len() > 1 && nodes.iter().all(|node| *node == nodes[0]) {
-            const PATH: &str = "contact.node";
-            let own = &all[1];
-            let found = "the node of all other bearings";
-            let needed = "a rotor lands on two nodes at least".to_string();
-            let problem = own.problem(
-                Code::Conflict,
-                PATH,
-                own.place(PATH),
-                found.to_string(),
-                needed,
-            );
-            return Err(Box::new(problem));
-        }
+        lands(all, &nodes, &model)?;
         let shares = shares(&model, &nodes);
         let places = (all.iter().zip(&nodes).zip(shares))
             .map(|((own, node), share)| BearingPlace {
@@ -149,6 +136,32 @@ impl Shaft {
     pub fn properties(&self) -> Properties {
         properties(&self.model.rotor)
     }
+}
+
+/// Bearings, and supports that stay, must be at two nodes at least: about one alone nothing keeps the rotor from tilting.
+fn lands(all: &[Values], nodes: &[usize], model: &RotorModel) -> Result<(), Box<Problem>> {
+    let stays = model.rotor.supports.iter().zip(&model.stays);
+    let staying = stays.filter_map(|(support, stays)| match support.at {
+        Place::Node(node) if *stays && !support.seal => Some(node),
+        _ => None,
+    });
+    if nodes
+        .iter()
+        .copied()
+        .chain(staying)
+        .any(|node| node != nodes[0])
+    {
+        return Ok(());
+    }
+    const PATH: &str = "contact.node";
+    let (own, found) = match all {
+        [only] => (only, "the only auxiliary bearing"),
+        _ => (&all[1], "the node of all other bearings"),
+    };
+    let needed = "a rotor lands on two nodes at least".to_string();
+    let place = own.place(PATH);
+    let problem = own.problem(Code::Conflict, PATH, place, found.to_string(), needed);
+    Err(Box::new(problem))
 }
 
 /// The node at which a bearing stands.
