@@ -1,5 +1,6 @@
 //! Magnets whose controllers act in time: they keep what the linear analysis says, lose it with their power, and end at their limits.
 
+use auxbear::result::graveness::graveness;
 use auxbear::result::outcome::Outcome;
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
@@ -96,6 +97,40 @@ fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
         let bound = sets(limit);
         assert!(number(&bound, largest) <= 0.6201 && told(&bound), "{limit}");
     }
+}
+
+/// Volts and amperes are limits of one kind: both are told, as gravely.
+#[test]
+fn amplifiers_end_at_their_largest_voltage_and_the_run_says_so() {
+    let sets = |volts: &str| {
+        let amplifier =
+            "inductance = \"15 mH\"\nresistance = \"1 ohm\"\namplifier_gain = \"300 ohm\"";
+        let text = rig()
+            .replace("amplifier_bandwidth = \"2 kHz\"\n", "")
+            .replace(
+                "current_stiffness = \"40 N/A\"",
+                &format!("current_stiffness = \"40 N/A\"\n{amplifier}\n{volts}"),
+            );
+        let lost = ["run.duration=20 ms", "levitation.power_lost_at=15 ms"];
+        ran(&text, &lost)
+    };
+    let told = |outcome: &Outcome| {
+        let all = outcome.warnings.iter();
+        all.filter(|w| w.code == "AB2036")
+            .map(|w| w.text.clone())
+            .collect::<Vec<_>>()
+    };
+    assert!(told(&sets("")).is_empty() && told(&sets("largest_voltage = \"150 V\"")).is_empty());
+    let text = told(&sets("largest_voltage = \"1 V\"")).concat();
+    for words in [
+        "voltage_",
+        "(1 V, ",
+        "% of the time with power",
+        "first at ",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    assert_eq!(graveness("AB2036"), graveness("AB2034"));
 }
 
 /// A mount too soft for the magnets' negative stiffness lets the rotor come to a pole: the run keeps what it has and names it.

@@ -272,6 +272,36 @@ impl Levitation {
         }
     }
 
+    /// Whether an amplifier has a largest voltage.
+    #[must_use]
+    pub fn limits_voltage(&self) -> bool {
+        let limited = |actuator: &Actuator| match actuator.amplifier {
+            Amplifier::Voltage {
+                largest_voltage, ..
+            } => largest_voltage.is_finite(),
+            _ => false,
+        };
+        self.actuators.iter().any(limited)
+    }
+
+    /// Of every magnet axis with signals that were [read](Levitation::read): the voltage it asks for over the largest its amplifier
+    /// has; 0 without a limit.
+    #[must_use]
+    pub fn voltage_shares(&self, signals: &Signals<f64>) -> OfAxes<f64> {
+        let share = |(index, actuator): (usize, &Actuator)| match actuator.amplifier {
+            Amplifier::Voltage {
+                gain,
+                largest_voltage,
+                ..
+            } => {
+                let asked = volts(gain, signals.commands[index], signals.currents[index]);
+                asked.abs() / largest_voltage
+            }
+            _ => 0.0,
+        };
+        self.actuators.iter().enumerate().map(share).collect()
+    }
+
     /// A sample of a sampled controller at k T_s: its command is computed, its states step.
     pub fn sample<R: Real>(&self, states: &mut [R], displacements: &[R], signals: &mut Signals<R>) {
         self.read(states, displacements, signals);
@@ -473,6 +503,15 @@ fn blocks(
     }
 }
 
+/// What a voltage amplifier would give without its limit, V.
+#[inline(always)]
+fn volts<R: Real>(gain: Option<f64>, command: R, current: R) -> R {
+    match gain {
+        Some(gain) => R::splat(gain) * (command - current),
+        None => command,
+    }
+}
+
 /// Rate of the current of an amplifier that has one.
 #[inline(always)]
 fn current_rate<R: Real>(actuator: &Actuator, command: R, current: R, velocity: R) -> R {
@@ -485,10 +524,7 @@ fn current_rate<R: Real>(actuator: &Actuator, command: R, current: R, velocity: 
             gain,
             largest_voltage,
         } => {
-            let wanted = match gain {
-                Some(gain) => R::splat(gain) * (command - current),
-                None => command,
-            };
+            let wanted = volts(gain, command, current);
             let most = R::splat(largest_voltage);
             let voltage = wanted.min(most).max(-most);
             let induced = R::splat(actuator.magnet.current_stiffness()) * velocity;

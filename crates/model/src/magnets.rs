@@ -449,6 +449,19 @@ impl Magnets<f64> {
         all.iter().map(|current| current * share).collect()
     }
 
+    /// With power, of each axis: the voltage asked of its amplifier over the largest it has; empty where no voltage is limited.
+    pub fn voltage_shares(&self, rotor: &RotorMotion<f64>, states: &[f64]) -> OfAxes<f64> {
+        let control = self.control.as_ref();
+        let Some(control) = control.filter(|own| own.levitation.limits_voltage()) else {
+            return OfAxes::new();
+        };
+        let levitation = &control.levitation;
+        let mut signals = levitation.signals();
+        let sensed = Self::sensed(control, rotor);
+        levitation.read(&states[..levitation.states()], &sensed, &mut signals);
+        levitation.voltage_shares(&signals)
+    }
+
     /// How far the rotor has come to a pole along each axis, of the gap there.
     pub fn towards_poles(&self, rotor: &RotorMotion<f64>) -> OfAxes<f64> {
         let centres = self.centres(rotor);

@@ -44,7 +44,7 @@ pub use error::RotorError;
 pub use feedback::Feedback;
 pub use material::{MATERIALS, Material};
 pub use mesh::{Layer, Mesh, MeshError, mesh};
-pub use modes::{Analysis, Mode, Whirl};
+pub use modes::{Analysis, Mode, ModeCount, Whirl};
 pub use parts::{Disk, Housing, PointMass, Rotor, Unbalance};
 pub use properties::{Properties, properties};
 pub use response::{Responder, Response, Sag, held, loads, sag};

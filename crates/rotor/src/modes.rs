@@ -11,6 +11,31 @@ use crate::{Basis, C64, Dynamics, Matrices, Rotor, RotorError};
 use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 use std::sync::Arc;
 
+/// How many of the lowest modes are wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModeCount {
+    /// So many: fewer are refused.
+    Exactly(usize),
+    /// So many, or all where there are fewer.
+    AtMost(usize),
+}
+
+impl ModeCount {
+    /// Most modes that are wanted.
+    #[must_use]
+    pub fn most(self) -> usize {
+        match self {
+            Self::Exactly(count) | Self::AtMost(count) => count,
+        }
+    }
+}
+
+impl From<usize> for ModeCount {
+    fn from(count: usize) -> Self {
+        Self::Exactly(count)
+    }
+}
+
 /// Sense of whirl.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Whirl {
@@ -184,19 +209,22 @@ impl Analysis {
         Ok(all)
     }
 
-    /// The lowest `count` modes at a speed.
+    /// The lowest modes at a speed.
     ///
     /// # Errors
     ///
-    /// As [`Analysis::eigenvalues`], and where there are fewer modes.
-    pub fn modes(&self, speed: f64, count: usize) -> Result<Vec<Mode>, RotorError> {
+    /// As [`Analysis::eigenvalues`], and where there are fewer modes than were asked for.
+    pub fn modes(&self, speed: f64, count: impl Into<ModeCount>) -> Result<Vec<Mode>, RotorError> {
         let all = self.oscillations(speed)?;
-        if all.len() < count {
-            return Err(RotorError::TooManyModes {
-                asked: count,
-                there: all.len(),
-            });
-        }
+        let count = match count.into() {
+            ModeCount::Exactly(asked) if all.len() < asked => {
+                return Err(RotorError::TooManyModes {
+                    asked,
+                    there: all.len(),
+                });
+            }
+            count => count.most().min(all.len()),
+        };
         let dynamics = self.dynamics(speed);
         let vectors = all[..count].iter().enumerate().map(|(k, eigenvalue)| {
             let vector = dynamics.vector(*eigenvalue, &dynamics.start(k))?;

@@ -492,7 +492,7 @@ impl Code {
             Code::LevitationParts,
             "AB2077",
             "Magnet, sensor and controller do not fit",
-            "A magnet has no sensor or controller, or one of them belongs to no magnet.",
+            "A magnet has no sensor or controller, or two, or one of them belongs to no magnet.",
         ),
         (
             Code::StudyScenario,

@@ -12,7 +12,7 @@ const GRAVE: &[&str] = &[
 /// What is left out, or to be kept in mind.
 const REMARKS: &[&str] = &[
     "AB1007", "AB1008", "AB1010", "AB1011", "AB1012", "AB1020", "AB1022", "AB1023", "AB1052",
-    "AB1062", "AB1071", "AB1093", "AB1126",
+    "AB1062", "AB1071", "AB1093", "AB1126", "AB2025",
 ];
 /// Inputs that were assumed: every run has some.
 const ASSUMED: &str = "AB1013";

@@ -117,8 +117,24 @@ impl Document {
         self.own.iter().map(of).collect()
     }
 
-    /// The analysis of a machine's rotor: the values and parts that both systems have, under the same gravity.
-    pub(crate) fn rotor_alone(&self) -> Document {
+    /// The first value of the last row of a table, as it is written.
+    pub(crate) fn last_of(&self, path: &str) -> Option<String> {
+        let rows = match &self.values.get(path)?.raw {
+            Raw::Table(keys) => &keys.iter().find(|(key, _)| key == "value")?.1,
+            raw => raw,
+        };
+        match rows {
+            Raw::List(rows) => match rows.last()? {
+                Raw::List(row) => row.first().map(Raw::shown),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The analysis of a machine's rotor: the values and parts that both systems have, under the same gravity. `fastest`: the highest
+    /// speed of its diagrams where the file gives none, and what says so.
+    pub(crate) fn rotor_alone(&self, fastest: Option<(String, &str)>) -> Document {
         let system = SystemName::Rotor;
         let mut rotor = self.clone();
         let gravity = [
@@ -129,6 +145,17 @@ impl Document {
             if let Some(given) = rotor.values.remove(from) {
                 rotor.values.insert(to, given);
             }
+        }
+        if let Some((speed, source)) = fastest {
+            let text = |text: &str| Raw::Text(text.to_string());
+            let keys = [("value", text(&speed)), ("source", text(source))];
+            let keys = keys.map(|(key, raw)| (key.to_string(), raw));
+            let given = Given {
+                raw: Raw::Table(keys.to_vec()),
+                typed: None,
+                place: Place::Whole,
+            };
+            rotor.values.entry("analysis.speed_to").or_insert(given);
         }
         (rotor.values).retain(|path, _| table::keys_of(system).any(|key| key.path == *path));
         if let Some(given) = rotor.values.get_mut("system") {

@@ -282,6 +282,8 @@ impl Key {
                 quoted(text)
             }
             Kind::Exponent if text.contains('/') => quoted(text),
+            // a single value needs no brackets
+            Kind::Series(_) if !text.starts_with('[') => quoted(text),
             Kind::Exponent
             | Kind::Coefficient
             | Kind::Count

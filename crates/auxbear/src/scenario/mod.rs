@@ -278,7 +278,23 @@ impl Scenario {
     /// What this rotor would be refused for.
     pub fn rotor_alone(&self) -> Option<Result<Scenario, Box<Problem>>> {
         (self.system.name() == SystemName::Machine)
-            .then(|| Scenario::of(self.document.rotor_alone(), &BuiltIn))
+            .then(|| Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn))
+    }
+
+    /// Speed up to which a drive brings a rotor that starts at standstill, and what says so; none of a rotor that turns.
+    fn drive_speed(&self) -> Option<(String, &'static str)> {
+        let number = |path: &str| self.resolved.get(path)?.value_si;
+        if number("rotor.speed") != Some(0.0) {
+            return None;
+        }
+        let last = || self.document.last_of("rotor.torque_over_speed");
+        let no_load = || {
+            let (torque, slope) = (number("rotor.drive_torque")?, number("rotor.drive_slope")?);
+            let runs = torque > 0.0 && slope > 0.0;
+            runs.then(|| format!("{} rad/s", units::number_text(torque / slope)))
+        };
+        let table = last().map(|speed| (speed, "the last speed of rotor.torque_over_speed"));
+        table.or_else(|| Some((no_load()?, "rotor.drive_torque over rotor.drive_slope")))
     }
 
     /// What a study varies of it: a path with its distribution as a table of one word.

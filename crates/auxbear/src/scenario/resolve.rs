@@ -6,7 +6,8 @@ use crate::scenario::document::{Document, Given, Raw, as_toml};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
 use crate::scenario::provenance::Provenance;
 use crate::scenario::resolved::{Resolved, ResolvedValue};
-use crate::scenario::several;
+use crate::scenario::several::{self, AUXILIARY_BEARING};
+use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::{
     COMPARED_LAWS, Known, LAW, LUBRICATION, POWER_TOLERANCE, Value, Values,
@@ -105,6 +106,9 @@ impl Values {
             .filter_map(|problem| problem.key.clone())
             .collect();
         others.extend(self.missing_factors().map(|path| self.shown(path)));
+        if self.lacks_bearings(&missing) {
+            return self.without_bearings(&missing);
+        }
         let mut first = missing.swap_remove(0);
         if !others.is_empty() {
             let others = format!("Missing as well: {}", others.join(", "));
@@ -114,6 +118,30 @@ impl Values {
             });
         }
         first
+    }
+
+    /// Whether a machine names no auxiliary bearing, in a table or by the node of the only one.
+    fn lacks_bearings(&self, missing: &[Problem]) -> bool {
+        let node = |problem: &Problem| problem.key.as_deref() == Some("contact.node");
+        self.system == SystemName::Machine && missing.iter().any(node)
+    }
+
+    /// What a machine without auxiliary bearings needs first, with all keys that are missing.
+    fn without_bearings(&self, missing: &[Problem]) -> Problem {
+        let keys: Vec<&str> = (missing.iter())
+            .filter_map(|problem| problem.key.as_deref())
+            .collect();
+        let allowed = "a table [[auxiliary_bearing]] for each is needed, with its name and, in [auxiliary_bearing.contact], its node; what all \
+                       have in common stands in [contact], [mount] and [bearing]";
+        let found = "a machine without an auxiliary bearing";
+        self.problem(
+            Code::MissingKey,
+            AUXILIARY_BEARING,
+            Place::Whole,
+            found,
+            allowed,
+        )
+        .with_hint(Some(format!("Missing as well: {}", keys.join(", "))))
     }
 
     /// The condition that keeps a key from having a meaning, followed to its root.

@@ -1,6 +1,6 @@
 //! The commented starting file, written from the table of keys.
 
-use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, quoted};
+use crate::scenario::key::{Condition, Key, Otherwise, Presence, quoted};
 use crate::scenario::limit;
 use crate::scenario::rotor::part_keys::PARTS;
 use crate::scenario::several::{AUXILIARY_BEARING, LIMIT};
@@ -80,7 +80,7 @@ fn describe_parts(out: &mut String, system: SystemName) {
         comment(out, kind.doc);
         let given = |part: &[(&str, &str)], key: &Key| {
             let own = part.iter().find(|(name, _)| *name == key.name());
-            own.map(|(_, text)| format!("{} = {}", key.name(), key.literal(&in_form(key, text))))
+            own.map(|(_, text)| format!("{} = {}", key.name(), key.literal(text)))
         };
         let first = kind.starting.first().copied().unwrap_or_default();
         out.push_str(&format!(
@@ -110,14 +110,6 @@ fn describe_bearings(out: &mut String) {
             "[[{AUXILIARY_BEARING}]]\nname = {0}\n[{AUXILIARY_BEARING}.contact]\nnode = {0}\n\n",
             quoted(node)
         ));
-    }
-}
-
-/// A single value of a series needs quotes of its own.
-fn in_form(key: &Key, text: &str) -> String {
-    match key.kind {
-        Kind::Series(_) => quoted(text),
-        _ => text.to_string(),
     }
 }
 
@@ -156,6 +148,8 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
         "system" => system.word(),
         // Without preload and law the balls of a light test hardly touch: it would show nothing.
         "bearing.operating_diametral_clearance" if system == SystemName::Rig => "-4 um",
+        // fits the shaft of the example
+        "bearing.name" if system == SystemName::Machine => "6008",
         _ => key.example,
     };
     let holds = key.when.iter().all(|condition| holds(condition, system));
@@ -178,7 +172,7 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
         }
         Presence::Optional(meaning) => {
             doc.push_str(&format!(" Without it {meaning}."));
-            (holds && table::starts_with(key, system), line(key.example))
+            (holds && table::starts_with(key, system), line(example))
         }
         Presence::Derived(how) => {
             doc.push_str(&format!(" Without it: {how}."));

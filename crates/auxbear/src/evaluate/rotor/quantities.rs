@@ -104,10 +104,12 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
             amplification,
             &AMPLIFICATION,
         );
+        let standstill = || "the operating speeds are standstill".to_string();
+        let separation_known = Some(separation).filter(|share| share.is_finite());
         list.number(
             &format!("{begin}.separation"),
             "",
-            Ok(separation),
+            separation_known.ok_or_else(standstill),
             &SEPARATION,
         );
         if let Some(margin) = analysis.separation_margin {
@@ -200,7 +202,7 @@ fn modes(list: &mut List, asked: &Asked, found: &Found) {
     let free = &asked.full;
     let housings = asked.rotor().housings.len();
     let bending: Vec<usize> = (housings + 2..free.len())
-        .take(asked.analysis.modes)
+        .take(asked.analysis.modes.most())
         .collect();
     list.push(
         "free_bending_frequencies",

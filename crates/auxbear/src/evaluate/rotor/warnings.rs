@@ -51,6 +51,16 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             ),
         ));
     }
+    let (there, most) = (found.modes.len(), analysis.modes.most());
+    if there < most {
+        out.push(warning(
+            "AB2025",
+            format!(
+                "{there} modes oscillate at the rated speed in the coordinates kept, and all are shown: fewer than the {most} of the default \
+                 of analysis.modes. More elements give more."
+            ),
+        ));
+    }
     if !asked.held {
         out.push(warning(
             "AB2023",

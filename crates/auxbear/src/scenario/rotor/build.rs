@@ -288,7 +288,7 @@ const ELEMENTS: f64 = 40.0;
 /// Young's modulus below which a material carries no load of a rotor, Pa: shrunk-on masses are often given so.
 const NO_STIFFNESS: f64 = 1e6;
 
-/// A material by name: the file's own, or one that is known.
+/// A material by name: the file's own, or one that is known and stands beside these.
 fn material(part: &Part, own: &[&Part]) -> Built<Material> {
     let name = part.text("material").unwrap_or_default();
     if let Some(given) = own.iter().find(|other| other.text("name") == Some(name)) {
@@ -313,10 +313,9 @@ fn material(part: &Part, own: &[&Part]) -> Built<Material> {
         }
         return Ok(material);
     }
-    if let Some((_, young, poisson, density, _)) = MATERIALS.iter().find(|m| m.0 == name) {
-        return Ok(Material::new(*young, *poisson, *density));
-    }
+    let known = |name: &str| MATERIALS.iter().any(|known| known.0 == name);
     let names: Vec<&str> = (own.iter().filter_map(|part| part.text("name")))
+        .filter(|name| !known(name))
         .chain(MATERIALS.iter().map(|m| m.0))
         .collect();
     let hint = did_you_mean(name, names.iter().copied());

@@ -34,6 +34,9 @@ pub(crate) fn model<'a>(
     for part in sensors.iter().chain(&controllers) {
         belongs(part, &magnets)?;
     }
+    for list in [&sensors, &controllers] {
+        each_acts(list, &magnets)?;
+    }
     let Some(first) = magnets.first() else {
         return Ok(None);
     };
@@ -130,6 +133,37 @@ fn belongs(part: &Part, magnets: &[&Part]) -> Built<()> {
     );
     let problem = part.problem(Code::LevitationParts, "magnet", quoted(name), allowed);
     Err(Box::new(problem.with_hint(did_you_mean(name, names()))))
+}
+
+/// Refuses a second part for what one serves, and one for all magnets where each has its own: it would not act.
+fn each_acts(list: &[&Part], magnets: &[&Part]) -> Built<()> {
+    // what stands beside matrices is refused with them
+    if list.iter().any(|part| part.known.contains_key("d")) {
+        return Ok(());
+    }
+    let own = |label: &str| list.iter().any(|part| part.text("magnet") == Some(label));
+    for (at, part) in list.iter().enumerate() {
+        let word = part.kind.word;
+        let of = part.text("magnet");
+        let found = match of {
+            _ if !list[..at].iter().any(|other| other.text("magnet") == of) => match of {
+                None if magnets.iter().all(|magnet| own(&magnet.label)) => {
+                    format!("a {word} of every magnet without its own, and each has its own")
+                }
+                _ => continue,
+            },
+            Some(name) => format!("a second {word} of {}", quoted(name)),
+            None => format!("a second {word} of every magnet without its own"),
+        };
+        let allowed = format!("one {word} for each magnet is needed: this one would not act");
+        return Err(Box::new(part.problem(
+            Code::LevitationParts,
+            "magnet",
+            found,
+            allowed,
+        )));
+    }
+    Ok(())
 }
 
 fn law(part: &Part) -> Built<Magnet<f64>> {

@@ -7,13 +7,15 @@ pub(crate) mod part_keys;
 pub(crate) mod parts;
 pub(crate) mod written;
 
-use crate::problem::Problem;
+use crate::problem::{Code, Problem};
 use crate::scenario::document::Document;
 use crate::scenario::key::Key;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
+use ::rotor::ModeCount;
 pub use build::{DrawnPiece, RotorModel};
 pub use levitation::LevitationModel;
+use units::number_text;
 
 /// The kinds of parts of a bent rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
 pub fn parts_of_rotors() -> impl Iterator<Item = (String, &'static [Key])> {
@@ -35,8 +37,8 @@ pub struct RotorAnalysis {
     pub speed_count: usize,
     /// Highest frequency looked at, rad/s.
     pub frequency_to: f64,
-    /// Number of modes shown at the rated speed.
-    pub modes: usize,
+    /// Number of modes shown at the rated speed; by default no more than there are.
+    pub modes: ModeCount,
     /// Modes of the free rotor up to this frequency are kept, rad/s.
     pub cutoff: f64,
     /// Longest element of what does not say it itself, m.
@@ -86,7 +88,13 @@ impl RotorAnalysis {
             speed_to,
             speed_count: analysis.count("speed_count") as usize,
             frequency_to,
-            modes: analysis.count("modes") as usize,
+            modes: match (
+                analysis.count("modes") as usize,
+                values.is_own("analysis.modes"),
+            ) {
+                (asked, true) => ModeCount::Exactly(asked),
+                (most, false) => ModeCount::AtMost(most),
+            },
             cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
             longest_element: build::longest_element(&model, values),
             model,
@@ -106,38 +114,41 @@ impl RotorAnalysis {
 
     /// Refuses ranges that are none.
     fn check(&self, values: &Values) -> Result<(), Box<Problem>> {
-        for (low, high, path, what) in [
-            (
-                self.speed_from,
-                self.speed_to,
-                "analysis.speed_to",
-                "speed_from",
-            ),
-            (self.map_from, self.map_to, "analysis.map_to", "map_from"),
-        ] {
-            if high <= low {
-                return Err(Box::new(
-                    values.problem(
-                        crate::problem::Code::OutOfRange,
-                        path,
-                        values.place(path),
-                        values
-                            .text(path)
-                            .unwrap_or_else(|| format!("{high} by its default")),
-                        format!("more than analysis.{what} is needed"),
-                    ),
-                ));
-            }
+        const SPEED_TO: &str = "analysis.speed_to";
+        const OPERATING_TO: &str = "analysis.operating_to";
+        let refuse = |path: &str, found: String, allowed: &str| {
+            let place = values.place(path);
+            let problem = values.problem(Code::OutOfRange, path, place, found, allowed);
+            Err(Box::new(problem))
+        };
+        // what is not given follows from rotor.speed
+        let text = |path: &str, value: f64, unit: &str| {
+            let by_default = || format!("{} {unit} by its default", number_text(value));
+            values.text(path).unwrap_or_else(by_default)
+        };
+        if self.speed_to == 0.0 {
+            return refuse(
+                SPEED_TO,
+                "no speed to look up to: rotor.speed is 0".to_string(),
+                "one is needed: speed_to in [analysis], or --set analysis.speed_to=\"18000 rpm\"",
+            );
+        }
+        if self.speed_to <= self.speed_from {
+            let found = text(SPEED_TO, self.speed_to, "rad/s");
+            return refuse(SPEED_TO, found, "more than analysis.speed_from is needed");
+        }
+        if self.map_to <= self.map_from {
+            let found = text("analysis.map_to", self.map_to, "N/m");
+            return refuse(
+                "analysis.map_to",
+                found,
+                "more than analysis.map_from is needed",
+            );
         }
         if self.operating_to < self.operating_from {
-            let path = "analysis.operating_to";
-            return Err(Box::new(values.problem(
-                crate::problem::Code::OutOfRange,
-                path,
-                values.place(path),
-                values.text(path).unwrap_or_default(),
-                "at least analysis.operating_from is needed",
-            )));
+            let found = text(OPERATING_TO, self.operating_to, "rad/s");
+            let allowed = "at least analysis.operating_from is needed";
+            return refuse(OPERATING_TO, found, allowed);
         }
         Ok(())
     }

@@ -132,7 +132,7 @@ pub(crate) const PARTS: &[PartKind] = &[
             key!("section", "damping_of_stiffness", Kind::Quantity("s"), "1 us", "As rotor.damping_of_stiffness, of this piece.").not_negative().optional("rotor.damping_of_stiffness counts"),
             key!("section", "damping_rotating", Kind::Quantity("s"), "1 us", "As rotor.damping_rotating, of this piece.").not_negative().optional("rotor.damping_rotating counts"),
         ],
-        starting: &[&[("length", "0.8 m"), ("outer_diameter", "40 mm"), ("material", "steel")]],
+        starting: &[&[("length", "0.8 m"), ("outer_diameter", "39.5 mm"), ("material", "steel")]],
     },
     PartKind {
         word: "sleeve",

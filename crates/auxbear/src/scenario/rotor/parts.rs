@@ -1,13 +1,15 @@
 //! Parts of a rotor as tables of a file: read, completed with defaults, written again.
 
 use crate::problem::{Code, Place, Problem, did_you_mean};
-use crate::scenario::document::{Document, Given};
+use crate::scenario::document::{Document, Given, Raw};
 use crate::scenario::key::{Key, Presence, quoted};
 use crate::scenario::resolved::{ResolvedValue, line};
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::rotor::written::WrittenPart;
 use crate::scenario::values::{Known, Value, Values};
+use rotor::MATERIALS;
 use std::collections::BTreeMap;
+use units::number_text;
 
 /// A part with all its values.
 #[derive(Clone, Debug)]
@@ -123,7 +125,49 @@ pub(crate) fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>,
             all.push(part);
         }
     }
+    let known = known_materials(&all, values)?;
+    all.splice(0..0, known);
     Ok(all)
+}
+
+/// The materials known by name that parts are of, as the file could give them.
+fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+    let Some(kind) = PARTS.iter().find(|kind| kind.word == "material") else {
+        return Ok(Vec::new());
+    };
+    let own =
+        |name: &str| (all.iter()).any(|part| part.kind.word == kind.word && part.label == name);
+    let used = |name: &str| all.iter().any(|part| part.text("material") == Some(name));
+    let wanted = MATERIALS
+        .iter()
+        .filter(|known| used(known.0) && !own(known.0));
+    wanted
+        .map(|(name, young, poisson, density, source)| {
+            let sourced = |value: Raw| {
+                let source = Raw::Text((*source).to_string());
+                Raw::Table(vec![
+                    ("value".to_string(), value),
+                    ("source".to_string(), source),
+                ])
+            };
+            let young = format!("{} GPa", number_text(young * 1e-9));
+            let density = format!("{} kg/m^3", number_text(*density));
+            let keys = [
+                ("name", Raw::Text((*name).to_string())),
+                ("youngs_modulus", sourced(Raw::Text(young))),
+                ("poisson_ratio", sourced(Raw::Float(*poisson))),
+                ("density", sourced(Raw::Text(density))),
+            ];
+            let written = WrittenPart {
+                kind: kind.word,
+                keys: (keys.into_iter())
+                    .map(|(key, raw)| (key.to_string(), raw, Place::Whole))
+                    .collect(),
+                place: Place::Whole,
+            };
+            read(kind, 0, &written, values)
+        })
+        .collect()
 }
 
 /// The parts of a document as its resolved file has them.

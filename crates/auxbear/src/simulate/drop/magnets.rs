@@ -7,6 +7,8 @@ use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
 use crate::simulate::ending;
+use levitation::Amplifier;
+use model::system::machine::record::AtLimit;
 
 /// Share of the time with power at a limit from which on it is reported.
 const LONG_AT_LIMIT: f64 = 1e-4;
@@ -86,24 +88,56 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
     table.columns
 }
 
-/// Axes that reached the limits of their currents, the one that was there longest.
+/// The axis whose current was longest at the limit of its coil.
 pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
+    let currents = &context.finished.record.currents;
+    let (axis, share, first) = longest(context, currents.iter().map(|peak| peak.limited))?;
+    let text = format!(
+        "{} reaches the limit of its coil ({:.3} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says \
+         of stability and response does not hold there.",
+        of_axis(context.controlled()?, axis, "current"),
+        currents[axis].largest.value,
+        100.0 * share,
+        1e3 * first
+    );
+    Some((share, warning("AB2034", text)))
+}
+
+/// The axis whose amplifier was longest at its largest voltage.
+pub(crate) fn voltage_limited(context: &Context) -> Option<(f64, Warning)> {
+    let given = context.controlled()?;
+    let voltages = context.finished.record.voltages.iter();
+    let (axis, share, first) = longest(context, voltages.copied())?;
+    let text = format!(
+        "{} reaches the largest of its amplifier ({}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the \
+         controller wants it, and what the linear analysis says of stability and response does not hold there.",
+        of_axis(given, axis, "voltage"),
+        largest_voltage(given, axis).map_or(String::new(), |volts| format!("{volts} V, ")),
+        100.0 * share,
+        1e3 * first
+    );
+    Some((share, warning("AB2036", text)))
+}
+
+/// The axis that was longest at a limit, the share of the time with power, and since when, s.
+fn longest(context: &Context, limits: impl Iterator<Item = AtLimit>) -> Option<(usize, f64, f64)> {
     let given = context.controlled()?;
     let powered = given.power_lost.min(context.finished.ending.time);
-    let axes = context.finished.record.currents.iter().enumerate();
-    let (axis, peak) = axes.max_by(|a, b| a.1.limited.total_cmp(&b.1.limited))?;
-    let share = peak.limited / powered;
-    (share > LONG_AT_LIMIT).then(|| {
-        let text = format!(
-            "{} reaches the limit of its coil ({:.3} A, {:.1} % of the time with power, first largest at {:.2} ms): what the linear analysis says \
-             of stability and response does not hold there.",
-            of_axis(given, axis, "current"),
-            peak.largest.value,
-            100.0 * share,
-            1e3 * peak.largest.time
-        );
-        (share, warning("AB2034", text))
-    })
+    let longest = limits.enumerate();
+    let (axis, own) = longest.max_by(|a, b| a.1.duration.total_cmp(&b.1.duration))?;
+    let share = own.duration / powered;
+    (share > LONG_AT_LIMIT).then_some((axis, share, own.first?))
+}
+
+/// Largest voltage of the amplifier of an axis, V.
+fn largest_voltage(given: &Shaft, axis: usize) -> Option<f64> {
+    let levitation = &given.model.levitation.as_ref()?.levitation;
+    match levitation.actuators().get(axis)?.amplifier {
+        Amplifier::Voltage {
+            largest_voltage, ..
+        } => Some(largest_voltage),
+        _ => None,
+    }
 }
 
 /// A rotor that touches its auxiliary bearings while it has its magnets.

@@ -108,6 +108,9 @@ pub(crate) fn of(
     list.extend(judged(contexts, |member| {
         magnets::limited(member).into_iter().collect()
     }));
+    list.extend(judged(contexts, |member| {
+        magnets::voltage_limited(member).into_iter().collect()
+    }));
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));

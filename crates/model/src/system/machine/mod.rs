@@ -158,6 +158,17 @@ impl RotorMachine {
         let states = &state[self.layout.magnets.clone()];
         magnets.currents_in(now, &self.layout.rotor.motion(state), states)
     }
+    /// While controllers act, of each axis: the voltage asked of its amplifier over the largest it has; empty where none is limited.
+    pub fn voltage_shares(&self, time: f64, state: &[f64]) -> OfAxes<f64> {
+        let (Some(magnets), Some(own)) = (&self.one.magnets, &self.constants.magnets) else {
+            return OfAxes::new();
+        };
+        if !self.controlled() || time >= own.lost {
+            return OfAxes::new();
+        }
+        let states = &state[self.layout.magnets.clone()];
+        magnets.voltage_shares(&self.layout.rotor.motion(state), states)
+    }
     /// How far the rotor has come to a pole along each axis of the magnets, of the gap there.
     pub fn towards_poles(&self, state: &[f64]) -> OfAxes<f64> {
         let magnets = self.one.magnets.as_ref();

@@ -19,6 +19,8 @@ pub struct Record {
     pub places: Vec<Peak>,
     /// Of each axis of magnets with controllers: control current, and how long it was at its limit.
     pub currents: Vec<CurrentPeak>,
+    /// Of each of these axes: how long its amplifier was at its largest voltage.
+    pub voltages: Vec<AtLimit>,
     rows: Rows,
     next_look: f64,
     /// Spin at which the magnets lost their power, rad/s; none where they have it still, or had none.
@@ -33,11 +35,28 @@ pub struct Record {
 pub struct CurrentPeak {
     /// Its size, A, at the ends of steps.
     pub largest: Peak,
-    /// Time at its limit, s.
-    pub limited: f64,
+    /// When it was at its limit.
+    pub limited: AtLimit,
 }
 
-/// Share of the largest current from which on it is at its limit.
+/// When something was at its limit, seen at the ends of steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AtLimit {
+    /// How long, s.
+    pub duration: f64,
+    /// Since when, s; none where it never was.
+    pub first: Option<f64>,
+}
+
+impl AtLimit {
+    /// A step at its limit.
+    fn add(&mut self, time: f64, length: f64) {
+        self.duration += length;
+        self.first.get_or_insert(time);
+    }
+}
+
+/// Share of the largest current, or voltage, from which on it is at its limit.
 const AT_LIMIT: f64 = 0.999;
 
 /// Why a run halts whose rotor rolls in all of its bearings.
@@ -51,7 +70,10 @@ const SLOWEST: f64 = 100.0;
 impl CurrentPeak {
     const NONE: CurrentPeak = CurrentPeak {
         largest: Peak::NONE,
-        limited: 0.0,
+        limited: AtLimit {
+            duration: 0.0,
+            first: None,
+        },
     };
 }
 
@@ -72,6 +94,10 @@ impl Record {
             places: vec![Peak::NONE; machine.constants.rotor.places.len()],
             currents: match machine.controlled() {
                 true => vec![CurrentPeak::NONE; machine.axes().count()],
+                false => Vec::new(),
+            },
+            voltages: match machine.controlled() {
+                true => vec![AtLimit::default(); machine.axes().count()],
                 false => Vec::new(),
             },
             rows: Rows::new(machine, end, interval, keep_rows),
@@ -136,7 +162,13 @@ impl Record {
         for ((own, axis), current) in axes.zip(currents) {
             own.largest.raise(current.abs(), time);
             if current.abs() >= AT_LIMIT * axis.largest_current {
-                own.limited += length;
+                own.limited.add(time, length);
+            }
+        }
+        let shares = machine.voltage_shares(time, state);
+        for (own, share) in self.voltages.iter_mut().zip(shares) {
+            if share >= AT_LIMIT {
+                own.add(time, length);
             }
         }
     }

@@ -158,7 +158,7 @@ fn matrices_and_samples_are_read_too() {
 #[test]
 fn what_cannot_hold_the_rotor_is_told_with_its_code() {
     let no_integral = ("integral = \"8e4 A/(m s)\"", "");
-    let cases: [(&[Change], Code, &str); 11] = [
+    let cases: [(&[Change], Code, &str); 14] = [
         (
             &[("8000 A/m", "3000 A/m"), no_integral],
             Code::UnstableLevitation,
@@ -198,6 +198,27 @@ fn what_cannot_hold_the_rotor_is_told_with_its_code() {
             "left, right",
         ),
         (
+            &[("magnet = \"right\"", "magnet = \"left\"")],
+            Code::LevitationParts,
+            "a second sensor of \"left\"; one sensor for each",
+        ),
+        (
+            &[(
+                "[[levitation.sensor]]\nmagnet = \"right\"",
+                "[[levitation.sensor]]\nat = \"0.1 m\"\n[[levitation.sensor]]\nmagnet = \"right\"",
+            )],
+            Code::LevitationParts,
+            "of every magnet without its own, and each has its own",
+        ),
+        (
+            &[(
+                "[levitation.controller]",
+                "[[levitation.controller]]\ndelay = \"50 us\"\n[[levitation.controller]]",
+            )],
+            Code::LevitationParts,
+            "a second controller of every magnet without its own",
+        ),
+        (
             &[("delay = \"50 us\"", "d = \"1 0; 0 1\"")],
             Code::ControllerSize,
             "2 signals to 2 commands",
@@ -220,10 +241,30 @@ fn what_cannot_hold_the_rotor_is_told_with_its_code() {
     for (changes, code, words) in cases {
         let problem = outcome(changes).unwrap_err();
         println!("{problem}");
-        let text = format!("{} {}", problem.found, problem.allowed);
+        let text = format!("{}; {}", problem.found, problem.allowed);
         assert_eq!(problem.code, code, "{changes:?}: {text}");
         assert!(text.contains(words), "{changes:?}: {text}");
     }
+}
+
+#[test]
+fn a_part_that_would_not_act_is_named_with_its_line() {
+    let second = "[[levitation.magnet]]\nname = \"right\"";
+    let part = "[[levitation.controller]]\nmagnet = \"left\"\nproportional = \"1 A/m\"\ndelay = \"50 us\"\n";
+    let twice = format!("{part}{part}{second}");
+    let list = ("[levitation.controller]", "[[levitation.controller]]");
+    let text = SMALL.replace(list.0, list.1).replace(second, &twice);
+    let line = text
+        .lines()
+        .rev()
+        .position(|line| line == "magnet = \"left\"");
+    let line = text.lines().count() - line.unwrap();
+    let problem = Scenario::parse(&text, "small.toml", &[], &BuiltIn);
+    let told = problem.unwrap_err().to_string();
+    let at = format!(
+        "small.toml:{line}: levitation.controller.3.magnet: found a second controller of \"left\""
+    );
+    assert!(told.contains(&at), "{told}");
 }
 
 /// On two springs of k_i K_p - k_s = 160 kN/m a rotor of 4.9 kg has a rigid motion at 255 rad/s without damping.
