@@ -21,7 +21,6 @@ mod rotor_friction;
 mod rotor_torque;
 mod run_out;
 mod scenario;
-mod seizure;
 mod signals;
 mod signals_analysis;
 mod signals_files;

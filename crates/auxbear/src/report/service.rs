@@ -121,6 +121,13 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
     }
     let bearings = runs.first().map(Run::bearings).unwrap_or_default();
     for run in &runs {
+        if run.bearings().is_empty() {
+            let system = run.summary["system"].as_str().unwrap_or("unknown");
+            let found = format!("a run of system {system}");
+            let needed = "a drop or a machine is needed: a service is so many drops";
+            let (code, path) = (Code::Conflict, run.directory);
+            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+        }
         if run.bearings() != bearings {
             let found = format!("a run with the bearings {}", listed(&run.bearings()));
             let needed = format!(

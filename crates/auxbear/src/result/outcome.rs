@@ -331,7 +331,7 @@ impl Verdict {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
-    /// `finished`, `seized`, `still turning`, `interrupted`, `diverged`, `step limit`, `left the model`, `not answered` or `not written`.
+    /// `finished`, `still turning`, `interrupted`, `diverged`, `step limit`, `left the model`, `not answered` or `not written`.
     pub reason: &'static str,
     /// Time of the last state, s.
     pub time: f64,
@@ -340,9 +340,9 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// True where the whole run was computed: to its end, to where a bearing seizes, or for as long as a run-out may last.
+    /// True where the whole run was computed: to its end or for as long as a run-out may last.
     pub fn complete(&self) -> bool {
-        ["finished", "seized", "still turning"].contains(&self.reason)
+        ["finished", "still turning"].contains(&self.reason)
     }
 }
 

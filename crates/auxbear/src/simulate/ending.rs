@@ -13,9 +13,6 @@ const STEP_LIMIT: u64 = 20_000_000;
 /// spread, and its energy ledger closes to a millionth, by explicit and by linearly implicit steps.
 pub(crate) const DESIGN: f64 = 1e-4;
 
-/// Why a run halts, and its word: a bearing has seized.
-pub(crate) const SEIZED: &str = "seized";
-
 /// Settings of the integration of a system for design accuracy.
 pub(crate) fn settings(run: &Run) -> Settings {
     settings_at(run, DESIGN)
@@ -68,13 +65,6 @@ pub(crate) fn stop(ending: &Ending) -> Stop {
             "interrupted",
             format!(
                 "Interrupted at {}; everything until then is kept.",
-                instant(time)
-            ),
-        ),
-        solve::Stop::Halted(SEIZED) => (
-            SEIZED,
-            format!(
-                "Seized at {}: the preload of its balls has stopped an inner race against the turning rotor.",
                 instant(time)
             ),
         ),

@@ -27,15 +27,8 @@ function limitMarks(run) {
     .map((node) => ({ at: numberOf(run, `${node}_limit_time`), words: `${wordsOf(node)} at its limit`, colour: SERIES_COLOURS.limit }))
     .filter(({ at }) => at !== null);
   const closes = numberOf(run, "closing_time");
-  const closed = closes === null || closes === 0 ? [] : [{ at: closes, words: "clearance closed", colour: SERIES_COLOURS.quiet }];
-  const seizes = numberOf(run, "seizure_time");
-  const all = [...first, ...closed, ...(seizes === null ? [] : [{ at: seizes, words: "seized", colour: SERIES_COLOURS.limit }])];
+  const all = closes === null || closes === 0 ? first : [...first, { at: closes, words: "clearance closed", colour: SERIES_COLOURS.quiet }];
   return all.map((mark) => ({ ...mark, at: mark.at * factor })).sort((one, other) => one.at - other.at);
-}
-
-// When the clearance closes and the bearing seizes.
-function eventsOfClearance(run) {
-  return limitMarks(run).filter(({ words }) => ["clearance closed", "seized"].includes(words));
 }
 
 function temperatureFigures(run, runs) {
@@ -56,7 +49,7 @@ function temperatureSection(runs) {
 function closingFigures(run, runs) {
   const across = longTime(run).words;
   return [
-    figure(shareOfRun(run, runs, "Diametral clearance of the bearing"), "Rings and balls grow with their temperatures; below 0 the balls are preloaded.", curves({ series: overTime(run, "bearing.clearance", { colour: SERIES_COLOURS.race }, 1e6), across, upright: "clearance [µm]", level: { at: 0, words: "closed" }, marks: eventsOfClearance(run), height: 220 })),
+    figure(shareOfRun(run, runs, "Diametral clearance of the bearing"), "Rings and balls grow with their temperatures; below 0 the balls are preloaded.", curves({ series: overTime(run, "bearing.clearance", { colour: SERIES_COLOURS.race }, 1e6), across, upright: "clearance [µm]", level: { at: 0, words: "closed" }, height: 220 })),
     figure(shareOfRun(run, runs, "Load of the most loaded ball"), null, curves({ series: overTime(run, "bearing.largest_ball_load", { colour: SERIES_COLOURS.rotor }), across, upright: "load [N]", height: 200 })),
     figure(shareOfRun(run, runs, "Rate at which a disturbance of the temperatures grows"), "The speed of that instant held. Above 0 each kelvin makes more heat than it takes away: the bearing runs away.", curves({ series: overTime(run, "heat.growth_rate", { colour: SERIES_COLOURS.cage }), across, upright: "rate [1/s]", level: { at: 0, words: "runs away above" }, height: 200 })),
   ];

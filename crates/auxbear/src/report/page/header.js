@@ -53,7 +53,7 @@ function quantityTile(run, title, name, note, state) {
 function stateTile(run) {
   const stop = run.summary.stop || {};
   const complete = run.summary.complete === true;
-  // a bearing that seizes, a rotor that still turns
+  // a rotor that still turns
   const word = stop.reason === "finished" && complete ? "complete" : stop.reason;
   const time = isNumber(stop.time_s) && systemOf(run).facts ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";

@@ -18,7 +18,6 @@ use model::system::energy::{Content, Flows};
 use number::Vec2;
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
-use thermal::clearance::preload;
 use thermal::load_zone::LoadZone;
 
 /// Temperatures that the traction of oil films is known at, °C.
@@ -172,11 +171,6 @@ impl FollowedBearing {
             bearing: bearing.clone(),
             gravity,
         })
-    }
-
-    /// Load of every ball between rings that have closed to a clearance, N.
-    pub fn preload(&self, clearance: f64) -> f64 {
-        preload(self.follows.zone.stiffness, clearance)
     }
 
     /// Whether it is another one at these temperatures of its nodes (°C) than it was in this state.

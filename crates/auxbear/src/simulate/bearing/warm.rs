@@ -33,7 +33,7 @@ impl<'a> Followed<'a> {
     }
 
     /// Whether its clearance follows.
-    pub fn closes(&self) -> bool {
+    fn closes(&self) -> bool {
         (self.follows().iter()).any(|follows| follows.closes(self.bearing))
     }
 
@@ -263,7 +263,8 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
     let State { least, closed, .. } = followed.state?;
     let text = format!(
         "The clearance closes after {:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' \
-         temperatures is known within a factor of two; so is the clearance that is needed.",
+         temperatures is known within a factor of two; so is the clearance that is needed. While it is computed ball by ball its friction moment has the preload \
+         as at the weight of the rotor: under the larger loads of impacts and whirl the moment, its heat and how fast the bearing closes are too large.",
         closed?,
         -1e6 * least
     );

@@ -7,7 +7,6 @@ use crate::simulate::bearing::warm::Followed;
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::ensemble::Finished;
 use crate::simulate::drop::feedback::Warmed;
-use crate::simulate::drop::seizure::Seizure;
 use model::auxiliary_bearing::probe;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::RotorMachine;
@@ -60,11 +59,6 @@ impl<'a> Context<'a> {
             state: warmed.and_then(|warmed| warmed.state(k)),
             broken: warmed.and_then(Warmed::broken),
         })
-    }
-    /// How a bearing has seized; none where it has not.
-    pub fn seized(&self, bearing: usize) -> Option<&'a Seizure> {
-        let seized = self.finished.seized.as_ref();
-        seized.filter(|seized| seized.bearing == bearing)
     }
     /// Energies and flows at the release.
     pub fn at_start(&self) -> (Content, Flows) {

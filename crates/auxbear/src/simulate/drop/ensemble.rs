@@ -4,8 +4,6 @@
 //! vector unit or the number of threads.
 
 use crate::simulate::drop::feedback::{Following, Now, Warmed};
-use crate::simulate::drop::seizure::{Look, Seizure};
-use crate::simulate::ending::SEIZED;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
@@ -39,8 +37,6 @@ pub struct Finished {
     pub record: Record,
     /// What has followed its temperatures.
     pub(crate) warmed: Option<Box<Warmed>>,
-    /// The bearing that has seized, which ends the run.
-    pub(crate) seized: Option<Seizure>,
     /// How it ended.
     pub ending: Ending,
 }
@@ -174,8 +170,6 @@ struct Watched<'a> {
     record: Record,
     following: Option<&'a Following>,
     warmed: Option<Box<Warmed>>,
-    seizure: Look,
-    seized: Option<Seizure>,
     /// Until when temperatures were known when they were last looked at, s.
     looked: f64,
     report: &'a Report<'a>,
@@ -194,8 +188,6 @@ impl<'a> Watched<'a> {
             },
             following: member.following.as_deref(),
             warmed: (member.following.is_some()).then(Box::default),
-            seizure: Look::default(),
-            seized: None,
             looked: 0.0,
             report,
             reported: 0,
@@ -214,7 +206,6 @@ impl<'a> Watched<'a> {
             start: member.start.clone(),
             record,
             warmed: self.warmed,
-            seized: self.seized,
             ending,
         }
     }
@@ -238,10 +229,6 @@ impl Observer<RotorMachine> for Watched<'_> {
         else {
             return flow;
         };
-        self.seized = (self.seizure).at(step, &self.record, (following, warmed));
-        if self.seized.is_some() {
-            return Flow::Halt(SEIZED);
-        }
         let now = |k| now(&self.record, step.machine, k);
         let known = (self.record.bearings.iter())
             .filter_map(|bearing| Some(bearing.warmth.as_ref()?.known_until()));

@@ -95,12 +95,6 @@ impl Following {
             .then_some(Following { parts })
     }
 
-    /// Load of every ball of a bearing between rings that have closed to a clearance, N; none where it does not follow.
-    pub fn preload(&self, bearing: usize, clearance: f64) -> Option<f64> {
-        let followed = self.parts[bearing].as_ref()?.followed.as_ref()?;
-        Some(followed.preload(clearance))
-    }
-
     /// Whether the friction of a contact has moved enough to go on with another one.
     pub fn rubs<'a>(&self, now: &dyn Fn(usize) -> Option<Now<'a>>) -> bool {
         let moved = |(k, part): (usize, &Option<Part>)| {

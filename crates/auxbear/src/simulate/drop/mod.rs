@@ -16,7 +16,6 @@ pub(crate) mod orders;
 pub(crate) mod quantities;
 mod returns;
 pub(crate) mod run_out;
-pub(crate) mod seizure;
 pub mod shaft;
 pub(crate) mod shaft_results;
 mod slow_time;
@@ -36,7 +35,7 @@ use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::ending::{SEIZED, settings_at};
+use crate::simulate::ending::settings_at;
 use crate::simulate::stepping::Stepping;
 use rayon::prelude::*;
 use std::time::Instant;
@@ -215,23 +214,13 @@ fn contacts(context: &Context) -> Vec<Contact> {
     all
 }
 
-/// The ending of the unperturbed run; if that is whole, of the first member that is not; else of the first that seizes.
+/// The ending of the unperturbed run; if that is whole, of the first member that is not.
 fn worst_stop(members: usize, stop_of: &dyn Fn(usize) -> Stop) -> Stop {
     let first = stop_of(0);
     if !first.complete() || members == 1 {
         return first;
     }
     let all = || (0..members).map(stop_of);
-    let seized = all().filter(|stop| stop.reason == SEIZED).count();
-    if seized > 0 && all().all(|stop| stop.complete()) {
-        let worst = all().enumerate().find(|(_, stop)| stop.reason == SEIZED);
-        let (k, stop) = worst.unwrap_or((0, first));
-        let text = format!(
-            "{seized} of {members} members seize. Member {k}: {}",
-            stop.text
-        );
-        return Stop { text, ..stop };
-    }
     match all().enumerate().find(|(_, stop)| !stop.complete()) {
         Some((k, mut stop)) => {
             stop.text = format!(

@@ -7,7 +7,6 @@ use crate::result::static_safety::StaticLoad;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::seizure;
 use crate::simulate::drop::{magnets, shaft_results, surfaces};
 use model::system::layout::of_part;
 use std::f64::consts::PI;
@@ -239,9 +238,6 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     surfaces::name(context, k, list);
     if let Some(followed) = context.followed(k) {
         warm::name(&followed, list);
-        if followed.closes() {
-            seizure::name(context.seized(k), list);
-        }
     }
 }
 

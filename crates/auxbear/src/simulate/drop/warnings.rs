@@ -11,7 +11,7 @@ use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::drop::{magnets, method, seizure, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, method, shaft_results, surfaces};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -119,11 +119,6 @@ pub(crate) fn of(
         }));
         list.extend(judged(contexts, |member| {
             (member.followed(k).as_ref()).map_or(Vec::new(), warm::judged)
-        }));
-        list.extend(judged(contexts, |member| {
-            let closed = member.followed(k).and_then(|of| of.state?.closed);
-            let seized = member.seized(k).map(|found| seizure::told(found, closed));
-            seized.into_iter().collect()
         }));
         list
     }));
