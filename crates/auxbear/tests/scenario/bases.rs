@@ -50,6 +50,7 @@ stiffness = "1 MN/m"
 [[rotor.support]]
 at = "0.7 m"
 stiffness = "1 MN/m"
+after_release = "stays"
 "#;
 
 const BEARING: &str = r#"
