@@ -99,7 +99,7 @@ fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
     }
 }
 
-/// Volts and amperes are limits of one kind: both are told, as gravely.
+/// Volts and amperes are limits of one kind: both are reported, as gravely.
 #[test]
 fn amplifiers_end_at_their_largest_voltage_and_the_run_says_so() {
     let sets = |volts: &str| {

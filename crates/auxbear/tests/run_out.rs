@@ -372,7 +372,7 @@ fn where_friction_hardly_carries_the_bearing_the_run_out_is_followed_ball_by_bal
         |sets: &[&str]| run(&parsed(SHIPPED, sets).unwrap(), &Options::unwatched(&never)).unwrap();
     let found = with(&["contact.friction_coefficient=0.03"]);
     assert!(goes_back(&found, "hardly carries what the bearing brakes")[0] > 4);
-    // it slides from the beginning on, and is told for all of that time
+    // it slides from the beginning on, and is reported for all of that time
     let told = |w: &Warning| w.code == "AB2318" && w.text.contains("Between 1.0 s and 26");
     assert!(found.warnings.iter().any(told));
     // μ W r over 1.2 of each bearing, by hand: lost before the return, carried behind it

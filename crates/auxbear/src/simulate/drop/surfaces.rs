@@ -142,7 +142,7 @@ const PRESSURE_SPEED: Origin = Origin {
 const DISTANCE: Origin = Origin {
     law: "∫|u| dt while rotor and race touch",
     source: "crates/model/src/surface_heat.rs",
-    valid: "of the drop ball by ball; windows of a run-out after it are told by AB2318",
+    valid: "of the drop ball by ball; windows of a run-out after it are reported by AB2318",
 };
 const WEAR: Origin = Origin {
     law: "(k/μ) E_friction over the landing surface of the race, k = contact.surface.wear_coefficient",
