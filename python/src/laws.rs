@@ -107,6 +107,7 @@ pub fn palmgren<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Arrays<'py>
             load_factor: z,
             load_exponent: y,
             static_load_rating: rating,
+            preload: 0.0,
         };
         let parts = law.parts(speed, load);
         Ok([parts.speed_dependent, parts.load_dependent])

@@ -12,7 +12,7 @@
 //! | sliding and damping of ball and race | both sides by their effusivity √(kρc); half each of one material |
 //! | pockets, cage on its land | both sides by their effusivity |
 //! | orbit drag, inlets, the viscous part of the steady moment | lubricant |
-//! | the load-dependent part of the steady moment | balls half, races a quarter each |
+//! | the rest of the steady moment, which depends on load | balls half, races a quarter each |
 //! | rotor on race | half each, or as the surfaces shared it |
 //! | mount damping | mount, where it is a node, else housing |
 //!
@@ -60,8 +60,6 @@ pub struct WarmBearing {
     pub start: f64,
     /// Load of each ball under the weight, N.
     pub loads: Vec<f64>,
-    /// That weight, N.
-    pub radial_load: f64,
     /// Its lubricant; none where no oil is given, which then has the viscosity of [`Self::viscosity`].
     pub oil: Option<Viscosity>,
     /// Viscosity of the lubricant at the start, m²/s.
@@ -107,6 +105,8 @@ pub struct Warmth {
     /// Until when they are known, s.
     until: f64,
     heats: [f64; HEATS],
+    /// Spin of the inner race then, rad/s.
+    spin: Option<f64>,
     taken: [f64; 2],
 }
 
@@ -193,6 +193,8 @@ pub struct Seen {
     pub heats: [f64; HEATS],
     /// Spin of the inner race, rad/s.
     pub spin: f64,
+    /// D of the lubricant, by which M0 differs from its law.
+    pub drag_factor: f64,
     /// Friction heat that rotor and race have taken so far, where it is followed, J.
     pub taken: Option<[f64; 2]>,
 }
@@ -275,21 +277,16 @@ fn place(kind: &str) -> usize {
 }
 
 impl WarmBearing {
-    /// Share of the steady moment that is viscous, at a speed of the inner race.
-    fn viscous(&self, spin: f64, temperature: f64) -> f64 {
-        let Some(losses) = &self.losses else {
-            return 1.0;
-        };
+    /// Power of M0 at a spin of the inner race (rad/s) and a temperature of the lubricant (°C), W; none without its law.
+    ///
+    /// It does not depend on the load, so that what the steady moment makes beyond it is that of M1 under whatever loads there were.
+    fn viscous(&self, spin: f64, temperature: f64, drag_factor: f64) -> Option<f64> {
         let moment = Palmgren {
             viscosity: self.viscosity_at(temperature),
-            ..losses.moment
+            ..self.losses.as_ref()?.moment
         };
-        let parts = moment.parts(spin.abs(), self.radial_load);
-        let sum = parts.speed_dependent + parts.load_dependent;
-        match sum > 0.0 {
-            true => parts.speed_dependent / sum,
-            false => 1.0,
-        }
+        let spin = spin.abs();
+        Some(drag_factor * moment.parts(spin, 0.0).speed_dependent * spin)
     }
 
     /// Viscosity of the lubricant at a temperature in °C, m²/s.
@@ -305,13 +302,28 @@ impl WarmBearing {
     }
 
     /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C).
-    pub fn over_nodes(&self, heats: &[f64; HEATS], spin: f64, lubricant: f64) -> OfNodes {
-        sums(&self.flows(heats, self.viscous(spin, lubricant), None))
+    pub fn over_nodes(
+        &self,
+        heats: &[f64; HEATS],
+        spin: f64,
+        lubricant: f64,
+        drag_factor: f64,
+    ) -> OfNodes {
+        sums(&self.flows(heats, self.viscous(spin, lubricant, drag_factor), None))
     }
 
-    /// Heats of a span, each over the nodes, J.
-    fn flows(&self, heats: &[f64; HEATS], viscous: f64, rubbing: Option<f64>) -> [OfNodes; HEATS] {
+    /// Heats of a span, each over the nodes, J; so much of the steady moment's is viscous, J: all of it where there is no law.
+    fn flows(
+        &self,
+        heats: &[f64; HEATS],
+        viscous: Option<f64>,
+        rubbing: Option<f64>,
+    ) -> [OfNodes; HEATS] {
         let (steady, friction) = (place("steady_moment"), place("rotor_race_friction"));
+        let viscous = match viscous {
+            Some(viscous) if viscous < heats[steady] => viscous / heats[steady],
+            _ => 1.0,
+        };
         let mut flows = [[0.0; NODES.len()]; HEATS];
         for (k, heat) in heats.iter().enumerate() {
             let mut shares = self.shares[k];
@@ -362,6 +374,7 @@ impl Warmth {
             keep,
             until: 0.0,
             heats: [0.0; HEATS],
+            spin: None,
             taken: [0.0; 2],
         }
     }
@@ -391,8 +404,10 @@ impl Warmth {
             (rotor + race > 0.0).then(|| rotor / (rotor + race))
         });
         let lubricant = self.temperatures[LUBRICANT];
-        let viscous = part.viscous(seen.spin, lubricant);
-        let flows = part.flows(&heats, viscous, rubbing);
+        let power = |spin| part.viscous(spin, lubricant, seen.drag_factor);
+        let mean = |(first, last)| 0.5 * (first + last);
+        let viscous = power(self.spin.unwrap_or(seen.spin)).zip(power(seen.spin)).map(mean);
+        let flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
         let nodes = sums(&flows);
         let operation = Operation {
             speed: seen.spin,
@@ -449,6 +464,7 @@ impl Warmth {
         }
         self.until = seen.time;
         self.heats = seen.heats;
+        self.spin = Some(seen.spin);
         self.taken = seen.taken.unwrap_or(self.taken);
         let mut row = [0.0; NODES.len()];
         for (node, (now, peak)) in self.temperatures.iter().zip(&mut self.peaks).enumerate() {

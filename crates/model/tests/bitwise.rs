@@ -254,6 +254,7 @@ fn grease_law(viscosity: f64) -> Palmgren<f64> {
         load_factor: 9e-4,
         load_exponent: 0.55,
         static_load_rating: 6550.0,
+        preload: 0.0,
     }
 }
 

@@ -12,6 +12,7 @@ pub(crate) const PALMGREN: Palmgren<f64> = Palmgren {
     load_factor: 0.0007,
     load_exponent: 0.5,
     static_load_rating: 6550.0,
+    preload: 0.0,
 };
 
 pub(crate) const SKF: SkfBearing<'static> = SkfBearing {

@@ -37,10 +37,27 @@ number::constants! {
         load_exponent: R,
         /// Static load rating C0, N.
         static_load_rating: R,
+        /// Load W_p of rings that press on all balls, N: the one that a bearing without radial load has; 0 where none do.
+        preload: R,
     }
 }
 
 impl<R: Real> Palmgren<R> {
+    /// The radial load that presses the balls as hard as a radial load beside the preload does, N.
+    ///
+    /// Formula: √(W² + W_p²)
+    ///
+    /// - `load`: W, N; 0 for W ≤ 0
+    ///
+    /// Source: derived; beside a load zone of 10 balls within 7 % for preloads of 0.4 to 35 µm and 100 to 5800 N.
+    /// Valid: preload of rings that press all round.
+    #[inline(always)]
+    fn pressing(&self, load: R) -> R {
+        let load = load.max(R::zero());
+        let both = (load * load + self.preload * self.preload).sqrt();
+        R::select(self.preload.greater(R::zero()), both, load)
+    }
+
     /// Friction moment in the product's form, N m; it has the sign of the speed and vanishes at rest.
     ///
     /// Formula: M = M0(Ω) + M1(W) tanh(Ω/0.1 rad/s), P0 = P1 = W
@@ -119,21 +136,22 @@ impl<R: Real> Palmgren<R> {
 
     /// Load-dependent part M1 of this bearing, N m, not negative.
     ///
-    /// Formula: M1 = z (W/C0)^y W d_m
+    /// Formula: M1 = z (P/C0)^y P d_m, P = √(W² + W_p²)
     ///
-    /// - `load`: radial load W, N; 0 for W ≤ 0
+    /// - `load`: radial load W, N; taken as 0 for W ≤ 0
     ///
-    /// Source: as [`load_moment`] and [`load_friction_factor`], P0 = P1 = W.
+    /// Source: as [`load_moment`] and [`load_friction_factor`], P0 = P1 = P.
     /// Valid: purely radial load below C0.
     #[inline(always)]
     pub fn load_moment(&self, load: R) -> R {
+        let load = self.pressing(load);
         let factor = load_friction_factor(
             self.load_factor,
             self.load_exponent,
             load,
             self.static_load_rating,
         );
-        load_moment(factor, load.max(R::zero()), self.pitch_diameter)
+        load_moment(factor, load, self.pitch_diameter)
     }
 }
 
@@ -176,6 +194,7 @@ impl<R: Real> PalmgrenCombined<R> {
     #[inline(always)]
     pub fn parts(&self, speed: R, radial_load: R, axial_load: R) -> MomentParts<R> {
         let axial_load = axial_load.abs();
+        let radial_load = self.law.pressing(radial_load);
         let static_load = self.static_load(radial_load, axial_load);
         let factor = load_friction_factor(
             self.law.load_factor,
@@ -335,6 +354,7 @@ mod tests {
             load_factor: 0.0009,
             load_exponent: 0.55,
             static_load_rating: 6550.0,
+            preload: 0.0,
         }
     }
 

@@ -19,6 +19,7 @@ fn palmgren() -> Palmgren<f64> {
         load_factor: 0.0009,
         load_exponent: 0.55,
         static_load_rating: 6550.0,
+        preload: 0.0,
     }
 }
 

@@ -61,6 +61,13 @@ impl LoadZone {
             .map(|angle| ball_load(self.stiffness, moved, clearance, *angle))
             .collect()
     }
+    /// The radial load that presses the balls as hard as they are at a clearance, N: W ΣQ/ΣQ_0.
+    ///
+    /// - `unpreloaded`: ΣQ_0 of the radial load without preload, N
+    pub fn pressing(&self, clearance: f64, unpreloaded: f64) -> f64 {
+        let pressed: f64 = self.loads(clearance).iter().sum();
+        self.load * pressed / unpreloaded
+    }
     /// Load of a ball at each of a number of places around the bearing at a clearance, N: balls that pass by, the load shared by as
     /// many as there are.
     pub fn all_round(&self, clearance: f64, places: usize) -> Vec<f64> {
@@ -79,6 +86,49 @@ impl LoadZone {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use physics::palmgren::Palmgren;
+
+    #[test]
+    fn a_preload_of_the_weight_adds_to_any_load_as_the_balls_say() {
+        let zone = |load: f64| LoadZone {
+            load,
+            stiffness: 2.1e9,
+            angles: (0..10).map(|k| 0.1 * TAU * f64::from(k)).collect(),
+            clearance: ThermalClearance {
+                at_reference: 0.0,
+                reference: 20.0,
+                tracks: [29.65e-3, 42.35e-3],
+                ball: 6.35e-3,
+                expansions: [11.5e-6; 3],
+            },
+            nodes: [0, 1, 2],
+            seats: [None; 2],
+        };
+        let pressing = |load: f64, clearance: f64| {
+            let zone = zone(load);
+            zone.pressing(clearance, zone.loads(0.0).iter().sum())
+        };
+        let weight = 39.0;
+        for clearance in [-0.4e-6, -4.4e-6, -10e-6, -35e-6] {
+            let at_weight = pressing(weight, clearance);
+            let law = |exponent: f64| Palmgren {
+                viscous_factor: 0.0,
+                viscosity: 1e-4,
+                pitch_diameter: 36e-3,
+                load_factor: 1.0,
+                load_exponent: exponent,
+                static_load_rating: 1.0,
+                preload: (at_weight * at_weight - weight * weight).sqrt(),
+            };
+            // with exponent 0 M1 is P d_m
+            let load = |radial: f64| law(0.0).load_moment(radial) / 36e-3;
+            assert!((load(weight) / at_weight - 1.0).abs() < 1e-12);
+            for radial in [100.0, 400.0, 2000.0, 5800.0] {
+                let ratio = load(radial) / pressing(radial, clearance);
+                assert!((ratio - 1.0).abs() < 0.07, "{clearance} {radial} {ratio}");
+            }
+        }
+    }
 
     #[test]
     fn rings_that_grow_apart_leave_the_load_to_few_balls_and_those_that_close_load_all() {

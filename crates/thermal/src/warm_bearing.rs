@@ -105,8 +105,7 @@ impl WarmBearings {
             BearingLoad::Radial(load) => *load,
             BearingLoad::Closing { .. } => 0.0,
             BearingLoad::Zone { unpreloaded, zone } => {
-                let loads = zone.loads(zone.clearance_at(temperatures));
-                zone.load * loads.iter().sum::<f64>() / unpreloaded
+                zone.pressing(zone.clearance_at(temperatures), *unpreloaded)
             }
         };
         let parts = moment.parts(speed, radial);

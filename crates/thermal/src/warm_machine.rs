@@ -89,6 +89,7 @@ mod tests {
                 load_factor: 9e-4,
                 load_exponent: 0.55,
                 static_load_rating: 5850.0,
+                preload: 0.0,
             },
             oil: Viscosity::constant(5e-5),
             load: BearingLoad::Radial(40.0),

@@ -268,6 +268,7 @@ fn rolling(value: &Value) -> Result<Vec<Row>, String> {
         load_factor: p.load_factor,
         load_exponent: p.load_exponent,
         static_load_rating: p.static_load_rating,
+        preload: 0.0,
     };
     let mut worst = Worst::default();
     for row in &file.rows {

@@ -48,6 +48,7 @@ fn factors_come_from_the_tables() {
             viscosity: 1e-4,
             f1_factor: 0.0007,
             f1_exponent: 0.5,
+            preload: 0.0,
             axial_load: 0.0,
             contact_angle: None,
             equivalent_load: FactorSource::Schaeffler,

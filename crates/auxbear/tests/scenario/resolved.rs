@@ -330,6 +330,7 @@ fn choices_become_typed_values() {
             viscosity: 1e-4,
             f1_factor: 9e-4,
             f1_exponent: 0.55,
+            preload: 0.0,
             axial_load: 0.0,
             contact_angle: None,
             equivalent_load: FactorSource::Timken,

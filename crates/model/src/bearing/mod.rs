@@ -134,6 +134,15 @@ impl BearingConstants {
         let lubricant = self.lubricant()?;
         Some(lubricant.at(&state[self.lubricant_states()..]))
     }
+    /// D of the lubricant in the states of the bearing: 1 where it has none.
+    pub fn drag_factor(&self, state: &dyn Fn(usize) -> f64) -> f64 {
+        let Some(lubricant) = self.lubricant() else {
+            return 1.0;
+        };
+        let first = self.lubricant_states();
+        let own: [f64; lubricant_state::STATES] = std::array::from_fn(|k| state(first + k));
+        lubricant.at(&own).drag_factor
+    }
     /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
     pub fn mass_with_outer_race(&self) -> f64 {
         match self {

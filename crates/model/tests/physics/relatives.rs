@@ -138,6 +138,7 @@ pub fn grease() -> Palmgren<f64> {
         load_factor: 9e-4,
         load_exponent: 0.55,
         static_load_rating: 6550.0,
+        preload: 0.0,
     }
 }
 

@@ -35,6 +35,7 @@ pub fn balls() -> PlanarConstants {
             load_factor: 9e-4,
             load_exponent: 0.55,
             static_load_rating: 6550.0,
+            preload: 0.0,
         }),
         axial_load: 0.0,
         orbit_share: 0.5,

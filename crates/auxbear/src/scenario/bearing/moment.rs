@@ -119,6 +119,8 @@ pub enum Moment {
         f1_factor: f64,
         /// Exponent y of f1 = z (P0/C0)^y.
         f1_exponent: f64,
+        /// Load of rings that have closed by their warmth on the balls, N; 0 in a scenario.
+        preload: f64,
         /// Axial load, N; the printed form has none.
         axial_load: f64,
         /// Contact angle under load, rad, where it is known.
@@ -224,6 +226,7 @@ impl Moment {
                     viscosity: moment.number("viscosity"),
                     f1_factor: moment.number("f1_factor"),
                     f1_exponent: moment.number("f1_exponent"),
+                    preload: 0.0,
                     axial_load: if printed {
                         0.0
                     } else {
@@ -273,6 +276,7 @@ impl Moment {
                 viscosity,
                 f1_factor,
                 f1_exponent,
+                preload,
                 axial_load,
                 contact_angle,
                 equivalent_load,
@@ -286,6 +290,7 @@ impl Moment {
                     static_load_rating: bearing
                         .static_load_rating
                         .ok_or("no static load rating C0 is given")?,
+                    preload: *preload,
                 };
                 if *printed {
                     return Ok(Friction::PalmgrenPrinted(law));

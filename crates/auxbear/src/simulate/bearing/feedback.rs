@@ -129,12 +129,16 @@ impl Follows {
             if let Moment::Palmgren {
                 f1_factor,
                 f1_exponent,
+                preload,
                 ..
             } = &mut bearing.moment
             {
-                // P = W ΣQ/ΣQ_0 in M1 = z (P/C0)^y P d_m
-                let pressed: f64 = self.zone.loads(clearance).iter().sum();
-                *f1_factor *= (pressed / self.unpreloaded).powf(1.0 + *f1_exponent);
+                let (weight, pressing) = (self.zone.load, self.zone.pressing(clearance, self.unpreloaded));
+                match pressing > weight {
+                    true => *preload = (pressing * pressing - weight * weight).sqrt(),
+                    // fewer balls carry: less at every load, P = W ΣQ/ΣQ_0 in M1 = z (P/C0)^y P d_m
+                    false => *f1_factor *= (pressing / weight).powf(1.0 + *f1_exponent),
+                }
             }
         }
     }

@@ -39,7 +39,6 @@ pub(crate) fn built(
     Ok(Some(Box::new(WarmBearing {
         start: warm.heat.start_temperature - ICE_POINT,
         loads: zone.loads(zone.clearance.at_reference),
-        radial_load: warm.radial_load,
         oil,
         viscosity: at_start,
         losses,

@@ -21,6 +21,8 @@ pub(crate) trait Warms: Sized + Clone {
     fn rubbing(&self) -> Option<usize>;
     /// Channel of the spin of the inner race, rad/s.
     fn spin(&self) -> usize;
+    /// The bearing, and where its own states begin.
+    fn bearing(&self) -> (&BearingConstants, usize);
     /// The machine with another bearing; why there is none.
     fn with(&self, bearing: BearingConstants) -> Result<Self, String>;
     /// What it holds in a state.
@@ -36,6 +38,9 @@ impl Warms for SpinUpMachine {
     }
     fn spin(&self) -> usize {
         INNER + 5
+    }
+    fn bearing(&self) -> (&BearingConstants, usize) {
+        (&self.constants.bearing, self.layout().bearing().start)
     }
     fn with(&self, bearing: BearingConstants) -> Result<Self, String> {
         let mut constants = self.constants.clone();
@@ -70,6 +75,9 @@ impl Warms for RigMachine {
     }
     fn spin(&self) -> usize {
         SHAFT + 1
+    }
+    fn bearing(&self) -> (&BearingConstants, usize) {
+        (&self.constants.bearing, self.layout().bearing().start)
     }
     fn with(&self, bearing: BearingConstants) -> Result<Self, String> {
         let mut constants = self.constants.clone();
@@ -134,10 +142,12 @@ impl<'a, M: Warms> Warming<'a, M> {
         }
         // the last of both is the friction of rotor and race
         heats[HEATS - 1] = machine.rubbing().map_or(0.0, state);
+        let (bearing, own_states) = machine.bearing();
         let seen = Seen {
             time,
             heats,
             spin: state(machine.spin()),
+            drag_factor: bearing.drag_factor(&|own| state(own_states + own)),
             taken: None,
         };
         self.warmth.take(self.part, &seen);

@@ -437,6 +437,7 @@ pub(crate) fn losses(
         load_factor: run.moment_scale * f1_factor,
         load_exponent: *f1_exponent,
         static_load_rating: rating,
+        preload: 0.0,
     };
     let load = match run.heat.feedback {
         Feedback::Full => BearingLoad::Zone {

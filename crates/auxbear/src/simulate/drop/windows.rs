@@ -348,7 +348,9 @@ impl<'a> Way<'a> {
             let of_nodes: OfNodes = match &self.context.machine.constants.bearings[k].warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
-                    warm.over_nodes(&heats, state[at.inner + 5], lubricant)
+                    let part = &self.context.machine.constants.bearings[k].bearing;
+                    let drag_factor = part.drag_factor(&|own| state[at.own().start + own]);
+                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor)
                 }
                 None => [0.0; NODES.len()],
             };

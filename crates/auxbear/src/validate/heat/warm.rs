@@ -101,5 +101,6 @@ pub(super) fn palmgren(inputs: &Value) -> Result<physics::palmgren::Palmgren<f64
         load_factor: of("z", 0.0)?,
         load_exponent: of("y", 1.0)?,
         static_load_rating: of("C0", 1.0)?,
+        preload: 0.0,
     })
 }

@@ -481,10 +481,12 @@ impl BearingRecord {
         let (Some(warmth), Some(warm)) = (&mut self.warmth, &part.warm) else {
             return;
         };
+        let first = self.at.own().start;
         let seen = WarmthSeen {
             time,
             heats: std::array::from_fn(|k| state(self.first_heat + k)),
             spin: state(self.at.inner + 5),
+            drag_factor: part.bearing.drag_factor(&|own| state(first + own)),
             taken: self.heat.as_ref().map(|heat| heat.taken()),
         };
         warmth.take(warm, &seen);
