@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 const SPIN_UP: &str = include_str!("../../../scenarios/spin_up_warming.toml");
 const RIG: &str = include_str!("../../../scenarios/rig_test_3_warming.toml");
+const COAST_DOWN: &str = include_str!("../../../scenarios/coast_down_closing.toml");
 const RUN_OUT: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
 const DROP: &str = include_str!("../../../scenarios/drop_whirl_closing.toml");
 
@@ -156,4 +157,41 @@ fn what_is_taken_goes_on_from_the_drop_through_the_windows_of_its_run_out() {
         .sum();
     let all = number(&out, "run_out.lubricant_energy_to_take");
     assert!(taken > 0.2 * all, "{taken} of {all}");
+}
+
+/// Where the heat of a friction moment goes follows its parts, also under a preload that the weight knows nothing of.
+#[test]
+fn heat_of_preloaded_balls_goes_to_balls_and_races_as_laws_of_a_run_out_say() {
+    let [both, clearance] = [
+        "bearing.moment.f0=2",
+        "bearing.operating_diametral_clearance=-20 um",
+    ];
+    let law = ran(
+        COAST_DOWN,
+        &[
+            both,
+            clearance,
+            "rotor.mass=20.394 kg",
+            "rotor.speed=150 rad/s",
+            "coast_down.longest=1 s",
+        ],
+    );
+    let column = |name: &str| {
+        let found = law.history.iter().find(|one| one.name == name);
+        found.unwrap_or_else(|| panic!("{name}")).values[0]
+    };
+    let moment = column("load_dependent.moment");
+    // without preload it is a ninth
+    assert!(moment > 2e-3, "{moment}");
+    for fidelity in ["planar", "rolling"] {
+        let fidelity = format!("bearing.fidelity={fidelity}");
+        let sets = [both, clearance, fidelity.as_str(), "run.duration=2 s"];
+        let run = ran(SPIN_UP, &sets);
+        let by_node = list(&run, "steady_moment_heat_by_node");
+        let heat: f64 = [1, 2, 5].map(|node| by_node[node]).iter().sum();
+        let turned = 150.0 * (2.0 - 0.5 * 0.04);
+        let ratio = heat / (moment * turned);
+        assert!((0.94..1.06).contains(&ratio), "{fidelity} {ratio} {heat}");
+        assert!((by_node[2] / heat - 0.5).abs() < 1e-9);
+    }
 }

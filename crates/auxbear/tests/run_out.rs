@@ -307,6 +307,29 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     );
     let change = steady[start] / steady[start - 1] - 1.0;
     assert!(change.abs() < 0.05, "{change}");
+    // the loads of balls that bounce, of both their inner and their outer race, and their life: nothing is left out
+    let loads = list(&found, "run_out.over_time.bearing.largest_ball_load");
+    assert!(loads[..start].iter().all(|load| *load > 1.5 * loads[start]));
+    let index = number(&found, "run_out.indentation_index");
+    let of_drop = number(&found, "indentation_index");
+    let largest = number(&found, "run_out.peak_ball_load");
+    let ratio = largest / number(&found, "peak_ball_load");
+    assert!(
+        (index / of_drop / ratio - 1.0).abs() < 0.05,
+        "{index} {of_drop} {ratio}"
+    );
+    let mut rings = Vec::new();
+    for side in ["inner", "outer"] {
+        let points = |part: &str| list(&found, &format!("{part}{side}_life_share_by_point"));
+        let (drop, then) = (points(""), points("run_out."));
+        let at = |list: &[f64], k: usize| list[k * list.len() / 360];
+        let powers = (0..360).map(|k| (at(drop, k) + at(then, k)).powf(10.0 / 9.0));
+        rings.push(powers.sum::<f64>() / 360.0);
+    }
+    let share = (rings[0] + rings[1]).powf(0.9);
+    let ten = number(&found, "drops_until_ten_percent_fail");
+    assert!((share * ten - 1.0).abs() < 1e-9, "{share} {ten}");
+    assert!(ten < number(&found, "run_out.runs_until_ten_percent_fail"));
     // nothing depends on threads or company
     let again = ran(&bounces);
     let bits = |outcome: &Outcome| number(outcome, "run_out.stop_time").to_bits();
@@ -336,11 +359,15 @@ fn goes_back(found: &Outcome, reason: &str) -> Vec<usize> {
         "{heats} {left} {energy}"
     );
     assert!(number(found, "run_out.relative_heat_residual") < 1e-9);
-    // only laws know the load of a ball
-    let by_laws: Vec<bool> = course("bearing.largest_ball_load")
+    // only laws know how a disturbance grows; the load of a ball is known throughout
+    let by_laws: Vec<bool> = course("heat.growth_rate")
         .iter()
-        .map(|load| load.is_finite())
+        .map(|rate| rate.is_finite())
         .collect();
+    let loads = course("bearing.largest_ball_load");
+    assert!(loads.iter().all(|load| *load > 0.0));
+    let most = loads.iter().copied().fold(0.0, f64::max);
+    assert_eq!(most, number(found, "run_out.peak_ball_load"));
     let (begin, end) = (
         list(found, "run_out.return_times"),
         list(found, "run_out.return_end_times"),
@@ -372,6 +399,10 @@ fn where_friction_hardly_carries_the_bearing_the_run_out_is_followed_ball_by_bal
         |sets: &[&str]| run(&parsed(SHIPPED, sets).unwrap(), &Options::unwatched(&never)).unwrap();
     let found = with(&["contact.friction_coefficient=0.03"]);
     assert!(goes_back(&found, "hardly carries what the bearing brakes")[0] > 4);
+    // it slides and stays down: a turn takes the life that laws say, under the weight
+    let a_turn = |run: &Outcome| number(run, "run_out.life_share") / number(run, "run_out.turns");
+    let ratio = a_turn(&found) / a_turn(&with(&[]));
+    assert!((0.95..1.15).contains(&ratio), "{ratio}");
     // it slides from the beginning on, and is reported for all of that time
     let told = |w: &Warning| w.code == "AB2318" && w.text.contains("Between 1.0 s and 26");
     assert!(found.warnings.iter().any(told));

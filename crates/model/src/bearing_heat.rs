@@ -117,6 +117,8 @@ pub struct Growth {
     pub largest: Option<f64>,
     /// From when on they run away, s, and the temperatures there, °C.
     pub runs_away: Option<(f64, OfNodes)>,
+    /// When it did so no longer, s.
+    pub calm: Option<f64>,
     /// Instants and rates, where they are kept.
     pub course: Vec<(f64, f64)>,
     next: f64,
@@ -138,6 +140,10 @@ impl Growth {
         if rate > 0.0 && self.runs_away.is_none() {
             self.runs_away = Some((time, nodes));
         }
+        self.calm = match rate > 0.0 {
+            true => None,
+            false => self.calm.or(self.runs_away.is_some().then_some(time)),
+        };
         if keep {
             self.course.push((time, rate));
         }
@@ -281,9 +287,10 @@ impl WarmBearing {
     ///
     /// It does not depend on the load, so that what the steady moment makes beyond it is that of M1 under whatever loads there were.
     fn viscous(&self, spin: f64, temperature: f64, drag_factor: f64) -> Option<f64> {
+        let losses = self.losses.as_ref()?;
         let moment = Palmgren {
-            viscosity: self.viscosity_at(temperature),
-            ..self.losses.as_ref()?.moment
+            viscosity: losses.oil.held(temperature + ICE_POINT),
+            ..losses.moment
         };
         let spin = spin.abs();
         Some(drag_factor * moment.parts(spin, 0.0).speed_dependent * spin)
@@ -406,7 +413,9 @@ impl Warmth {
         let lubricant = self.temperatures[LUBRICANT];
         let power = |spin| part.viscous(spin, lubricant, seen.drag_factor);
         let mean = |(first, last)| 0.5 * (first + last);
-        let viscous = power(self.spin.unwrap_or(seen.spin)).zip(power(seen.spin)).map(mean);
+        let viscous = power(self.spin.unwrap_or(seen.spin))
+            .zip(power(seen.spin))
+            .map(mean);
         let flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
         let nodes = sums(&flows);
         let operation = Operation {

@@ -86,6 +86,18 @@ pub fn mean_damage(points: &[f64]) -> f64 {
     (powers.sum::<f64>() / points.len() as f64).powf(1.0 / WEIBULL_SLOPE)
 }
 
+/// Adds what points of a ring have borne, `count` times, to what other points of it have: the nearest before counts.
+///
+/// Source: definition.
+/// Valid: points at equal distances, from one angle on.
+pub fn add_points(sum: &mut [f64], points: &[f64], count: f64) {
+    let places = sum.len();
+    for (place, sum) in sum.iter_mut().enumerate() {
+        let point = points.get(place * points.len() / places);
+        *sum += count * point.copied().unwrap_or(0.0);
+    }
+}
+
 /// Damage of the bearing from that of its rings: (D_i^(10/9) + D_o^(10/9))^(9/10).
 ///
 /// Source: product of survivals.

@@ -18,7 +18,7 @@
 use super::directory::read;
 use crate::problem::{Code, Problem};
 use model::system::layout::of_part;
-use physics::life::{bearing_damage, mean_damage, repetitions, survival};
+use physics::life::{add_points, bearing_damage, mean_damage, repetitions, survival};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -73,8 +73,21 @@ const KINDS: [(&str, &[&[&str]], bool, &str); 6] = [
         "1",
     ),
     ("wear depth", &[&["wear_depth"]], true, "m"),
-    ("dents by ball loads", &[&["indentation_index"]], false, "1"),
-    ("inner race too hot", &[&["heat_index"]], false, "1"),
+    (
+        "dents by ball loads",
+        &[&["indentation_index"], &["run_out.indentation_index"]],
+        false,
+        "1",
+    ),
+    (
+        "inner race too hot",
+        &[
+            &["inner_race_temperature_index", "heat_index"],
+            &["run_out.inner_race_temperature_index"],
+        ],
+        false,
+        "1",
+    ),
     (
         "balls that skid too hot",
         &[&["skid_temperature_index"]],
@@ -181,7 +194,10 @@ fn mode(
         for names in *sums {
             match run.first(bearing, names) {
                 Ok(Some(found)) => {
-                    part += if *adds { found.mean } else { found.largest };
+                    part = match adds {
+                        true => part + found.mean,
+                        false => found.largest.max(part),
+                    };
                     known += 1;
                     let square = found.deviation * found.deviation;
                     variance +=
@@ -229,10 +245,7 @@ fn together(runs: &[Run], bearing: &str) -> Result<f64, String> {
                 let name = format!("{part}{side}_life_share_by_point");
                 let points = run.list(bearing, &name);
                 known |= !points.is_empty();
-                for (place, sum) in ring.iter_mut().enumerate() {
-                    let point = points.get(place * points.len() / PLACES);
-                    *sum += run.count * point.copied().unwrap_or(0.0);
-                }
+                add_points(ring, &points, run.count);
             }
         }
         if !known {
@@ -254,6 +267,7 @@ impl Run<'_> {
     /// Names of its bearings, of those that a drop has alone: an only one has none.
     fn bearings(&self) -> Vec<String> {
         const OF_BEARING: &str = "indentation_index";
+        const RUN_OUT: &str = "run_out";
         let all = self.summary["quantities"].as_object();
         let names = all.into_iter().flat_map(|all| all.keys());
         names
@@ -261,6 +275,8 @@ impl Run<'_> {
                 "" => Some(String::new()),
                 part => part.strip_suffix('.').map(str::to_string),
             })
+            // the same bearings while they run out
+            .filter(|part| part != RUN_OUT && !part.ends_with(&format!(".{RUN_OUT}")))
             .collect()
     }
     /// Equal planes of which one was computed.

@@ -81,6 +81,10 @@ impl Balance {
         (by_now.angular_impulse - flowed.angular_impulse)
             - (now.angular_momentum - held.angular_momentum)
     }
+    /// External angular impulse between the states, N m s.
+    pub fn angular_impulse(&self) -> f64 {
+        self.end.1.angular_impulse - self.start.1.angular_impulse
+    }
     /// Heat made between the states, J.
     pub fn heat(&self) -> f64 {
         self.end.1.heat - self.start.1.heat

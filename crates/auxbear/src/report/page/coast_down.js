@@ -167,5 +167,5 @@ register("coast_down", {
   verdict: runOutVerdict,
   time: null,
   facts: false,
-  sections: (runs) => [[20, temperatureSection, runs], [21, closingSection, runs], [22, warmthSection, runs]],
+  sections: (runs) => [[20, temperatureSection, runs], [21, closingSection, runs], [22, warmthSection, runs], ...LIMIT_SECTIONS(runs)],
 });

@@ -351,7 +351,7 @@ const dropPage = {
   verdict,
   time: "time since release",
   facts: true,
-  sections: (runs) => [[9.5, firstContactsSection, runs], [10, orbitSection, runs], [10.5, orderSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], [85, severitySection, runs.filter((run) => indexRows(run).length)], [86, lifeSection, runs.filter((run) => run.quantities.life_share)], ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
+  sections: (runs) => [[9.5, firstContactsSection, runs], [10, orbitSection, runs], [10.5, orderSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], ...LIMIT_SECTIONS(runs), ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
 };
 
 register("drop", { ...dropPage });

@@ -109,5 +109,5 @@ register("rig", {
   verdict: rigVerdict,
   time: "time since the start",
   facts: true,
-  sections: (runs) => [[39.5, engagementSection, runs.filter(closeWindow)], [40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], ...WARM_SECTIONS(runs)].filter(([, , part]) => part.length),
+  sections: (runs) => [[39.5, engagementSection, runs.filter(closeWindow)], [40, rigSpeedSection, runs], [41, rigTorqueSection, runs], [42, rigWarmthSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], ...LIMIT_SECTIONS(runs), ...WARM_SECTIONS(runs)].filter(([, , part]) => part.length),
 });

@@ -200,5 +200,5 @@ register("spin_up", {
   verdict: spinUpVerdict,
   time: "time since the start",
   facts: true,
-  sections: (runs) => [[50, speedSection, runs], [55, momentSection, runs], [56, slipSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [70, outerRaceSection, runs], [80, energySection, runs], ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
+  sections: (runs) => [[50, speedSection, runs], [55, momentSection, runs], [56, slipSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [70, outerRaceSection, runs], [80, energySection, runs], ...LIMIT_SECTIONS(runs), ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
 });

@@ -1,7 +1,7 @@
 //! What the races have seen of their balls: flashes where balls skid, dents, rolling fatigue.
 
 use crate::result::list::{List, NOT_GIVEN, Origin};
-use crate::result::outcome::{Value, Warning, warning};
+use crate::result::outcome::{Quantity, Value, Warning, warning};
 use crate::scenario::{Bearing, Warm};
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::severity::STEEL_CHANGES;
@@ -11,8 +11,8 @@ use model::bearing::BearingConstants;
 use model::system::layout::of_part;
 use model::system::race_record::{RaceRecord, RaceSeen};
 use physics::life::{
-    RatedBearing, bearing_damage, iso_life_factor, mean_damage, reference_viscosity, repetitions,
-    temperature_factor,
+    RatedBearing, add_points, bearing_damage, iso_life_factor, mean_damage, reference_viscosity,
+    repetitions, temperature_factor,
 };
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, OUTER_RACE};
@@ -123,17 +123,65 @@ impl List {
 
     /// After how many such drops bearings have failed by fatigue.
     fn drops_until(&mut self, share: &Result<f64, String>) {
-        for (words, survival) in [("one", 0.99), ("ten", 0.9), ("fifty", 0.5)] {
-            let count = share.clone().and_then(|share| match share > 0.0 {
-                true => Ok(repetitions(share, survival)),
-                false => Err("no ball loaded a race that turned".to_string()),
-            });
-            self.number(
-                &format!("drops_until_{words}_percent_fail"),
-                "",
-                count,
-                &DROPS,
-            );
+        for (name, survival) in DROPS_UNTIL {
+            self.number(name, "", drops(share, survival), &DROPS);
+        }
+    }
+}
+
+/// After how many drops so many bearings are left.
+const DROPS_UNTIL: [(&str, f64); 3] = [
+    ("drops_until_one_percent_fail", 0.99),
+    ("drops_until_ten_percent_fail", 0.9),
+    ("drops_until_fifty_percent_fail", 0.5),
+];
+
+fn drops(share: &Result<f64, String>, survival: f64) -> Result<f64, String> {
+    match share.clone()? {
+        share if share > 0.0 => Ok(repetitions(share, survival)),
+        _ => Err("no ball loaded a race that turned".to_string()),
+    }
+}
+
+/// Points that those of a drop and of its run-out are added at.
+const PLACES: usize = 360;
+
+/// The drops that a bearing survives where each goes on until the rotor stands: what the run-out takes adds up with what the drop has
+/// taken, point by point.
+pub(crate) fn count_run_out(drop: &mut [Quantity], bearing: &str, run_out: &[Quantity]) {
+    let points = |list: &[Quantity], name: &str| -> Option<Vec<f64>> {
+        let found = list.iter().find(|quantity| quantity.name == name)?;
+        match &found.value {
+            Value::List(points) if !points.is_empty() => Some(points.clone()),
+            _ => None,
+        }
+    };
+    let ring = |side: &str| {
+        let name = of_part(bearing, &format!("{side}_{LIFE_BY_POINT}"));
+        let taken = points(drop, &name)?;
+        let then = points(run_out, &format!("run_out.{name}"));
+        let mut sum = vec![0.0; PLACES];
+        add_points(&mut sum, &taken, 1.0);
+        Some(then.map(|then| {
+            add_points(&mut sum, &then, 1.0);
+            sum
+        }))
+    };
+    // without a life of the drop it has said why
+    let (Some(inner), Some(outer)) = (ring(SIDES[0]), ring(SIDES[1])) else {
+        return;
+    };
+    let share = inner
+        .zip(outer)
+        .map(|(inner, outer)| used_by(&[inner, outer]));
+    let share = share.ok_or_else(|| "the run-out has no life".to_string());
+    for (name, survival) in DROPS_UNTIL {
+        let name = of_part(bearing, name);
+        for quantity in drop.iter_mut().filter(|quantity| quantity.name == name) {
+            quantity.value = match drops(&share, survival) {
+                Ok(count) => Value::Number(count),
+                Err(why) => Value::None { why },
+            };
         }
     }
 }
@@ -202,9 +250,9 @@ const BY_POINT: Origin = Origin {
 };
 const DROPS: Origin = Origin {
     law: "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
-          life_share",
+          life_share. A drop until standstill counts with its run-out, added at the points of both rings",
     source: "Weibull, slope 10/9; book/src/theory/heat.md",
-    valid: "rolling fatigue alone, of what was computed ball by ball; an order, never a promise: single bearings scatter 50 to 1",
+    valid: "rolling fatigue alone; of a run-out its windows count as they find the balls; an order, never a promise: single bearings scatter 50 to 1",
 };
 const LUBRICATED: Origin = Origin {
     law: "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \

@@ -3,6 +3,7 @@
 use crate::result::list::{List, Origin};
 use crate::scenario::{BallMaterial, Bearing};
 use crate::simulate::bearing::quantities::End;
+use model::system::layout::of_part;
 use model::system::sampling::Peak;
 use physics::materials::BEARING_STEEL_SPECIFIC_HEAT;
 use physics::severity::{ball_load_safety, permanent_indentation};
@@ -39,19 +40,24 @@ impl List {
             true => Ok(ball_load_safety(bearing.hertz_pressure_limit, pressure)),
             false => Err("no ball was loaded".to_string()),
         };
-        let index = match &safety {
-            // no load, no dent
-            Err(_) => 0.0,
-            Ok(safety) => 1.0 / safety,
-        };
         self.number("ball_load_safety", "1", safety, &SAFETY);
-        self.number("indentation_index", "1", Ok(index), &INDENTATION_INDEX);
+        self.indentation_index("", pressure, bearing);
         self.number(
             "largest_indentation",
             "m",
             indentation(loads, bearing),
             &INDENTATION,
         );
+    }
+
+    /// Load of the most loaded ball of a bearing over the load that dents, by its pressure, Pa.
+    pub fn indentation_index(&mut self, name: &str, pressure: f64, bearing: &Bearing) {
+        let index = match pressure > 0.0 {
+            true => 1.0 / ball_load_safety(bearing.hertz_pressure_limit, pressure),
+            false => 0.0,
+        };
+        let name = of_part(name, "indentation_index");
+        self.number(&name, "1", Ok(index), &INDENTATION_INDEX);
     }
 
     /// Blows beyond a load at rest: the largest force of each contact, and that load, N.

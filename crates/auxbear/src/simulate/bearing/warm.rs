@@ -115,11 +115,14 @@ fn limits(followed: &Followed, list: &mut List) {
         let Some(limit) = followed.part.limits[node] else {
             continue;
         };
-        let below = limit - warmth.peaks[node].0;
-        let never = || format!("it stays {below:.1} K below its limit");
         let taken = held.filter(|held| held.taken[node] > 0.0);
         let taken = taken.map(|held| [held.most[node], held.taken[node]]);
-        list.limit("", name, warmth.passed[node].ok_or_else(never), taken);
+        let warmed = Warmed {
+            start: followed.part.start,
+            peak: warmth.peaks[node].0,
+            limit,
+        };
+        list.limit("", name, &warmed, warmth.passed[node], taken);
     }
     let spans = || held.iter().flat_map(|held| &held.course);
     list.held_times(spans().map(|(time, _)| *time).collect());
@@ -131,16 +134,30 @@ fn limits(followed: &Followed, list: &mut List) {
     }
 }
 
+/// How warm a node with a limit became, °C.
+pub(crate) struct Warmed {
+    pub start: f64,
+    pub peak: f64,
+    pub limit: f64,
+}
+
 impl List {
-    /// Of a node with a limit: when it passes it, s, or why not; the largest power, W, and all the heat, J, to be taken to hold it.
+    /// Of a node with a limit: how near it comes, and when it passes it, s; the largest power, W, and all the heat, J, to be taken to
+    /// hold it.
     pub(crate) fn limit(
         &mut self,
         bearing: &str,
         node: &str,
-        passed: Result<f64, String>,
+        warmed: &Warmed,
+        passed: Option<f64>,
         taken: Option<[f64; 2]>,
     ) {
+        let Warmed { start, peak, limit } = warmed;
         let of = |words: &str| of_part(bearing, &format!("{node}_{words}"));
+        let index = (peak - start) / (limit - start);
+        self.number(&of("temperature_index"), "1", Ok(index), &NEAR);
+        let never = || format!("it stays {:.1} K below its limit", limit - peak);
+        let passed = passed.ok_or_else(never);
         let cooled = || "bodies beside it that are held keep it below its limit".to_string();
         let why = passed.clone().err().unwrap_or_else(cooled);
         let part = |which: usize| taken.map(|taken| taken[which]).ok_or_else(|| why.clone());
@@ -255,7 +272,7 @@ fn runs_away(followed: &Followed) -> Option<(f64, Warning)> {
     let growth = &followed.warmth.growth;
     let ((time, nodes), rate) = (growth.runs_away?, growth.largest?);
     let changes = followed.follows()?.changes(&nodes);
-    Some((rate, away(time, rate, changes)))
+    Some((rate, away((time, growth.calm), rate, changes)))
 }
 
 /// A clearance that closes.
@@ -263,8 +280,7 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
     let State { least, closed, .. } = followed.state?;
     let text = format!(
         "The clearance closes after {:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' \
-         temperatures is known within a factor of two; so is the clearance that is needed. While it is computed ball by ball its friction moment has the preload \
-         as at the weight of the rotor: under the larger loads of impacts and whirl the moment, its heat and how fast the bearing closes are too large.",
+         temperatures is known within a factor of two; so is the clearance that is needed.",
         closed?,
         -1e6 * least
     );
@@ -334,6 +350,11 @@ const LIMIT: Origin = Origin {
     law: "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
     source: "makers' catalogues",
     valid: "as the temperatures",
+};
+const NEAR: Origin = Origin {
+    law: "(T_peak − T_start)/(T_limit − T_start) of the node, T_start = heat.start_temperature",
+    source: "makers' catalogues",
+    valid: "1 is the limit; bodies of one temperature each, whose rises are right within a factor of two where conductances were not given",
 };
 const TAKE: Origin = Origin {
     law: "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \

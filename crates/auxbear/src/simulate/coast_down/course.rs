@@ -234,6 +234,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
             moment: own[0] + own[1],
             clearance,
             largest_ball_load: loads.iter().copied().fold(0.0, f64::max),
+            balls: None,
         }
     };
     let each = built

@@ -2,11 +2,12 @@
 
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::simulate::bearing::races as shared;
+use crate::simulate::bearing::warm::Warmed;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
-use physics::life::{RatedBearing, passages_per_turn, repetitions};
+use physics::life::{RatedBearing, add_points, passages_per_turn, repetitions};
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE, PASSES};
 use thermal::losses::Losses;
@@ -46,6 +47,16 @@ fn motion(ran: &Ran, list: &mut List) {
     list.number("start_moment", "N m", Ok(first.iter().sum()), &MOMENT);
     let power = first.iter().sum::<f64>() * free.rows[0].speed;
     list.number("start_power", "W", Ok(power), &MOMENT);
+}
+
+/// Turns of the rotor that each row stands for: half of those to its neighbours.
+fn turned(rows: &[Row]) -> Vec<f64> {
+    let mut list = vec![0.0; rows.len()];
+    for (k, (_, _, turned)) in pairs(rows).enumerate() {
+        list[k] += 0.5 * turned;
+        list[k + 1] += 0.5 * turned;
+    }
+    list
 }
 
 /// Neighbouring rows with the turns of the rotor between them.
@@ -133,14 +144,18 @@ fn temperatures(ran: &Ran, k: usize, list: &mut List) {
             continue;
         };
         let passed = ran.first(|row| row.temperatures[node.place()] - limit);
-        let never = || format!("it stays {:.1} K below its limit", limit - peak);
         let held = (ran.held.as_ref()).filter(|held| held.taken[node.place()] > 0.0);
         let taken = held.map(|held| {
             let rows = held.rows.iter();
             let most = rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max);
             [most, held.taken[node.place()]]
         });
-        list.limit(part, node.name(), passed.ok_or_else(never), taken);
+        let warmed = Warmed {
+            start: ran.built.parts[k].warm.heat.start_temperature - ICE_POINT,
+            peak,
+            limit,
+        };
+        list.limit(part, node.name(), &warmed, passed, taken);
     }
 }
 
@@ -179,12 +194,11 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     let least = (ran.free.rows.iter()).map(|row| viscosity_ratio(k, part, row));
     let least = least.fold(f64::INFINITY, f64::min);
     list.number(&of("smallest_viscosity_ratio"), "1", Ok(least), &KAPPA);
-    let share = (part.warm.dynamic_load_rating)
+    let points = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
         .map(|rating| used(ran, k, part, rating, &|_| 1.0));
     let whole =
         |points: &Result<_, String>| points.as_ref().map(shared::used_by).map_err(String::clone);
-    let points = share;
     let share = whole(&points);
     list.number(&of("life_share"), "1", share.clone(), &LIFE);
     let lubricated = (part.warm.dynamic_load_rating)
@@ -201,14 +215,15 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
         whole(&lubricated),
         &LUBRICATED,
     );
+    let lasting = whole(&lubricated).or(share);
     list.life_by_point(&part.name, lubricated.or(points));
     for (name, survival) in [
         ("runs_until_one_percent_fail", 0.99),
         ("runs_until_ten_percent_fail", 0.9),
         ("runs_until_half_fail", 0.5),
     ] {
-        let count = share.clone().map(|share| repetitions(share, survival));
-        list.number(&of(name), "1", count, &LIFE);
+        let count = lasting.clone().map(|share| repetitions(share, survival));
+        list.number(&of(name), "1", count, &RUNS);
     }
 }
 
@@ -246,24 +261,36 @@ fn used(
         contact_angle: 0.0,
     };
     let passages = passages_per_turn(warm.ball_count as f64, gamma);
-    // Σ turns of the mean cube, and of the cube at each place of the outer ring
-    let mut inner = 0.0;
-    let mut outer = vec![0.0; PLACES];
-    for (before, after, turned) in pairs(&ran.free.rows) {
-        let turned = turned * 0.5 * (1.0 / factor(before) + 1.0 / factor(after));
-        let clearance = [before, after].map(|row| row.bearings[k].clearance);
-        let zone = (part.zone).all_round(0.5 * (clearance[0] + clearance[1]), PLACES);
-        for (sum, load) in outer.iter_mut().zip(zone) {
-            let cube = turned * load.powi(3);
-            *sum += cube;
-            inner += cube / PLACES as f64;
+    // sums of cubes that pass each place, by laws from the load line on, by windows as they have seen them
+    let mut by_laws = vec![0.0; PLACES];
+    let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
+    for (row, turned) in (ran.free.rows.iter()).zip(turned(&ran.free.rows)) {
+        let turned = turned / factor(row);
+        if let Some(balls) = &row.bearings[k].balls {
+            for (sum, cubes) in seen.iter_mut().zip(&balls.cubes) {
+                add_points(sum, cubes, turned);
+            }
+            continue;
+        }
+        let zone = (part.zone).all_round(row.bearings[k].clearance, PLACES);
+        for (sum, load) in by_laws.iter_mut().zip(zone) {
+            *sum += turned * load.powi(3);
         }
     }
-    let mut outer: Vec<f64> = outer.iter().map(|sum| sum * passages[1]).collect();
+    let mean = by_laws.iter().sum::<f64>() / PLACES as f64;
     // from the load line to the frame's x axis
-    let turned = part.load_direction / TAU * PLACES as f64;
-    outer.rotate_right(turned.round().rem_euclid(PLACES as f64) as usize % PLACES);
-    bearing.by_point([&[inner * passages[0]], &outer])
+    let rotated = part.load_direction / TAU * PLACES as f64;
+    by_laws.rotate_right(rotated.round().rem_euclid(PLACES as f64) as usize % PLACES);
+    let [mut inner, mut outer] = seen;
+    if inner.iter().all(|sum| *sum == 0.0) {
+        // the same all round
+        inner.truncate(1);
+    }
+    inner.iter_mut().for_each(|sum| *sum += mean * passages[0]);
+    for (sum, cubes) in outer.iter_mut().zip(by_laws) {
+        *sum += cubes * passages[1];
+    }
+    bearing.by_point([&inner, &outer])
 }
 
 const STOP: Origin = Origin {
@@ -320,6 +347,12 @@ const LUBRICATED: Origin = Origin {
     law: "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22",
     source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
     valid: "below κ = 0.1 no factor holds, and 0.1 is taken; e_C = heat.contamination decides within a factor of ten",
+};
+const RUNS: Origin = Origin {
+    law: "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
+          life_share",
+    source: "Weibull, slope 10/9; book/src/theory/heat.md",
+    valid: "as life_share",
 };
 const LIFE: Origin = Origin {
     law: "Σ turns Q³ at each place of both rings over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",

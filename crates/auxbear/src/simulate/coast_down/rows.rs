@@ -20,7 +20,7 @@ pub(crate) struct Row {
 }
 
 /// What is known of a bearing at the end of a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct RowOfBearing {
     /// M0 and M1 of all equal bearings together, N m.
     pub moment: f64,
@@ -28,6 +28,18 @@ pub(crate) struct RowOfBearing {
     pub clearance: f64,
     /// Of the most loaded ball, N.
     pub largest_ball_load: f64,
+    /// Of its balls, where a window followed them.
+    pub balls: Option<BallsSeen>,
+}
+
+/// What a window ball by ball has seen of the balls of a bearing.
+#[derive(Clone, Debug)]
+pub(crate) struct BallsSeen {
+    /// Largest load at the inner and at the outer race, N.
+    pub largest: [f64; 2],
+    /// Cubes of the loads that pass each point of both rings in a turn, N³: of the inner ring from its angle 0 on, of the outer one from the
+    /// frame's x axis on.
+    pub cubes: [Vec<f64>; 2],
 }
 
 impl Row {

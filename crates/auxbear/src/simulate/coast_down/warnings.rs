@@ -57,20 +57,30 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
     let first = (0..row.bearings.len()).min_by(|a, b| closed(a).total_cmp(&closed(b)))?;
     let temperatures = row.temperatures.chunks(NODES.len()).nth(first)?;
     let changes = ran.built.parts[first].zone.changes_at(temperatures);
-    Some(away(row.time, most, changes))
+    let grows = |row: &&Row| row.growth > 0.0 && row.clearance() < 0.0;
+    let last = ran.free.rows.iter().rposition(|row| grows(&row));
+    let calm = last.and_then(|last| ran.free.rows.get(last + 1));
+    Some(away((row.time, calm.map(|row| row.time)), most, changes))
 }
 
-/// A bearing that runs away from a time on, s, with the largest rate, 1/s, and what inner ring, balls and outer ring have added to its clearance
-/// until then, m.
-pub(crate) fn away(time: f64, rate: f64, changes: [f64; 3]) -> Warning {
+/// A bearing that runs away from a time on, s, until it has slowed down, if it has: with the largest rate, 1/s, and what inner ring, balls and
+/// outer ring have added to its clearance until then, m.
+pub(crate) fn away((time, calm): (f64, Option<f64>), rate: f64, changes: [f64; 3]) -> Warning {
+    let when = match calm {
+        None => format!("The bearing runs away: from {} on", words(time)),
+        Some(calm) => format!(
+            "The bearing runs away for a while: from {} until it has slowed down, at {},",
+            words(time),
+            words(calm)
+        ),
+    };
     let [inner, balls, outer] = changes.map(|change| format!("{:+.1} µm", 1e6 * change));
     warning(
         "AB2311",
         format!(
-            "The bearing runs away: from {} on its balls are preloaded by their own warmth and every kelvin makes more heat than it \
+            "{when} its balls are preloaded by their own warmth and every kelvin makes more heat than it \
              takes away; a disturbance grows {:.1} times each {} ({rate:.2e} 1/s). To its clearance the inner ring has added {inner}, \
              the balls {balls}, the outer ring {outer}. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
-            words(time),
             std::f64::consts::E,
             words(1.0 / rate),
         ),
@@ -181,8 +191,9 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
     if ran.free.rows[0].bearings[k].clearance < 0.0 {
         return None;
     }
-    let most = ran.rows(k).map(|row| row.largest_ball_load);
-    let most = most.fold(0.0, f64::max);
+    // what windows see has other causes
+    let by_laws = ran.rows(k).filter(|row| row.balls.is_none());
+    let most = by_laws.map(|row| row.largest_ball_load).fold(0.0, f64::max);
     Some(warning(
         "AB2312",
         format!(

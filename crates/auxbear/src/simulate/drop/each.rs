@@ -10,7 +10,7 @@ use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::feedback::Following;
 use crate::simulate::drop::members::{Kind, kind_of, share_lanes};
 use crate::simulate::drop::method::stepping;
-use crate::simulate::drop::{quantities, run_out, warnings};
+use crate::simulate::drop::{run_out, warnings};
 use crate::simulate::ending::{settings_at, stop};
 use crate::simulate::stepping::Stepping;
 use model::system::machine::RotorMachine;
@@ -112,8 +112,7 @@ fn together(
             members: 1,
         };
         let after = run_out::after(&context, options.interrupt);
-        let mut quantities = quantities::name(&context);
-        quantities.extend(after.iter().flat_map(|after| after.quantities.clone()));
+        let quantities = run_out::quantities(&context, after.as_ref());
         let ended = match &after {
             Some(after) => after.stop.clone(),
             None => stop(&finished.ending),

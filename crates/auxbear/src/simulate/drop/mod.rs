@@ -86,11 +86,7 @@ pub(crate) fn run(
         Some(after) => after.stop.clone(),
         None => magnets::stop(&contexts[k]),
     };
-    let name = |k: usize| {
-        let mut named = quantities::name(&contexts[k]);
-        named.extend(after[k].iter().flat_map(|after| after.quantities.clone()));
-        named
-    };
+    let name = |k: usize| run_out::quantities(&contexts[k], after[k].as_ref());
     let mut named = name(0);
     let mut table = Members::ended_at(drop.run.duration);
     let mut drawn = Vec::new();

@@ -274,7 +274,7 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
         true => scale.max(0.5 * inertia * spin * spin),
         false => scale,
     };
-    let momentum_scale = inertia * spin;
+    let momentum_scale = (inertia * spin).max(balance.angular_impulse().abs());
     (
         relative(balance.energy_residual(), scale),
         relative(balance.angular_momentum_residual(), momentum_scale),
@@ -378,7 +378,7 @@ const PER_AREA: Origin = Origin {
 };
 const RESIDUAL: Origin = Origin {
     law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \
-          momentum over that of the inner races at the speed of the rotor, at the release or the end; of bearings that are never touched energy \
+          momentum over that of the inner races at the speed of the rotor, at the release or the end, or over the impulse from outside where that is more; of bearings that are never touched energy \
           over that of their inner races at this speed",
     source: LEDGER,
     valid: "a measure of the integration error; it falls with run.tolerance",

@@ -6,15 +6,18 @@
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Stop, Value, Warning, warning};
 use crate::scenario::RunOut;
+use crate::simulate::bearing::races::count_run_out;
 use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
-use crate::simulate::coast_down::{self, history, quantities, warnings};
+use crate::simulate::coast_down::{self, history, quantities as of_run_out, warnings};
 use crate::simulate::drop::context::Context;
+use crate::simulate::drop::quantities;
 use crate::simulate::drop::returns::{self, Return, Returned, lifts};
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use crate::simulate::ending;
 use model::system::layout::of_part;
 use model::system::machine::record::ROLLS;
+use model::system::sampling::Peak;
 use nalgebra::{DMatrix, DVector};
 use physics::load_zone::displacement;
 use std::sync::atomic::AtomicBool;
@@ -75,7 +78,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         frequencies,
         returned,
     };
-    let quantities = named(&found, &went);
+    let quantities = named(context, &found, &went);
     if !goes_on {
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
@@ -86,7 +89,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         .into_iter()
         .chain(slides(context, &found));
     let harder = context.parts().enumerate();
-    let harder = harder.filter_map(|(k, name)| hits_harder(context, &went, k, name));
+    let harder = harder.filter_map(|(k, name)| hits_harder(context, &found, &went, k, name));
     list.splice(0..0, first.chain(harder).chain(sliding));
     let ended = coast_down::stop(&found.free);
     Some(After {
@@ -205,6 +208,18 @@ fn scatters(went: &Went) -> Option<Warning> {
     })
 }
 
+/// Every result of a drop with those of what came after.
+pub(crate) fn quantities(context: &Context, after: Option<&After>) -> Vec<Quantity> {
+    let mut list = quantities::name(context);
+    if let Some(after) = after {
+        for name in context.parts() {
+            count_run_out(&mut list, name, &after.quantities);
+        }
+        list.extend(after.quantities.iter().cloned());
+    }
+    list
+}
+
 impl After {
     /// Whether it warns of this.
     pub(crate) fn says(&self, code: &str) -> bool {
@@ -309,7 +324,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
 }
 
 /// The results under their names: those of the run-out, and its course over time.
-fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
+fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     let first = &went.first;
     list.number("start_time", "s", Ok(first.time), &CHANGE);
@@ -323,8 +338,13 @@ fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
         let peak = went.peak(k).ok_or("no windows ball by ball".to_string());
         let name = of_part(&part.name, "peak_contact_force");
         list.number(&name, "N", peak.map(|[force, ..]| force), &PEAK);
+        if let (Some(bearing), Some(pressure)) =
+            (&context.given(k).bearing, pressure(context, found, k))
+        {
+            list.indentation_index(&part.name, pressure, bearing);
+        }
     }
-    quantities::name(found, &mut list);
+    of_run_out::name(found, &mut list);
     let returned = &went.returned;
     let frequencies = went.frequencies.iter().rev().copied().collect();
     let of_returns = |of: fn(&Return) -> f64| returned.list.iter().map(of).collect();
@@ -398,6 +418,16 @@ fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
     list.0.into_iter().map(rename).collect()
 }
 
+/// Largest pressure of balls and races in windows, Pa; none without windows.
+fn pressure(context: &Context, found: &Ran, bearing: usize) -> Option<f64> {
+    let seen = found.rows(bearing).filter_map(|row| row.balls.as_ref());
+    let [inner, outer] = (seen.map(|balls| balls.largest))
+        .reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])?
+        .map(|value| Peak { value, time: 0.0 });
+    let factors = context.built.bearings[bearing].pressure_factors;
+    Some(factors.pressures([inner, outer], Peak::NONE).races)
+}
+
 /// Natural frequencies of the rotor on bearings in which it rolls, below the speed that the run-out starts with, the highest first, rad/s:
 /// balls under the weight and landing surface in series, then the moving mass on its mount, without gyroscopic moments.
 fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
@@ -443,20 +473,34 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
 }
 
 /// A bearing that the rotor hits harder in windows than in the drop.
-fn hits_harder(context: &Context, went: &Went, bearing: usize, name: &str) -> Option<Warning> {
+fn hits_harder(
+    context: &Context,
+    found: &Ran,
+    went: &Went,
+    bearing: usize,
+    name: &str,
+) -> Option<Warning> {
     let [force, time, speed] = went.peak(bearing)?;
     let before = context.record(bearing).peak_contact_force()?.value;
-    let where_ = match name {
+    let on = match name {
         "" => String::new(),
-        name => format!("{name}: "),
+        name => format!(" on {name}"),
     };
+    let limit = context
+        .given(bearing)
+        .bearing
+        .as_ref()?
+        .hertz_pressure_limit;
+    let share = (pressure(context, found, bearing)? / limit).powi(3);
     (force > before).then(|| {
         warning(
             "AB2323",
             format!(
-                "{where_}while it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses with {force:.3e} N, {:.1} times as hard as in the first                  {:.3} s: ball loads, pressures, dents and life of this run are those of the first alone.",
-                force / before,
-                context.finished.ending.time
+                "While it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses{on} with {force:.3e} N, and with {before:.3e} N at most in the \
+                 first {:.3} s. A ball takes {:.0} % of the load that dents a race there; pressures, sliding, cage forces and wear of this run are those of \
+                 the first alone.",
+                context.finished.ending.time,
+                100.0 * share
             ),
         )
     })

@@ -10,6 +10,7 @@
 use crate::simulate::coast_down::build::{Built, hold};
 use crate::simulate::coast_down::course;
 use crate::simulate::coast_down::course::{MOST_CHANGE, largest_change};
+use crate::simulate::coast_down::rows::BallsSeen;
 
 /// What a window found at its speed.
 #[derive(Clone)]
@@ -22,6 +23,8 @@ pub(super) struct Window {
     pub friction: f64,
     /// Largest contact force of each bearing, N.
     pub peaks: Vec<f64>,
+    /// Of the balls of each bearing.
+    pub balls: Vec<Option<BallsSeen>>,
     /// Standard error of the whole power over it.
     pub scatter: f64,
 }

@@ -16,7 +16,7 @@ use crate::simulate::bearing::feedback::Follows;
 use crate::simulate::coast_down::build::{Built, Part, Start};
 use crate::simulate::coast_down::course;
 use crate::simulate::coast_down::ran::Ran;
-use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
+use crate::simulate::coast_down::rows::{BallsSeen, End, Row, RowOfBearing};
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
@@ -26,7 +26,7 @@ use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::HEATS;
 use model::bearing_heat::OfNodes;
 use model::system::machine::RotorMachine;
-use model::system::machine::record::ROLLS;
+use model::system::machine::record::{BearingRecord, ROLLS};
 use solve::Settings;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -52,6 +52,7 @@ struct Batch {
     nodes: Vec<f64>,
     friction: f64,
     peaks: Vec<f64>,
+    balls: Vec<Option<BallsSeen>>,
 }
 
 /// What windows follow.
@@ -321,6 +322,7 @@ impl<'a> Way<'a> {
                 let span = finished.ending.time - time;
                 pieces.push(Batch {
                     peaks: peaks(&finished),
+                    balls: finished.record.bearings.iter().map(balls).collect(),
                     ..self.heats(built, &state, span)
                 });
             }
@@ -372,6 +374,7 @@ impl<'a> Way<'a> {
             nodes,
             friction,
             peaks: Vec::new(),
+            balls: Vec::new(),
         }
     }
 }
@@ -382,6 +385,38 @@ fn peaks(finished: &Finished) -> Vec<f64> {
     let peak = bearings.map(|record| record.peak_contact_force());
     peak.map(|peak| peak.map_or(0.0, |peak| peak.value))
         .collect()
+}
+
+/// What a batch has seen of the balls of a bearing; none of a bushing, or where it did not turn.
+fn balls(record: &BearingRecord) -> Option<BallsSeen> {
+    let (races, turns) = (record.races.as_ref()?, record.turns);
+    let loads = [record.largest_inner_load, record.largest_outer_load];
+    (turns > 0.0).then(|| BallsSeen {
+        largest: loads.map(|peak| peak.value),
+        cubes: (races.races.each_ref())
+            .map(|race| race.sums.iter().map(|sum| sum / turns).collect()),
+    })
+}
+
+/// The batches of a window together.
+fn all_balls(batches: &[Batch], bearing: usize) -> Option<BallsSeen> {
+    let mut each = batches.iter().map(|batch| batch.balls[bearing].as_ref());
+    let mut all = each.next()??.clone();
+    for other in each {
+        let other = other?;
+        for side in 0..2 {
+            all.largest[side] = all.largest[side].max(other.largest[side]);
+            for (sum, cube) in all.cubes[side].iter_mut().zip(&other.cubes[side]) {
+                *sum += cube;
+            }
+        }
+    }
+    let count = batches.len() as f64;
+    let mean = |ring: Vec<f64>| ring.into_iter().map(|sum| sum / count).collect();
+    Some(BallsSeen {
+        cubes: all.cubes.map(mean),
+        ..all
+    })
 }
 
 fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
@@ -431,6 +466,9 @@ fn mean(batches: &[Batch]) -> Window {
                     .map(|batch| batch.peaks[k])
                     .fold(0.0, f64::max)
             })
+            .collect(),
+        balls: (0..batches[0].balls.len())
+            .map(|k| all_balls(batches, k))
             .collect(),
         powers,
     }
@@ -495,7 +533,9 @@ fn row(built: &Built, window: &Window) -> Row {
         RowOfBearing {
             moment: moment(bearings[2 * k] + bearings[2 * k + 1]),
             clearance,
-            largest_ball_load: f64::NAN,
+            largest_ball_load: (window.balls[k].as_ref())
+                .map_or(f64::NAN, |balls| balls.largest[0].max(balls.largest[1])),
+            balls: window.balls[k].clone(),
         }
     };
     Row {
