@@ -1,13 +1,13 @@
 //! Temperatures in a drop, and its way on until the rotor stands.
 
-use auxbear::result::outcome::{Outcome, Value, Warning};
+use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
 
-const SHIPPED: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
+pub const SHIPPED: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
 
-fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
+pub fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
     let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
     Scenario::parse(text, "drop.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
 }
@@ -21,7 +21,7 @@ fn ran(sets: &[&str]) -> Outcome {
     run(&scenario, &Options::unwatched(&never)).unwrap()
 }
 
-fn number(outcome: &Outcome, name: &str) -> f64 {
+pub fn number(outcome: &Outcome, name: &str) -> f64 {
     let found = outcome.quantities.iter().find(|q| q.name == name);
     match found.unwrap_or_else(|| panic!("{name}")).value {
         Value::Number(value) => value,
@@ -29,7 +29,7 @@ fn number(outcome: &Outcome, name: &str) -> f64 {
     }
 }
 
-fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
+pub fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
     let found = outcome.quantities.iter().find(|q| q.name == name);
     match &found.unwrap_or_else(|| panic!("{name}")).value {
         Value::List(values) => values,
@@ -38,7 +38,7 @@ fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
 }
 
 /// What the picture of the heat's way draws: losses into bodies, what these keep and give, each with the sums of the whole.
-fn adds_up_by_bodies(run: &Outcome, part: &str) {
+pub fn adds_up_by_bodies(run: &Outcome, part: &str) {
     let all = |words: &str| -> f64 {
         let start = format!("{part}{words}_");
         let of = |q: &&auxbear::result::outcome::Quantity| q.name.starts_with(&start);
@@ -334,147 +334,6 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     let again = ran(&bounces);
     let bits = |outcome: &Outcome| number(outcome, "run_out.stop_time").to_bits();
     assert_eq!(bits(&again), bits(&found));
-}
-
-/// A run-out that goes back from laws to windows: how many rows each return has, all of it heat, nothing lost or made at a change.
-fn goes_back(found: &Outcome, reason: &str) -> Vec<usize> {
-    assert!(
-        found.stop.complete() && found.stop.text.contains(reason),
-        "{}",
-        found.stop.text
-    );
-    adds_up_by_bodies(found, "run_out.");
-    let course = |name: &str| list(found, &format!("run_out.over_time.{name}"));
-    let (times, speeds) = (course("time"), course("rotor.speed"));
-    assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
-    assert!(speeds.windows(2).all(|pair| pair[1] < pair[0]));
-    let energy = number(found, "run_out.rotor_energy");
-    let heats: f64 = ["speed_dependent", "load_dependent", "windage"]
-        .map(|loss| number(found, &format!("run_out.{loss}_heat")))
-        .iter()
-        .sum();
-    let left = energy * (speeds[speeds.len() - 1] / speeds[0]).powi(2);
-    assert!(
-        ((heats + left) / energy - 1.0).abs() < 1e-9,
-        "{heats} {left} {energy}"
-    );
-    assert!(number(found, "run_out.relative_heat_residual") < 1e-9);
-    // only laws know how a disturbance grows; the load of a ball is known throughout
-    let by_laws: Vec<bool> = course("heat.growth_rate")
-        .iter()
-        .map(|rate| rate.is_finite())
-        .collect();
-    let loads = course("bearing.largest_ball_load");
-    assert!(loads.iter().all(|load| *load > 0.0));
-    let most = loads.iter().copied().fold(0.0, f64::max);
-    assert_eq!(most, number(found, "run_out.peak_ball_load"));
-    let (begin, end) = (
-        list(found, "run_out.return_times"),
-        list(found, "run_out.return_end_times"),
-    );
-    let changes = list(found, "run_out.return_changes_of_model");
-    let each = begin
-        .iter()
-        .zip(end)
-        .zip(changes)
-        .map(|((begin, end), change)| {
-            let lost =
-                energy * (1.0 - (speeds[times.partition_point(|t| t < end)] / speeds[0]).powi(2));
-            assert!(
-                *change != 0.0 && change.abs() < 1e-3 * lost,
-                "{change} {lost}"
-            );
-            let inside = times.partition_point(|t| t < begin)..times.partition_point(|t| t < end);
-            assert!(by_laws[inside.clone()].iter().all(|by_laws| !by_laws));
-            assert!(by_laws[inside.end], "laws go on at {end}");
-            inside.len()
-        });
-    each.collect()
-}
-
-#[test]
-fn where_friction_hardly_carries_the_bearing_the_run_out_is_followed_ball_by_ball() {
-    let never = AtomicBool::new(false);
-    let with =
-        |sets: &[&str]| run(&parsed(SHIPPED, sets).unwrap(), &Options::unwatched(&never)).unwrap();
-    let found = with(&["contact.friction_coefficient=0.03"]);
-    assert!(goes_back(&found, "hardly carries what the bearing brakes")[0] > 4);
-    // it slides and stays down: a turn takes the life that laws say, under the weight
-    let a_turn = |run: &Outcome| number(run, "run_out.life_share") / number(run, "run_out.turns");
-    let ratio = a_turn(&found) / a_turn(&with(&[]));
-    assert!((0.95..1.15).contains(&ratio), "{ratio}");
-    // it slides from the beginning on, and is reported for all of that time
-    let told = |w: &Warning| w.code == "AB2318" && w.text.contains("Between 1.0 s and 26");
-    assert!(found.warnings.iter().any(told));
-    // μ W r over 1.2 of each bearing, by hand: lost before the return, carried behind it
-    let carried = 0.03 * 4.0 * 9.80665 * (12.5e-3 - 0.25e-3) / 1.2;
-    let moments = ["speed_dependent", "load_dependent"]
-        .map(|kind| list(&found, &format!("run_out.over_time.{kind}.moment")));
-    let times = list(&found, "run_out.over_time.time");
-    let behind = times.partition_point(|t| *t < list(&found, "run_out.return_end_times")[0]);
-    let each = |row: usize| 0.5 * (moments[0][row] + moments[1][row]);
-    assert!((behind..times.len()).all(|row| each(row) <= carried));
-    let before = times.partition_point(|t| *t < list(&found, "run_out.return_times")[0]);
-    assert!(each(before) > 0.98 * carried, "{} {carried}", each(before));
-    // what friction carries easily stays with the laws
-    assert!(list(&with(&[]), "run_out.return_times").is_empty());
-}
-
-#[test]
-fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
-    let with = |unbalance: &str, damping: &str| {
-        let unbalance = format!("rotor.unbalance_eccentricity={unbalance}");
-        let damping = format!("mount.damping={damping}");
-        let sets = [
-            "mount.stiffness=1e6 N/m",
-            &damping,
-            &unbalance,
-            "coast_down.stop_speed=350 rad/s",
-        ];
-        let never = AtomicBool::new(false);
-        run(
-            &parsed(SHIPPED, &sets).unwrap(),
-            &Options::unwatched(&never),
-        )
-        .unwrap()
-    };
-    let found = with("90 um", "60 N s/m");
-    assert!(found.stop.complete(), "{}", found.stop.text);
-    let told = "ball by ball again, near the natural frequency of 464 rad/s";
-    assert!(found.stop.text.contains(told), "{}", found.stop.text);
-    // from 1.05 to 0.95 of it in steps of 1.5 %, and on while it does not roll
-    assert!(number(&found, "run_out.windows") >= 12.0);
-    assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
-    let frequency = list(&found, "run_out.passed_frequencies")[0];
-    let speed = list(&found, "run_out.return_speeds")[0];
-    assert!((speed / (1.05 * frequency) - 1.0).abs() < 1e-12);
-    assert!(list(&found, "run_out.resonance_excess")[0] > 0.1);
-    // laws before it: the windows of the beginning had ended
-    assert!(number(&found, "run_out.start_speed") > 1.5 * speed);
-    assert!(found.warnings.iter().any(|w| w.code == "AB2317"));
-    // lifted off the balls: more than unbalance and half the weight at rest, and told where it is more than the drop before it had
-    let force = number(&found, "run_out.peak_contact_force");
-    assert!(
-        force > 4.0 * (9.81 + 9e-5 * frequency * frequency),
-        "{force}"
-    );
-    let harder = force > number(&found, "peak_contact_force");
-    let told = found.warnings.iter().any(|w| w.code == "AB2323");
-    assert_eq!(told, harder, "{force}");
-    // 8 kg with 0.5 kg on 2 · 1e6 N/m, softer by balls and landing: below √(k/(m/2 + m_m)) = 471 rad/s
-    assert!((0.97..1.0).contains(&(frequency / (1e6f64 / 4.5).sqrt())));
-    // more unbalance and less damping, and it whirls out of the model there: no law goes on
-    let lost = with("120 um", "35 N s/m");
-    assert_eq!(lost.stop.reason, "left the model");
-    // its course goes on to where it ends
-    let times = list(&lost, "run_out.over_time.time");
-    assert_eq!(*times.last().unwrap(), lost.stop.time);
-    assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
-    assert!(
-        lost.stop.text.contains("a displacement exceeded"),
-        "{}",
-        lost.stop.text
-    );
 }
 
 #[test]

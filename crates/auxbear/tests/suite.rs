@@ -20,6 +20,7 @@ mod rig_to_verdict;
 mod rotor_friction;
 mod rotor_torque;
 mod run_out;
+mod run_out_returns;
 mod scenario;
 mod signals;
 mod signals_analysis;

@@ -16,12 +16,14 @@ pub(crate) mod orders;
 pub(crate) mod quantities;
 mod returns;
 pub(crate) mod run_out;
+mod run_out_warnings;
 pub mod shaft;
 pub(crate) mod shaft_results;
 mod slow_time;
 pub(crate) mod surfaces;
 mod torque;
 pub(crate) mod warnings;
+mod went;
 mod windows;
 
 use crate::options::Options;

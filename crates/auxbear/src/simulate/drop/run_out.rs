@@ -4,20 +4,20 @@
 //! lost or made by it.
 
 use crate::result::list::{List, Origin};
-use crate::result::outcome::{Quantity, Stop, Value, Warning, warning};
+use crate::result::outcome::{Quantity, Stop, Value, Warning};
 use crate::scenario::RunOut;
 use crate::simulate::bearing::races::count_run_out;
 use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
-use crate::simulate::coast_down::{self, history, quantities as of_run_out, warnings};
+use crate::simulate::coast_down::{self, history, quantities as of_run_out};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::quantities;
-use crate::simulate::drop::returns::{self, Return, Returned, lifts};
+use crate::simulate::drop::returns::{self, Return, Returned};
+use crate::simulate::drop::went::{Change, Went, pressure, way};
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
+use crate::simulate::drop::{quantities, run_out_warnings};
 use crate::simulate::ending;
 use model::system::layout::of_part;
 use model::system::machine::record::ROLLS;
-use model::system::sampling::Peak;
 use nalgebra::{DMatrix, DVector};
 use physics::load_zone::displacement;
 use std::sync::atomic::AtomicBool;
@@ -83,14 +83,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
     }
-    let mut list = warnings::of_course(&found);
-    let first = scatters(&went).into_iter().chain(lifted(&went.returned));
-    let sliding = slid(context, &found, &went)
-        .into_iter()
-        .chain(slides(context, &found));
-    let harder = context.parts().enumerate();
-    let harder = harder.filter_map(|(k, name)| hits_harder(context, &found, &went, k, name));
-    list.splice(0..0, first.chain(harder).chain(sliding));
+    let list = run_out_warnings::of(context, &found, &went);
     let ended = coast_down::stop(&found.free);
     Some(After {
         quantities,
@@ -100,111 +93,6 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
             ..ended
         },
         steps: found.free.state.steps as u64 + went.steps(),
-    })
-}
-
-/// The first change from motion to laws.
-struct Change {
-    time: f64,
-    speed: f64,
-    /// Whether there was one.
-    never: bool,
-    /// Kinetic energy after it less that before, J.
-    energy: f64,
-}
-
-impl Change {
-    fn at(built: &Built, bounced: &Bounced) -> Self {
-        let start = &built.start;
-        let after = 0.5 * built.inertia * start.speed * start.speed;
-        let sides = f64::from(built.sides);
-        Change {
-            time: start.time,
-            speed: start.speed,
-            never: start.ended.is_some(),
-            energy: (bounced.kinetic).map_or(0.0, |before| after - sides * before),
-        }
-    }
-}
-
-/// How the run went between its fidelities.
-struct Went {
-    bounced: Bounced,
-    first: Change,
-    /// Natural frequencies of the rotor that rolls, below the speed of the first change, the highest first, rad/s.
-    frequencies: Vec<f64>,
-    returned: Returned,
-}
-
-impl Went {
-    /// Windows of all stretches.
-    fn windows(&self) -> impl Iterator<Item = &Bounced> {
-        let again = self.returned.list.iter().map(|again| &again.windows);
-        std::iter::once(&self.bounced).chain(again)
-    }
-    fn steps(&self) -> u64 {
-        self.windows().map(|windows| windows.steps).sum::<u64>() + self.returned.looked
-    }
-    /// The largest contact force of a bearing in all windows, N, and when, s, and at which speed, rad/s.
-    fn peak(&self, bearing: usize) -> Option<[f64; 3]> {
-        let each = self
-            .windows()
-            .filter_map(|windows| windows.peaks.get(bearing));
-        each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
-    }
-    /// Relative standard errors of the powers of all windows.
-    fn scatter(&self) -> Vec<f64> {
-        let each = self.windows().flat_map(|windows| &windows.scatter);
-        each.copied().collect()
-    }
-}
-
-/// How the run went from ball by ball into slow time and back, in words.
-fn way(context: &Context, went: &Went) -> String {
-    let first = &went.first;
-    let at_once = (went.returned.list.first()).is_some_and(|again| again.from[0] <= first.time);
-    let rolled = match at_once {
-        true => String::new(),
-        false => format!(
-            "From {:.4} s on the rotor rolled, losing what laws say, and ran out by them, from {:.1} rad/s.",
-            first.time, first.speed
-        ),
-    };
-    let mut list = match (went.bounced.scatter.len(), first.never) {
-        (0, false) => vec![rolled],
-        (count, never) => {
-            let last = match never {
-                false => rolled,
-                true => "It never rolled.".to_string(),
-            };
-            vec![format!(
-                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them. {last}",
-                context.finished.ending.time
-            )]
-        }
-    };
-    list.extend(went.returned.list.iter().map(Return::words));
-    list.retain(|sentence| !sentence.is_empty());
-    list.join(" ")
-}
-
-/// Relative standard error of a window's power above which it is told.
-const SCATTERS: f64 = 0.1;
-
-/// Windows whose means are not sure.
-fn scatters(went: &Went) -> Option<Warning> {
-    let each = went.scatter();
-    let worst = each.iter().copied().fold(0.0, f64::max);
-    (worst > SCATTERS).then(|| {
-        warning(
-            "AB2319",
-            format!(
-                "While the rotor does not roll, the mean power of a window is known within {:.0} % (standard error of {} windows, the worst): the \
-                 run-out is as uncertain there.",
-                100.0 * worst,
-                each.len()
-            ),
-        )
     })
 }
 
@@ -418,16 +306,6 @@ fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
     list.0.into_iter().map(rename).collect()
 }
 
-/// Largest pressure of balls and races in windows, Pa; none without windows.
-fn pressure(context: &Context, found: &Ran, bearing: usize) -> Option<f64> {
-    let seen = found.rows(bearing).filter_map(|row| row.balls.as_ref());
-    let [inner, outer] = (seen.map(|balls| balls.largest))
-        .reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])?
-        .map(|value| Peak { value, time: 0.0 });
-    let factors = context.built.bearings[bearing].pressure_factors;
-    Some(factors.pressures([inner, outer], Peak::NONE).races)
-}
-
 /// Natural frequencies of the rotor on bearings in which it rolls, below the speed that the run-out starts with, the highest first, rad/s:
 /// balls under the weight and landing surface in series, then the moving mass on its mount, without gyroscopic moments.
 fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
@@ -470,113 +348,6 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
     list.retain(|frequency| *frequency > 0.0 && *frequency < built.start.speed);
     list.sort_by(|a, b| b.total_cmp(a));
     list
-}
-
-/// A bearing that the rotor hits harder in windows than in the drop.
-fn hits_harder(
-    context: &Context,
-    found: &Ran,
-    went: &Went,
-    bearing: usize,
-    name: &str,
-) -> Option<Warning> {
-    let [force, time, speed] = went.peak(bearing)?;
-    let before = context.record(bearing).peak_contact_force()?.value;
-    let on = match name {
-        "" => String::new(),
-        name => format!(" on {name}"),
-    };
-    let limit = context
-        .given(bearing)
-        .bearing
-        .as_ref()?
-        .hertz_pressure_limit;
-    let share = (pressure(context, found, bearing)? / limit).powi(3);
-    (force > before).then(|| {
-        warning(
-            "AB2323",
-            format!(
-                "While it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses{on} with {force:.3e} N, and with {before:.3e} N at most in the \
-                 first {:.3} s. A ball takes {:.0} % of the load that dents a race there; pressures, sliding, cage forces and wear of this run are those of \
-                 the first alone.",
-                context.finished.ending.time,
-                100.0 * share
-            ),
-        )
-    })
-}
-
-/// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
-const SLIDES: f64 = 0.01;
-
-/// How long and how far the rotor slid on its races while windows followed it.
-fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
-    let first = [context.finished.ending.time, went.first.time];
-    let again = went.returned.list.iter();
-    let stretches = std::iter::once((first, &went.bounced))
-        .chain(again.map(|again| ([again.from[0], again.to[0]], &again.windows)));
-    let slides: Vec<_> = stretches
-        .filter(|(_, windows)| windows.friction > SLIDES * windows.lost)
-        .collect();
-    let (begin, end) = (slides.first()?.0[0], slides.last()?.0[1]);
-    let friction: f64 = slides.iter().map(|(_, windows)| windows.friction).sum();
-    let carried = |(k, part): (usize, &Part)| {
-        context.machine.constants.bearings[k].contact.friction * part.warm.radial_load
-    };
-    let force = f64::from(found.built.sides) * found.parts().map(carried).sum::<f64>();
-    Some(warning(
-        "AB2318",
-        format!(
-            "Between {begin:.1} s and {end:.1} s the rotor slides on its races in the windows that follow it: friction makes {friction:.3e} J, over about {:.3e} m of way. \
-             It is in run_out.load_dependent_heat and warms both bodies; sliding_distance, wear and the temperatures of the rubbing surfaces are those of the \
-             first {:.3} s alone.",
-            friction / force,
-            context.finished.ending.time
-        ),
-    ))
-}
-
-/// Bearings that brake harder than friction of rotor and race may carry, where no windows follow that: the rotor slides in them.
-fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
-    let of_bearing = |(k, part): (usize, &Part)| {
-        let most = returns::asked(context, found, k, part)?;
-        let name = match part.name.as_str() {
-            "" => "The bearing".to_string(),
-            name => name.to_string(),
-        };
-        Some(warning(
-            "AB2318",
-            format!(
-                "{name} brakes with up to {:.3} N mm in the run-out by laws, and friction of rotor and race carries {:.3} N mm: they may slide on \
-                 each other there, which heats the surfaces and which this run-out does not see.",
-                1e3 * most,
-                1e3 * returns::carried(context, k, part)
-            ),
-        ))
-    };
-    found.parts().filter_map(of_bearing).collect()
-}
-
-/// Natural frequencies at which the rotor does not roll.
-fn lifted(returned: &Returned) -> Option<Warning> {
-    let found = returned.passed.iter().zip(&returned.excess);
-    let lifted = found.filter(|(_, excess)| lifts(**excess));
-    let list: Vec<String> = lifted
-        .map(|(frequency, excess)| match excess.is_nan() {
-            true => format!("{frequency:.0} rad/s, where no window ended"),
-            false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * excess),
-        })
-        .collect();
-    (!list.is_empty()).then(|| {
-        warning(
-            "AB2317",
-            format!(
-                "The run-out passes natural frequencies of the rotor on its rolling bearings at which unbalance lifts it from rolling ({} loss than the laws \
-                 say): windows ball by ball follow it there, each as long as it likes at its speed. A rotor that passes quickly is lifted less.",
-                list.join("; ")
-            ),
-        )
-    })
 }
 
 const CHANGE: Origin = Origin {

@@ -1,0 +1,151 @@
+//! What the user should know before trusting the run-out of a drop.
+
+use crate::result::outcome::{Warning, warning};
+use crate::simulate::coast_down::build::Part;
+use crate::simulate::coast_down::ran::Ran;
+use crate::simulate::coast_down::warnings;
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::returns::{self, Returned, lifts};
+use crate::simulate::drop::went::{Went, pressure};
+
+/// What windows and returns say, the gravest first.
+pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
+    let parts = context.parts().enumerate();
+    let harder = parts.filter_map(|(k, name)| hits_harder(context, found, went, k, name));
+    let first = scatters(went).into_iter().chain(lifted(&went.returned));
+    let sliding = slid(context, found, went)
+        .into_iter()
+        .chain(slides(context, found));
+    first
+        .chain(harder)
+        .chain(sliding)
+        .chain(warnings::of_course(found))
+        .collect()
+}
+
+/// Relative standard error of a window's power above which it is reported.
+const SCATTERS: f64 = 0.1;
+
+/// Windows whose means are not sure.
+fn scatters(went: &Went) -> Option<Warning> {
+    let each = went.scatter();
+    let worst = each.iter().copied().fold(0.0, f64::max);
+    (worst > SCATTERS).then(|| {
+        warning(
+            "AB2319",
+            format!(
+                "While the rotor does not roll, the mean power of a window is known within {:.0} % (standard error of {} windows, the worst): the \
+                 run-out is as uncertain there.",
+                100.0 * worst,
+                each.len()
+            ),
+        )
+    })
+}
+
+/// A bearing that the rotor hits harder in windows than in the drop.
+fn hits_harder(
+    context: &Context,
+    found: &Ran,
+    went: &Went,
+    bearing: usize,
+    name: &str,
+) -> Option<Warning> {
+    let [force, time, speed] = went.peak(bearing)?;
+    let before = context.record(bearing).peak_contact_force()?.value;
+    let on = match name {
+        "" => String::new(),
+        name => format!(" on {name}"),
+    };
+    let limit = context
+        .given(bearing)
+        .bearing
+        .as_ref()?
+        .hertz_pressure_limit;
+    let share = (pressure(context, found, bearing)? / limit).powi(3);
+    (force > before).then(|| {
+        warning(
+            "AB2323",
+            format!(
+                "While it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses{on} with {force:.3e} N, and with {before:.3e} N at most in the \
+                 first {:.3} s. A ball takes {:.0} % of the load that dents a race there; pressures, sliding, cage forces and wear of this run are those of \
+                 the first alone.",
+                context.finished.ending.time,
+                100.0 * share
+            ),
+        )
+    })
+}
+
+/// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
+const SLIDES: f64 = 0.01;
+
+/// How long and how far the rotor slid on its races while windows followed it.
+fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
+    let first = [context.finished.ending.time, went.first.time];
+    let again = went.returned.list.iter();
+    let stretches = std::iter::once((first, &went.bounced))
+        .chain(again.map(|again| ([again.from[0], again.to[0]], &again.windows)));
+    let slides: Vec<_> = stretches
+        .filter(|(_, windows)| windows.friction > SLIDES * windows.lost)
+        .collect();
+    let (begin, end) = (slides.first()?.0[0], slides.last()?.0[1]);
+    let friction: f64 = slides.iter().map(|(_, windows)| windows.friction).sum();
+    let carried = |(k, part): (usize, &Part)| {
+        context.machine.constants.bearings[k].contact.friction * part.warm.radial_load
+    };
+    let force = f64::from(found.built.sides) * found.parts().map(carried).sum::<f64>();
+    Some(warning(
+        "AB2318",
+        format!(
+            "Between {begin:.1} s and {end:.1} s the rotor slides on its races in the windows that follow it: friction makes {friction:.3e} J, over about {:.3e} m of way. \
+             It is in run_out.load_dependent_heat and warms both bodies; sliding_distance, wear and the temperatures of the rubbing surfaces are those of the \
+             first {:.3} s alone.",
+            friction / force,
+            context.finished.ending.time
+        ),
+    ))
+}
+
+/// Bearings that brake harder than friction of rotor and race may carry, where no windows follow that: the rotor slides in them.
+fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
+    let of_bearing = |(k, part): (usize, &Part)| {
+        let most = returns::asked(context, found, k, part)?;
+        let name = match part.name.as_str() {
+            "" => "The bearing".to_string(),
+            name => name.to_string(),
+        };
+        Some(warning(
+            "AB2318",
+            format!(
+                "{name} brakes with up to {:.3} N mm in the run-out by laws, and friction of rotor and race carries {:.3} N mm: they may slide on \
+                 each other there, which heats the surfaces and which this run-out does not see.",
+                1e3 * most,
+                1e3 * returns::carried(context, k, part)
+            ),
+        ))
+    };
+    found.parts().filter_map(of_bearing).collect()
+}
+
+/// Natural frequencies at which the rotor does not roll.
+fn lifted(returned: &Returned) -> Option<Warning> {
+    let found = returned.passed.iter().zip(&returned.excess);
+    let lifted = found.filter(|(_, excess)| lifts(**excess));
+    let list: Vec<String> = lifted
+        .map(|(frequency, excess)| match excess.is_nan() {
+            true => format!("{frequency:.0} rad/s, where no window ended"),
+            false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * excess),
+        })
+        .collect();
+    (!list.is_empty()).then(|| {
+        warning(
+            "AB2317",
+            format!(
+                "The run-out passes natural frequencies of the rotor on its rolling bearings at which unbalance lifts it from rolling ({} loss than the laws \
+                 say): windows ball by ball follow it there, each as long as it likes at its speed. A rotor that passes quickly is lifted less.",
+                list.join("; ")
+            ),
+        )
+    })
+}

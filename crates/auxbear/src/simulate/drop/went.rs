@@ -1,0 +1,103 @@
+//! How a run went between its fidelities: from ball by ball into slow time and back.
+
+use crate::simulate::coast_down::build::Built;
+use crate::simulate::coast_down::ran::Ran;
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::returns::{Return, Returned};
+use crate::simulate::drop::windows::Bounced;
+use model::system::sampling::Peak;
+
+/// The first change from motion to laws.
+pub(super) struct Change {
+    pub time: f64,
+    pub speed: f64,
+    /// Whether there was one.
+    pub never: bool,
+    /// Kinetic energy after it less that before, J.
+    pub energy: f64,
+}
+
+impl Change {
+    pub fn at(built: &Built, bounced: &Bounced) -> Self {
+        let start = &built.start;
+        let after = 0.5 * built.inertia * start.speed * start.speed;
+        let sides = f64::from(built.sides);
+        Change {
+            time: start.time,
+            speed: start.speed,
+            never: start.ended.is_some(),
+            energy: (bounced.kinetic).map_or(0.0, |before| after - sides * before),
+        }
+    }
+}
+
+/// How the run went between its fidelities.
+pub(super) struct Went {
+    pub bounced: Bounced,
+    pub first: Change,
+    /// Natural frequencies of the rotor that rolls, below the speed of the first change, the highest first, rad/s.
+    pub frequencies: Vec<f64>,
+    pub returned: Returned,
+}
+
+impl Went {
+    /// Windows of all stretches.
+    fn windows(&self) -> impl Iterator<Item = &Bounced> {
+        let again = self.returned.list.iter().map(|again| &again.windows);
+        std::iter::once(&self.bounced).chain(again)
+    }
+    pub fn steps(&self) -> u64 {
+        self.windows().map(|windows| windows.steps).sum::<u64>() + self.returned.looked
+    }
+    /// The largest contact force of a bearing in all windows, N, and when, s, and at which speed, rad/s.
+    pub fn peak(&self, bearing: usize) -> Option<[f64; 3]> {
+        let each = self
+            .windows()
+            .filter_map(|windows| windows.peaks.get(bearing));
+        each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
+    }
+    /// Relative standard errors of the powers of all windows.
+    pub fn scatter(&self) -> Vec<f64> {
+        let each = self.windows().flat_map(|windows| &windows.scatter);
+        each.copied().collect()
+    }
+}
+
+/// How the run went from ball by ball into slow time and back, in words.
+pub(super) fn way(context: &Context, went: &Went) -> String {
+    let first = &went.first;
+    let at_once = (went.returned.list.first()).is_some_and(|again| again.from[0] <= first.time);
+    let rolled = match at_once {
+        true => String::new(),
+        false => format!(
+            "From {:.4} s on the rotor rolled, losing what laws say, and ran out by them, from {:.1} rad/s.",
+            first.time, first.speed
+        ),
+    };
+    let mut list = match (went.bounced.scatter.len(), first.never) {
+        (0, false) => vec![rolled],
+        (count, never) => {
+            let last = match never {
+                false => rolled,
+                true => "It never rolled.".to_string(),
+            };
+            vec![format!(
+                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them. {last}",
+                context.finished.ending.time
+            )]
+        }
+    };
+    list.extend(went.returned.list.iter().map(Return::words));
+    list.retain(|sentence| !sentence.is_empty());
+    list.join(" ")
+}
+
+/// Largest pressure of balls and races in windows, Pa; none without windows.
+pub(super) fn pressure(context: &Context, found: &Ran, bearing: usize) -> Option<f64> {
+    let seen = found.rows(bearing).filter_map(|row| row.balls.as_ref());
+    let [inner, outer] = (seen.map(|balls| balls.largest))
+        .reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])?
+        .map(|value| Peak { value, time: 0.0 });
+    let factors = context.built.bearings[bearing].pressure_factors;
+    Some(factors.pressures([inner, outer], Peak::NONE).races)
+}
