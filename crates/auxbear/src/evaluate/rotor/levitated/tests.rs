@@ -286,3 +286,36 @@ fn diagrams_have_the_magnets_in_them() {
     assert!(number(&found, "response.sensor_right.rated_amplitude") > 0.0);
     assert!(found.iter().any(|(name, _)| name == "map_forward_1"));
 }
+
+/// The drawing names what stands along the shaft, sensors where they are and not where their magnets are.
+#[test]
+fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let mut list = List(Vec::new());
+    crate::result::drawing::name(&mut list, &analysis.model);
+    let of = |name: &str| {
+        let found = list.0.iter().find(|q| q.name == name);
+        found.unwrap_or_else(|| panic!("{name}")).value.clone()
+    };
+    assert_eq!(of("magnet_names"), Value::Text("left\nright".to_string()));
+    assert_eq!(of("magnet_positions"), Value::List(vec![0.1, 0.4]));
+    assert_eq!(of("sensor_positions"), Value::List(vec![0.08, 0.42]));
+    assert_eq!(of("unbalance_names"), Value::Text("1".to_string()));
+    assert_eq!(of("piece_names"), Value::Text("1".to_string()));
+}
+
+/// Limits ask for the results before the run: it has taken the time that this took.
+#[test]
+fn a_run_with_limits_tells_its_whole_time() {
+    let limited =
+        format!("{SMALL}[[limit]]\nquantity = \"first_critical_speed\"\nleast = \"100 rad/s\"\n");
+    let scenario = Scenario::parse(&limited, "small.toml", &[], &BuiltIn).unwrap();
+    let clock = std::time::Instant::now();
+    let never = std::sync::atomic::AtomicBool::new(false);
+    let outcome = crate::run::run(&scenario, &crate::run::Options::unwatched(&never)).unwrap();
+    let (told, whole) = (outcome.work.seconds, clock.elapsed().as_secs_f64());
+    assert!(told > 0.2 * whole && told <= whole, "{told} {whole}");
+}
