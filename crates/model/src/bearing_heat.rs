@@ -406,7 +406,9 @@ impl Warmth {
         let lubricant = self.temperatures[LUBRICANT];
         let power = |spin| part.viscous(spin, lubricant, seen.drag_factor);
         let mean = |(first, last)| 0.5 * (first + last);
-        let viscous = power(self.spin.unwrap_or(seen.spin)).zip(power(seen.spin)).map(mean);
+        let viscous = power(self.spin.unwrap_or(seen.spin))
+            .zip(power(seen.spin))
+            .map(mean);
         let flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
         let nodes = sums(&flows);
         let operation = Operation {

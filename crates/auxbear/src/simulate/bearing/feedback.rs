@@ -133,7 +133,10 @@ impl Follows {
                 ..
             } = &mut bearing.moment
             {
-                let (weight, pressing) = (self.zone.load, self.zone.pressing(clearance, self.unpreloaded));
+                let (weight, pressing) = (
+                    self.zone.load,
+                    self.zone.pressing(clearance, self.unpreloaded),
+                );
                 match pressing > weight {
                     true => *preload = (pressing * pressing - weight * weight).sqrt(),
                     // fewer balls carry: less at every load, P = W ΣQ/ΣQ_0 in M1 = z (P/C0)^y P d_m
