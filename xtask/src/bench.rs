@@ -2,6 +2,7 @@
 
 pub mod against;
 mod clock;
+mod machines;
 mod page;
 mod peer;
 mod program;
@@ -89,6 +90,7 @@ fn measure(program: Option<&str>) -> Result<(), String> {
     bench.stiff_traction()?;
     bench.number_of_balls()?;
     bench.rotor()?;
+    bench.machines()?;
     bench.ball_bearing()?;
     bench.instructions()?;
     let path = bench.root.join(RESULTS);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// One run of each kind, and one with several bearings.
-const OPENED: [&str; 8] = [
+const OPENED: [&str; 11] = [
     "coast_down_closing",
     "rigid_drop",
     "two_bearings_drop",
@@ -14,6 +14,9 @@ const OPENED: [&str; 8] = [
     "rig_test_2",
     "signals_spin_up",
     "identify_paper_tests",
+    "rotor_levitated",
+    "rotor_overhung",
+    "machine_expander",
 ];
 
 /// Runs that a comparison shows: of one kind and of another.

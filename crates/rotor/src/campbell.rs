@@ -1,11 +1,13 @@
 //! Frequencies over speed, each followed from speed to speed, and the speeds at which one of them equals the speed.
 //!
-//! At every speed all eigenvalues are computed. Each branch is carried on by Newton's iteration from where its last two
-//! points lead, with its last vector: crossing branches keep their shapes, not their order. What the iteration finds must be
+//! At every speed all eigenvalues are computed, and what they were read from is kept while branches pass: a step of their
+//! iteration costs n² then, where magnets hold the rotor n³. Each branch is carried on by Newton's iteration from where its
+//! last two points lead, with its last vector: crossing branches keep their shapes, not their order. What the iteration finds must be
 //! one of the eigenvalues of that speed, and no two branches may take the same; else the nearest that is left is taken.
 //! A mode that comes into the range from above is followed back from the highest speed.
 
 use crate::modes::{Analysis, Mode};
+use crate::triangle::Triangle;
 use crate::{C64, RotorError};
 use nalgebra::DVector;
 
@@ -87,10 +89,12 @@ impl Analysis {
     ///
     /// As [`Analysis::eigenvalues`].
     pub fn campbell(&self, speeds: &[f64], limit: f64) -> Result<Campbell, RotorError> {
-        let all = (speeds.iter())
-            .map(|speed| self.oscillations(*speed))
-            .collect::<Result<Vec<_>, _>>()?;
-        let mut taken: Vec<Vec<bool>> = all.iter().map(|list| vec![false; list.len()]).collect();
+        let (mut all, mut taken) = (Vec::new(), Vec::new());
+        if let Some(first) = speeds.first() {
+            let found = self.oscillations(*first)?;
+            taken.push(vec![false; found.len()]);
+            all.push(found);
+        }
         let mut branches = Vec::new();
         let last = speeds.len().saturating_sub(1);
         for (start, step) in [(0, 1_isize), (last, -1)] {
@@ -111,7 +115,20 @@ impl Analysis {
             }
             let mut at = start;
             while let Some(next) = at.checked_add_signed(step).filter(|n| *n < speeds.len()) {
-                let found = self.carry(speeds[next], &all[next], &mut taken[next], &runners)?;
+                // on the way down the eigenvalues are known, and few are left to follow
+                let mut triangle = None;
+                if next == all.len() {
+                    let (found, read_from) = self.followed(speeds[next])?;
+                    taken.push(vec![false; found.len()]);
+                    all.push(found);
+                    triangle = read_from;
+                }
+                let found = self.carry(
+                    speeds[next],
+                    (&all[next], triangle.as_ref()),
+                    &mut taken[next],
+                    &runners,
+                )?;
                 for (runner, state) in runners.iter_mut().zip(found) {
                     if let Some(state) = &state {
                         runner.step = state.0 - runner.last.0;
@@ -141,21 +158,26 @@ impl Analysis {
         })
     }
 
-    /// Where each branch goes at the next speed.
+    /// Where each branch goes at the next speed, whose eigenvalues are `all`.
     fn carry(
         &self,
         speed: f64,
-        all: &[C64],
+        (all, triangle): (&[C64], Option<&Triangle>),
         taken: &mut [bool],
         runners: &[Runner],
     ) -> Result<Vec<Option<State>>, RotorError> {
         let dynamics = self.dynamics(speed);
+        let vectors: Vec<&DVector<C64>> = runners.iter().map(|runner| &runner.last.1).collect();
+        let entered = triangle.map(|triangle| (triangle, triangle.enter(&vectors)));
         let mut out: Vec<Option<State>> = vec![None; runners.len()];
         for (k, runner) in runners.iter().enumerate() {
             let (value, vector) = &runner.last;
             let ahead = value + runner.step;
             let found = [ahead, *value].iter().find_map(|from| {
-                let (value, vector) = dynamics.follow(*from, vector)?;
+                let (value, vector) = match &entered {
+                    Some((triangle, entered)) => triangle.follow(*from, entered, k)?,
+                    None => dynamics.follow(*from, vector)?,
+                };
                 let same = |(at, z): &(usize, &C64)| {
                     !taken[*at] && (*z - value).norm() <= SAME * value.norm()
                 };
@@ -165,6 +187,13 @@ impl Analysis {
             if let Some((at, vector)) = found {
                 taken[at] = true;
                 out[k] = Some((all[at], vector));
+            }
+        }
+        if let Some((triangle, _)) = entered {
+            let found: Vec<&mut State> = out.iter_mut().flatten().collect();
+            let left = triangle.leave(&found.iter().map(|state| &state.1).collect::<Vec<_>>());
+            for (state, vector) in found.into_iter().zip(left) {
+                state.1 = vector;
             }
         }
         for (k, runner) in runners.iter().enumerate() {

@@ -35,6 +35,7 @@ mod properties;
 mod response;
 mod stiffness_map;
 mod support;
+mod triangle;
 
 pub use assembly::{Dynamics, Matrices};
 pub use basis::{Basis, unit_forces};

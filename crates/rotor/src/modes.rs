@@ -7,8 +7,9 @@
 
 use crate::assembly::Carried;
 use crate::feedback::{Feedback, Whole};
+use crate::triangle::Triangle;
 use crate::{Basis, C64, Dynamics, Matrices, Rotor, RotorError};
-use nalgebra::{ComplexField, DMatrix, DVector, Schur};
+use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 /// How many of the lowest modes are wanted.
@@ -179,18 +180,34 @@ impl Analysis {
     /// Where the eigen-solver does not converge or the mass matrix is singular.
     pub fn eigenvalues(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
         if let Some(feedback) = &self.feedback {
-            let mut all = feedback.eigenvalues(&self.dynamics(speed).dynamics)?;
-            all.retain(|z| self.turns || z.im >= 0.0);
-            return Ok(all);
+            let all = feedback.eigenvalues(&self.dynamics(speed).dynamics)?;
+            return Ok(self.upper_half(all));
         }
-        if self.turns {
-            let state = state_matrix(&self.matrices.complex(&self.carried, speed))?;
-            let (_, triangle) = schur(state)?.unpack();
-            return Ok(triangle.diagonal().iter().copied().collect());
+        Ok(self.upper_half(self.triangle(speed)?.eigenvalues))
+    }
+
+    /// Of conjugate pairs of the real form the one with Im λ ≥ 0.
+    fn upper_half(&self, mut all: Vec<C64>) -> Vec<C64> {
+        all.retain(|z| self.turns || z.im >= 0.0);
+        all
+    }
+
+    /// The first-order form at a speed, without magnets.
+    fn triangle(&self, speed: f64) -> Result<Triangle, RotorError> {
+        match self.turns {
+            true => Triangle::complex(&self.matrices.complex(&self.carried, speed)),
+            false => Triangle::real(&self.matrices.real(&self.carried, speed)),
         }
-        let state = state_matrix(&self.matrices.real(&self.carried, speed))?;
-        let all = schur(state)?.complex_eigenvalues();
-        Ok(all.iter().copied().filter(|z| z.im >= 0.0).collect())
+    }
+
+    /// What oscillates at a speed, as [`Analysis::oscillations`], and what it was read from where there are no magnets.
+    pub(crate) fn followed(&self, speed: f64) -> Result<(Vec<C64>, Option<Triangle>), RotorError> {
+        if self.feedback.is_some() {
+            return Ok((self.oscillations(speed)?, None));
+        }
+        let mut triangle = self.triangle(speed)?;
+        let all = std::mem::take(&mut triangle.eigenvalues);
+        Ok((self.oscillating(self.upper_half(all)), Some(triangle)))
     }
 
     /// Eigenvalues that oscillate, by rising frequency |Im λ|.
@@ -199,14 +216,17 @@ impl Analysis {
     ///
     /// As [`Analysis::eigenvalues`].
     pub fn oscillations(&self, speed: f64) -> Result<Vec<C64>, RotorError> {
-        let mut all = self.eigenvalues(speed)?;
+        Ok(self.oscillating(self.eigenvalues(speed)?))
+    }
+
+    fn oscillating(&self, mut all: Vec<C64>) -> Vec<C64> {
         let least = match self.feedback {
             Some(_) => OSCILLATION_OF_FILTERS,
             None => OSCILLATION,
         };
         all.retain(|z| z.im.abs() > least * z.norm() && z.im.abs() > RIGID_BELOW);
         all.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()));
-        Ok(all)
+        all
     }
 
     /// The lowest modes at a speed.
@@ -305,34 +325,4 @@ pub(crate) fn split(x: &DVector<C64>, y: &DVector<C64>) -> (DVector<C64>, DVecto
         x.zip_map(y, |x, y| (x + j * y) * 0.5),
         x.zip_map(y, |x, y| (x - j * y) * 0.5),
     )
-}
-
-/// The first-order form: ż₁ = Wη̇, η̈ = -M⁻¹(K W⁻¹z₁ + Cη̇) with z₁ = Wη and W the frequencies of the single coordinates.
-fn state_matrix<T: ComplexField<RealField = f64>>(
-    dynamics: &Dynamics<T>,
-) -> Result<DMatrix<T>, RotorError> {
-    let size = dynamics.mass.nrows();
-    let factor = dynamics.mass.clone().lu();
-    let solve = |m: &DMatrix<T>| factor.solve(m).ok_or(RotorError::NoMass);
-    let (stiffness, damping) = (solve(&dynamics.stiffness)?, solve(&dynamics.damping)?);
-    let scale = |i: usize| stiffness[(i, i)].clone().modulus().sqrt().max(1.0);
-    let mut out = DMatrix::zeros(2 * size, 2 * size);
-    for i in 0..size {
-        out[(i, size + i)] = T::from_real(scale(i));
-        for j in 0..size {
-            out[(size + i, j)] = -stiffness[(i, j)].clone() / T::from_real(scale(j));
-            out[(size + i, size + j)] = -damping[(i, j)].clone();
-        }
-    }
-    Ok(out)
-}
-
-fn schur<T: ComplexField<RealField = f64>>(
-    state: DMatrix<T>,
-) -> Result<Schur<T, nalgebra::Dyn>, RotorError> {
-    if state.iter().any(|z| !z.clone().modulus().is_finite()) {
-        return Err(RotorError::NotConverged);
-    }
-    let most = 200 * state.nrows();
-    Schur::try_new(state, f64::EPSILON, most).ok_or(RotorError::NotConverged)
 }

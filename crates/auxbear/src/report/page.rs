@@ -75,6 +75,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/signals.js"),
     include_str!("page/rig.js"),
     include_str!("page/identify.js"),
+    include_str!("page/rotor_drawing.js"),
     include_str!("page/rotor.js"),
     include_str!("page/machine.js"),
     include_str!("page/heat_flow.js"),

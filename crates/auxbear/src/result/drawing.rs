@@ -62,8 +62,15 @@ pub(crate) fn name(list: &mut List, model: &RotorModel) {
         "m",
         rotor.masses.iter().map(|m| z(m.node)).collect(),
     );
+    let masses = rotor.masses.iter().map(|m| m.mass);
+    numbers("point_masses", "kg", masses.collect());
     let unbalance = rotor.unbalance.iter().map(|u| z(u.node));
     numbers("unbalance_positions", "m", unbalance.collect());
+    let named = model.nodes.iter().map(|(_, node)| z(*node));
+    numbers("named_node_positions", "m", named.collect());
+    let magnets = || model.levitation.iter().flat_map(|own| &own.magnets);
+    numbers("magnet_positions", "m", magnets().map(|m| z(m.1)).collect());
+    numbers("sensor_positions", "m", magnets().map(|m| z(m.2)).collect());
     let mut text = |name: &str, words: Vec<String>| {
         list.push(name, "", Value::Text(words.join("\n")), &GIVEN);
     };
@@ -71,7 +78,17 @@ pub(crate) fn name(list: &mut List, model: &RotorModel) {
         "piece_materials",
         model.pieces.iter().map(|p| p.material.clone()).collect(),
     );
+    text(
+        "piece_names",
+        model.pieces.iter().map(|p| p.name.clone()).collect(),
+    );
     text("disk_names", model.disks.clone());
+    text("unbalance_names", model.unbalance.clone());
+    text(
+        "named_node_names",
+        model.nodes.iter().map(|n| n.0.clone()).collect(),
+    );
+    text("magnet_names", magnets().map(|m| m.0.clone()).collect());
     let supports = |seal: bool| {
         let all = model.supports.iter().zip(&rotor.supports);
         let own = all.filter(|(_, s)| s.seal == seal && matches!(s.at, Place::Node(_)));

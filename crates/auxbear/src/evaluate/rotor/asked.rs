@@ -9,6 +9,7 @@ use rotor::{
     Rotor, RotorError, Sag, Whirl,
 };
 use std::sync::OnceLock;
+use std::time::Instant;
 
 /// A rotor of at most so many coordinates keeps all of them.
 const SMALL: usize = 40;
@@ -31,7 +32,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) held: bool,
     /// The closed loop with its magnets.
     pub(crate) levitated: Option<Levitated>,
-    found: OnceLock<Result<Found, RotorError>>,
+    /// What was found, and how long it took, s.
+    found: OnceLock<(Result<Found, RotorError>, f64)>,
 }
 
 /// What was found.
@@ -174,7 +176,19 @@ impl<'a> Asked<'a> {
 
     /// Everything, computed once: limits ask for the names of the results before they are printed.
     pub(crate) fn found(&self) -> &Result<Found, RotorError> {
-        self.found.get_or_init(|| self.find())
+        &self.timed().0
+    }
+
+    /// How long that took, s.
+    pub(crate) fn seconds(&self) -> f64 {
+        self.timed().1
+    }
+
+    fn timed(&self) -> &(Result<Found, RotorError>, f64) {
+        self.found.get_or_init(|| {
+            let clock = Instant::now();
+            (self.find(), clock.elapsed().as_secs_f64())
+        })
     }
 
     fn find(&self) -> Result<Found, RotorError> {

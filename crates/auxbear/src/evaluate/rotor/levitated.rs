@@ -184,14 +184,6 @@ pub(crate) fn name(list: &mut List, analysis: &RotorAnalysis, found: &Levitated)
     let Some(model) = &analysis.model.levitation else {
         return;
     };
-    let z = |node: usize| analysis.model.rotor.nodes[node];
-    let positions = model
-        .magnets
-        .iter()
-        .map(|(_, at, sensed)| (z(*at), z(*sensed)));
-    let (magnets, sensors): (Vec<f64>, Vec<f64>) = positions.unzip();
-    list.push("magnet_positions", "m", Value::List(magnets), &GIVEN);
-    list.push("sensor_positions", "m", Value::List(sensors), &GIVEN);
     let slowest = found
         .poles
         .iter()

@@ -1,9 +1,9 @@
-// The pictures of the analysis of a rotor: the rotor to scale, shapes, Campbell diagram, response, stiffness map, margins.
+// The pictures of the analysis of a rotor: shapes, Campbell diagram, response, stiffness map, margins.
 
+const GROWS = "#b3261e";
+// Least damping ratio that the diagram tells apart, %: where one passes through zero the axis would have no end.
+const LEAST_DAMPING = 0.001;
 const SENSE_COLOURS = { forward: "#1f5fa8", backward: "#c2571a", planar: "#5d6b78" };
-const STEEL_FILL = "#d5dde4";
-const OTHER_FILLS = ["#e6d9c6", "#d9e3cf", "#e4d3dd"];
-const NODE_DOT = "#22303c";
 
 function listAt(run, name) {
   return list(quantityOf(run, name).value);
@@ -19,90 +19,6 @@ function numbered(run, begin, end) {
   const found = [];
   for (let number = 1; `${begin}_${number}${end}` in run.quantities; number++) found.push(number);
   return found;
-}
-
-// The rotor to scale; curves drawn over it: [{values (a node each), colour, dash, label}].
-function rotorDrawing(run, overlays, width) {
-  const margin = { left: 58, right: 24, top: 30, bottom: 40 };
-  const z = listAt(run, "node_positions");
-  const part = (name) => listAt(run, `piece_${name}`);
-  const [starts, ends, outer, outerEnd, inner, innerEnd, carries] = ["starts", "ends", "outer_starts", "outer_ends", "inner_starts", "inner_ends", "carries"].map(part);
-  const diskAt = listAt(run, "disk_positions");
-  const masses = listAt(run, "disk_masses");
-  const given = listAt(run, "disk_diameters");
-  const widths = listAt(run, "disk_widths");
-  const [first, last] = [z[0], z[z.length - 1]];
-  const length = last - first || 1;
-  const thickest = Math.max(...outer, ...outerEnd);
-  const heaviest = Math.max(...masses, 0);
-  // a disk of which only the mass is known is drawn by its mass, no larger than twice the shaft
-  const diameters = diskAt.map((_, k) => given[k] || thickest * (1.15 + 0.85 * Math.cbrt(masses[k] / heaviest)));
-  const highest = Math.max(thickest, ...diameters);
-  const scale = (width - margin.left - margin.right) / length;
-  // to scale unless the rotor is a needle or a plate
-  const tall = Math.min(Math.max(highest * scale, 70), 420);
-  const upright = tall / highest;
-  const height = margin.top + tall + margin.bottom + 34;
-  const middle = margin.top + tall / 2;
-  const toX = (at) => margin.left + (at - first) * scale;
-  const toY = (radius) => middle - radius * upright;
-  const materials = wordsAt(run, "piece_materials");
-  const kinds = [...new Set(materials)];
-  const fill = (k) => (kinds.indexOf(materials[k]) <= 0 ? STEEL_FILL : OTHER_FILLS[(kinds.indexOf(materials[k]) - 1) % OTHER_FILLS.length]);
-  const half = (k, side) => {
-    const points = [[starts[k], outer[k]], [ends[k], outerEnd[k]], [ends[k], innerEnd[k]], [starts[k], inner[k]]];
-    return drawing("polygon", { points: points.map(([at, d]) => `${toX(at).toFixed(1)},${toY((side * d) / 2).toFixed(1)}`).join(" "), fill: fill(k), stroke: "#7b8894", "stroke-width": 0.8, "stroke-dasharray": carries[k] ? null : "3 2" });
-  };
-  const bodies = starts.map((_, k) => [half(k, 1), half(k, -1)]);
-  const disks = diskAt.map((at, k) => {
-    const thick = Math.max((widths[k] || 0) * scale, 5);
-    const tip = toY(diameters[k] / 2);
-    return drawing("rect", { x: toX(at) - thick / 2, y: tip, width: thick, height: 2 * (middle - tip), fill: "#8fa3b5", "fill-opacity": 0.55, stroke: "#55677a", "stroke-width": 0.8 }, drawing("title", {}, `${wordsAt(run, "disk_names")[k] || ""}: ${engineeringText(masses[k], "kg", 4)}`));
-  });
-  const surface = (at) => {
-    let most = 0;
-    starts.forEach((from, k) => {
-      if (at < from - 1e-9 || at > ends[k] + 1e-9) return;
-      const share = (at - from) / (ends[k] - from);
-      most = Math.max(most, outer[k] + (outerEnd[k] - outer[k]) * share);
-    });
-    return most / 2;
-  };
-  const below = margin.top + tall;
-  const label = (at, words, row) => drawing("text", { x: toX(at), y: below + 24 + 12 * row, "text-anchor": "middle", "font-size": 10.5, fill: PALE_INK }, words);
-  const supports = listAt(run, "support_positions").map((at, k) => {
-    const [x, y] = [toX(at), toY(-surface(at))];
-    return [drawing("path", { d: `M${x} ${y}L${x - 8} ${y + 14}L${x + 8} ${y + 14}Z`, fill: "#2f8f5b", "fill-opacity": 0.85 }), label(at, wordsAt(run, "support_names")[k], k % 2)];
-  });
-  const seals = listAt(run, "seal_positions").map((at, k) => {
-    const [x, y] = [toX(at), toY(-surface(at))];
-    return [drawing("path", { d: `M${x - 7} ${y + 2}H${x + 7}M${x - 7} ${y + 6}H${x + 7}`, stroke: "#8a4fae", "stroke-width": 2 }), label(at, wordsAt(run, "seal_names")[k], (k + 1) % 2)];
-  });
-  const magnets = listAt(run, "magnet_positions").map((at) => [1, -1].map((side) => drawing("rect", { x: toX(at) - 7, y: side > 0 ? toY(surface(at)) - 15 : toY(-surface(at)) + 3, width: 14, height: 12, fill: "#c2571a", "fill-opacity": 0.85 }, drawing("title", {}, "magnet"))));
-  const landings = listAt(run, "bearing_positions").map((at) => [1, -1].map((side) => drawing("rect", { x: toX(at) - 5, y: side > 0 ? toY(surface(at)) - 14 : toY(-surface(at)) + 4, width: 10, height: 10, fill: "#1f5fa8" }, drawing("title", {}, "auxiliary bearing"))));
-  const sensors = listAt(run, "sensor_positions").map((at) => drawing("path", { d: `M${toX(at)} ${toY(surface(at)) - 2}l-4 -9h8Z`, fill: "#22303c" }, drawing("title", {}, "position sensor")));
-  const unbalances = listAt(run, "unbalance_positions").map((at) => drawing("circle", { cx: toX(at), cy: toY(surface(at)) - 6, r: 4, fill: "#b3261e" }, drawing("title", {}, "unbalance")));
-  const weights = listAt(run, "mass_positions").map((at) => drawing("rect", { x: toX(at) - 4, y: toY(surface(at)) - 10, width: 8, height: 8, fill: "#55677a" }, drawing("title", {}, "point mass")));
-  const nodes = z.map((at) => drawing("circle", { cx: toX(at), cy: middle, r: z.length > 80 ? 1 : 1.7, fill: NODE_DOT }));
-  const axis = [
-    drawing("line", { x1: margin.left - 14, x2: width - margin.right + 10, y1: middle, y2: middle, stroke: "#8995a0", "stroke-dasharray": "10 3 2 3" }),
-    axisSteps(first * 1e3, last * 1e3, Math.max(3, width / 110)).map((mm) => [drawing("line", { x1: toX(mm / 1e3), x2: toX(mm / 1e3), y1: height - 30, y2: height - 25, stroke: "#8995a0" }), drawing("text", { x: toX(mm / 1e3), y: height - 12, "text-anchor": "middle", "font-size": 11, fill: INK }, numberText(mm, 6))]),
-    drawing("line", { x1: toX(first), x2: toX(last), y1: height - 30, y2: height - 30, stroke: "#8995a0" }),
-    drawing("text", { x: 4, y: height - 12, "font-size": 11, fill: INK }, "z [mm]"),
-  ];
-  const lines = overlays.map(({ values, colour, dash }) => {
-    const largest = Math.max(...values.map(Math.abs)) || 1;
-    const path = values.map((value, k) => `${k ? "L" : "M"}${toX(z[k]).toFixed(1)} ${(middle - (value / largest) * (tall / 2) * 0.95).toFixed(1)}`);
-    return drawing("path", { d: path.join(""), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash || null });
-  });
-  return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, axis, bodies, disks, overlays.length ? null : [weights, unbalances], magnets, landings, sensors, supports, seals, nodes, lines);
-}
-
-function rotorPicture(run, overlays) {
-  const holder = element("div", { class: "curves" });
-  resizable.push(() => holder.replaceChildren(rotorDrawing(run, overlays, holder.clientWidth || 900)));
-  const keys = overlays.filter(({ label }) => label).map((line) => element("span", { class: "curve-key" }, curveSample(line), line.label));
-  return [holder, element("p", { class: "curve-keys" }, keys)];
 }
 
 function senseDash(sense) {
@@ -121,9 +37,8 @@ function rotorSection(runs) {
     ];
     const sagging = listAt(run, "sag");
     const loads = Object.keys(run.quantities).filter((name) => name.startsWith("load."));
-    const note = "To scale along the shaft. Grey: shaft, another colour for each other material; dashed: sleeves; blue: disks, sized by their mass where the file gives no diameter; green: supports; violet: seals; orange: magnets, with sensors as black wedges; red: unbalance; dots: nodes.";
     return [
-      figure(shareOfRun(run, runs, "Rotor to scale"), note, rotorPicture(run, [])),
+      figure(shareOfRun(run, runs, "Rotor to scale"), DRAWN, rotorPicture(run, [])),
       figure(shareOfRun(run, runs, "Mass properties"), null, plainTable(["", ""], rows)),
       sagging.length && numberOf(run, "largest_sag")
         ? figure(shareOfRun(run, runs, "Sag under its weight"), `Largest ${engineeringText(numberOf(run, "largest_sag"), "m", 4)}, in the direction of gravity.`, curves({ series: [{ x: listAt(run, "node_positions").map((at) => 1e3 * at), y: sagging.map((value) => -1e6 * value), colour: LINE_COLOURS[0] }], across: "z [mm]", upright: "sag [µm]", height: 200 }), loads.length ? plainTable(["support", "load"], loads.map((name) => [name.slice(5), engineeringText(numberOf(run, name), "N", 4)])) : null)
@@ -156,8 +71,13 @@ function campbellFigures(run, runs) {
     series: [...series, { label: "once a turn", x: line, y: line, colour: "#8995a0", dash: "2 3" }, { label: "critical speeds", x: criticals, y: criticals, colour: "#b3261e", line: false, dots: true, radius: 4 }],
     across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "frequency [rad/s]", right: { label: "frequency [Hz]", factor: 1 / (2 * Math.PI) }, marks: rated ? [{ at: rated, words: "rated" }] : [], height: 420,
   });
-  const damped = branches.map(({ number, sense }) => ({ x: speed, y: (overSpeed(run, `branch_${number}.damping_ratio`) || []).map((value) => (isNumber(value) ? 100 * value : null)), colour: SENSE_COLOURS[sense], dash: senseDash(sense) }));
-  const any = damped.some((one) => one.y.some((value) => isNumber(value) && Math.abs(value) > 1e-6));
+  // rows of the response between the speeds of the diagram have no damping ratio, and are no gaps
+  const ratios = branches.map(({ number, sense }) => ({ sense, points: (overSpeed(run, `branch_${number}.damping_ratio`) || []).map((value, row) => [speed[row], 100 * value, value]).filter(([, , value]) => isNumber(value)) }));
+  const any = ratios.some(({ points }) => points.some(([, ratio]) => Math.abs(ratio) > 1e-6));
+  const sized = (sign, { points }, line) => ({ ...line, gaps: true, x: points.map(([x]) => x), y: points.map(([, ratio]) => (sign * ratio > 1e-6 ? Math.max(sign * ratio, LEAST_DAMPING) : null)) });
+  const growing = ratios.map((one) => sized(-1, one, { colour: GROWS, width: 3 })).filter(({ y }) => y.some(isNumber));
+  if (growing.length) growing[0].label = "negative: the mode grows";
+  const damped = [...ratios.map((one) => sized(1, one, { colour: SENSE_COLOURS[one.sense], dash: senseDash(one.sense) })), ...growing];
   const rows = numbered(run, "critical", ".speed").map((number) => {
     const at = (name) => numberOf(run, `critical_${number}.${name}`);
     const amplification = at("amplification");
@@ -166,7 +86,7 @@ function campbellFigures(run, runs) {
   });
   return [
     figure(shareOfRun(run, runs, "Campbell diagram"), "Damped natural frequencies over speed, each followed from speed to speed. Blue: with the spin; orange, dashed: against it; grey: along a line, or at rest. Where one meets the dotted line the rotor whirls once a turn.", diagram),
-    any ? figure(shareOfRun(run, runs, "Damping of these modes"), "Below zero a mode grows.", curves({ series: damped, across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "damping ratio [%]", marks: rated ? [{ at: rated, words: "rated" }] : [], level: { at: 0, words: "grows below" }, height: 260 })) : null,
+    any ? figure(shareOfRun(run, runs, "Damping of these modes"), `Size of the damping ratio; colours as above. Thick red: it is negative, and the mode grows. What is smaller than ${LEAST_DAMPING} % stands at ${LEAST_DAMPING} %.`, curves({ series: damped, across: "speed of the rotor [rad/s]", above: IN_RPM, upright: "damping ratio [%]", logarithmic: true, marks: rated ? [{ at: rated, words: "rated" }] : [], height: 340 })) : null,
     figure(shareOfRun(run, runs, "Critical speeds and their separation"), "Amplification 1/(2ζ) of the mode. Separation from the operating speeds, as a share of the nearer one.", rows.length ? plainTable(["", "speed", "", "whirl", "amplification", "separation", "verdict"], rows) : notInThisRun("no mode whirls once a turn up to the highest speed", run)),
   ];
 }
@@ -281,6 +201,9 @@ function nyquistCurves(run, at) {
     const [re, im] = openLoop(run, begin, at);
     return { label, colour, dash, gaps: true, re, im };
   });
+  const [nearest] = lines.flatMap(({ label, re, im }) => re.map((value, k) => ({ label, k, x: value, y: im[k], far: Math.hypot(value + 1, im[k]) }))).filter(({ far }) => isNumber(far)).sort((one, other) => one.far - other.far);
+  const least = nearest ? [{ label: `least distance from -1: ${numberText(nearest.far, 3)}, ${nearest.label}, at ${engineeringText(listAt(run, `levitation.${at}.frequencies`)[nearest.k], "Hz", 3)}`, x: [-1, nearest.x], y: [0, nearest.y], colour: NODE_DOT, width: 3 }] : [];
+  const point = { label: "-1", x: [-1], y: [0], colour: "#b3261e", line: false, dots: true, radius: 4 };
   const series = (wide) => lines.map((line) => {
     const inside = (k) => isNumber(line.re[k]) && Math.abs(line.re[k] + 0.5) <= wide && Math.abs(line.im[k]) <= reach;
     return { ...line, x: line.re, y: line.im.map((value, k) => (inside(k) ? value : null)) };
@@ -289,10 +212,10 @@ function nyquistCurves(run, at) {
     const width = holder.clientWidth || 900;
     const wide = (reach * (width - CURVE_BOX.left - CURVE_BOX.right)) / (height - CURVE_BOX.top - CURVE_BOX.bottom);
     const frame = { x: [-0.5 - wide, -0.5 + wide, -0.5, -0.5], y: [0, 0, -reach, reach], colour: "none", line: false };
-    holder.replaceChildren(curveDrawing({ series: [frame, ...circles, ...series(wide), { x: [-1], y: [0], colour: "#b3261e", line: false, dots: true, radius: 4 }], across: "Re L", upright: "Im L", height }, width));
+    holder.replaceChildren(curveDrawing({ series: [frame, ...circles, ...series(wide), ...least, point], across: "Re L", upright: "Im L", height }, width));
   };
   resizable.push(draw);
-  const keys = [...lines, ...circles].map((line) => element("span", { class: "curve-key" }, curveSample(line), line.label));
+  const keys = [...lines, point, ...least, ...circles].map((line) => element("span", { class: "curve-key" }, curveSample(line), line.label));
   return [holder, element("p", { class: "curve-keys" }, keys)];
 }
 

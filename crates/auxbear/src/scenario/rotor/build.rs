@@ -40,6 +40,8 @@ pub struct RotorModel {
 /// A piece of shaft or sleeve as it is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPiece {
+    /// Its name, else its number.
+    pub name: String,
     /// Name of its material.
     pub material: String,
     /// Dimensions.
@@ -256,7 +258,13 @@ fn pieces<'a>(
             damping_rotating: damping("damping_rotating"),
         };
         let material = part.text("material").unwrap_or_default().to_string();
-        out.push((part, DrawnPiece { material, layer }));
+        let name = part.label.clone();
+        let piece = DrawnPiece {
+            name,
+            material,
+            layer,
+        };
+        out.push((part, piece));
     }
     let layers = out.iter().map(|(_, piece)| &piece.layer);
     let longest = divided(layers, values);

@@ -88,11 +88,6 @@ pub(crate) fn name(context: &Context, list: &mut List) {
         let offsets = given.places.iter().map(|place| place.misalignment[axis]);
         list.push(name, "m", Value::List(offsets.collect()), &drawing::GIVEN);
     }
-    let magnets = || given.model.levitation.iter().flat_map(|own| &own.magnets);
-    let at = z(&mut magnets().map(|(_, at, _)| *at));
-    list.push("magnet_positions", "m", Value::List(at), &drawing::GIVEN);
-    let at = z(&mut magnets().map(|(_, _, sensed)| *sensed));
-    list.push("sensor_positions", "m", Value::List(at), &drawing::GIVEN);
     along(list, context, given, built);
 }
 

@@ -286,3 +286,42 @@ fn diagrams_have_the_magnets_in_them() {
     assert!(number(&found, "response.sensor_right.rated_amplitude") > 0.0);
     assert!(found.iter().any(|(name, _)| name == "map_forward_1"));
 }
+
+/// The drawing names what stands along the shaft, sensors where they are and not where their magnets are.
+#[test]
+fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let mut list = List(Vec::new());
+    crate::result::drawing::name(&mut list, &analysis.model);
+    let of = |name: &str| {
+        let found = list.0.iter().find(|q| q.name == name);
+        found.unwrap_or_else(|| panic!("{name}")).value.clone()
+    };
+    assert_eq!(of("magnet_names"), Value::Text("left\nright".to_string()));
+    assert_eq!(of("magnet_positions"), Value::List(vec![0.1, 0.4]));
+    assert_eq!(of("sensor_positions"), Value::List(vec![0.08, 0.42]));
+    assert_eq!(of("unbalance_names"), Value::Text("1".to_string()));
+    assert_eq!(of("piece_names"), Value::Text("1".to_string()));
+}
+
+/// Limits ask for the results before the run: it has taken the time that this took.
+#[test]
+fn a_run_with_limits_tells_its_whole_time() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let asked = Asked::of(analysis).unwrap();
+    let clock = std::time::Instant::now();
+    assert!(asked.found().is_ok());
+    let before = clock.elapsed().as_secs_f64();
+    let told = super::super::run(&scenario, &asked).work.seconds;
+    let whole = clock.elapsed().as_secs_f64();
+    assert!(
+        told > 0.9 * before && told <= whole,
+        "{before} {told} {whole}"
+    );
+}
