@@ -230,7 +230,7 @@ const RUN: &[Key] = &[
         "Allowed error of a step, relative to each channel's own scale, such as a clearance, the full speed and the energy turned over.",
     )
     .within(Range::FromTo(1e-12, 1e-1))
-    .optional("1e-4, by linearly implicit steps 2e-4, of a spin-up 5e-5, where the rotor bends 3e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor bends 3e-3; 1e-3 by explicit ones"),
+    .optional("1e-4, by linearly implicit steps 2e-4, of a spin-up 5e-5, where the rotor bends 2e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor bends 3e-3; 1e-3 by explicit ones"),
     Key::new(
         "run.output_interval",
         Kind::Quantity("s"),
