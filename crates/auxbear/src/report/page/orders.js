@@ -42,7 +42,7 @@ function orderDrawing(run, width) {
 function orderFigure(run, runs) {
   const title = shareOfRun(run, runs, "Orders of the whirl");
   const sizes = listOf(run, "whirl_order_amplitudes");
-  if (!sizes.length) return figure(title, null, notInThisRun("orders: it is shorter than eight turns", run));
+  if (!sizes.length) return figure(title, null, notInThisRun("orders: it is shorter than eight turns, or run.output_interval is longer than a sixteenth of one", run));
   const holder = element("div", { class: "curves" });
   resizable.push(() => holder.replaceChildren(orderDrawing(run, holder.clientWidth || 900)));
   const largest = Math.max(...sizes);
