@@ -49,7 +49,7 @@ impl<R: Real> Palmgren<R> {
     ///
     /// - `load`: W, N; 0 for W ≤ 0
     ///
-    /// Source: derived; beside a load zone of 10 balls within 7 % for preloads of 0.4 to 35 µm and 100 to 5800 N.
+    /// Source: derived; beside load zones of 10 balls within 14 % for preloads of 0.4 to 35 µm and loads above that at which W_p was found.
     /// Valid: preload of rings that press all round.
     #[inline(always)]
     fn pressing(&self, load: R) -> R {

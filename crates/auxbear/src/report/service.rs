@@ -141,6 +141,12 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
             let (code, path) = (Code::Conflict, run.directory);
             return Err(Box::new(Problem::at_path(code, path, found, needed)));
         }
+        if run.summary["complete"] == false {
+            let (code, path) = (Code::Conflict, run.directory);
+            let needed = "a drop that ended as planned is needed";
+            let found = "a run that is not complete";
+            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+        }
         if run.bearings() != bearings {
             let found = format!("a run with the bearings {}", listed(&run.bearings()));
             let needed = format!(
@@ -290,6 +296,7 @@ impl Run<'_> {
     }
     /// The first of these results that there is; the reason why it has no value.
     fn first(&self, bearing: &str, names: &[&str]) -> Result<Option<Found>, String> {
+        let mut why = None;
         for name in names {
             let name = of_part(bearing, name);
             let found = &self.summary["quantities"][&name];
@@ -306,9 +313,9 @@ impl Run<'_> {
                     members: spread["members"].as_f64().unwrap_or(1.0),
                 }));
             }
-            let why = found["why"].as_str().unwrap_or("no value");
-            return Err(format!("{name} of {}: {why}", self.directory.display()));
+            let said = found["why"].as_str().unwrap_or("no value");
+            why = Some(format!("{name} of {}: {said}", self.directory.display()));
         }
-        Ok(None)
+        why.map_or(Ok(None), Err)
     }
 }

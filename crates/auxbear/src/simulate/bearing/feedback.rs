@@ -137,7 +137,7 @@ impl Follows {
                     self.zone.load,
                     self.zone.pressing(clearance, self.unpreloaded),
                 );
-                match pressing > weight {
+                match pressing > weight || weight == 0.0 {
                     true => *preload = (pressing * pressing - weight * weight).sqrt(),
                     // fewer balls carry: less at every load, P = W ΣQ/ΣQ_0 in M1 = z (P/C0)^y P d_m
                     false => *f1_factor *= (pressing / weight).powf(1.0 + *f1_exponent),

@@ -157,9 +157,9 @@ pub(crate) fn count_run_out(drop: &mut [Quantity], bearing: &str, run_out: &[Qua
         }
     };
     let ring = |side: &str| {
-        let name = of_part(bearing, &format!("{side}_{LIFE_BY_POINT}"));
-        let taken = points(drop, &name)?;
-        let then = points(run_out, &format!("run_out.{name}"));
+        let name = format!("{side}_{LIFE_BY_POINT}");
+        let taken = points(drop, &of_part(bearing, &name))?;
+        let then = points(run_out, &of_part(bearing, &format!("run_out.{name}")));
         let mut sum = vec![0.0; PLACES];
         add_points(&mut sum, &taken, 1.0);
         Some(then.map(|then| {
@@ -243,7 +243,7 @@ const LIFE: Origin = Origin {
 };
 const BY_POINT: Origin = Origin {
     law: "S/(z 10⁶ Q_c³), S = Σ Q³ over the balls that pass a point; of the outer ring from the frame's x axis on, of the inner one from its angle 0 \
-          at the release, one value where it is the same all round. life_share_with_lubricant, else life_share, is the mean of their powers 10/9 to the \
+          at the release. life_share_with_lubricant, else life_share, is the mean of their powers 10/9 to the \
           power 9/10, of both rings",
     source: "book/src/theory/heat.md; crates/physics/src/life.rs",
     valid: "as life_share; of repeated runs the mean of the members. Drops of one bearing add up point by point (auxbear service)",

@@ -41,7 +41,7 @@ impl List {
             false => Err("no ball was loaded".to_string()),
         };
         self.number("ball_load_safety", "1", safety, &SAFETY);
-        self.indentation_index("", pressure, bearing);
+        self.indentation_index("", pressure, bearing.hertz_pressure_limit);
         self.number(
             "largest_indentation",
             "m",
@@ -50,10 +50,10 @@ impl List {
         );
     }
 
-    /// Load of the most loaded ball of a bearing over the load that dents, by its pressure, Pa.
-    pub fn indentation_index(&mut self, name: &str, pressure: f64, bearing: &Bearing) {
+    /// Load of the most loaded ball of a bearing over the load that dents, by its pressure and the limit of that, Pa.
+    pub fn indentation_index(&mut self, name: &str, pressure: f64, limit: f64) {
         let index = match pressure > 0.0 {
-            true => 1.0 / ball_load_safety(bearing.hertz_pressure_limit, pressure),
+            true => 1.0 / ball_load_safety(limit, pressure),
             false => 0.0,
         };
         let name = of_part(name, "indentation_index");

@@ -4,14 +4,15 @@ use crate::problem::{Code, Problem};
 pub(crate) use crate::scenario::heat::ICE_POINT;
 use crate::scenario::heat::{SHOULDER, STEEL_EXPANSION};
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
-use crate::simulate::coast_down::rows::{End, Row};
+use crate::simulate::coast_down::rows::{BallsSeen, End, Row};
 use physics::heat_conduction::STEEL_HEAT;
-use physics::hertz::{BallRace, PointContact, Race};
+use physics::hertz::{BallRace, PointContact, Race, maximum_pressure};
 use physics::load_zone::joint_stiffness;
 use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::palmgren::Palmgren;
 use physics::viscosity::Viscosity;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 use thermal::bearing_network::{
     BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
 };
@@ -22,7 +23,7 @@ use thermal::load_zone::LoadZone;
 use thermal::oil_range::BeyondData;
 use thermal::passage::{Line, Passage};
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
-use thermal::warm_machine::{RotorDrag, WarmMachine};
+use thermal::warm_machine::{Between, OF_BEARING, RotorDrag, WarmMachine};
 
 /// Expansion of silicon nitride, 1/K. Source: derived; book/src/theory/heat.md.
 const CERAMIC_EXPANSION: f64 = 3.2e-6;
@@ -30,6 +31,9 @@ const CERAMIC_EXPANSION: f64 = 3.2e-6;
 const OIL_SPECIFIC_HEAT: f64 = 1900.0;
 /// Shares of the heat of M1: sliding at ball and race, half to each side. Source: derived; book/src/theory/heat.md.
 const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
+
+/// Pressure that dents where none is given, Pa. Source: ISO 76 (ball bearings, 4200 MPa).
+const DENTS: f64 = 4.2e9;
 
 /// A bearing of a run-out.
 #[derive(Clone, Debug)]
@@ -47,6 +51,17 @@ pub(crate) struct Part {
     pub closes: bool,
     /// The line of the lubricant, and where it is known.
     pub viscosity: Viscosity,
+    /// Pressure that dents, Pa.
+    pub pressure_limit: f64,
+}
+
+impl Part {
+    /// Pressure of a ball under a load at the race where it is larger, Pa.
+    pub fn largest_pressure(&self, load: f64) -> f64 {
+        let contacts = self.network.contacts.iter();
+        let each = contacts.map(|contact| maximum_pressure(contact.pressure_factor, load));
+        each.fold(0.0, f64::max)
+    }
 }
 
 /// The machine of a run-out.
@@ -70,6 +85,24 @@ pub(crate) struct Built {
     pub warm_from: Vec<f64>,
     /// Where the run-out by laws starts.
     pub start: Start,
+    /// How its motion differs from rolling, between two windows; none where it rolls.
+    pub motion: Option<Motion>,
+}
+
+/// Between two windows that followed the motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Motion {
+    pub between: Between,
+    /// Of the balls of each bearing, at both.
+    pub balls: [Vec<Option<Arc<BallsSeen>>>; 2],
+}
+
+impl Motion {
+    /// The balls of a bearing as the window nearest to a speed has seen them.
+    pub fn balls(&self, speed: f64, bearing: usize) -> Option<&Arc<BallsSeen>> {
+        let nearest = usize::from(self.between.way(speed) > 0.5);
+        self.balls[nearest][bearing].as_ref()
+    }
 }
 
 /// Where a run-out starts.
@@ -95,8 +128,6 @@ pub(crate) struct Start {
     pub ended: Option<End>,
     /// The same way with the nodes held at their limits, where there was one.
     pub on_limits: Option<OnLimits>,
-    /// The state of the last window: its step is taken again when its end is known.
-    kept: Option<Kept>,
 }
 
 /// A way on which nodes are held at their limits.
@@ -130,18 +161,6 @@ impl OnLimits {
     }
 }
 
-/// What a step in slow time changes.
-#[derive(Clone, Debug)]
-struct Kept {
-    time: f64,
-    speed: f64,
-    temperatures: Vec<f64>,
-    heats: Vec<f64>,
-    given: f64,
-    at_nodes: AtNodes,
-    on_limits: Option<OnLimits>,
-}
-
 impl Start {
     /// A start at a time (s), speed (rad/s) and temperatures of the nodes of so many bearings (°C).
     pub fn at(time: f64, speed: f64, temperatures: Vec<f64>, bearings: usize) -> Self {
@@ -150,13 +169,12 @@ impl Start {
             speed,
             at_nodes: AtNodes::none(temperatures.len()),
             temperatures,
-            heats: vec![0.0; 2 * bearings + 1],
+            heats: vec![0.0; OF_BEARING * bearings + 1],
             given: 0.0,
             rows: Vec::new(),
             beyond_data: vec![None; bearings],
             ended: None,
             on_limits: None,
-            kept: None,
         }
     }
     /// The same, with nodes that are held at these temperatures, °C.
@@ -171,30 +189,6 @@ impl Start {
         Start {
             beyond_data,
             ..self
-        }
-    }
-    /// Keeps where it stands.
-    pub fn keep(&mut self) {
-        self.kept = Some(Kept {
-            time: self.time,
-            speed: self.speed,
-            temperatures: self.temperatures.clone(),
-            heats: self.heats.clone(),
-            given: self.given,
-            at_nodes: self.at_nodes.clone(),
-            on_limits: self.on_limits.clone(),
-        });
-    }
-    /// Goes back to what was kept.
-    pub fn undo(&mut self) {
-        if let Some(kept) = self.kept.take() {
-            self.time = kept.time;
-            self.speed = kept.speed;
-            self.temperatures = kept.temperatures;
-            self.heats = kept.heats;
-            self.given = kept.given;
-            self.at_nodes = kept.at_nodes;
-            self.on_limits = kept.on_limits;
         }
     }
 }
@@ -238,6 +232,7 @@ impl Built {
         WarmMachine {
             bearings: self.parts.iter().map(|part| part.losses.clone()).collect(),
             rotor,
+            motion: self.motion.as_ref().map(|motion| motion.between.clone()),
         }
     }
 }
@@ -259,6 +254,7 @@ pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
         energy: 0.5 * run.polar_inertia * run.speed * run.speed,
         warm_from: vec![start; NODES.len()],
         start: Start::at(0.0, run.speed.abs(), vec![start; NODES.len()], 1),
+        motion: None,
     })
 }
 
@@ -282,6 +278,7 @@ pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Pr
         load_direction: 0.0,
         closes: warm.heat.feedback == Feedback::Full,
         viscosity,
+        pressure_limit: DENTS,
         warm: warm.clone(),
     })
 }

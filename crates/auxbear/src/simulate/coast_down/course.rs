@@ -10,6 +10,7 @@ use thermal::held::Held;
 use thermal::losses::Losses;
 use thermal::network::{Network, NetworkError};
 use thermal::steady_speed::SteadySpeed;
+use thermal::warm_machine::OF_BEARING;
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
 const LONGEST_STEP: f64 = 0.03;
@@ -65,7 +66,8 @@ pub(super) fn follow(
         }
         _ => held.begin(&mut state.temperatures),
     }
-    if start.ended.is_none() || rows.is_empty() {
+    // also where it ends at once
+    if rows.last().is_none_or(|row| row.speed > state.speed) {
         rows.push(row(built, &state, &powers));
     }
     let end = loop {
@@ -133,7 +135,7 @@ pub(super) fn follow(
 }
 
 /// Why a run-out ends at temperatures of the nodes of all bearings, °C, that no law of it knows.
-pub(crate) fn left(built: &Built, temperatures: &[f64]) -> Option<End> {
+fn left(built: &Built, temperatures: &[f64]) -> Option<End> {
     if !temperatures.iter().all(|now| now.abs() < BEYOND) {
         return Some(End::Beyond);
     }
@@ -149,10 +151,10 @@ pub(crate) fn left(built: &Built, temperatures: &[f64]) -> Option<End> {
 
 /// Largest change of a temperature in a step where a seat follows it, K: between tight and loose lie tenths of a kelvin, and what it conducts
 /// is held in a step.
-pub(crate) const MOST_CHANGE: f64 = 0.5;
+const MOST_CHANGE: f64 = 0.5;
 
 /// Largest difference of two lists of temperatures, K.
-pub(crate) fn largest_change(before: &[f64], after: &[f64]) -> f64 {
+fn largest_change(before: &[f64], after: &[f64]) -> f64 {
     let changes = before.iter().zip(after).map(|(a, b)| (a - b).abs());
     changes.fold(0.0, f64::max)
 }
@@ -191,7 +193,7 @@ fn clearance(part: &Part, temperatures: &[f64]) -> f64 {
 }
 
 /// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
-pub(crate) fn network(
+fn network(
     built: &Built,
     (speed, temperatures): (f64, &[f64]),
     held: &[bool],
@@ -223,25 +225,36 @@ fn no_network(why: NetworkError) -> Box<Problem> {
 
 fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
     let losses = built.losses(state.time);
-    let mut moments = [0.0, 0.0, losses.rotor.moment(state.speed)];
-    let of_part = |(part, temperatures): (&Part, &[f64])| {
-        let own = part.losses.on_rotor(state.speed, temperatures);
-        moments[0] += own[0];
-        moments[1] += own[1];
+    let mut all = vec![0.0; losses.count()];
+    losses.moments(state.speed, &state.temperatures, &mut all);
+    let (of_rotor, of_bearings) = all.split_last().unwrap_or((&0.0, &[]));
+    let sum = |loss: usize| {
+        of_bearings
+            .iter()
+            .skip(loss)
+            .step_by(OF_BEARING)
+            .sum::<f64>()
+    };
+    let moments = [sum(0), sum(1) + sum(2), *of_rotor];
+    let of_part = |(k, (part, temperatures)): (usize, (&Part, &[f64]))| {
         let clearance = clearance(part, temperatures);
         let loads = part.zone.loads(clearance);
+        let by_law = loads.iter().copied().fold(0.0, f64::max);
+        let balls = (built.motion.as_ref()).and_then(|motion| motion.balls(state.speed, k));
         RowOfBearing {
-            moment: own[0] + own[1],
+            moment: of_bearings[OF_BEARING * k..][..OF_BEARING].iter().sum(),
             clearance,
-            largest_ball_load: loads.iter().copied().fold(0.0, f64::max),
-            balls: None,
+            largest_ball_load: balls.map_or(by_law, |balls| {
+                by_law.max(balls.largest[0]).max(balls.largest[1])
+            }),
+            balls: balls.cloned(),
         }
     };
     let each = built
         .parts
         .iter()
         .zip(state.temperatures.chunks(NODES.len()));
-    let bearings = each.map(of_part).collect();
+    let bearings = each.enumerate().map(of_part).collect();
     let follows = |temperatures: &[f64]| {
         let seats = built.seats_follow();
         seats.then(|| network(built, (state.speed, temperatures), &[]).ok())?

@@ -11,6 +11,7 @@ use physics::life::{RatedBearing, add_points, passages_per_turn, repetitions};
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE, PASSES};
 use thermal::losses::Losses;
+use thermal::warm_machine::OF_BEARING;
 
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
@@ -77,8 +78,15 @@ fn heats(ran: &Ran, list: &mut List) {
     let sides = f64::from(ran.built.sides);
     list.number("rotor_energy", "J", Ok(ran.built.energy), &ENERGY);
     let (of_rotor, of_bearings) = heats.split_last().unwrap_or((&0.0, &[]));
-    let sum = |loss: usize| of_bearings.iter().skip(loss).step_by(2).sum::<f64>();
-    let (speed_dependent, load_dependent) = (sum(0), sum(1));
+    let sum = |loss: usize| {
+        of_bearings
+            .iter()
+            .skip(loss)
+            .step_by(OF_BEARING)
+            .sum::<f64>()
+    };
+    // with what no law of a rolling bearing knows
+    let (speed_dependent, load_dependent) = (sum(0), sum(1) + sum(2));
     for (name, heat) in [
         ("speed_dependent_heat", speed_dependent),
         ("load_dependent_heat", load_dependent),
@@ -114,7 +122,7 @@ fn heats(ran: &Ran, list: &mut List) {
             .into_iter()
             .enumerate()
         {
-            let loss = 2 * k + loss;
+            let loss = OF_BEARING * k + loss;
             let share = |node| losses.share(loss, k * NODES.len() + node);
             let flow: Vec<f64> = (0..NODES.len())
                 .map(|node| heats[loss] * share(node))
@@ -181,12 +189,11 @@ fn clearance(ran: &Ran, k: usize, list: &mut List) {
     let open = || "the bearing stays open".to_string();
     list.awaited(&of("closing_time"), closes.ok_or_else(open), &CLEARANCE);
     let most = ran.rows(k).map(|row| row.largest_ball_load);
-    list.number(
-        &of("peak_ball_load"),
-        "N",
-        Ok(most.fold(0.0, f64::max)),
-        &BALLS,
-    );
+    let most = most.fold(0.0, f64::max);
+    list.number(&of("peak_ball_load"), "N", Ok(most), &BALLS);
+    let part = &ran.built.parts[k];
+    let pressure = part.largest_pressure(most);
+    list.indentation_index(&part.name, pressure, part.pressure_limit);
 }
 
 fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
@@ -266,15 +273,19 @@ fn used(
     let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for (row, turned) in (ran.free.rows.iter()).zip(turned(&ran.free.rows)) {
         let turned = turned / factor(row);
-        if let Some(balls) = &row.bearings[k].balls {
-            for (sum, cubes) in seen.iter_mut().zip(&balls.cubes) {
-                add_points(sum, cubes, turned);
-            }
-            continue;
-        }
         let zone = (part.zone).all_round(row.bearings[k].clearance, PLACES);
-        for (sum, load) in by_laws.iter_mut().zip(zone) {
-            *sum += turned * load.powi(3);
+        let cubes: Vec<f64> = zone.into_iter().map(|load| load.powi(3)).collect();
+        // a window is as closed as its bearing was then, and the laws know no impacts: the larger of both counts
+        let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+        let harder = (row.bearings[k].balls.as_ref())
+            .filter(|balls| mean(&balls.cubes[1]) > passages[1] * mean(&cubes));
+        match harder {
+            Some(balls) => {
+                for (sum, cubes) in seen.iter_mut().zip(&balls.cubes) {
+                    add_points(sum, cubes, turned);
+                }
+            }
+            None => add_points(&mut by_laws, &cubes, turned),
         }
     }
     let mean = by_laws.iter().sum::<f64>() / PLACES as f64;
@@ -282,10 +293,6 @@ fn used(
     let rotated = part.load_direction / TAU * PLACES as f64;
     by_laws.rotate_right(rotated.round().rem_euclid(PLACES as f64) as usize % PLACES);
     let [mut inner, mut outer] = seen;
-    if inner.iter().all(|sum| *sum == 0.0) {
-        // the same all round
-        inner.truncate(1);
-    }
     inner.iter_mut().for_each(|sum| *sum += mean * passages[0]);
     for (sum, cubes) in outer.iter_mut().zip(by_laws) {
         *sum += cubes * passages[1];

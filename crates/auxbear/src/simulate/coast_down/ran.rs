@@ -76,6 +76,7 @@ impl Ran<'_> {
         start.heats.clone_from(&state.heats);
         start.given = state.given;
         start.at_nodes = state.at_nodes.clone();
+        start.beyond_data.clone_from(&self.built.start.beyond_data);
         start.rows = before(&self.free);
         start.on_limits = Some(match &self.held {
             Some(course) => OnLimits {

@@ -1,5 +1,6 @@
 //! What is known at the instants of a run-out, and how it ended.
 
+use std::sync::Arc;
 use thermal::coast_down::Endless;
 
 /// What is known at the end of a step. Moments and powers are those of all bearings.
@@ -28,8 +29,8 @@ pub(crate) struct RowOfBearing {
     pub clearance: f64,
     /// Of the most loaded ball, N.
     pub largest_ball_load: f64,
-    /// Of its balls, where a window followed them.
-    pub balls: Option<BallsSeen>,
+    /// Of its balls, where windows follow them: as the nearest has seen them.
+    pub balls: Option<Arc<BallsSeen>>,
 }
 
 /// What a window ball by ball has seen of the balls of a bearing.

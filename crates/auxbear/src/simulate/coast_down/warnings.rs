@@ -191,9 +191,11 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
     if ran.free.rows[0].bearings[k].clearance < 0.0 {
         return None;
     }
-    // what windows see has other causes
-    let by_laws = ran.rows(k).filter(|row| row.balls.is_none());
-    let most = by_laws.map(|row| row.largest_ball_load).fold(0.0, f64::max);
+    // what windows see of impacts has other causes
+    let part = &ran.built.parts[k];
+    let least = ran.rows(k).map(|row| row.clearance);
+    let loads = part.zone.loads(least.fold(f64::INFINITY, f64::min));
+    let most = loads.into_iter().fold(0.0, f64::max);
     Some(warning(
         "AB2312",
         format!(

@@ -12,7 +12,7 @@ use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::{self, history, quantities as of_run_out};
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::returns::{self, Return, Returned};
-use crate::simulate::drop::went::{Change, Went, pressure, way};
+use crate::simulate::drop::went::{Change, Went, way};
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use crate::simulate::drop::{quantities, run_out_warnings};
 use crate::simulate::ending;
@@ -78,7 +78,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         frequencies,
         returned,
     };
-    let quantities = named(context, &found, &went);
+    let quantities = named(&found, &went);
     if !goes_on {
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
@@ -167,6 +167,9 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
         }
         one.load_direction = drop.gravity.direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
+        if let Some(bearing) = &context.given(k).bearing {
+            one.pressure_limit = bearing.hertz_pressure_limit;
+        }
         parts.push(one);
         temperatures.extend(&warmth.temperatures);
         beyond_data.push(warmth.beyond_data);
@@ -208,11 +211,12 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
         start: Start::at(ending.time, speed, temperatures, bearings)
             .holding(Held::together(&held), at_limits)
             .beyond(beyond_data),
+        motion: None,
     })
 }
 
 /// The results under their names: those of the run-out, and its course over time.
-fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
+fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     let first = &went.first;
     list.number("start_time", "s", Ok(first.time), &CHANGE);
@@ -226,11 +230,6 @@ fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
         let peak = went.peak(k).ok_or("no windows ball by ball".to_string());
         let name = of_part(&part.name, "peak_contact_force");
         list.number(&name, "N", peak.map(|[force, ..]| force), &PEAK);
-        if let (Some(bearing), Some(pressure)) =
-            (&context.given(k).bearing, pressure(context, found, k))
-        {
-            list.indentation_index(&part.name, pressure, bearing);
-        }
     }
     of_run_out::name(found, &mut list);
     let returned = &went.returned;

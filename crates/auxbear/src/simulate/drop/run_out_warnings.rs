@@ -6,7 +6,7 @@ use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::warnings;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::returns::{self, Returned, lifts};
-use crate::simulate::drop::went::{Went, pressure};
+use crate::simulate::drop::went::Went;
 
 /// What windows and returns say, the gravest first.
 pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
@@ -57,12 +57,10 @@ fn hits_harder(
         "" => String::new(),
         name => format!(" on {name}"),
     };
-    let limit = context
-        .given(bearing)
-        .bearing
-        .as_ref()?
-        .hertz_pressure_limit;
-    let share = (pressure(context, found, bearing)? / limit).powi(3);
+    let part = &found.built.parts[bearing];
+    let most = found.rows(bearing).map(|row| row.largest_ball_load);
+    let most = part.largest_pressure(most.fold(0.0, f64::max));
+    let share = (most / part.pressure_limit).powi(3);
     (force > before).then(|| {
         warning(
             "AB2323",

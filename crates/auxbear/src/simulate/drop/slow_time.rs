@@ -1,122 +1,124 @@
 //! Slow time between two windows ball by ball: the rotor slows down by their losses, and its bearings warm by them.
 //!
 //! ```text
-//!   dt = I ln(1/r) ½ (Ω_j/M_j + Ω_j+1/M_j+1),  M = P/Ω
+//!   M = f_0 M0(ν(T), Ω) + f_1 M1(P(T)) + M_beside       f_0, f_1 ≤ 1 and M_beside of both windows, along straight lines in the speed
 //! ```
-//! The kinetic energy lost is heat by the means' proportions.
+//! That is a run-out by laws with other moments, in steps as short as its temperatures ask for. What a window finds beyond M1 under the weight
+//! stays as it is: of the larger loads of impacts and whirl a preload takes little.
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::simulate::coast_down::build::{Built, hold};
-use crate::simulate::coast_down::course;
-use crate::simulate::coast_down::course::{MOST_CHANGE, largest_change};
-use crate::simulate::coast_down::rows::BallsSeen;
+use crate::simulate::coast_down::build::{Built, Motion};
+use crate::simulate::coast_down::ran::ran;
+use crate::simulate::coast_down::rows::{BallsSeen, End};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use thermal::bearing_network::NODES;
+use thermal::warm_machine::{Between, Followed, InMotion, OF_BEARING};
 
 /// What a window found at its speed.
-#[derive(Clone)]
 pub(super) struct Window {
     /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
     pub powers: Vec<f64>,
-    /// Over the nodes of all bearings, W.
-    pub nodes: Vec<f64>,
-    /// Of the friction of rotor and races among them, W.
+    /// What that says beside the laws.
+    pub followed: Followed,
+    /// Heat of what brakes beside the laws, over the nodes of all bearings, W.
+    pub beside: Vec<f64>,
+    /// Of the friction of rotor and races in it, W.
     pub friction: f64,
     /// Largest contact force of each bearing, N.
     pub peaks: Vec<f64>,
     /// Of the balls of each bearing.
-    pub balls: Vec<Option<BallsSeen>>,
+    pub balls: Vec<Option<Arc<BallsSeen>>>,
     /// Standard error of the whole power over it.
     pub scatter: f64,
 }
 
-/// One step in slow time from the speed of a window, with the powers of its start and of its end: what it loses, and what of that
-/// friction of rotor and races takes, J.
+/// What the mean powers of a window say beside the laws at its speed and temperatures, and what heats the nodes besides, W: of powers as
+/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0 and what brakes the rotor besides its drag, W.
+pub(super) fn beside_laws(
+    built: &Built,
+    powers: &[f64],
+    nodes: &[f64],
+    drag_factors: &[f64],
+    rotor: f64,
+) -> (Followed, Vec<f64>) {
+    let start = &built.start;
+    let sides = f64::from(built.sides);
+    let mut beside = nodes.to_vec();
+    let mut bearings = Vec::new();
+    for (k, part) in built.parts.iter().enumerate() {
+        let of_nodes = k * NODES.len()..(k + 1) * NODES.len();
+        let laws = part
+            .losses
+            .on_rotor(start.speed, &start.temperatures[of_nodes.clone()]);
+        let laws = laws.map(|moment| moment * start.speed / sides);
+        let [steady, other] = [powers[2 * k], powers[2 * k + 1]];
+        let first = steady.min(drag_factors[k] * laws[0]);
+        let second = (steady - first).min(laws[1]);
+        for (loss, taken) in [first, second].into_iter().enumerate() {
+            for (own, heat) in beside[of_nodes.clone()].iter_mut().enumerate() {
+                *heat -= taken * part.losses.shares[loss][own];
+            }
+        }
+        beside[of_nodes]
+            .iter_mut()
+            .for_each(|heat| *heat = heat.max(0.0));
+        let factor = |taken: f64, law: f64| if law > 0.0 { taken / law } else { 0.0 };
+        bearings.push(InMotion {
+            factors: [factor(first, laws[0]), factor(second, laws[1])],
+            beside: sides * (steady - first - second + other) / start.speed,
+        });
+    }
+    let followed = Followed {
+        speed: start.speed,
+        bearings,
+        rotor: sides * rotor / start.speed,
+    };
+    (followed, beside)
+}
+
+/// One step in slow time from the speed of a window, with what its start and its end say: what it loses, what of that friction of rotor
+/// and races takes, J, and why the run-out ends within it.
 pub(super) fn step(
     built: &mut Built,
-    from: &Window,
-    to: &Window,
+    [from, to]: [&Window; 2],
     ratio: f64,
-) -> Result<[f64; 2], &'static str> {
+    interrupt: &AtomicBool,
+) -> Result<([f64; 2], Option<End>), &'static str> {
     let speed = built.start.speed;
-    let after = (ratio * speed).max(built.end.stop_speed);
-    let sides = f64::from(built.sides);
-    let whole = |window: &Window| sides * window.powers.iter().sum::<f64>();
-    // I ln(1/r) ½ (Ω/M + Ω'/M'), M = P/Ω
-    let inverse = |speed: f64, power: f64| speed * speed / power;
-    let end_power = match std::ptr::eq(from, to) {
-        // what is not known yet: the moment of the start
-        true => whole(to) * after / speed,
-        false => whole(to),
+    let nodes = from.beside.iter().zip(&to.beside);
+    let mut shares: Vec<f64> = nodes.map(|(a, b)| a + b).collect();
+    for own in shares.chunks_mut(NODES.len()) {
+        let sum: f64 = own.iter().sum();
+        if sum > 0.0 {
+            own.iter_mut().for_each(|share| *share /= sum);
+        }
+    }
+    built.motion = Some(Motion {
+        between: Between {
+            ends: [from.followed.clone(), to.followed.clone()],
+            shares,
+        },
+        balls: [from.balls.clone(), to.balls.clone()],
+    });
+    let mut until = built.clone();
+    until.end.stop_speed = (ratio * speed).max(built.end.stop_speed);
+    let found =
+        ran(&until, interrupt).map_err(|_| "the network of a bearing has no finite values")?;
+    let end = match found.free.end {
+        End::Stands => None,
+        end => Some(end),
     };
-    let time = built.inertia
-        * (speed / after).ln()
-        * 0.5
-        * (inverse(speed, whole(from)) + inverse(after, end_power));
-    if !(time.is_finite() && time > 0.0) {
-        return Err("nothing brakes the rotor");
-    }
-    let lost = 0.5 * built.inertia * (speed - after) * (speed + after);
-    let weight = |k: usize| from.powers[k] + to.powers[k];
-    let sum: f64 = (0..from.powers.len()).map(weight).sum();
-    for (k, heat) in built.start.heats.iter_mut().enumerate() {
-        *heat += lost * weight(k) / sum;
-    }
-    // what reaches the nodes keeps its part of the whole
-    let scale = lost / (sides * time * 0.5 * sum);
-    let powers: Vec<f64> = (from.nodes.iter().zip(&to.nodes))
-        .map(|(a, b)| 0.5 * (a + b) * scale)
-        .collect();
-    on_limits(built, &powers, time)?;
-    let mut left = time;
-    while left > 0.0 {
-        let network = network(built, &built.start.temperatures, &[])?;
-        let mut span = left;
-        let (warmed, given) = loop {
-            let mut warmed = built.start.temperatures.clone();
-            let given = network.advance(&mut warmed, &powers, span);
-            let moved = largest_change(&built.start.temperatures, &warmed);
-            if !built.seats_follow() || moved <= MOST_CHANGE || span < LEAST_SHARE * time {
-                break (warmed, given);
-            }
-            span *= (0.8 * MOST_CHANGE / moved).max(0.1);
-        };
-        built.start.temperatures = warmed;
-        built.start.given += sides * given.iter().sum::<f64>();
-        (built.start.at_nodes).add(&network, sides, &powers, span, &given);
-        left -= span;
-    }
-    built.start.time += time;
-    built.start.speed = after;
-    Ok([lost, lost * (from.friction + to.friction) / sum])
-}
-
-/// Least share of a step that is taken at once.
-const LEAST_SHARE: f64 = 1e-3;
-
-/// The same step with the nodes held at their limits.
-fn on_limits(built: &mut Built, powers: &[f64], time: f64) -> Result<(), &'static str> {
-    let Some(mut way) = built.start.on_limits.take() else {
-        return Ok(());
+    let beside = |heats: &[f64]| -> f64 { heats.iter().skip(2).step_by(OF_BEARING).sum() };
+    let heats = beside(&found.free.state.heats) - beside(&built.start.heats);
+    let both = from.beside.iter().chain(&to.beside).sum::<f64>();
+    let friction = match both > 0.0 {
+        true => heats * (from.friction + to.friction) / both,
+        false => 0.0,
     };
-    let sides = f64::from(built.sides);
-    let network = network(built, &way.temperatures, way.held.marks())?;
-    let given = network.advance(&mut way.temperatures, powers, time);
-    way.powers = hold(
-        (&mut way.held, &mut way.temperatures),
-        &built.capacities(),
-        &network.by_node(&given),
-        (sides, time),
-        &mut way.taken,
-    );
-    built.start.on_limits = Some(way);
-    Ok(())
-}
-
-fn network(
-    built: &Built,
-    temperatures: &[f64],
-    held: &[bool],
-) -> Result<thermal::network::Network, &'static str> {
-    course::network(built, (built.start.speed, temperatures), held)
-        .map_err(|_| "the network of a bearing has no finite values")
+    let start = found.start();
+    let lost = 0.5 * built.inertia * (speed - start.speed) * (speed + start.speed);
+    built.start = start;
+    Ok(([lost, friction], end))
 }

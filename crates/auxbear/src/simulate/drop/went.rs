@@ -1,11 +1,9 @@
 //! How a run went between its fidelities: from ball by ball into slow time and back.
 
 use crate::simulate::coast_down::build::Built;
-use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::returns::{Return, Returned};
 use crate::simulate::drop::windows::Bounced;
-use model::system::sampling::Peak;
 
 /// The first change from motion to laws.
 pub(super) struct Change {
@@ -90,14 +88,4 @@ pub(super) fn way(context: &Context, went: &Went) -> String {
     list.extend(went.returned.list.iter().map(Return::words));
     list.retain(|sentence| !sentence.is_empty());
     list.join(" ")
-}
-
-/// Largest pressure of balls and races in windows, Pa; none without windows.
-pub(super) fn pressure(context: &Context, found: &Ran, bearing: usize) -> Option<f64> {
-    let seen = found.rows(bearing).filter_map(|row| row.balls.as_ref());
-    let [inner, outer] = (seen.map(|balls| balls.largest))
-        .reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])?
-        .map(|value| Peak { value, time: 0.0 });
-    let factors = context.built.bearings[bearing].pressure_factors;
-    Some(factors.pressures([inner, outer], Peak::NONE).races)
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   window at Ω_j    spin held, oil and clearance as warm as they are; settle, then mean heats over whole turns
-//!   between          dt = I ln(1/r) ½ (Ω_j/M_j + Ω_j+1/M_j+1),  M = P/Ω;  kinetic energy lost is heat by the means' proportions
+//!   between          a run-out by laws with what both windows find beside them (slow_time.rs)
 //! ```
 //! It ends where the rotor rolls, or loses no more than by rolling in two windows: the run-out by laws goes on from there. Unbalance of a few micrometres lifts a fast rotor from
 //! rolling again and again (e Ω² near g), so that this is how most drops go on.
@@ -13,15 +13,14 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::{Built, Part, Start};
-use crate::simulate::coast_down::course;
+use crate::simulate::coast_down::build::{Built, Start};
 use crate::simulate::coast_down::ran::Ran;
-use crate::simulate::coast_down::rows::{BallsSeen, End, Row, RowOfBearing};
+use crate::simulate::coast_down::rows::{BallsSeen, End};
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::method;
-use crate::simulate::drop::slow_time::{Window, step};
+use crate::simulate::drop::slow_time::{Window, beside_laws, step};
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::HEATS;
 use model::bearing_heat::OfNodes;
@@ -53,6 +52,8 @@ struct Batch {
     friction: f64,
     peaks: Vec<f64>,
     balls: Vec<Option<BallsSeen>>,
+    drag_factors: Vec<f64>,
+    rotor: f64,
 }
 
 /// What windows follow.
@@ -125,7 +126,7 @@ pub(super) fn follow(
 ) -> Bounced {
     let mut way = Way::from_end_of(context, interrupt);
     let mut bounced = Bounced::default();
-    let mut before: Option<Window> = None;
+    let mut before: Option<(Start, Window)> = None;
     let mut agreeing = 0;
     let mut ratio = RATIO;
     let end = loop {
@@ -134,12 +135,6 @@ pub(super) fn follow(
         }
         if built.start.speed <= built.end.stop_speed {
             break Some(End::Stands);
-        }
-        if built.start.time >= built.end.longest {
-            break Some(End::Late);
-        }
-        if let Some(end) = course::left(built, &built.start.temperatures) {
-            break Some(end);
         }
         let leaves = built.start.speed <= stretch.until;
         let window = match way.window(built, leaves) {
@@ -153,13 +148,16 @@ pub(super) fn follow(
         }
         bounced.scatter.push(window.scatter);
         bounced.peak(&built.start, &window);
-        if let Some(last) = &before {
+        if let Some((start, last)) = before {
             // the step that led here, with what is known at both of its ends
-            built.start.undo();
-            match step(built, last, &window, ratio) {
-                Ok(taken) => {
+            built.start = start;
+            match step(built, [&last, &window], ratio, interrupt) {
+                Ok((taken, end)) => {
                     bounced.lost += taken[0];
                     bounced.friction += taken[1];
+                    if end.is_some() {
+                        break end;
+                    }
                 }
                 Err(why) => break Some(End::Lost(why)),
             }
@@ -171,20 +169,21 @@ pub(super) fn follow(
         if agreeing == AGREEING {
             break None;
         }
-        add_row(built, &window);
-        built.start.keep();
+        let start = built.start.clone();
         ratio = if leaves { RATIO } else { stretch.ratio };
-        if let Err(why) = step(built, &window, &window, ratio) {
-            break Some(End::Lost(why));
+        match step(built, [&window, &window], ratio, interrupt) {
+            Ok((_, None)) => {}
+            Ok((_, end)) => break end,
+            Err(why) => break Some(End::Lost(why)),
         }
-        before = Some(window);
+        before = Some((start, window));
     };
-    if let (Some(_), Some(last)) = (end, &before) {
-        ended(built, last);
+    if end.is_none() {
+        built.motion = None;
     }
     built.start.ended = end;
     let content = way.machine.content(&way.state);
-    bounced.kinetic = before.map(|_| content.translation + content.spin);
+    bounced.kinetic = (!bounced.scatter.is_empty()).then_some(content.translation + content.spin);
     bounced.steps = way.steps;
     bounced
 }
@@ -334,24 +333,26 @@ impl<'a> Way<'a> {
         if rolls {
             return Ok(None);
         }
-        Ok(Some(mean(&pieces)))
+        Ok(Some(mean(built, &pieces)))
     }
 
     /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
     fn heats(&self, built: &Built, state: &[f64], span: f64) -> Batch {
         let layout = self.machine.layout();
         let (mut powers, mut nodes, mut friction) = (Vec::new(), Vec::new(), 0.0);
+        let mut drag_factors = Vec::new();
         for (k, at) in layout.bearings.iter().enumerate() {
             let heats: [f64; HEATS] =
                 std::array::from_fn(|kind| state[layout.heat(at.heat + kind)] / span);
             let steady = model::bearing_heat::steady_moment(&heats);
             powers.extend([steady, heats.iter().sum::<f64>() - steady]);
             friction += state[layout.heat(at.rotor_race_friction())] / span;
-            let of_nodes: OfNodes = match &self.context.machine.constants.bearings[k].warm {
+            let part = &self.context.machine.constants.bearings[k];
+            let drag_factor = (part.bearing).drag_factor(&|own| state[at.own().start + own]);
+            drag_factors.push(drag_factor);
+            let of_nodes: OfNodes = match &part.warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
-                    let part = &self.context.machine.constants.bearings[k].bearing;
-                    let drag_factor = part.drag_factor(&|own| state[at.own().start + own]);
                     warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor)
                 }
                 None => [0.0; NODES.len()],
@@ -375,6 +376,8 @@ impl<'a> Way<'a> {
             friction,
             peaks: Vec::new(),
             balls: Vec::new(),
+            drag_factors,
+            rotor: others,
         }
     }
 }
@@ -441,7 +444,7 @@ fn outcome(finished: &Finished) -> Piece {
 }
 
 /// Means of batches, and the standard error of their sum over it.
-fn mean(batches: &[Batch]) -> Window {
+fn mean(built: &Built, batches: &[Batch]) -> Window {
     let count = batches.len() as f64;
     let of = |each: Vec<&Vec<f64>>| -> Vec<f64> {
         let length = each.first().map_or(0, |one| one.len());
@@ -455,8 +458,13 @@ fn mean(batches: &[Batch]) -> Window {
         apart * apart
     });
     let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
+    let nodes = of(batches.iter().map(|batch| &batch.nodes).collect());
+    let drag_factors = of(batches.iter().map(|batch| &batch.drag_factors).collect());
+    let rotor = batches.iter().map(|batch| batch.rotor).sum::<f64>() / count;
+    let (followed, beside) = beside_laws(built, &powers, &nodes, &drag_factors, rotor);
     Window {
-        nodes: of(batches.iter().map(|batch| &batch.nodes).collect()),
+        followed,
+        beside,
         friction: batches.iter().map(|batch| batch.friction).sum::<f64>() / count,
         scatter: deviation / (count.sqrt() * whole),
         peaks: (0..batches[0].peaks.len())
@@ -468,7 +476,7 @@ fn mean(batches: &[Batch]) -> Window {
             })
             .collect(),
         balls: (0..batches[0].balls.len())
-            .map(|k| all_balls(batches, k))
+            .map(|k| all_balls(batches, k).map(Arc::new))
             .collect(),
         powers,
     }
@@ -488,66 +496,4 @@ fn conditioned(drop: &Drop, built: &Built) -> Drop {
         }
     }
     warm
-}
-
-/// Where a run-out ends behind a window, whose moments still count there.
-fn ended(built: &mut Built, last: &Window) {
-    let Some(before) = built.start.rows.last() else {
-        return;
-    };
-    let slower = built.start.speed / before.speed;
-    if built.start.time > before.time && slower > 0.0 {
-        let there = Window {
-            powers: last.powers.iter().map(|power| slower * power).collect(),
-            ..last.clone()
-        };
-        add_row(built, &there);
-    }
-}
-
-/// Writes down what is known at a window, also of the nodes held at their limits.
-fn add_row(built: &mut Built, window: &Window) {
-    let row = row(built, window);
-    if let Some(way) = &mut built.start.on_limits {
-        way.rows.push(Row {
-            time: row.time + way.delay,
-            ..row.clone()
-        });
-    }
-    built.start.rows.push(row);
-}
-
-/// What is known at a window.
-fn row(built: &Built, window: &Window) -> Row {
-    let start = &built.start;
-    let sides = f64::from(built.sides);
-    let moment = |power: f64| sides * power / start.speed;
-    let (rotor, bearings) = window.powers.split_last().unwrap_or((&0.0, &[]));
-    let sum = |kind: usize| bearings.iter().skip(kind).step_by(2).sum::<f64>();
-    let each = built
-        .parts
-        .iter()
-        .zip(start.temperatures.chunks(NODES.len()));
-    let of_part = |(k, (part, temperatures)): (usize, (&Part, &[f64]))| {
-        let clearance = part.zone.clearance_at(temperatures);
-        RowOfBearing {
-            moment: moment(bearings[2 * k] + bearings[2 * k + 1]),
-            clearance,
-            largest_ball_load: (window.balls[k].as_ref())
-                .map_or(f64::NAN, |balls| balls.largest[0].max(balls.largest[1])),
-            balls: window.balls[k].clone(),
-        }
-    };
-    Row {
-        time: start.time,
-        speed: start.speed,
-        temperatures: start.temperatures.clone(),
-        moments: [moment(sum(0)), moment(sum(1)), moment(*rotor)],
-        bearings: each.enumerate().map(of_part).collect(),
-        growth: f64::NAN,
-        taken: match &start.on_limits {
-            Some(way) => way.powers.clone(),
-            None => vec![0.0; start.temperatures.len()],
-        },
-    }
 }
