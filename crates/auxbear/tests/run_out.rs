@@ -486,3 +486,29 @@ fn the_life_of_a_drop_counts_the_cube_of_its_load_over_its_turns() {
     near("drops_until_fifty_percent_fail", 5.45 / share, 1e-3);
     near("drops_until_one_percent_fail", 0.12 / share, 2e-2);
 }
+
+/// Between windows temperatures go their own way: a heavy rotor stays at a speed for longer than they need.
+#[test]
+fn a_heavy_rotor_that_bounces_warms_its_bearings_as_laws_do() {
+    let sets = [
+        "rotor.speed=24000 rpm",
+        "rotor.first_bending_frequency=8000 rad/s",
+        "rotor.polar_inertia=0.1 kg m^2",
+        "bearing.operating_diametral_clearance=2 um",
+        "run.duration=2 s",
+    ];
+    let found = ran(&[&sets[..], &["rotor.unbalance_eccentricity=5 um"]].concat());
+    assert!(number(&found, "run_out.windows") > 1.0);
+    let laws = ran(&sets);
+    assert_eq!(number(&laws, "run_out.windows"), 0.0);
+    for (name, apart) in [
+        ("peak_inner_race_temperature", 1.0),
+        ("peak_balls_temperature", 1.0),
+        ("smallest_clearance", 1e-6),
+    ] {
+        let [ours, theirs] = [&found, &laws].map(|run| number(run, &format!("run_out.{name}")));
+        assert!((ours - theirs).abs() < apart, "{name} {ours} {theirs}");
+    }
+    let ratio = number(&found, "run_out.life_share") / number(&laws, "run_out.life_share");
+    assert!((0.75..1.3).contains(&ratio), "{ratio}");
+}

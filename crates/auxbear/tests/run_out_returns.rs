@@ -94,10 +94,10 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         let unbalance = format!("rotor.unbalance_eccentricity={unbalance}");
         let damping = format!("mount.damping={damping}");
         let sets = [
-            "mount.stiffness=1e6 N/m",
+            "mount.stiffness=5e5 N/m",
             &damping,
             &unbalance,
-            "coast_down.stop_speed=350 rad/s",
+            "coast_down.stop_speed=250 rad/s",
         ];
         let never = AtomicBool::new(false);
         run(
@@ -106,9 +106,9 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         )
         .unwrap()
     };
-    let found = with("90 um", "60 N s/m");
+    let found = with("90 um", "30 N s/m");
     assert!(found.stop.complete(), "{}", found.stop.text);
-    let told = "ball by ball again, near the natural frequency of 464 rad/s";
+    let told = "ball by ball again, near the natural frequency of 331 rad/s";
     assert!(found.stop.text.contains(told), "{}", found.stop.text);
     // from 1.05 to 0.95 of it in steps of 1.5 %, and on while it does not roll
     assert!(number(&found, "run_out.windows") >= 12.0);
@@ -129,10 +129,10 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     let harder = force > number(&found, "peak_contact_force");
     let told = found.warnings.iter().any(|w| w.code == "AB2323");
     assert_eq!(told, harder, "{force}");
-    // 8 kg with 0.5 kg on 2 · 1e6 N/m, softer by balls and landing: below √(k/(m/2 + m_m)) = 471 rad/s
-    assert!((0.97..1.0).contains(&(frequency / (1e6f64 / 4.5).sqrt())));
-    // more unbalance and less damping, and it whirls out of the model there: no law goes on
-    let lost = with("120 um", "35 N s/m");
+    // 8 kg with 0.5 kg on 2 · 5e5 N/m, softer by balls and landing: below √(k/(m/2 + m_m)) = 333 rad/s
+    assert!((0.97..1.0).contains(&(frequency / (5e5f64 / 4.5).sqrt())));
+    // more unbalance, and it whirls out of the model there: no law goes on
+    let lost = with("130 um", "40 N s/m");
     assert_eq!(lost.stop.reason, "left the model");
     // its course goes on to where it ends
     let times = list(&lost, "run_out.over_time.time");
