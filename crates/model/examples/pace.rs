@@ -75,6 +75,7 @@ fn greased() -> MachineConstants {
             load_factor: 0.0007,
             load_exponent: 0.5,
             static_load_rating: 6550.0,
+            preload: 0.0,
         }),
         axial_load: 0.0,
         orbit_share: 0.5,
