@@ -144,3 +144,51 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         lost.stop.text
     );
 }
+
+/// A rotor that bounces on a bearing whose warmth closes it: it runs away, as ball by ball it does after 18.6 s, until friction of rotor and
+/// race turns the bearing no longer.
+#[test]
+fn a_bearing_that_runs_away_while_the_rotor_bounces_seizes_on_its_friction() {
+    let text = SHIPPED
+        .replace("22 mm^2/s", "100 mm^2/s")
+        .replace("4.6 mm^2/s", "11 mm^2/s");
+    let sets = [
+        "rotor.mass=12 kg",
+        "rotor.planes=1",
+        "rotor.polar_inertia=0.5 kg m^2",
+        "rotor.speed=20000 rpm",
+        "rotor.first_bending_frequency=9000 rad/s",
+        "rotor.unbalance_eccentricity=4 um",
+        "mount.stiffness=1e8 N/m",
+        "mount.damping=20000 N s/m",
+        "bearing.operating_diametral_clearance=2 um",
+        "heat.surroundings=20 W/K",
+        "heat.rotor_contact=0 W/K",
+        "heat.rotor_capacity=100 J/K",
+        "heat.film_thickness=1 um",
+    ];
+    let never = AtomicBool::new(false);
+    let found = run(&parsed(&text, &sets).unwrap(), &Options::unwatched(&never)).unwrap();
+    assert_eq!(found.stop.reason, "left the model");
+    let away = found.warnings.iter().find(|w| w.code == "AB2311").unwrap();
+    assert!(away.text.contains("runs away: from 2"), "{}", away.text);
+    let course = |name: &str| list(&found, &format!("run_out.over_time.{name}"));
+    let at = |name: &str, time: f64| {
+        let after = course("time").partition_point(|t| *t < time);
+        course(name)[after]
+    };
+    // 84 and 109 W ball by ball
+    let [early, late] = [20.0, 30.0].map(|time| at("heat.power", time));
+    assert!(
+        (80.0..90.0).contains(&early) && late > 1.15 * early,
+        "{early} {late}"
+    );
+    assert!(at("heat.growth_rate", 10.0) < 0.0 && at("heat.growth_rate", 30.0) > 0.0);
+    // μ W r: no more reaches the bearing, of M0 and M1 together
+    let carried = 0.15 * 12.0 * 9.80665 * (12.5e-3 - 0.25e-3);
+    let moments = course("load_dependent.moment")
+        .iter()
+        .zip(course("speed_dependent.moment"));
+    let most = moments.map(|(one, other)| one + other).fold(0.0, f64::max);
+    assert!((0.9..1.25).contains(&(most / carried)), "{most} {carried}");
+}

@@ -5,7 +5,7 @@ use crate::simulate::bearing::races as shared;
 use crate::simulate::bearing::warm::Warmed;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::simulate::coast_down::ran::Ran;
-use crate::simulate::coast_down::rows::{End, Row};
+use crate::simulate::coast_down::rows::{BallsSeen, End, Row};
 use model::system::layout::of_part;
 use physics::life::{RatedBearing, add_points, passages_per_turn, repetitions};
 use std::f64::consts::TAU;
@@ -203,7 +203,7 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     list.number(&of("smallest_viscosity_ratio"), "1", Ok(least), &KAPPA);
     let points = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
-        .map(|rating| used(ran, k, part, rating, &|_| 1.0));
+        .map(|rating| used(ran, k, part, rating, &|_, _| 1.0));
     let whole =
         |points: &Result<_, String>| points.as_ref().map(shared::used_by).map_err(String::clone);
     let share = whole(&points);
@@ -212,8 +212,8 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
         .zip(part.warm.static_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating or static_load_rating{NOT_GIVEN}"))
         .map(|(rating, still)| {
-            used(ran, k, part, rating, &|row| {
-                life_factor(k, part, still, row)
+            used(ran, k, part, rating, &|row, harder| {
+                life_factor(k, part, still, row, harder)
             })
         });
     list.number(
@@ -234,13 +234,13 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     }
 }
 
-/// Life factor of lubricant and cleanliness at a row, a_ISO, with the rating of a hot ring in it.
-fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row) -> f64 {
+/// Life factor of lubricant and cleanliness at a row, a_ISO, with the rating of a hot ring in it, under a load that is so many times the weight.
+fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row, harder: f64) -> f64 {
     let warm = &part.warm;
     let races = [INNER_RACE, OUTER_RACE].map(|node| row.temperatures[k * NODES.len() + node]);
     let kappa = viscosity_ratio(k, part, row);
     let hot = races[0].max(races[1]);
-    shared::life_factor(warm, static_rating, warm.radial_load, kappa, hot)
+    shared::life_factor(warm, static_rating, harder * warm.radial_load, kappa, hot)
 }
 
 /// κ at a row.
@@ -250,13 +250,14 @@ fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     shared::viscosity_ratio(&part.warm, viscosity, row.speed)
 }
 
-/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row.
+/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row and its load
+/// over the weight.
 fn used(
     ran: &Ran,
     k: usize,
     part: &Part,
     rating: f64,
-    factor: &dyn Fn(&Row) -> f64,
+    factor: &dyn Fn(&Row, f64) -> f64,
 ) -> [Vec<f64>; 2] {
     let warm = &part.warm;
     let gamma = warm.ball_diameter / warm.pitch_diameter;
@@ -272,20 +273,23 @@ fn used(
     let mut by_laws = vec![0.0; PLACES];
     let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for (row, turned) in (ran.free.rows.iter()).zip(turned(&ran.free.rows)) {
-        let turned = turned / factor(row);
         let zone = (part.zone).all_round(row.bearings[k].clearance, PLACES);
         let cubes: Vec<f64> = zone.into_iter().map(|load| load.powi(3)).collect();
         // a window is as closed as its bearing was then, and the laws know no impacts: the larger of both counts
         let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
-        let harder = (row.bearings[k].balls.as_ref())
-            .filter(|balls| mean(&balls.cubes[1]) > passages[1] * mean(&cubes));
-        match harder {
-            Some(balls) => {
+        let times = |balls: &BallsSeen| mean(&balls.cubes[1]) / (passages[1] * mean(&cubes));
+        let seen_by_window = row.bearings[k]
+            .balls
+            .as_ref()
+            .map(|balls| (balls, times(balls)));
+        match seen_by_window.filter(|(_, times)| *times > 1.0) {
+            Some((balls, times)) => {
+                let turned = turned / factor(row, times.cbrt());
                 for (sum, cubes) in seen.iter_mut().zip(&balls.cubes) {
                     add_points(sum, cubes, turned);
                 }
             }
-            None => add_points(&mut by_laws, &cubes, turned),
+            None => add_points(&mut by_laws, &cubes, turned / factor(row, 1.0)),
         }
     }
     let mean = by_laws.iter().sum::<f64>() / PLACES as f64;

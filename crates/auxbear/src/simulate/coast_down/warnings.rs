@@ -59,17 +59,19 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
     let changes = ran.built.parts[first].zone.changes_at(temperatures);
     let grows = |row: &&Row| row.growth > 0.0 && row.clearance() < 0.0;
     let last = ran.free.rows.iter().rposition(|row| grows(&row));
-    let calm = last.and_then(|last| ran.free.rows.get(last + 1));
+    // what left the model has not calmed down
+    let goes_on = matches!(ran.free.end, End::Stands | End::Late | End::Interrupted);
+    let calm = last.and_then(|last| ran.free.rows.get(last + 1).filter(|_| goes_on));
     Some(away((row.time, calm.map(|row| row.time)), most, changes))
 }
 
-/// A bearing that runs away from a time on, s, until it has slowed down, if it has: with the largest rate, 1/s, and what inner ring, balls and
+/// A bearing that runs away from a time on, s, until it does no longer, if so: with the largest rate, 1/s, and what inner ring, balls and
 /// outer ring have added to its clearance until then, m.
 pub(crate) fn away((time, calm): (f64, Option<f64>), rate: f64, changes: [f64; 3]) -> Warning {
     let when = match calm {
         None => format!("The bearing runs away: from {} on", words(time)),
         Some(calm) => format!(
-            "The bearing runs away for a while: from {} until it has slowed down, at {},",
+            "The bearing runs away from {} to {}:",
             words(time),
             words(calm)
         ),

@@ -73,10 +73,11 @@ pub(super) fn follow(
 ) -> Result<Returned, Box<Problem>> {
     let found = ran(built, interrupt)?;
     let last = found.free.rows.last().map_or(0.0, |row| row.speed);
-    let passed: Vec<f64> = (frequencies.iter().copied())
+    let mut passed: Vec<f64> = (frequencies.iter().copied())
         .filter(|frequency| *frequency > last)
         .collect();
     let (excess, looked) = windows::looked_at(context, &found, &passed, interrupt);
+    passed.truncate(excess.len());
     let mut returned = Returned {
         passed,
         excess,
@@ -167,7 +168,9 @@ pub(super) fn carried(context: &Context, k: usize, part: &Part) -> f64 {
 
 /// Largest moment of a bearing by laws, N m, where friction may not carry it; none where windows followed it, or it always does.
 pub(super) fn asked(context: &Context, found: &Ran, k: usize, part: &Part) -> Option<f64> {
-    let rows = found.free.rows.get(found.built.start.rows.len()..)?;
+    // the last row of a run that ended between windows is theirs
+    let by_laws = found.built.motion.is_none();
+    let rows = by_laws.then(|| found.free.rows.get(found.built.start.rows.len()..))??;
     let lost = rows
         .iter()
         .filter(|row| slides(context, found, k, part, row));

@@ -10,7 +10,7 @@
 
 use crate::simulate::coast_down::build::{Built, Motion};
 use crate::simulate::coast_down::ran::ran;
-use crate::simulate::coast_down::rows::{BallsSeen, End};
+use crate::simulate::coast_down::rows::{BallsSeen, End, Row};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::NODES;
@@ -54,8 +54,9 @@ pub(super) fn beside_laws(
             .on_rotor(start.speed, &start.temperatures[of_nodes.clone()]);
         let laws = laws.map(|moment| moment * start.speed / sides);
         let [steady, other] = [powers[2 * k], powers[2 * k + 1]];
-        let first = steady.min(drag_factors[k] * laws[0]);
-        let second = (steady - first).min(laws[1]);
+        // balls that bounce lag a little behind rolling: that is not M1's, which a preload makes grow
+        let second = steady.min(laws[1]);
+        let first = (steady - second).min(drag_factors[k] * laws[0]);
         for (loss, taken) in [first, second].into_iter().enumerate() {
             for (own, heat) in beside[of_nodes.clone()].iter_mut().enumerate() {
                 *heat -= taken * part.losses.shares[loss][own];
@@ -78,15 +79,30 @@ pub(super) fn beside_laws(
     (followed, beside)
 }
 
-/// One step in slow time from the speed of a window, with what its start and its end say: what it loses, what of that friction of rotor
-/// and races takes, J, and why the run-out ends within it.
+/// Change of a temperature after which a window looks again, K: bodies that warm by so much close a clearance by a micrometre or two.
+const FAR: f64 = 10.0;
+
+/// How far a step goes.
+pub(super) enum Until<'a> {
+    /// To this speed over the one at its start, or until a body has warmed or cooled by [`FAR`]: nothing is known but the window at its start.
+    Ratio(f64),
+    /// To a window, which is known.
+    Window(&'a Window),
+}
+
+/// One step in slow time from the speed of a window: what it loses, what of that friction of rotor and race takes, J, and why the run-out ends
+/// within it.
 pub(super) fn step(
     built: &mut Built,
-    [from, to]: [&Window; 2],
-    ratio: f64,
+    from: &Window,
+    until: &Until,
     interrupt: &AtomicBool,
 ) -> Result<([f64; 2], Option<End>), &'static str> {
     let speed = built.start.speed;
+    let (to, after) = match until {
+        Until::Ratio(ratio) => (from, ratio * speed),
+        Until::Window(to) => (*to, to.followed.speed),
+    };
     let nodes = from.beside.iter().zip(&to.beside);
     let mut shares: Vec<f64> = nodes.map(|(a, b)| a + b).collect();
     for own in shares.chunks_mut(NODES.len()) {
@@ -102,10 +118,21 @@ pub(super) fn step(
         },
         balls: [from.balls.clone(), to.balls.clone()],
     });
-    let mut until = built.clone();
-    until.end.stop_speed = (ratio * speed).max(built.end.stop_speed);
-    let found =
-        ran(&until, interrupt).map_err(|_| "the network of a bearing has no finite values")?;
+    let no_network = |_| "the network of a bearing has no finite values";
+    let mut stretch = built.clone();
+    stretch.end.stop_speed = after.max(built.end.stop_speed);
+    let mut found = ran(&stretch, interrupt).map_err(no_network)?;
+    let is_far = |row: &&Row| {
+        let nodes = row.temperatures.iter().zip(&built.start.temperatures);
+        nodes.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) > FAR
+    };
+    let own = &found.free.rows[built.start.rows.len()..];
+    let far = own.iter().skip(1).find(is_far).map(|row| row.speed);
+    let mut nearer = stretch.clone();
+    if let (Until::Ratio(_), Some(far)) = (until, far) {
+        nearer.end.stop_speed = far.max(built.end.stop_speed);
+        found = ran(&nearer, interrupt).map_err(no_network)?;
+    }
     let end = match found.free.end {
         End::Stands => None,
         end => Some(end),

@@ -79,10 +79,11 @@ pub(super) fn way(context: &Context, went: &Went) -> String {
                 false => rolled,
                 true => "It never rolled.".to_string(),
             };
-            vec![format!(
-                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them. {last}",
+            let windows = format!(
+                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them.",
                 context.finished.ending.time
-            )]
+            );
+            vec![windows, last]
         }
     };
     list.extend(went.returned.list.iter().map(Return::words));

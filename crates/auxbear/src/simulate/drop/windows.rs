@@ -20,7 +20,7 @@ use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::method;
-use crate::simulate::drop::slow_time::{Window, beside_laws, step};
+use crate::simulate::drop::slow_time::{Until, Window, beside_laws, step};
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::HEATS;
 use model::bearing_heat::OfNodes;
@@ -128,7 +128,6 @@ pub(super) fn follow(
     let mut bounced = Bounced::default();
     let mut before: Option<(Start, Window)> = None;
     let mut agreeing = 0;
-    let mut ratio = RATIO;
     let end = loop {
         if interrupt.load(Ordering::Relaxed) {
             break Some(End::Interrupted);
@@ -151,7 +150,7 @@ pub(super) fn follow(
         if let Some((start, last)) = before {
             // the step that led here, with what is known at both of its ends
             built.start = start;
-            match step(built, [&last, &window], ratio, interrupt) {
+            match step(built, &last, &Until::Window(&window), interrupt) {
                 Ok((taken, end)) => {
                     bounced.lost += taken[0];
                     bounced.friction += taken[1];
@@ -170,8 +169,8 @@ pub(super) fn follow(
             break None;
         }
         let start = built.start.clone();
-        ratio = if leaves { RATIO } else { stretch.ratio };
-        match step(built, [&window, &window], ratio, interrupt) {
+        let ratio = if leaves { RATIO } else { stretch.ratio };
+        match step(built, &window, &Until::Ratio(ratio), interrupt) {
             Ok((_, None)) => {}
             Ok((_, end)) => break end,
             Err(why) => break Some(End::Lost(why)),
@@ -183,7 +182,9 @@ pub(super) fn follow(
     }
     built.start.ended = end;
     let content = way.machine.content(&way.state);
-    bounced.kinetic = (!bounced.scatter.is_empty()).then_some(content.translation + content.spin);
+    // where it ends on the way, nothing changes its model
+    let changes = built.start.ended.is_none() && !bounced.scatter.is_empty();
+    bounced.kinetic = changes.then_some(content.translation + content.spin);
     bounced.steps = way.steps;
     bounced
 }
@@ -200,7 +201,8 @@ pub(super) fn looked_at(
     interrupt: &AtomicBool,
 ) -> (Vec<f64>, u64) {
     let mut way = Way::from_end_of(context, interrupt);
-    let mut at = |frequency: f64| {
+    // none where it was interrupted
+    let mut at = |frequency: f64| -> Option<f64> {
         let mut worst = 0.0f64;
         for ratio in AROUND {
             let speed = ratio * frequency;
@@ -212,12 +214,15 @@ pub(super) fn looked_at(
             match way.window(&built, true) {
                 Ok(Some(window)) => worst = worst.max(excess(&built, &window)),
                 Ok(None) => {}
-                Err(_) => return f64::NAN,
+                Err(_) if interrupt.load(Ordering::Relaxed) => return None,
+                Err(_) => return Some(f64::NAN),
             }
         }
-        worst
+        Some(worst)
     };
-    let list = frequencies.iter().map(|frequency| at(*frequency)).collect();
+    let list = (frequencies.iter())
+        .map_while(|frequency| at(*frequency))
+        .collect();
     (list, way.steps)
 }
 
