@@ -17,7 +17,7 @@
 //! | mount damping | mount, where it is a node, else housing |
 //!
 //! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
-//! of the weight on the bearing, as it has it when it has come to rest.
+//! of the weight on the bearing, as it has it when it has come to rest, at the clearance there is.
 //!
 //! From the span on in which a node passes its limit, a second set of temperatures takes the same heats through the same
 //! conductances with the nodes held at their limits: what must be taken from them for that.
@@ -37,7 +37,7 @@ use thermal::bearing_network::{
 use thermal::held::Held;
 use thermal::oil_range::{self, BeyondData};
 use thermal::steady_speed::SteadySpeed;
-use thermal::warm_bearing::WarmBearings;
+use thermal::warm_bearing::{BearingLoad, WarmBearings};
 
 /// A number per node.
 pub type OfNodes = [f64; NODES.len()];
@@ -296,6 +296,14 @@ impl WarmBearing {
         Some(drag_factor * moment.parts(spin, 0.0).speed_dependent * spin)
     }
 
+    /// Load of each ball under the weight at the clearance that these temperatures (°C) leave, N; none where it does not follow them.
+    fn loads_at(&self, temperatures: &[f64]) -> Option<Vec<f64>> {
+        match &self.losses.as_ref()?.load {
+            BearingLoad::Zone { zone, .. } => Some(zone.loads(zone.clearance_at(temperatures))),
+            BearingLoad::Radial(_) | BearingLoad::Closing { .. } => None,
+        }
+    }
+
     /// Viscosity of the lubricant at a temperature in °C, m²/s.
     pub fn viscosity_at(&self, temperature: f64) -> f64 {
         (self.oil.as_ref()).map_or(self.viscosity, |oil| oil.held(temperature + ICE_POINT))
@@ -308,15 +316,18 @@ impl WarmBearing {
         }
     }
 
-    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C).
+    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C); so much of the friction of rotor
+    /// and race goes to the rotor, half where that is not known.
     pub fn over_nodes(
         &self,
         heats: &[f64; HEATS],
         spin: f64,
         lubricant: f64,
         drag_factor: f64,
+        rubbing: Option<f64>,
     ) -> OfNodes {
-        sums(&self.flows(heats, self.viscous(spin, lubricant, drag_factor), None))
+        let viscous = self.viscous(spin, lubricant, drag_factor);
+        sums(&self.flows(heats, viscous, rubbing))
     }
 
     /// Heats of a span, each over the nodes, J; so much of the steady moment's is viscous, J: all of it where there is no law.
@@ -418,9 +429,10 @@ impl Warmth {
             .map(mean);
         let flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
         let nodes = sums(&flows);
+        let loads = part.loads_at(&self.temperatures);
         let operation = Operation {
             speed: seen.spin,
-            loads: &part.loads,
+            loads: loads.as_deref().unwrap_or(&part.loads),
             viscosity: part.viscosity_at(lubricant),
             temperatures: &self.temperatures,
         };

@@ -42,6 +42,8 @@ pub struct InMotion {
     pub factors: [f64; 2],
     /// What else brakes the rotor, N m.
     pub beside: f64,
+    /// Speed of its inner race over that of one that rolls.
+    pub spin: f64,
 }
 
 /// What a machine does at a speed at which its motion was followed.
@@ -79,7 +81,12 @@ impl Between {
         InMotion {
             factors: [0, 1].map(|part| along(from.factors[part], to.factors[part])),
             beside: along(from.beside, to.beside),
+            spin: along(from.spin, to.spin),
         }
+    }
+    /// Speed of the inner race of a bearing over that of one that rolls, at a speed of the rotor.
+    pub fn spin(&self, speed: f64, bearing: usize) -> f64 {
+        self.bearing(self.way(speed), bearing).spin
     }
 }
 
@@ -114,7 +121,9 @@ impl Losses for WarmMachine {
             let [first, second] = bearing.on_rotor(speed, self.of_bearing(k, temperatures));
             let all = match motion {
                 Some((motion, way)) => {
-                    let InMotion { factors, beside } = motion.bearing(way, k);
+                    let InMotion {
+                        factors, beside, ..
+                    } = motion.bearing(way, k);
                     [factors[0] * first, factors[1] * second, beside]
                 }
                 None => [first, second, 0.0],
@@ -208,6 +217,7 @@ mod tests {
             bearings: vec![InMotion {
                 factors: [1.0, factor],
                 beside,
+                spin: beside,
             }],
             rotor: 1e-3 * speed,
         };
@@ -228,6 +238,7 @@ mod tests {
             ends: [at(1000.0, 3.0, 0.2), at(900.0, 5.0, 0.4)],
             shares,
         };
+        assert!((motion.spin(950.0, 0) - 0.3).abs() < 1e-12);
         machine.motion = Some(motion);
         for (law, celsius) in law.iter().zip([40.0, 90.0]) {
             let found = moments(&machine, 950.0, celsius);

@@ -202,15 +202,21 @@ fn network(
     let loads: Vec<Vec<f64>> = each()
         .map(|(part, temperatures)| part.zone.loads(clearance(part, temperatures)))
         .collect();
-    let operations = each().zip(&loads).map(|((part, temperatures), loads)| {
-        let kelvin = temperatures[LUBRICANT] + ICE_POINT;
-        Operation {
-            speed: part.losses.ratio * speed,
-            loads,
-            viscosity: part.losses.oil.held(kelvin),
-            temperatures,
-        }
-    });
+    let motion = built.motion.as_ref();
+    let operations = each()
+        .zip(&loads)
+        .enumerate()
+        .map(|(k, ((part, temperatures), loads))| {
+            let kelvin = temperatures[LUBRICANT] + ICE_POINT;
+            // a race that slides turns slower, and its bearing is stirred and cooled less
+            let spin = motion.map_or(1.0, |motion| motion.between.spin(speed, k));
+            Operation {
+                speed: part.losses.ratio * speed * spin,
+                loads,
+                viscosity: part.viscosity.held(kelvin),
+                temperatures,
+            }
+        });
     let networks = built.parts.iter().map(|part| &part.network);
     let all: Vec<_> = networks.zip(operations).collect();
     together(&all, held)

@@ -246,7 +246,7 @@ fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row, harder: f64
 /// κ at a row.
 fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
-    let viscosity = part.losses.oil.held(kelvin);
+    let viscosity = part.viscosity.held(kelvin);
     shared::viscosity_ratio(&part.warm, viscosity, row.speed)
 }
 

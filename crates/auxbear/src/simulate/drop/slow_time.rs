@@ -35,12 +35,12 @@ pub(super) struct Window {
 }
 
 /// What the mean powers of a window say beside the laws at its speed and temperatures, and what heats the nodes besides, W: of powers as
-/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0 and what brakes the rotor besides its drag, W.
+/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, and what brakes the rotor besides its drag, W.
 pub(super) fn beside_laws(
     built: &Built,
     powers: &[f64],
     nodes: &[f64],
-    drag_factors: &[f64],
+    [drag_factors, spins]: [&[f64]; 2],
     rotor: f64,
 ) -> (Followed, Vec<f64>) {
     let start = &built.start;
@@ -69,6 +69,7 @@ pub(super) fn beside_laws(
         bearings.push(InMotion {
             factors: [factor(first, laws[0]), factor(second, laws[1])],
             beside: sides * (steady - first - second + other) / start.speed,
+            spin: spins[k] / (part.losses.ratio * start.speed),
         });
     }
     let followed = Followed {

@@ -53,6 +53,8 @@ struct Batch {
     peaks: Vec<f64>,
     balls: Vec<Option<BallsSeen>>,
     drag_factors: Vec<f64>,
+    /// Of the inner races, rad/s.
+    spins: Vec<f64>,
     rotor: f64,
 }
 
@@ -345,7 +347,7 @@ impl<'a> Way<'a> {
     fn heats(&self, built: &Built, state: &[f64], span: f64) -> Batch {
         let layout = self.machine.layout();
         let (mut powers, mut nodes, mut friction) = (Vec::new(), Vec::new(), 0.0);
-        let mut drag_factors = Vec::new();
+        let (mut drag_factors, mut spins) = (Vec::new(), Vec::new());
         for (k, at) in layout.bearings.iter().enumerate() {
             let heats: [f64; HEATS] =
                 std::array::from_fn(|kind| state[layout.heat(at.heat + kind)] / span);
@@ -355,10 +357,20 @@ impl<'a> Way<'a> {
             let part = &self.context.machine.constants.bearings[k];
             let drag_factor = (part.bearing).drag_factor(&|own| state[at.own().start + own]);
             drag_factors.push(drag_factor);
+            spins.push(state[at.inner + 5].abs());
+            // as the surfaces have shared it in the drop
+            let taken = self
+                .context
+                .record(k)
+                .heat
+                .as_ref()
+                .map(|heat| heat.taken());
+            let rubbing = taken.filter(|taken| taken[0] + taken[1] > 0.0);
+            let rubbing = rubbing.map(|taken| taken[0] / (taken[0] + taken[1]));
             let of_nodes: OfNodes = match &part.warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
-                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor)
+                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor, rubbing)
                 }
                 None => [0.0; NODES.len()],
             };
@@ -382,6 +394,7 @@ impl<'a> Way<'a> {
             peaks: Vec::new(),
             balls: Vec::new(),
             drag_factors,
+            spins,
             rotor: others,
         }
     }
@@ -466,7 +479,9 @@ fn mean(built: &Built, batches: &[Batch]) -> Window {
     let nodes = of(batches.iter().map(|batch| &batch.nodes).collect());
     let drag_factors = of(batches.iter().map(|batch| &batch.drag_factors).collect());
     let rotor = batches.iter().map(|batch| batch.rotor).sum::<f64>() / count;
-    let (followed, beside) = beside_laws(built, &powers, &nodes, &drag_factors, rotor);
+    let spins = of(batches.iter().map(|batch| &batch.spins).collect());
+    let of_bearings = [drag_factors.as_slice(), spins.as_slice()];
+    let (followed, beside) = beside_laws(built, &powers, &nodes, of_bearings, rotor);
     Window {
         followed,
         beside,
