@@ -316,18 +316,17 @@ impl WarmBearing {
         }
     }
 
-    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C); so much of the friction of rotor
-    /// and race goes to the rotor, half where that is not known.
+    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C); friction of rotor and race by
+    /// halves.
     pub fn over_nodes(
         &self,
         heats: &[f64; HEATS],
         spin: f64,
         lubricant: f64,
         drag_factor: f64,
-        rubbing: Option<f64>,
     ) -> OfNodes {
         let viscous = self.viscous(spin, lubricant, drag_factor);
-        sums(&self.flows(heats, viscous, rubbing))
+        sums(&self.flows(heats, viscous, None))
     }
 
     /// Heats of a span, each over the nodes, J; so much of the steady moment's is viscous, J: all of it where there is no law.

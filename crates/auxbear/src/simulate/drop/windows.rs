@@ -358,19 +358,10 @@ impl<'a> Way<'a> {
             let drag_factor = (part.bearing).drag_factor(&|own| state[at.own().start + own]);
             drag_factors.push(drag_factor);
             spins.push(state[at.inner + 5].abs());
-            // as the surfaces have shared it in the drop
-            let taken = self
-                .context
-                .record(k)
-                .heat
-                .as_ref()
-                .map(|heat| heat.taken());
-            let rubbing = taken.filter(|taken| taken[0] + taken[1] > 0.0);
-            let rubbing = rubbing.map(|taken| taken[0] / (taken[0] + taken[1]));
             let of_nodes: OfNodes = match &part.warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
-                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor, rubbing)
+                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor)
                 }
                 None => [0.0; NODES.len()],
             };
