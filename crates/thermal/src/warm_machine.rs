@@ -104,6 +104,13 @@ pub struct WarmMachine {
 /// Losses of each bearing.
 pub const OF_BEARING: usize = 3;
 
+/// Of moments or heats of all losses: M0 of all bearings, what else brakes in them, and what brakes the rotor.
+pub fn by_kind(all: &[f64]) -> [f64; 3] {
+    let (rotor, bearings) = all.split_last().unwrap_or((&0.0, &[]));
+    let sum = |loss: usize| -> f64 { bearings.iter().skip(loss).step_by(OF_BEARING).sum() };
+    [sum(0), sum(1) + sum(2), *rotor]
+}
+
 impl WarmMachine {
     /// The temperatures of one bearing among those of all.
     pub fn of_bearing<'a>(&self, bearing: usize, temperatures: &'a [f64]) -> &'a [f64] {

@@ -10,7 +10,7 @@ use thermal::held::Held;
 use thermal::losses::Losses;
 use thermal::network::{Network, NetworkError};
 use thermal::steady_speed::SteadySpeed;
-use thermal::warm_machine::OF_BEARING;
+use thermal::warm_machine::{OF_BEARING, by_kind};
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
 const LONGEST_STEP: f64 = 0.03;
@@ -233,22 +233,14 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
     let losses = built.losses(state.time);
     let mut all = vec![0.0; losses.count()];
     losses.moments(state.speed, &state.temperatures, &mut all);
-    let (of_rotor, of_bearings) = all.split_last().unwrap_or((&0.0, &[]));
-    let sum = |loss: usize| {
-        of_bearings
-            .iter()
-            .skip(loss)
-            .step_by(OF_BEARING)
-            .sum::<f64>()
-    };
-    let moments = [sum(0), sum(1) + sum(2), *of_rotor];
+    let moments = by_kind(&all);
     let of_part = |(k, (part, temperatures)): (usize, (&Part, &[f64]))| {
         let clearance = clearance(part, temperatures);
         let loads = part.zone.loads(clearance);
         let by_law = loads.iter().copied().fold(0.0, f64::max);
         let balls = (built.motion.as_ref()).and_then(|motion| motion.balls(state.speed, k));
         RowOfBearing {
-            moment: of_bearings[OF_BEARING * k..][..OF_BEARING].iter().sum(),
+            moment: all[OF_BEARING * k..][..OF_BEARING].iter().sum(),
             clearance,
             largest_ball_load: balls.map_or(by_law, |balls| {
                 by_law.max(balls.largest[0]).max(balls.largest[1])

@@ -11,7 +11,7 @@ use physics::life::{RatedBearing, add_points, passages_per_turn, repetitions};
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE, PASSES};
 use thermal::losses::Losses;
-use thermal::warm_machine::OF_BEARING;
+use thermal::warm_machine::{OF_BEARING, by_kind};
 
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
@@ -77,20 +77,12 @@ fn heats(ran: &Ran, list: &mut List) {
     let heats = &free.state.heats;
     let sides = f64::from(ran.built.sides);
     list.number("rotor_energy", "J", Ok(ran.built.energy), &ENERGY);
-    let (of_rotor, of_bearings) = heats.split_last().unwrap_or((&0.0, &[]));
-    let sum = |loss: usize| {
-        of_bearings
-            .iter()
-            .skip(loss)
-            .step_by(OF_BEARING)
-            .sum::<f64>()
-    };
     // with what no law of a rolling bearing knows
-    let (speed_dependent, load_dependent) = (sum(0), sum(1) + sum(2));
+    let [speed_dependent, load_dependent, of_rotor] = by_kind(heats);
     for (name, heat) in [
         ("speed_dependent_heat", speed_dependent),
         ("load_dependent_heat", load_dependent),
-        ("windage_heat", *of_rotor),
+        ("windage_heat", of_rotor),
     ] {
         list.number(name, "J", Ok(heat), &HEAT);
     }

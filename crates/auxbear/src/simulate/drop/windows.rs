@@ -7,7 +7,7 @@
 //! It ends where the rotor rolls, or loses no more than by rolling in two windows: the run-out by laws goes on from there. Unbalance of a few micrometres lifts a fast rotor from
 //! rolling again and again (e Ω² near g), so that this is how most drops go on.
 //!
-//! The spread of the means is that of batches; what scatters more than a tenth is told.
+//! The spread of the means is that of batches; what scatters more than a tenth is reported.
 //!
 //! Source: derived; book/src/theory/heat.md.
 
