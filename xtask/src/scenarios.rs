@@ -39,11 +39,15 @@ pub fn check(repository: &Repository) -> Outcome {
         }
         let command = if is_study { "study" } else { "run" };
         let run = [command, file, "--quiet", "--out", &out];
-        findings.extend(call(&folder, &program, &run));
+        let found = call(&folder, &program, &run);
+        let early = ENDS_EARLY.iter().find(|(early, _)| early == file);
+        if early.is_none() {
+            findings.extend(found);
+        }
         let summary = std::fs::read_to_string(Path::new(&*out).join("summary.json"));
         let faults = summary.map_or_else(
             |error| vec![format!("no summary: {error}")],
-            |text| faults_of(&text),
+            |text| faults_of(&text, early.map(|(_, end)| *end)),
         );
         let differences = summary_in(Path::new(&*out))
             .map(|summary| golden::differences(repository, &name.to_string_lossy(), &summary));
@@ -83,14 +87,27 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// The same at screening accuracy.
 const LARGEST_AT_SCREENING: f64 = 2e-4;
 
-/// What a summary says against its run: it must be whole, and its energy must close.
-fn faults_of(summary: &str) -> Vec<String> {
+/// Files whose run ends before its time, and how: what they show is that.
+const ENDS_EARLY: [(&str, &str); 1] = [(
+    "scenarios/drop_whirl_seizing.toml",
+    "a node is above 350 °C",
+)];
+
+/// What a summary says against its run: it must be whole, or end as its file is there to show, and its energy must close.
+fn faults_of(summary: &str, early: Option<&str>) -> Vec<String> {
     let Ok(summary) = serde_json::from_str::<Value>(summary) else {
         return vec!["its summary is no JSON".to_owned()];
     };
     let mut faults = Vec::new();
-    if summary["complete"] != true {
-        faults.push(format!("not complete: {}", summary["stop"]));
+    let stop = &summary["stop"];
+    match early {
+        None if summary["complete"] == true => {}
+        None => faults.push(format!("not complete: {stop}")),
+        Some(end) => {
+            if summary["complete"] != false || !stop.to_string().contains(end) {
+                faults.push(format!("does not end because {end}: {stop}"));
+            }
+        }
     }
     if summary["members_failed"].is_number() {
         // the results of a study are spreads of its members
@@ -125,24 +142,29 @@ mod tests {
 
     #[test]
     fn a_summary_is_held_to_its_energy() {
+        let whole = |summary: &str| faults_of(summary, None);
         let summary = |complete: bool, residual: f64| {
             format!(
                 "{{\"complete\": {complete}, \"quantities\": {{\"energy_residual\": {{\"value\": {residual:e}}}}}}}"
             )
         };
-        assert!(faults_of(&summary(true, -9e-7)).is_empty());
-        assert_eq!(faults_of(&summary(true, 2e-6)).len(), 1);
-        assert_eq!(faults_of(&summary(false, 2e-6)).len(), 2);
-        assert_eq!(faults_of("{}").len(), 2);
-        assert!(faults_of("{\"system\": \"torque\", \"complete\": true}").is_empty());
-        assert_eq!(faults_of("half").len(), 1);
+        assert!(whole(&summary(true, -9e-7)).is_empty());
+        assert_eq!(whole(&summary(true, 2e-6)).len(), 1);
+        assert_eq!(whole(&summary(false, 2e-6)).len(), 2);
+        assert_eq!(whole("{}").len(), 2);
+        assert!(whole("{\"system\": \"torque\", \"complete\": true}").is_empty());
+        assert_eq!(whole("half").len(), 1);
+        let early = summary(false, 1e-9).replace("{\"c", "{\"stop\": {\"text\": \"too hot\"}, \"c");
+        assert!(faults_of(&early, Some("too hot")).is_empty());
+        assert_eq!(faults_of(&early, Some("too cold")).len(), 1);
+        assert_eq!(faults_of(&summary(true, 1e-9), Some("too hot")).len(), 1);
         let screened = |residual: f64| {
             summary(true, residual).replace(
                 "{\"complete\"",
                 "{\"inputs\": [{\"path\": \"run.accuracy\", \"value\": \"screening\"}], \"complete\"",
             )
         };
-        assert!(faults_of(&screened(1e-4)).is_empty());
-        assert_eq!(faults_of(&screened(3e-4)).len(), 1);
+        assert!(whole(&screened(1e-4)).is_empty());
+        assert_eq!(whole(&screened(3e-4)).len(), 1);
     }
 }

@@ -168,6 +168,14 @@ fn limits(ran: &Ran) -> Option<Warning> {
         true => String::new(),
         false => format!(" (then {})", others.join(", ")),
     };
+    let peaks = passed
+        .iter()
+        .map(|(_, other, _)| (ran.peak(*other).0, *other));
+    let (most, hottest) = peaks.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let hottest = match passed.len() {
+        1 => String::new(),
+        _ => format!(" ({})", words_of(hottest)),
+    };
     let taken = ran.held.as_ref().map(|held| {
         let rows = held.rows.iter();
         let most = rows
@@ -178,11 +186,10 @@ fn limits(ran: &Ran) -> Option<Warning> {
     Some(warning(
         "AB2310",
         format!(
-            "Too hot: {} above {limit:.0} °C after {}{others}, up to {:.0} °C. Hardness, size, cage and lubricant may change there; \
+            "Too hot: {} above {limit:.0} °C after {}{others}, up to {most:.0} °C{hottest}. Hardness, size, cage and lubricant may change there; \
              this run does not follow that.{}",
             words_of(node),
             words(at),
-            ran.peak(node).0,
             taken.unwrap_or_default()
         ),
     ))

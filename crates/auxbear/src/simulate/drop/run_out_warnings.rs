@@ -12,7 +12,8 @@ use crate::simulate::drop::went::Went;
 pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
     let parts = context.parts().enumerate();
     let harder = parts.filter_map(|(k, name)| hits_harder(context, found, went, k, name));
-    let first = scatters(went).into_iter().chain(lifted(&went.returned));
+    let whirl = whirls(went).into_iter().chain(scatters(went));
+    let first = whirl.chain(lifted(&went.returned));
     let sliding = slid(context, found, went)
         .into_iter()
         .chain(slides(context, found));
@@ -21,6 +22,16 @@ pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
         .chain(sliding)
         .chain(warnings::of_course(found))
         .collect()
+}
+
+/// A rotor that whirls against its spin in windows.
+fn whirls(went: &Went) -> Option<Warning> {
+    let [since, until] = went.whirled()?;
+    let text = format!(
+        "Backward whirl while the rotor runs out: from {since:.1} s to {until:.1} s it runs round the bore against its spin in the windows that follow it. \
+         Contact forces of this kind destroy bearings and shafts."
+    );
+    Some(warning("AB1014", text))
 }
 
 /// Relative standard error of a window's power above which it is reported.
@@ -77,6 +88,9 @@ fn hits_harder(
 
 /// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
 const SLIDES: f64 = 0.01;
+/// Shares of the speed of rolling below which a race lags, and stands.
+const LAGS: f64 = 0.9;
+const STANDS: f64 = 0.01;
 
 /// How long and how far the rotor slid on its races while windows followed it.
 fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
@@ -93,10 +107,20 @@ fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
         context.machine.constants.bearings[k].contact.friction * part.warm.radial_load
     };
     let force = f64::from(found.built.sides) * found.parts().map(carried).sum::<f64>();
+    let slowest = slides.iter().filter_map(|(_, windows)| windows.slowest);
+    let slowest = slowest.min_by(|a, b| a[0].total_cmp(&b[0]));
+    let slowest = match slowest {
+        Some([share, time]) if share < STANDS => format!(", at {time:.1} s on one that stands"),
+        Some([share, time]) if share < LAGS => format!(
+            ", at {time:.1} s on one that turns with {:.0} % of the speed of rolling",
+            100.0 * share
+        ),
+        _ => String::new(),
+    };
     Some(warning(
         "AB2318",
         format!(
-            "Between {begin:.1} s and {end:.1} s the rotor slides on its races in the windows that follow it: friction makes {friction:.3e} J, over about {:.3e} m of way. \
+            "Between {begin:.1} s and {end:.1} s the rotor slides on its races in the windows that follow it{slowest}: friction makes {friction:.3e} J, over about {:.3e} m of way. \
              It is in run_out.load_dependent_heat and warms both bodies; sliding_distance, wear and the temperatures of the rubbing surfaces are those of the \
              first {:.3} s alone.",
             friction / force,

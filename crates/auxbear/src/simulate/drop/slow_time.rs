@@ -26,6 +26,8 @@ pub(super) struct Window {
     pub beside: Vec<f64>,
     /// Of the friction of rotor and races in it, W.
     pub friction: f64,
+    /// Turns of the rotor about each inner race, with its spin.
+    pub whirl: Vec<f64>,
     /// Largest contact force of each bearing, N.
     pub peaks: Vec<f64>,
     /// Of the balls of each bearing.

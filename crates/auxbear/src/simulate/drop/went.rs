@@ -54,6 +54,11 @@ impl Went {
             .filter_map(|windows| windows.peaks.get(bearing));
         each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
     }
+    /// The first and the last instant at which windows saw the rotor whirl against its spin, s.
+    pub fn whirled(&self) -> Option<[f64; 2]> {
+        let each = self.windows().filter_map(|windows| windows.whirled);
+        each.reduce(|first, last| [first[0], last[1]])
+    }
     /// Relative standard errors of the powers of all windows.
     pub fn scatter(&self) -> Vec<f64> {
         let each = self.windows().flat_map(|windows| &windows.scatter);

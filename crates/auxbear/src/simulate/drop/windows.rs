@@ -44,6 +44,8 @@ const BATCHES: usize = 8;
 /// Windows one after the other in which the rotor loses no more than by rolling, within so much of that.
 const AGREEING: usize = 2;
 const AGREES: f64 = 0.02;
+/// Turns about a race within a window from which on the rotor whirls there: it does not lie under its weight, whatever it loses.
+const WHIRLING: f64 = 1.0;
 
 /// What one batch of a window finds.
 struct Batch {
@@ -56,6 +58,8 @@ struct Batch {
     /// Of the inner races, rad/s.
     spins: Vec<f64>,
     rotor: f64,
+    /// Turns of the rotor about each inner race, with its spin.
+    whirl: Vec<f64>,
 }
 
 /// What windows follow.
@@ -89,10 +93,23 @@ pub(super) struct Bounced {
     pub friction: f64,
     /// Largest contact force of each bearing, N, and the time and the speed of its window, s and rad/s.
     pub peaks: Vec<[f64; 3]>,
+    /// First and last instant at which it whirled against its spin, s.
+    pub whirled: Option<[f64; 2]>,
+    /// Least speed of an inner race over that at which it rolls, and when, s.
+    pub slowest: Option<[f64; 2]>,
 }
 
 impl Bounced {
-    fn peak(&mut self, start: &Start, window: &Window) {
+    fn saw(&mut self, start: &Start, window: &Window) {
+        if window.whirl.iter().any(|turns| *turns <= -WHIRLING) {
+            let since = self.whirled.map_or(start.time, |[since, _]| since);
+            self.whirled = Some([since, start.time]);
+        }
+        for bearing in &window.followed.bearings {
+            if self.slowest.is_none_or(|[least, _]| bearing.spin < least) {
+                self.slowest = Some([bearing.spin, start.time]);
+            }
+        }
         self.peaks.resize(window.peaks.len(), [0.0; 3]);
         for (largest, peak) in self.peaks.iter_mut().zip(&window.peaks) {
             if *peak > largest[0] {
@@ -148,7 +165,7 @@ pub(super) fn follow(
             break Some(End::Lost("nothing brakes the rotor"));
         }
         bounced.scatter.push(window.scatter);
-        bounced.peak(&built.start, &window);
+        bounced.saw(&built.start, &window);
         if let Some((start, last)) = before {
             // the step that led here, with what is known at both of its ends
             built.start = start;
@@ -228,9 +245,10 @@ pub(super) fn looked_at(
     (list, way.steps)
 }
 
-/// Whether the bearings take what the laws of a rotor that rolls say.
+/// Whether the bearings take what the laws of a rotor that rolls say, and it does not whirl.
 fn rolling(built: &Built, window: &Window) -> bool {
-    excess(built, window).abs() < AGREES
+    let whirls = window.whirl.iter().any(|turns| turns.abs() >= WHIRLING);
+    !whirls && excess(built, window).abs() < AGREES
 }
 
 /// What the bearings take beside what these laws say, less 1.
@@ -328,6 +346,9 @@ impl<'a> Way<'a> {
                 let span = finished.ending.time - time;
                 pieces.push(Batch {
                     peaks: peaks(&finished),
+                    whirl: (finished.record.bearings.iter())
+                        .map(|record| record.whirl_turns * self.state[spin].signum())
+                        .collect(),
                     balls: finished.record.bearings.iter().map(balls).collect(),
                     ..self.heats(built, &state, span)
                 });
@@ -384,6 +405,7 @@ impl<'a> Way<'a> {
             friction,
             peaks: Vec::new(),
             balls: Vec::new(),
+            whirl: Vec::new(),
             drag_factors,
             spins,
             rotor: others,
@@ -473,9 +495,11 @@ fn mean(built: &Built, batches: &[Batch]) -> Window {
     let spins = of(batches.iter().map(|batch| &batch.spins).collect());
     let of_bearings = [drag_factors.as_slice(), spins.as_slice()];
     let (followed, beside) = beside_laws(built, &powers, &nodes, of_bearings, rotor);
+    let whirl = of(batches.iter().map(|batch| &batch.whirl).collect());
     Window {
         followed,
         beside,
+        whirl: whirl.iter().map(|turns| count * turns).collect(),
         friction: batches.iter().map(|batch| batch.friction).sum::<f64>() / count,
         scatter: deviation / (count.sqrt() * whole),
         peaks: (0..batches[0].peaks.len())

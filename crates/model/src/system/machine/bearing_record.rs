@@ -87,8 +87,9 @@ pub struct BearingRecord {
     pub warmth: Option<Box<Warmth>>,
     /// First channel of its heats.
     first_heat: usize,
-    /// Turns of the cage since the rotor rolls.
+    /// Turns of the cage since the rotor rolls, and of its whirl when that began.
     rolled: f64,
+    whirled: f64,
 }
 
 /// Where the equations stop being true.
@@ -123,6 +124,8 @@ const STEADY: f64 = 1e-4;
 const ROLLING_SLIP: f64 = 0.01;
 /// Turns of every cage that a rotor must have rolled before it counts as rolling.
 pub(super) const ROLLING_TURNS: f64 = 20.0;
+/// Turns about the race from which on a rotor whirls: it may roll as it does so, but not under its weight.
+const WHIRLING_TURNS: f64 = 0.5;
 /// Contacts for which room is made before the run.
 const CONTACTS: usize = 4096;
 
@@ -179,6 +182,7 @@ impl BearingRecord {
             warmth: (part.warm.as_ref()).map(|warm| Box::new(Warmth::new(warm, keep_rows))),
             first_heat: machine.layout().heat(at.heat),
             rolled: 0.0,
+            whirled: 0.0,
         }
     }
 
@@ -493,7 +497,7 @@ impl BearingRecord {
     }
 
     /// Whether the rotor has rolled in this bearing for [`ROLLING_TURNS`]: it presses on the race, neither slips there nor does
-    /// the cage, within a hundredth.
+    /// the cage, within a hundredth, and it does not whirl.
     pub(super) fn rolling_of(&mut self, step: &Step<RotorMachine>) -> bool {
         let (machine, at) = (step.machine, self.at);
         let part = &machine.constants.bearings[self.bearing];
@@ -504,10 +508,11 @@ impl BearingRecord {
         let with_cage = matches!(part.bearing, BearingConstants::Planar(_));
         let rolls = step.end_probe(at.probe(NORMAL_FORCE)) > 0.0
             && slow(slip, spin * part.contact.bore_radius)
-            && (!with_cage || slow(step.end_state(at.bearing + 1) - cage, cage));
+            && (!with_cage || slow(step.end_state(at.bearing + 1) - cage, cage))
+            && (self.whirl_turns - self.whirled).abs() < WHIRLING_TURNS;
         match rolls {
             true => self.rolled += cage.abs() * (step.end - step.start) / (2.0 * PI),
-            false => self.rolled = 0.0,
+            false => (self.rolled, self.whirled) = (0.0, self.whirl_turns),
         }
         // a bushing does not turn
         part.is_bushing() || self.rolled >= ROLLING_TURNS
