@@ -143,6 +143,18 @@ impl BearingConstants {
         let own: [f64; lubricant_state::STATES] = std::array::from_fn(|k| state(first + k));
         lubricant.at(&own).drag_factor
     }
+    /// Changes all speeds of its states that follow the inner race's by one factor, as when all turn faster at once.
+    pub fn change_speeds(&self, state: &mut [f64], factor: f64) {
+        let BearingConstants::Planar(bearing) = self else {
+            return;
+        };
+        state[1] *= factor;
+        let [_, _, _, orbit_speeds, spins] =
+            ball_states::split_mut(state, bearing.first_ball_state(), bearing.balls);
+        for speed in orbit_speeds.iter_mut().chain(spins) {
+            *speed *= factor;
+        }
+    }
     /// Mass that moves with the outer race, kg: the cage, and the balls where they have no states.
     pub fn mass_with_outer_race(&self) -> f64 {
         match self {

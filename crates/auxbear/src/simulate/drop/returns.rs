@@ -97,7 +97,7 @@ pub(super) fn follow(
         }
         built.start = found.start();
         let start = [built.start.time, built.start.speed];
-        let bounced = windows::follow(context, built, stretch, interrupt);
+        let bounced = windows::follow(context, built, stretch, frequencies, interrupt);
         let speed = built.start.speed;
         let after = 0.5 * built.inertia * speed * speed;
         let sides = f64::from(built.sides);

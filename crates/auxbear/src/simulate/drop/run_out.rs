@@ -52,14 +52,18 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         Ok(built) => built,
         Err(why) => return Some(After::none(Vec::new(), broken(stop, why))),
     };
+    let mut frequencies = frequencies(context, &built);
     let bounced = match goes_on && !rolls {
-        true => windows::follow(context, &mut built, Stretch::UNTIL_ROLLING, interrupt),
+        true => {
+            let stretch = Stretch::UNTIL_ROLLING;
+            windows::follow(context, &mut built, stretch, &frequencies, interrupt)
+        }
         false => Bounced::default(),
     };
+    frequencies.retain(|frequency| *frequency < built.start.speed);
     // what a run-out finds has its names, also where there is none
     let at_once = AtomicBool::new(true);
     let first = Change::at(&built, &bounced);
-    let frequencies = frequencies(context, &built);
     let found = match goes_on {
         true => returns::follow(context, &mut built, &frequencies, interrupt),
         false => Ok(Returned::default()),
@@ -356,7 +360,7 @@ const CHANGE: Origin = Origin {
     valid: "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window",
 };
 const WINDOWS: Origin = Origin {
-    law: "while the rotor does not roll: mean heats over 80 turns at held speed, 5 % slower from window to window; the largest standard error \
+    law: "while the rotor does not roll: mean heats over 80 turns at held speed, 5 to 19 % slower from window to window; the largest standard error \
           of a window's power over it",
     source: "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
     valid: "what happens at a speed has forgotten how it came there",
@@ -364,7 +368,7 @@ const WINDOWS: Origin = Origin {
 const PEAK: Origin = Origin {
     law: "the largest contact force of the windows' batches, each 10 turns or 0.2 s",
     source: "crates/auxbear/src/simulate/drop/windows.rs",
-    valid: "a sample: windows are 5 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest",
+    valid: "a sample: windows are 5 to 19 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest",
 };
 const FREQUENCIES: Origin = Origin {
     law: "eigenvalues of M⁻¹(K + Σ k φφᵀ), k of mount, balls under the weight and landing surface in series",

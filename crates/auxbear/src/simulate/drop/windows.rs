@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   window at Ω_j    spin held, oil and clearance as warm as they are; settle, then mean heats over whole turns
-//!   between          a run-out by laws with what both windows find beside them (slow_time.rs)
+//!   between          a run-out by laws with what both windows find beside them (slow_time.rs), farther where it went as foreseen
 //! ```
 //! It ends where the rotor rolls, or loses no more than by rolling in two windows: the run-out by laws goes on from there. Unbalance of a few micrometres lifts a fast rotor from
 //! rolling again and again (e Ω² near g), so that this is how most drops go on.
@@ -34,6 +34,11 @@ use thermal::bearing_network::{LUBRICANT, NODES};
 
 /// Speed of a window over that before.
 pub(super) const RATIO: f64 = 0.95;
+/// What windows find goes on as it was where the way to one was foreseen within [`AGREES`] by that before: then they lie twice as far apart, at
+/// most so many times [`RATIO`], and at no natural frequency.
+const FARTHEST: i32 = 4;
+/// Speeds around a natural frequency that no such step leads into or over, over it.
+const NEAR: [f64; 2] = [1.05, 0.95];
 /// Turns of the rotor in which a window settles, more than the turns of the cage after which it counts as rolling, and in each of its
 /// batches; and the longest that either takes, s.
 const SETTLING: (f64, f64) = (60.0, 1.0);
@@ -141,12 +146,14 @@ pub(super) fn follow(
     context: &Context,
     built: &mut Built,
     stretch: Stretch,
+    frequencies: &[f64],
     interrupt: &AtomicBool,
 ) -> Bounced {
     let mut way = Way::from_end_of(context, interrupt);
     let mut bounced = Bounced::default();
     let mut before: Option<(Start, Window)> = None;
     let mut agreeing = 0;
+    let mut apart = 1;
     let end = loop {
         if interrupt.load(Ordering::Relaxed) {
             break Some(End::Interrupted);
@@ -168,6 +175,7 @@ pub(super) fn follow(
         bounced.saw(&built.start, &window);
         if let Some((start, last)) = before {
             // the step that led here, with what is known at both of its ends
+            let (begin, foreseen) = (start.time, built.start.time);
             built.start = start;
             match step(built, &last, &Until::Window(&window), interrupt) {
                 Ok((taken, end)) => {
@@ -179,6 +187,11 @@ pub(super) fn follow(
                 }
                 Err(why) => break Some(End::Lost(why)),
             }
+            let (took, wrong) = (built.start.time - begin, built.start.time - foreseen);
+            apart = match wrong.abs() < AGREES * took {
+                true => FARTHEST.min(2 * apart),
+                false => 1,
+            };
         }
         agreeing = match leaves && rolling(built, &window) {
             true => agreeing + 1,
@@ -188,7 +201,10 @@ pub(super) fn follow(
             break None;
         }
         let start = built.start.clone();
-        let ratio = if leaves { RATIO } else { stretch.ratio };
+        let ratio = match leaves {
+            true => far(start.speed, apart, frequencies),
+            false => stretch.ratio,
+        };
         match step(built, &window, &Until::Ratio(ratio), interrupt) {
             Ok((_, None)) => {}
             Ok((_, end)) => break end,
@@ -206,6 +222,14 @@ pub(super) fn follow(
     bounced.kinetic = changes.then_some(content.translation + content.spin);
     bounced.steps = way.steps;
     bounced
+}
+
+/// Speed of the next window over that of this one.
+fn far(speed: f64, apart: i32, frequencies: &[f64]) -> f64 {
+    let longest = RATIO.powi(apart);
+    let inside = (frequencies.iter())
+        .any(|frequency| speed > NEAR[1] * frequency && longest * speed < NEAR[0] * frequency);
+    if inside { RATIO } else { longest }
 }
 
 /// Speeds around a natural frequency at which the rotor is looked at, over it.
@@ -302,7 +326,13 @@ impl<'a> Way<'a> {
         self.machine = Arc::new(RotorMachine::new(constants));
         let layout = self.machine.layout().clone();
         let spin = layout.rotor.spin();
-        self.state[spin] = speed * self.state[spin].signum();
+        // a rotor that jumps in its races would slip there, and may be thrown out of its motion
+        let factor = speed / self.state[spin].abs();
+        self.state[spin] *= factor;
+        for (at, part) in layout.bearings.iter().zip(&self.machine.constants.bearings) {
+            self.state[at.inner + 5] *= factor;
+            (part.bearing).change_speeds(&mut self.state[at.own()], factor);
+        }
         let turn = TAU / speed;
         let settings = settings_at(&drop.run, stepping.tolerance);
         let plan = |settings: Settings| Plan {
