@@ -503,6 +503,7 @@ impl Warmth {
             let machine = |network| SteadySpeed {
                 network,
                 losses,
+                sides: 1.0,
                 speed: seen.spin.abs(),
                 tolerance: 1.0,
             };

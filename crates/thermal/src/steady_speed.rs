@@ -29,6 +29,8 @@ pub struct SteadySpeed<L> {
     pub network: Network,
     /// Its losses.
     pub losses: L,
+    /// Equal sides that they divide over, of which the network is one.
+    pub sides: f64,
     /// rad/s.
     pub speed: f64,
     /// Error of a step, K.
@@ -63,10 +65,12 @@ impl Warming {
 }
 
 impl<L: Losses> SteadySpeed<L> {
-    /// Powers of the nodes at temperatures, W.
+    /// Powers of the nodes of a side at temperatures, W.
     pub fn powers(&self, temperatures: &[f64]) -> Vec<f64> {
         let moments = moments(&self.losses, self.speed, temperatures);
-        let powers: Vec<f64> = moments.iter().map(|m| m * self.speed).collect();
+        let powers: Vec<f64> = (moments.iter())
+            .map(|moment| moment * self.speed / self.sides)
+            .collect();
         to_nodes(&self.losses, &powers, temperatures.len())
     }
 
@@ -207,6 +211,7 @@ mod tests {
         SteadySpeed {
             network: Network::new(&[10.0], &[], &[ground]).unwrap(),
             losses: Growing { power: 5.0, slope },
+            sides: 1.0,
             speed: 1.0,
             tolerance: 1e-4,
         }

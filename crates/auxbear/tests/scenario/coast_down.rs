@@ -138,6 +138,17 @@ fn a_bearing_that_closes_runs_away_below_a_clearance_and_is_warned_of_before_its
     assert!(!has(&stable, "AB2311") && has(&stable, "AB2312"));
     assert!(number(&stable, "smallest_clearance") < 0.0);
     assert!(number(&stable, "peak_growth_rate") <= 1e-6);
+    // two sides, each with its half, are as near to running away
+    let sides = [
+        "rotor.planes=2",
+        "rotor.mass=24 kg",
+        "rotor.polar_inertia=1 kg m^2",
+    ];
+    let twice = shipped("coast_down_closing.toml", &sides);
+    for name in ["peak_growth_rate", "smallest_clearance", "stop_time"] {
+        let ratio = number(&twice, name) / number(&stable, name);
+        assert!((ratio - 1.0).abs() < 1e-9, "{name} {ratio}");
+    }
     let closes = "bearing.operating_diametral_clearance=10 um";
     let away = shipped("coast_down_closing.toml", &[closes]);
     assert_eq!(away.stop.reason, "left the model");

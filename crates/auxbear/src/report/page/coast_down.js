@@ -73,8 +73,8 @@ function heatFigures(run, runs) {
   const across = longTime(run).words;
   const moments = [
     ["speed_dependent", "M0, by speed and viscosity", HEAT_COLOURS.steady_moment],
-    ["load_dependent", "M1, by load", HEAT_COLOURS.ball_slip],
-    ["windage", "gas", SERIES_COLOURS.quiet],
+    ["load_dependent", numberOf(run, "windows") === null ? "M1, by load" : "M1, by load, and all that slides", HEAT_COLOURS.ball_slip],
+    ["windage", "gas, brake", SERIES_COLOURS.quiet],
   ];
   const spent = moments.flatMap(([name, label, colour]) => (name === "windage" && !numberOf(run, "windage_heat") ? [] : overTime(run, `${name}.moment`, { label, colour }, 1e3)));
   return [

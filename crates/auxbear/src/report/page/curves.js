@@ -58,22 +58,25 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
   }
   if (!across10 && left > 0 && left < 0.05 * right) left = 0;
   if (!(right > left)) right = left + 1;
-  const [wide, high_] = [width - box.left - box.right, height - box.top - box.bottom];
-  const columns = Math.max(3, Math.floor(wide / 75));
+  const high_ = height - box.top - box.bottom;
   const rows = Math.max(4, Math.floor(high_ / 26));
-  if (!across10) right = roundedEnd(left, right, columns);
   // A peak that touches the frame looks cut off.
   const room = 0.04 * (high - low);
   [low, high] = logarithmic ? [low - room, high + room] : paddedRange(low, high, level ? [level.at] : []);
   if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
+  const decades = (from, to) => Array.from({ length: Math.ceil(to) - Math.floor(from) + 1 }, (_, index) => Math.floor(from) + index).flatMap((power) => [1, 2, 5].map((digit) => [digit * 10 ** power, power + Math.log10(digit)]));
+  const rungs = logarithmic ? decades(low, high).filter(([, y]) => y >= low && y <= high) : axisSteps(low, high, rows).map((y) => [y, y]);
+  // Long numbers beside the axis leave room for its words.
+  const longest = Math.max(...rungs.map(([value]) => numberText(value, 6).length), 1);
+  box.left = Math.max(box.left, 29 + 7 * longest);
+  const wide = width - box.left - box.right;
+  const columns = Math.max(3, Math.floor(wide / 75));
+  if (!across10) right = roundedEnd(left, right, columns);
   const toX = (x) => box.left + ((placed(x) - left) / (right - left)) * wide;
   const toY = (y) => box.top + high_ - ((y - low) / (high - low)) * high_;
   const bottom = box.top + high_;
   const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, words);
   const turned = (x, words) => text(x, box.top + high_ / 2, "middle", words, { transform: `rotate(-90 ${x} ${box.top + high_ / 2})` });
-  const decades = (from, to) => Array.from({ length: Math.ceil(to) - Math.floor(from) + 1 }, (_, index) => Math.floor(from) + index).flatMap((power) => [1, 2, 5].map((digit) => [digit * 10 ** power, power + Math.log10(digit)]));
-  const rungs = logarithmic ? decades(low, high).filter(([, y]) => y >= low && y <= high) : axisSteps(low, high, rows).map((y) => [y, y]);
-  const longest = Math.max(...rungs.map(([value]) => numberText(value, 6).length), 1);
   const grid = [
     (across10 ? decades(left, right).filter(([, at]) => at >= left && at <= right).map(([x]) => x) : axisSteps(left, right, columns)).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: bottom, stroke: RULE }), text(toX(x), bottom + 17, "middle", numberText(x, 6))]),
     rungs.map(([value, y]) => [
@@ -81,8 +84,7 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
       text(box.left - 7, toY(y) + 4, "end", numberText(value, 6)),
     ]),
     text(box.left + wide / 2, height - 6, "middle", across),
-    // clear of the longest number beside the axis
-    turned(Math.max(11, box.left - 18 - 7 * longest), upright),
+    turned(box.left - 18 - 7 * longest, upright),
   ];
   if (above) {
     for (const x of axisSteps(left * above.factor, right * above.factor, columns)) {

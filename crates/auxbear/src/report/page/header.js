@@ -107,12 +107,28 @@ function displacementTile(run) {
   return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => ["of its centre from the origin", beside]);
 }
 
+// From when on the rotor rolls, and what comes again after that.
+function rollingNote(run) {
+  const start = numberOf(run, "run_out.start_time");
+  if (start === null) return "it never rolls";
+  const again = listOf(run, "run_out.return_end_times");
+  const rolls = "rolls from " + engineeringText(start, "s", 3) + " on";
+  return again.length ? `${rolls}, but for ${again.length} times ball by ball until ${engineeringText(lastNumber(again), "s", 3)}` : rolls;
+}
+
+// The largest share of the limit in the run-out of any bearing: its index is the cube of it.
+function shareInRunOut(run) {
+  const names = Object.keys(run.quantities).filter((name) => name.endsWith("run_out.indentation_index"));
+  return Math.cbrt(Math.max(0, ...names.map((name) => numberOf(run, name)).filter(isNumber)));
+}
+
 // Each pressure counts by the limit of what touches there; the share is the largest.
 function pressureTile(run) {
   const share = numberOf(run, "hertz_pressure_share_of_limit");
   const worst = worstOf(quantityOf(run, "hertz_pressure_share_of_limit"), (value) => value);
-  const state = share === null ? null : verdictState(run, worst > 1);
-  const others = worst > share ? [`in the worst member ${percentText(worst)} of the limit`] : [];
+  const later = shareInRunOut(run);
+  const state = share === null ? null : verdictState(run, worst > 1 || later > 1);
+  const others = [worst > share ? `in the worst member ${percentText(worst)} of the limit` : null, later > share ? `in the run-out ${percentText(later)} of the limit` : null].filter(Boolean);
   return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => [pressureNote(run, pressure), others].flat(), () => state);
 }
 
@@ -126,7 +142,7 @@ function verdict(run) {
     quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
     whirlTile(run),
     displacementTile(run),
-    asksForRunOut(run) ? quantityTile(run, "Stands after", "run_out.stop_time", () => "rolls from " + engineeringText(numberOf(run, "run_out.start_time"), "s", 3) + " on") : null,
+    asksForRunOut(run) ? quantityTile(run, "Stands after", "run_out.stop_time", () => rollingNote(run)) : null,
     quantityTile(
       run,
       "Energy residual",

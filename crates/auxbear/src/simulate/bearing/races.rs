@@ -143,6 +143,20 @@ fn drops(share: &Result<f64, String>, survival: f64) -> Result<f64, String> {
     }
 }
 
+/// Why a run that did not end as planned has no number of drops: what it takes of a bearing is not all known.
+pub(crate) const NOT_WHOLE: &str =
+    "the run did not end as planned: what one takes is not all known, and may be the whole bearing";
+
+/// Takes the numbers of drops from a run that did not end as planned.
+pub(crate) fn without_count(list: &mut [Quantity]) {
+    let of_drops = |name: &str| DROPS_UNTIL.iter().any(|(known, _)| name.ends_with(known));
+    for quantity in list.iter_mut().filter(|quantity| of_drops(&quantity.name)) {
+        quantity.value = Value::None {
+            why: NOT_WHOLE.to_string(),
+        };
+    }
+}
+
 /// Points that those of a drop and of its run-out are added at.
 const PLACES: usize = 360;
 

@@ -261,6 +261,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         Ok(network) => SteadySpeed {
             network,
             losses,
+            sides: f64::from(built.sides),
             speed: state.speed,
             tolerance: 1.0,
         }

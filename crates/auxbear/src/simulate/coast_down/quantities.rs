@@ -221,7 +221,10 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
         ("runs_until_ten_percent_fail", 0.9),
         ("runs_until_half_fail", 0.5),
     ] {
-        let count = lasting.clone().map(|share| repetitions(share, survival));
+        let count = match ran.free.end.leaves() {
+            true => Err(shared::NOT_WHOLE.to_string()),
+            false => lasting.clone().map(|share| repetitions(share, survival)),
+        };
         list.number(&of(name), "1", count, &RUNS);
     }
 }

@@ -62,3 +62,10 @@ pub(crate) enum End {
     /// For this reason.
     Lost(&'static str),
 }
+
+impl End {
+    /// Whether it has left what the model describes.
+    pub fn leaves(self) -> bool {
+        !matches!(self, End::Stands | End::Late | End::Interrupted)
+    }
+}

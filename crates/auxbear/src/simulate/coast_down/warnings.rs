@@ -18,24 +18,29 @@ pub(super) fn of(ran: &Ran) -> Vec<Warning> {
 
 /// Of its course, whatever went before.
 pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
-    let mut list: Vec<Warning> = runs_away(ran).into_iter().collect();
+    let away = runs_away(ran);
+    let open = away.is_none();
+    let mut list: Vec<Warning> = away.into_iter().collect();
     list.extend(limits(ran));
     for (k, part) in ran.parts() {
-        let found = match runs_away(ran) {
-            Some(_) => [None, None, too_fast(ran, k)],
-            None => [stays_closed(ran, k), viscosity(ran, k), too_fast(ran, k)],
-        };
-        let found = found.into_iter().chain([loose(ran, k)]);
-        list.extend(found.flatten().map(|found| Warning {
-            text: match part.name.is_empty() {
-                true => found.text,
-                false => format!("{}: {}", part.name, found.text),
-            },
-            ..found
-        }));
+        let closed = open.then(|| [stays_closed(ran, k), viscosity(ran, k)]);
+        let found = closed.into_iter().flatten();
+        let found = found.chain([dents(ran, k), too_fast(ran, k), loose(ran, k)]);
+        list.extend(found.flatten().map(|found| named(&part.name, found)));
     }
     list.extend(turns_on(ran));
     list
+}
+
+/// With the name of its bearing, where it has one.
+fn named(name: &str, found: Warning) -> Warning {
+    match name {
+        "" => found,
+        name => Warning {
+            text: format!("{name}: {}", found.text),
+            ..found
+        },
+    }
 }
 
 /// A time for people.
@@ -46,6 +51,9 @@ fn words(time: f64) -> String {
         t => format!("{t:.1} s"),
     }
 }
+
+/// What a disturbance may grow by, over it, before a bearing calms down, without a word.
+const SLIGHT: f64 = 0.01;
 
 fn runs_away(ran: &Ran) -> Option<Warning> {
     let rows = ran.free.rows.iter();
@@ -60,9 +68,12 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
     let grows = |row: &&Row| row.growth > 0.0 && row.clearance() < 0.0;
     let last = ran.free.rows.iter().rposition(|row| grows(&row));
     // what left the model has not calmed down
-    let goes_on = matches!(ran.free.end, End::Stands | End::Late | End::Interrupted);
-    let calm = last.and_then(|last| ran.free.rows.get(last + 1).filter(|_| goes_on));
-    Some(away((row.time, calm.map(|row| row.time)), most, changes))
+    let calm = last.and_then(|last| ran.free.rows.get(last + 1));
+    let calm = calm.filter(|_| !ran.free.end.leaves());
+    let calm = calm.map(|row| row.time);
+    let slight = calm.is_some_and(|calm| most * (calm - row.time) < SLIGHT);
+    let name = &ran.built.parts[first].name;
+    (!slight).then(|| named(name, away((row.time, calm), most, changes)))
 }
 
 /// A bearing that runs away from a time on, s, until it does no longer, if so: with the largest rate, 1/s, and what inner ring, balls and
@@ -195,27 +206,57 @@ fn limits(ran: &Ran) -> Option<Warning> {
     ))
 }
 
+/// Change of a clearance that was closed from the start which is worth a word, m.
+const CLOSES_ON: f64 = 0.5e-6;
+
 fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
     let at = ran.first(|row| -row.bearings[k].clearance)?;
-    if ran.free.rows[0].bearings[k].clearance < 0.0 {
+    let first = &ran.free.rows[0];
+    let least = ran.rows(k).map(|row| row.clearance);
+    let least = least.fold(f64::INFINITY, f64::min);
+    let before = first.bearings[k].clearance;
+    let closed = before < 0.0;
+    if closed && least > before - CLOSES_ON {
         return None;
     }
     // what windows see of impacts has other causes
-    let part = &ran.built.parts[k];
-    let least = ran.rows(k).map(|row| row.clearance);
-    let loads = part.zone.loads(least.fold(f64::INFINITY, f64::min));
+    let loads = ran.built.parts[k].zone.loads(least);
     let most = loads.into_iter().fold(0.0, f64::max);
+    let when = match closed {
+        true => format!(
+            "goes on to close, from {:.1} µm to {:.1} µm",
+            1e6 * before,
+            1e6 * least
+        ),
+        false if at == first.time => "closes from the start".to_string(),
+        false => format!("closes after {}, to {:.1} µm", words(at), 1e6 * least),
+    };
     Some(warning(
         "AB2312",
         format!(
-            "The clearance closes {}: rings that warm unequally load the balls with up to {most:.0} N. The difference of the \
-             rings' temperatures is known within a factor of two; so is the clearance that is needed.",
-            match at {
-                at if at == ran.free.rows[0].time => "from the start".to_string(),
-                at => format!("after {}", words(at)),
-            }
+            "The clearance {when}: rings that warm unequally load the balls with up to {most:.0} N. The difference of the \
+             rings' temperatures is known within a factor of two; so is the clearance that is needed."
         ),
     ))
+}
+
+/// Balls that dent the races on the way.
+fn dents(ran: &Ran, k: usize) -> Option<Warning> {
+    let part = &ran.built.parts[k];
+    let loads = ran.rows(k).map(|row| row.largest_ball_load);
+    let most = loads.fold(0.0, f64::max);
+    let (pressure, limit) = (part.largest_pressure(most), part.pressure_limit);
+    (pressure > limit).then(|| {
+        warning(
+            "AB1002",
+            format!(
+                "While it runs out a ball presses with up to {most:.0} N, {:.0} MPa, beyond the limit of {:.0} MPa: permanent dents must be expected, and the \
+                 elastic contact law is outside its range.",
+                1e-6 * pressure,
+                1e-6 * limit
+            ),
+        )
+    })
 }
 
 fn viscosity(ran: &Ran, bearing: usize) -> Option<Warning> {
@@ -253,7 +294,7 @@ pub(crate) fn beyond_data(oil: &Viscosity, found: &BeyondData) -> Warning {
 
 fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
     let limit =
-        (ran.built.parts[k].warm.limiting_speed).filter(|limit| ran.built.start.speed > *limit)?;
+        (ran.built.parts[k].warm.limiting_speed).filter(|limit| ran.free.rows[0].speed > *limit)?;
     let rows = ran.free.rows.iter();
     let until = rows
         .map(|row| (row.time, row.speed))

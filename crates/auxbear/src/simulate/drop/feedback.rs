@@ -10,9 +10,11 @@
 
 use crate::scenario::{AuxiliaryBearing, Drop};
 use crate::simulate::bearing::feedback::{FollowedBearing, Renewals, State};
+use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::drop::build::gravity;
 use model::system::machine::RotorMachine;
 use model::table::Table;
+use thermal::bearing_network::{INNER_RACE, ROTOR};
 
 /// Change of friction that matters, over it.
 const RUBS: f64 = 1e-2;
@@ -54,6 +56,15 @@ impl Friction {
         let over = |kelvin: f64| self.over_temperature.value(kelvin);
         self.at_start * over(self.start + rise) / over(self.start)
     }
+}
+
+/// Coefficient of friction of rotor and race at temperatures of the nodes of their bearing, °C: that of the hotter body, without what the
+/// patch that rubs is hotter still.
+pub(super) fn friction(part: &AuxiliaryBearing, temperatures: &[f64]) -> f64 {
+    Friction::of(part).map_or(part.contact.friction_coefficient, |friction| {
+        let hotter = temperatures[ROTOR].max(temperatures[INNER_RACE]);
+        friction.at(hotter + ICE_POINT - friction.start)
+    })
 }
 
 /// What a run knows of the temperatures of a bearing.

@@ -24,6 +24,7 @@ pub(crate) mod surfaces;
 mod torque;
 pub(crate) mod warnings;
 mod went;
+mod window;
 mod windows;
 
 use crate::options::Options;
@@ -31,7 +32,7 @@ use crate::result::outcome::{
     Contact, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Work,
 };
 use crate::scenario::{Drop, Scenario};
-use crate::simulate::bearing::races::LIFE_BY_POINT;
+use crate::simulate::bearing::races::{LIFE_BY_POINT, without_count};
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
@@ -88,7 +89,13 @@ pub(crate) fn run(
         Some(after) => after.stop.clone(),
         None => magnets::stop(&contexts[k]),
     };
-    let name = |k: usize| run_out::quantities(&contexts[k], after[k].as_ref());
+    let name = |k: usize| {
+        let mut list = run_out::quantities(&contexts[k], after[k].as_ref());
+        if !stop_of(k).complete() {
+            without_count(&mut list);
+        }
+        list
+    };
     let mut named = name(0);
     let mut table = Members::ended_at(drop.run.duration);
     let mut drawn = Vec::new();

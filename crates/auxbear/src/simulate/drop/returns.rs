@@ -19,8 +19,11 @@ use crate::simulate::coast_down::build::{Built, Part};
 use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::rows::{End, Row};
 use crate::simulate::drop::context::Context;
+use crate::simulate::drop::feedback::friction;
+use crate::simulate::drop::window::Last;
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use std::sync::atomic::AtomicBool;
+use thermal::bearing_network::NODES;
 
 /// Speeds over a natural frequency between which the rotor is followed, and over each other in the windows there.
 const AROUND: [f64; 2] = [1.05, 0.95];
@@ -67,7 +70,7 @@ pub(super) struct Returned {
 /// Follows a run-out back into motion wherever it must; `built` starts behind the last return afterwards.
 pub(super) fn follow(
     context: &Context,
-    built: &mut Built,
+    (built, motion): (&mut Built, &mut Last),
     frequencies: &[f64],
     interrupt: &AtomicBool,
 ) -> Result<Returned, Box<Problem>> {
@@ -76,7 +79,7 @@ pub(super) fn follow(
     let mut passed: Vec<f64> = (frequencies.iter().copied())
         .filter(|frequency| *frequency > last)
         .collect();
-    let (excess, looked) = windows::looked_at(context, &found, &passed, interrupt);
+    let (excess, looked) = windows::looked_at(context, (&found, motion), &passed, interrupt);
     passed.truncate(excess.len());
     let mut returned = Returned {
         passed,
@@ -97,7 +100,7 @@ pub(super) fn follow(
         }
         built.start = found.start();
         let start = [built.start.time, built.start.speed];
-        let bounced = windows::follow(context, built, stretch, frequencies, interrupt);
+        let bounced = windows::follow(context, (built, motion), stretch, frequencies, interrupt);
         let speed = built.start.speed;
         let after = 0.5 * built.inertia * speed * speed;
         let sides = f64::from(built.sides);
@@ -157,25 +160,34 @@ fn sliding(context: &Context, found: &Ran) -> Option<(f64, Stretch, Why)> {
 
 /// Whether a bearing brakes nearly as hard as friction of rotor and race carries.
 fn slides(context: &Context, found: &Ran, k: usize, part: &Part, row: &Row) -> bool {
-    MARGIN * row.bearings[k].moment / f64::from(found.built.sides) > carried(context, k, part)
+    let asked = MARGIN * row.bearings[k].moment / f64::from(found.built.sides);
+    asked > carried(context, k, part, row)
 }
 
 /// Moment that friction of rotor and race carries, N m.
-pub(super) fn carried(context: &Context, k: usize, part: &Part) -> f64 {
+fn carried(context: &Context, k: usize, part: &Part, row: &Row) -> f64 {
     let contact = &context.machine.constants.bearings[k].contact;
-    contact.friction * part.warm.radial_load * (contact.bore_radius - contact.radial_clearance)
+    let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
+    friction(context.given(k), temperatures)
+        * part.warm.radial_load
+        * (contact.bore_radius - contact.radial_clearance)
 }
 
-/// Largest moment of a bearing by laws, N m, where friction may not carry it; none where windows followed it, or it always does.
-pub(super) fn asked(context: &Context, found: &Ran, k: usize, part: &Part) -> Option<f64> {
+/// Moment of a bearing by laws where friction carries the least of it, and what it carries there, N m, if it may not carry it; none where windows
+/// followed it.
+pub(super) fn asked(context: &Context, found: &Ran, k: usize, part: &Part) -> Option<[f64; 2]> {
     // the last row of a run that ended between windows is theirs
     let by_laws = found.built.motion.is_none();
     let rows = by_laws.then(|| found.free.rows.get(found.built.start.rows.len()..))??;
     let lost = rows
         .iter()
         .filter(|row| slides(context, found, k, part, row));
-    let most = lost.map(|row| row.bearings[k].moment).fold(0.0, f64::max);
-    (most > 0.0).then(|| most / f64::from(found.built.sides))
+    let sides = f64::from(found.built.sides);
+    let both = lost.map(|row| {
+        let asked = row.bearings[k].moment / sides;
+        [asked, carried(context, k, part, row)]
+    });
+    both.max_by(|a, b| (a[0] / a[1]).total_cmp(&(b[0] / b[1])))
 }
 
 impl Return {

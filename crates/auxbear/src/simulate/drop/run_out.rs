@@ -13,6 +13,7 @@ use crate::simulate::coast_down::{self, history, quantities as of_run_out};
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::returns::{self, Return, Returned};
 use crate::simulate::drop::went::{Change, Went, way};
+use crate::simulate::drop::window::Last;
 use crate::simulate::drop::windows::{self, Bounced, Stretch};
 use crate::simulate::drop::{quantities, run_out_warnings};
 use crate::simulate::ending;
@@ -53,10 +54,12 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         Err(why) => return Some(After::none(Vec::new(), broken(stop, why))),
     };
     let mut frequencies = frequencies(context, &built);
+    let mut motion = Last::of(context);
     let bounced = match goes_on && !rolls {
         true => {
             let stretch = Stretch::UNTIL_ROLLING;
-            windows::follow(context, &mut built, stretch, &frequencies, interrupt)
+            let from = (&mut built, &mut motion);
+            windows::follow(context, from, stretch, &frequencies, interrupt)
         }
         false => Bounced::default(),
     };
@@ -65,7 +68,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
     let at_once = AtomicBool::new(true);
     let first = Change::at(&built, &bounced);
     let found = match goes_on {
-        true => returns::follow(context, &mut built, &frequencies, interrupt),
+        true => returns::follow(context, (&mut built, &mut motion), &frequencies, interrupt),
         false => Ok(Returned::default()),
     };
     let found = found.and_then(|returned| {
@@ -223,8 +226,12 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
 fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     let first = &went.first;
-    list.number("start_time", "s", Ok(first.time), &CHANGE);
-    list.number("start_speed", "rad/s", Ok(first.speed), &CHANGE);
+    let rolled = |value: f64| match first.never {
+        false => Ok(value),
+        true => Err("the rotor did not roll in this run".to_string()),
+    };
+    list.awaited("start_time", rolled(first.time), &CHANGE);
+    list.number("start_speed", "rad/s", rolled(first.speed), &CHANGE);
     let scatter = went.scatter();
     list.number("windows", "", Ok(scatter.len() as f64), &WINDOWS);
     let worst = scatter.iter().copied().fold(0.0, f64::max);

@@ -12,7 +12,8 @@ use crate::simulate::drop::went::Went;
 pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
     let parts = context.parts().enumerate();
     let harder = parts.filter_map(|(k, name)| hits_harder(context, found, went, k, name));
-    let whirl = whirls(went).into_iter().chain(scatters(went));
+    let early = ends_early(context, went);
+    let whirl = early.into_iter().chain(whirls(went)).chain(scatters(went));
     let first = whirl.chain(lifted(&went.returned));
     let sliding = slid(context, found, went)
         .into_iter()
@@ -22,6 +23,26 @@ pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
         .chain(sliding)
         .chain(warnings::of_course(found))
         .collect()
+}
+
+/// Share of the drop's time above which the rest of its spin-up is worth a word.
+const LATE: f64 = 0.3;
+
+/// A drop that ends before its impacts or its spin-up.
+fn ends_early(context: &Context, went: &Went) -> Option<Warning> {
+    let end = context.finished.ending.time;
+    let lands = |k: usize| !context.record(k).contacts.is_empty();
+    let text = match went.bounced.late.filter(|late| *late > LATE * end) {
+        _ if !(0..context.parts().count()).all(lands) => format!(
+            "run.duration ends after {end:.4} s, before the rotor has landed on every bearing: its impacts are in none of these results. Give run.duration more."
+        ),
+        Some(late) => format!(
+            "run.duration ends after {end:.4} s, while inner races still come to their speed: {late:.2} s more at the speed of that instant. Heat, sliding and life \
+             of these are in none of these results. Give run.duration so much more."
+        ),
+        None => return None,
+    };
+    Some(warning("AB2324", text))
 }
 
 /// A rotor that whirls against its spin in windows.
@@ -64,10 +85,7 @@ fn hits_harder(
 ) -> Option<Warning> {
     let [force, time, speed] = went.peak(bearing)?;
     let before = context.record(bearing).peak_contact_force()?.value;
-    let on = match name {
-        "" => String::new(),
-        name => format!(" on {name}"),
-    };
+    let on = on(name);
     let part = &found.built.parts[bearing];
     let most = found.rows(bearing).map(|row| row.largest_ball_load);
     let most = part.largest_pressure(most.fold(0.0, f64::max));
@@ -99,14 +117,23 @@ fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
     let stretches = std::iter::once((first, &went.bounced))
         .chain(again.map(|again| ([again.from[0], again.to[0]], &again.windows)));
     let slides: Vec<_> = stretches
-        .filter(|(_, windows)| windows.friction > SLIDES * windows.lost)
+        .filter(|(_, windows)| windows.friction() > SLIDES * windows.lost)
         .collect();
     let (begin, end) = (slides.first()?.0[0], slides.last()?.0[1]);
-    let friction: f64 = slides.iter().map(|(_, windows)| windows.friction).sum();
-    let carried = |(k, part): (usize, &Part)| {
-        context.machine.constants.bearings[k].contact.friction * part.warm.radial_load
+    let whole: f64 = slides.iter().map(|([from, to], _)| to - from).sum();
+    let when = match end - begin > 1.01 * whole {
+        true => format!("For {whole:.1} s between {begin:.1} s and {end:.1} s"),
+        false => format!("Between {begin:.1} s and {end:.1} s"),
     };
-    let force = f64::from(found.built.sides) * found.parts().map(carried).sum::<f64>();
+    let of_bearing = |(k, part): (usize, &Part)| {
+        let each = slides
+            .iter()
+            .filter_map(|(_, windows)| windows.rubbed.get(k));
+        let [heat, way] = each.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+        let on = on(&part.name);
+        (heat > 0.0).then(|| format!("{heat:.3e} J over {way:.3e} m of way{on}"))
+    };
+    let rubs: Vec<String> = found.parts().filter_map(of_bearing).collect();
     let slowest = slides.iter().filter_map(|(_, windows)| windows.slowest);
     let slowest = slowest.min_by(|a, b| a[0].total_cmp(&b[0]));
     let slowest = match slowest {
@@ -120,19 +147,27 @@ fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
     Some(warning(
         "AB2318",
         format!(
-            "Between {begin:.1} s and {end:.1} s the rotor slides on its races in the windows that follow it{slowest}: friction makes {friction:.3e} J, over about {:.3e} m of way. \
-             It is in run_out.load_dependent_heat and warms both bodies; sliding_distance, wear and the temperatures of the rubbing surfaces are those of the \
-             first {:.3} s alone.",
-            friction / force,
+            "{when} the rotor slides on its races in the windows that follow it{slowest}: friction makes {}. \
+             It is in run_out.load_dependent_heat and warms both bodies by halves: a race that stands is computed too warm, the rotor too cool. sliding_distance, \
+             wear and the temperatures of the rubbing surfaces are those of the first {:.3} s alone.",
+            rubs.join(", "),
             context.finished.ending.time
         ),
     ))
 }
 
+/// A bearing in words, where it has a name.
+fn on(name: &str) -> String {
+    match name {
+        "" => String::new(),
+        name => format!(" on {name}"),
+    }
+}
+
 /// Bearings that brake harder than friction of rotor and race may carry, where no windows follow that: the rotor slides in them.
 fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
     let of_bearing = |(k, part): (usize, &Part)| {
-        let most = returns::asked(context, found, k, part)?;
+        let [asked, carried] = returns::asked(context, found, k, part)?;
         let name = match part.name.as_str() {
             "" => "The bearing".to_string(),
             name => name.to_string(),
@@ -140,10 +175,10 @@ fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
         Some(warning(
             "AB2318",
             format!(
-                "{name} brakes with up to {:.3} N mm in the run-out by laws, and friction of rotor and race carries {:.3} N mm: they may slide on \
+                "{name} brakes with {:.3} N mm in the run-out by laws, and friction of rotor and race carries {:.3} N mm: they may slide on \
                  each other there, which heats the surfaces and which this run-out does not see.",
-                1e3 * most,
-                1e3 * returns::carried(context, k, part)
+                1e3 * asked,
+                1e3 * carried
             ),
         ))
     };

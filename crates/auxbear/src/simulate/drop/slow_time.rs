@@ -10,31 +10,11 @@
 
 use crate::simulate::coast_down::build::{Built, Motion};
 use crate::simulate::coast_down::ran::ran;
-use crate::simulate::coast_down::rows::{BallsSeen, End, Row};
-use std::sync::Arc;
+use crate::simulate::coast_down::rows::{End, Row};
+use crate::simulate::drop::window::Window;
 use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::NODES;
 use thermal::warm_machine::{Between, Followed, InMotion, OF_BEARING};
-
-/// What a window found at its speed.
-pub(super) struct Window {
-    /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
-    pub powers: Vec<f64>,
-    /// What that says beside the laws.
-    pub followed: Followed,
-    /// Heat of what brakes beside the laws, over the nodes of all bearings, W.
-    pub beside: Vec<f64>,
-    /// Of the friction of rotor and races in it, W.
-    pub friction: f64,
-    /// Turns of the rotor about each inner race, with its spin.
-    pub whirl: Vec<f64>,
-    /// Largest contact force of each bearing, N.
-    pub peaks: Vec<f64>,
-    /// Of the balls of each bearing.
-    pub balls: Vec<Option<Arc<BallsSeen>>>,
-    /// Standard error of the whole power over it.
-    pub scatter: f64,
-}
 
 /// What the mean powers of a window say beside the laws at its speed and temperatures, and what heats the nodes besides, W: of powers as
 /// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, and what brakes the rotor besides its drag, W.
@@ -93,14 +73,21 @@ pub(super) enum Until<'a> {
     Window(&'a Window),
 }
 
-/// One step in slow time from the speed of a window: what it loses, what of that friction of rotor and race takes, J, and why the run-out ends
-/// within it.
+/// What a step loses.
+pub(super) struct Lost {
+    /// All of it, J.
+    pub energy: f64,
+    /// Of that the friction of rotor and race of each bearing, J, and the way over which they rub, m.
+    pub rubbed: Vec<[f64; 2]>,
+}
+
+/// One step in slow time from the speed of a window: what it loses, and why the run-out ends within it.
 pub(super) fn step(
     built: &mut Built,
     from: &Window,
     until: &Until,
     interrupt: &AtomicBool,
-) -> Result<([f64; 2], Option<End>), &'static str> {
+) -> Result<(Lost, Option<End>), &'static str> {
     let speed = built.start.speed;
     let (to, after) = match until {
         Until::Ratio(ratio) => (from, ratio * speed),
@@ -143,12 +130,20 @@ pub(super) fn step(
     let beside = |heats: &[f64]| -> f64 { heats.iter().skip(2).step_by(OF_BEARING).sum() };
     let heats = beside(&found.free.state.heats) - beside(&built.start.heats);
     let both = from.beside.iter().chain(&to.beside).sum::<f64>();
-    let friction = match both > 0.0 {
-        true => heats * (from.friction + to.friction) / both,
-        false => 0.0,
-    };
+    let rubbed = (0..from.friction.len()).map(|k| {
+        let power = from.friction[k] + to.friction[k];
+        let friction = if both > 0.0 {
+            heats * power / both
+        } else {
+            0.0
+        };
+        let force = 0.5 * f64::from(built.sides) * (from.rubbing[k] + to.rubbing[k]);
+        let way = if force > 0.0 { friction / force } else { 0.0 };
+        [friction, way]
+    });
+    let rubbed = rubbed.collect();
     let start = found.start();
-    let lost = 0.5 * built.inertia * (speed - start.speed) * (speed + start.speed);
+    let energy = 0.5 * built.inertia * (speed - start.speed) * (speed + start.speed);
     built.start = start;
-    Ok(([lost, friction], end))
+    Ok((Lost { energy, rubbed }, end))
 }

@@ -126,6 +126,13 @@ pub(crate) fn of(
         // the run-out says it of all, from where the drop left the data on
         list.retain(|warning| warning.code != DRAWN_ON);
     }
+    if after[0]
+        .iter()
+        .any(|after| after.says("AB2312") || after.says("AB2311"))
+    {
+        // a bearing that closes on
+        list.retain(|warning| warning.code != "AB2312");
+    }
     // of repeated runs those of the unperturbed run-out
     list.extend(of_rows(
         contexts,

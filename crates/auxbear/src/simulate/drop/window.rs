@@ -1,0 +1,414 @@
+//! One window ball by ball: the rotor at a speed that is held, oil, clearance and friction as warm as the run-out has made them.
+//!
+//! ```text
+//!   settle     60 turns, and on while the races still come to their speed
+//!   batches    8 of 10 turns: mean powers, their scatter, the largest forces, the loads of the balls
+//! ```
+//!
+//! Source: derived; book/src/theory/heat.md.
+
+use crate::scenario::Drop;
+use crate::simulate::bearing::feedback::Follows;
+use crate::simulate::coast_down::build::Built;
+use crate::simulate::coast_down::rows::BallsSeen;
+use crate::simulate::drop::build;
+use crate::simulate::drop::context::Context;
+use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use crate::simulate::drop::feedback::friction;
+use crate::simulate::drop::method;
+use crate::simulate::drop::slow_time::beside_laws;
+use crate::simulate::ending::settings_at;
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, HEATS};
+use model::bearing_heat::OfNodes;
+use model::system::machine::RotorMachine;
+use model::system::machine::record::{BearingRecord, ROLLS};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use thermal::bearing_network::{LUBRICANT, NODES};
+use thermal::warm_machine::Followed;
+
+/// Turns of the rotor in which a window settles, more than the turns of the cage after which it counts as rolling, and in each of its
+/// batches; and the longest that either takes, s.
+const SETTLING: (f64, f64) = (60.0, 1.0);
+const BATCH: (f64, f64) = (10.0, 0.2);
+/// Batches of a window: neighbours correlate, so that fewer say little of the scatter.
+const BATCHES: usize = 8;
+
+/// Change of the speed of an inner race over the rotor's while a window settles, beyond what it had been there, from which on it settles on; and
+/// how long at most, s.
+const SPINS_UP: f64 = 0.01;
+const LONGEST_WAIT: f64 = 60.0;
+
+/// What a window found at its speed.
+pub(super) struct Window {
+    /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
+    pub powers: Vec<f64>,
+    /// What that says beside the laws.
+    pub followed: Followed,
+    /// Heat of what brakes beside the laws, over the nodes of all bearings, W.
+    pub beside: Vec<f64>,
+    /// Of the friction of rotor and race of each bearing in it, W, and what of a force it takes there, N.
+    pub friction: Vec<f64>,
+    pub rubbing: Vec<f64>,
+    /// Turns of the rotor about each inner race, with its spin.
+    pub whirl: Vec<f64>,
+    /// Largest contact force of each bearing, N.
+    pub peaks: Vec<f64>,
+    /// Of the balls of each bearing.
+    pub balls: Vec<Option<Arc<BallsSeen>>>,
+    /// Standard error of the whole power over it.
+    pub scatter: f64,
+}
+
+/// Least and largest speed of each inner race while a window settles, rad/s.
+struct Spins(Vec<[f64; 2]>);
+
+impl Spins {
+    /// Whether one of them moves beyond these by more than a speed.
+    fn move_on(&mut self, races: &[f64], by: f64) -> bool {
+        let mut moves = false;
+        for ([least, most], spin) in self.0.iter_mut().zip(races) {
+            moves |= *spin < *least - by || *spin > *most + by;
+            (*least, *most) = (spin.min(*least), spin.max(*most));
+        }
+        moves
+    }
+}
+
+/// What one batch of a window finds.
+struct Batch {
+    powers: Vec<f64>,
+    nodes: Vec<f64>,
+    friction: Vec<f64>,
+    peaks: Vec<f64>,
+    balls: Vec<Option<BallsSeen>>,
+    drag_factors: Vec<f64>,
+    /// Of the inner races, rad/s.
+    spins: Vec<f64>,
+    rotor: f64,
+    /// Turns of the rotor about each inner race, with its spin.
+    whirl: Vec<f64>,
+}
+
+/// What one more part of a window says.
+enum Piece {
+    Rolls,
+    Whole,
+    Lost(&'static str),
+}
+
+/// The last motion that was followed ball by ball.
+#[derive(Clone)]
+pub(super) struct Last {
+    machine: Arc<RotorMachine>,
+    state: Vec<f64>,
+    time: f64,
+}
+
+impl Last {
+    /// Kinetic energy of a side, J.
+    pub fn kinetic(&self) -> f64 {
+        let content = self.machine.content(&self.state);
+        content.translation + content.spin
+    }
+
+    /// That in which the drop ended.
+    pub fn of(context: &Context) -> Self {
+        let ending = &context.finished.ending;
+        Last {
+            machine: Arc::new(context.machine.clone()),
+            state: ending.state.clone(),
+            time: ending.time,
+        }
+    }
+}
+
+/// A rotor on its way down.
+pub(super) struct Way<'a> {
+    context: &'a Context<'a>,
+    interrupt: &'a AtomicBool,
+    /// Where it is.
+    pub last: &'a mut Last,
+    /// Steps taken.
+    pub steps: u64,
+    /// How long the last window waited for races to come to their speed, s.
+    pub waited: f64,
+}
+
+impl<'a> Way<'a> {
+    /// From the last motion.
+    pub fn from(context: &'a Context<'a>, last: &'a mut Last, interrupt: &'a AtomicBool) -> Self {
+        Way {
+            context,
+            interrupt,
+            last,
+            steps: 0,
+            waited: 0.0,
+        }
+    }
+
+    /// Means at the speed and the temperatures that the run-out has come to; none where the rotor rolls and that ends it.
+    pub fn window(
+        &mut self,
+        built: &Built,
+        until_rolling: bool,
+    ) -> Result<Option<Window>, &'static str> {
+        let speed = built.start.speed;
+        let drop = conditioned(self.context.drop, built);
+        let made =
+            build::drop(&drop).map_err(|_| "no machine could be built at these temperatures")?;
+        let mut constants = made.constants.clone();
+        constants.rotor.spin_held = true;
+        for bearing in &mut constants.bearings {
+            (bearing.warm, bearing.surfaces) = (None, None);
+        }
+        let stepping = method::stepping(
+            &drop,
+            &made,
+            RotorMachine::new(constants.clone()).tangents(),
+        );
+        let machine = Arc::new(RotorMachine::new(constants));
+        self.last.machine = machine.clone();
+        let layout = machine.layout().clone();
+        let (mut state, mut time) = (self.last.state.clone(), self.last.time);
+        let spin = layout.rotor.spin();
+        // a rotor that jumps in its races would slip there, and may be thrown out of its motion
+        let factor = speed / state[spin].abs();
+        state[spin] *= factor;
+        for (at, part) in layout.bearings.iter().zip(&machine.constants.bearings) {
+            state[at.inner + 5] *= factor;
+            (part.bearing).change_speeds(&mut state[at.own()], factor);
+        }
+        let turn = TAU / speed;
+        let settings = settings_at(&drop.run, stepping.tolerance);
+        let mut plan = Plan {
+            settings,
+            steps: stepping.steps,
+            interval: f64::INFINITY,
+            until_rolling,
+            threads: Some(1),
+            interrupt: self.interrupt,
+            progress: &|_| {},
+        };
+        let mut pieces = Vec::new();
+        let mut rolls = false;
+        let races = |state: &[f64]| -> Vec<f64> {
+            let each = layout.bearings.iter();
+            each.map(|at| state[at.inner + 5].abs()).collect()
+        };
+        let mut spins = Spins(races(&state).iter().map(|spin| [*spin; 2]).collect());
+        self.waited = 0.0;
+        let mut settling = true;
+        while settling || pieces.len() < BATCHES {
+            let (turns, longest) = if settling { SETTLING } else { BATCH };
+            plan.settings.start = time;
+            plan.settings.end = time + (turns * turn).min(longest);
+            state[layout.ledger()..].fill(0.0);
+            let finished = piece(&machine, &state, &plan);
+            self.steps += finished.ending.work.accepted;
+            state.clone_from(&finished.ending.state);
+            let span = finished.ending.time - time;
+            time = finished.ending.time;
+            match outcome(&finished) {
+                Piece::Rolls => {
+                    rolls = true;
+                    break;
+                }
+                Piece::Lost(why) => return Err(why),
+                Piece::Whole => {}
+            }
+            if settling {
+                settling =
+                    spins.move_on(&races(&state), SPINS_UP * speed) && self.waited < LONGEST_WAIT;
+                self.waited += if settling { span } else { 0.0 };
+                continue;
+            }
+            pieces.push(Batch {
+                peaks: peaks(&finished),
+                whirl: (finished.record.bearings.iter())
+                    .map(|record| record.whirl_turns * state[spin].signum())
+                    .collect(),
+                balls: finished.record.bearings.iter().map(balls).collect(),
+                ..self.heats(built, &state, span)
+            });
+        }
+        (self.last.state, self.last.time) = (state, time);
+        if rolls {
+            return Ok(None);
+        }
+        Ok(Some(mean(built, &machine.constants.bearings, &pieces)))
+    }
+
+    /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
+    fn heats(&self, built: &Built, state: &[f64], span: f64) -> Batch {
+        let layout = self.last.machine.layout();
+        let (mut powers, mut nodes, mut friction) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut drag_factors, mut spins) = (Vec::new(), Vec::new());
+        for (k, at) in layout.bearings.iter().enumerate() {
+            let heats: [f64; HEATS] =
+                std::array::from_fn(|kind| state[layout.heat(at.heat + kind)] / span);
+            let steady = model::bearing_heat::steady_moment(&heats);
+            powers.extend([steady, heats.iter().sum::<f64>() - steady]);
+            friction.push(state[layout.heat(at.rotor_race_friction())] / span);
+            let part = &self.context.machine.constants.bearings[k];
+            let drag_factor = (part.bearing).drag_factor(&|own| state[at.own().start + own]);
+            drag_factors.push(drag_factor);
+            spins.push(state[at.inner + 5].abs());
+            let of_nodes: OfNodes = match &part.warm {
+                Some(warm) => {
+                    let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
+                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor)
+                }
+                None => [0.0; NODES.len()],
+            };
+            nodes.extend(of_nodes);
+        }
+        let own = layout.of_rotor;
+        let others = [own.damping, own.damping_rotating, own.seal_damping];
+        let others: f64 = (others.into_iter().flatten())
+            .map(|heat| state[layout.heat(heat)] / span)
+            .sum();
+        let speed = built.start.speed;
+        let mut rotor = built.rotor;
+        if built.start.time < built.brake_start {
+            rotor.torque = 0.0;
+        }
+        powers.push(others + speed * rotor.moment(speed) / f64::from(built.sides));
+        Batch {
+            powers,
+            nodes,
+            friction,
+            peaks: Vec::new(),
+            balls: Vec::new(),
+            whirl: Vec::new(),
+            drag_factors,
+            spins,
+            rotor: others,
+        }
+    }
+}
+
+/// Largest contact force of each bearing, N.
+fn peaks(finished: &Finished) -> Vec<f64> {
+    let bearings = finished.record.bearings.iter();
+    let peak = bearings.map(|record| record.peak_contact_force());
+    peak.map(|peak| peak.map_or(0.0, |peak| peak.value))
+        .collect()
+}
+
+/// What a batch has seen of the balls of a bearing; none of a bushing, or where it did not turn.
+fn balls(record: &BearingRecord) -> Option<BallsSeen> {
+    let (races, turns) = (record.races.as_ref()?, record.turns);
+    let loads = [record.largest_inner_load, record.largest_outer_load];
+    (turns > 0.0).then(|| BallsSeen {
+        largest: loads.map(|peak| peak.value),
+        cubes: (races.races.each_ref())
+            .map(|race| race.sums.iter().map(|sum| sum / turns).collect()),
+    })
+}
+
+/// The batches of a window together.
+fn all_balls(batches: &[Batch], bearing: usize) -> Option<BallsSeen> {
+    let mut each = batches.iter().map(|batch| batch.balls[bearing].as_ref());
+    let mut all = each.next()??.clone();
+    for other in each {
+        let other = other?;
+        for side in 0..2 {
+            all.largest[side] = all.largest[side].max(other.largest[side]);
+            for (sum, cube) in all.cubes[side].iter_mut().zip(&other.cubes[side]) {
+                *sum += cube;
+            }
+        }
+    }
+    let count = batches.len() as f64;
+    let mean = |ring: Vec<f64>| ring.into_iter().map(|sum| sum / count).collect();
+    Some(BallsSeen {
+        cubes: all.cubes.map(mean),
+        ..all
+    })
+}
+
+fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
+    let member = Member {
+        machine: machine.clone(),
+        following: None,
+        start: state.to_vec(),
+        keep_rows: false,
+        kind: 0,
+    };
+    ensemble::one(&member, plan)
+}
+
+fn outcome(finished: &Finished) -> Piece {
+    match finished.ending.stop {
+        solve::Stop::Finished => Piece::Whole,
+        solve::Stop::Halted(ROLLS) => Piece::Rolls,
+        solve::Stop::Interrupted => Piece::Lost("it was interrupted"),
+        solve::Stop::Halted(why) => Piece::Lost(why),
+        _ => Piece::Lost("a window ball by ball did not end as planned"),
+    }
+}
+
+/// Means of batches, and the standard error of their sum over it.
+fn mean(built: &Built, constants: &[AuxiliaryBearingConstants], batches: &[Batch]) -> Window {
+    let count = batches.len() as f64;
+    let of = |each: Vec<&Vec<f64>>| -> Vec<f64> {
+        let length = each.first().map_or(0, |one| one.len());
+        let mean = |k: usize| each.iter().map(|one| one[k]).sum::<f64>() / count;
+        (0..length).map(mean).collect()
+    };
+    let powers = of(batches.iter().map(|batch| &batch.powers).collect());
+    let whole: f64 = powers.iter().sum();
+    let squares = batches.iter().map(|batch| {
+        let apart = batch.powers.iter().sum::<f64>() - whole;
+        apart * apart
+    });
+    let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
+    let nodes = of(batches.iter().map(|batch| &batch.nodes).collect());
+    let drag_factors = of(batches.iter().map(|batch| &batch.drag_factors).collect());
+    let rotor = batches.iter().map(|batch| batch.rotor).sum::<f64>() / count;
+    let spins = of(batches.iter().map(|batch| &batch.spins).collect());
+    let of_bearings = [drag_factors.as_slice(), spins.as_slice()];
+    let (followed, beside) = beside_laws(built, &powers, &nodes, of_bearings, rotor);
+    let whirl = of(batches.iter().map(|batch| &batch.whirl).collect());
+    Window {
+        followed,
+        beside,
+        whirl: whirl.iter().map(|turns| count * turns).collect(),
+        friction: of(batches.iter().map(|batch| &batch.friction).collect()),
+        rubbing: (built.parts.iter().zip(constants))
+            .map(|(part, bearing)| bearing.contact.friction * part.warm.radial_load)
+            .collect(),
+        scatter: deviation / (count.sqrt() * whole),
+        peaks: (0..batches[0].peaks.len())
+            .map(|k| {
+                batches
+                    .iter()
+                    .map(|batch| batch.peaks[k])
+                    .fold(0.0, f64::max)
+            })
+            .collect(),
+        balls: (0..batches[0].balls.len())
+            .map(|k| all_balls(batches, k).map(Arc::new))
+            .collect(),
+        powers,
+    }
+}
+
+/// The drop with oil, clearance and friction as warm as the run-out has made them.
+fn conditioned(drop: &Drop, built: &Built) -> Drop {
+    let mut warm = drop.clone();
+    warm.rotor.speed = built.start.speed * drop.rotor.speed.signum();
+    let temperatures = built.start.temperatures.chunks(NODES.len());
+    for (part, temperatures) in warm.auxiliary_bearings.iter_mut().zip(temperatures) {
+        part.contact.friction_coefficient = friction(part, temperatures);
+        let (Some(heat), Some(bearing)) = (&part.warm, &mut part.bearing) else {
+            continue;
+        };
+        if let Some(follows) = Follows::of(heat, bearing) {
+            follows.condition(bearing, temperatures);
+        }
+    }
+    warm
+}
