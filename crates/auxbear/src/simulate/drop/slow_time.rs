@@ -14,53 +14,7 @@ use crate::simulate::coast_down::rows::{End, Row};
 use crate::simulate::drop::window::Window;
 use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::NODES;
-use thermal::warm_machine::{Between, Followed, InMotion, OF_BEARING};
-
-/// What the mean powers of a window say beside the laws at its speed and temperatures, and what heats the nodes besides, W: of powers as
-/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, and what brakes the rotor besides its drag, W.
-pub(super) fn beside_laws(
-    built: &Built,
-    powers: &[f64],
-    nodes: &[f64],
-    [drag_factors, spins]: [&[f64]; 2],
-    rotor: f64,
-) -> (Followed, Vec<f64>) {
-    let start = &built.start;
-    let sides = f64::from(built.sides);
-    let mut beside = nodes.to_vec();
-    let mut bearings = Vec::new();
-    for (k, part) in built.parts.iter().enumerate() {
-        let of_nodes = k * NODES.len()..(k + 1) * NODES.len();
-        let laws = part
-            .losses
-            .on_rotor(start.speed, &start.temperatures[of_nodes.clone()]);
-        let laws = laws.map(|moment| moment * start.speed / sides);
-        let [steady, other] = [powers[2 * k], powers[2 * k + 1]];
-        // balls that bounce lag a little behind rolling: that is not M1's, which a preload makes grow
-        let second = steady.min(laws[1]);
-        let first = (steady - second).min(drag_factors[k] * laws[0]);
-        for (loss, taken) in [first, second].into_iter().enumerate() {
-            for (own, heat) in beside[of_nodes.clone()].iter_mut().enumerate() {
-                *heat -= taken * part.losses.shares[loss][own];
-            }
-        }
-        beside[of_nodes]
-            .iter_mut()
-            .for_each(|heat| *heat = heat.max(0.0));
-        let factor = |taken: f64, law: f64| if law > 0.0 { taken / law } else { 0.0 };
-        bearings.push(InMotion {
-            factors: [factor(first, laws[0]), factor(second, laws[1])],
-            beside: sides * (steady - first - second + other) / start.speed,
-            spin: spins[k] / (part.losses.ratio * start.speed),
-        });
-    }
-    let followed = Followed {
-        speed: start.speed,
-        bearings,
-        rotor: sides * rotor / start.speed,
-    };
-    (followed, beside)
-}
+use thermal::warm_machine::{Between, OF_BEARING};
 
 /// Change of a temperature after which a window looks again, K: bodies that warm by so much close a clearance by a micrometre or two.
 const FAR: f64 = 10.0;
