@@ -50,6 +50,8 @@ const IDENTITY: &[(&str, f64, Side)] = &[
 ];
 
 const NAME: &str = "bearing.name";
+/// Wear coefficient of metals that seize, with a decade to spare, m²/N.
+const LARGEST_WEAR: f64 = 1e-11;
 /// Friction of landing pairs: above 1 only clean metals in vacuum are known.
 const LARGEST_FRICTION: f64 = 1.0;
 /// Radius of gyration of a rotor over the radius of its shaft: a solid shaft has 0.71, a large disk on a thin one 15.
@@ -206,6 +208,13 @@ impl Values {
                         .to_string(),
                 );
             }
+        }
+        let wear = "contact.surface.wear_coefficient";
+        if self.number(wear).is_some_and(|wear| wear > LARGEST_WEAR) {
+            doubt(
+                wear,
+                "dry steel on steel has 1e-15 m²/N where it wears mildly, and 1e-12 m²/N where it seizes".to_string(),
+            );
         }
         let shaft = || {
             Some(

@@ -252,6 +252,12 @@ fn implausible_values_are_told_and_impossible_ones_refused() {
         let [told] = told("drop", "AB1094", &[set]).try_into().expect(set);
         assert!(told.starts_with(path), "{told}");
     }
+    let worn = [
+        "contact.width=12 mm",
+        "contact.surface.wear_coefficient=1 m^2/N",
+    ];
+    let [told_of_wear] = told("drop", "AB1094", &worn).try_into().expect("wear");
+    assert!(told_of_wear.starts_with("contact.surface.wear_coefficient"));
     assert!(told("drop", "AB1094", &[]).is_empty());
     assert!(refused("drop", &["contact.friction_coefficient=15"]).contains("AB0106"));
     assert!(refused("drop", &["bearing.static_load_rating=60 kN"]).contains("AB0402"));
