@@ -195,6 +195,10 @@ fn a_bearing_that_runs_away_while_the_rotor_bounces_seizes_on_its_friction() {
     };
     let dents = |w: &&Warning| w.code == "AB1002" && w.text.contains("While it runs out");
     assert!(found.warnings.iter().find(dents).is_some());
+    // the patch that rubs is hotter than the bodies, and no hotter than ball by ball, 598 K
+    let race = number(&found, "run_out.peak_inner_race_temperature") - 298.15;
+    let patch = number(&found, "run_out.contact_temperature_rise");
+    assert!(race + 20.0 < patch && patch < 598.0, "{race} {patch}");
     // 84 and 109 W ball by ball
     let [early, late] = [20.0, 30.0].map(|time| at("heat.power", time));
     assert!(

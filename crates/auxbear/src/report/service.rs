@@ -96,7 +96,10 @@ const KINDS: [(&str, &[&[&str]], bool, &str); 6] = [
     ),
     (
         "contact of rotor and race too hot",
-        &[&["contact_temperature_index"]],
+        &[
+            &["contact_temperature_index"],
+            &["run_out.contact_temperature_index"],
+        ],
         false,
         "1",
     ),

@@ -3,10 +3,11 @@
 //! The spin that the run-out starts with is all the kinetic energy there is at the change, over the square of the speed: nothing is
 //! lost or made by it.
 
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, NOT_GIVEN, Origin};
 use crate::result::outcome::{Quantity, Stop, Value, Warning};
 use crate::scenario::RunOut;
 use crate::simulate::bearing::races::count_run_out;
+use crate::simulate::bearing::severity::STEEL_CHANGES;
 use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::{self, history, quantities as of_run_out};
@@ -85,7 +86,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         frequencies,
         returned,
     };
-    let quantities = named(&found, &went);
+    let quantities = named(context, &found, &went);
     if !goes_on {
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
@@ -223,7 +224,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
 }
 
 /// The results under their names: those of the run-out, and its course over time.
-fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
+fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     let first = &went.first;
     let rolled = |value: f64| match first.never {
@@ -241,6 +242,18 @@ fn named(found: &Ran, went: &Went) -> Vec<Quantity> {
         let peak = went.peak(k).ok_or("no windows ball by ball".to_string());
         let name = of_part(&part.name, "peak_contact_force");
         list.number(&name, "N", peak.map(|[force, ..]| force), &PEAK);
+    }
+    for (k, (_, part)) in found.parts().enumerate() {
+        let rise = match context.given(k).contact.width {
+            Some(_) => went.hottest(k).ok_or("no windows ball by ball".to_string()),
+            None => Err(format!("contact.width{NOT_GIVEN}")),
+        };
+        let rise = rise.map(|[rise, _]| rise);
+        let name = of_part(&part.name, "contact_temperature_rise");
+        list.number(&name, "K", rise.clone(), &PATCH);
+        let name = of_part(&part.name, "contact_temperature_index");
+        let index = rise.map(|rise| rise / STEEL_CHANGES);
+        list.number(&name, "1", index, &PATCH_INDEX);
     }
     of_run_out::name(found, &mut list);
     let returned = &went.returned;
@@ -376,6 +389,16 @@ const PEAK: Origin = Origin {
     law: "the largest contact force of the windows' batches, each 10 turns or 0.2 s",
     source: "crates/auxbear/src/simulate/drop/windows.rs",
     valid: "a sample: windows are 5 to 19 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest",
+};
+const PATCH: Origin = Origin {
+    law: "the largest rise of the patch of rotor and race in a batch of a window, over surfaces as warm as the hotter body when it begins, above the start",
+    source: "crates/model/src/surface_heat.rs; crates/auxbear/src/simulate/drop/window.rs",
+    valid: "as contact_temperature_rise, and a lower bound: the surfaces of a batch have 10 turns or 0.2 s to warm",
+};
+const PATCH_INDEX: Origin = Origin {
+    law: "run_out.contact_temperature_rise over 500 K",
+    source: "tempering and transformation of bearing steel, rounded down",
+    valid: "1: the surface of steel changes; other materials and coatings have limits of their own",
 };
 const FREQUENCIES: Origin = Origin {
     law: "eigenvalues of M⁻¹(K + Σ k φφᵀ), k of mount, balls under the weight and landing surface in series",

@@ -1,6 +1,7 @@
 //! What the user should know before trusting the run-out of a drop.
 
 use crate::result::outcome::{Warning, warning};
+use crate::simulate::bearing::severity::STEEL_CHANGES;
 use crate::simulate::coast_down::build::Part;
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::warnings;
@@ -15,11 +16,14 @@ pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
     let early = ends_early(context, went);
     let whirl = early.into_iter().chain(whirls(went)).chain(scatters(went));
     let first = whirl.chain(lifted(&went.returned));
+    let parts = context.parts().enumerate();
+    let hot = parts.filter_map(|(k, name)| gets_hot(went, k, name));
     let sliding = slid(context, found, went)
         .into_iter()
         .chain(slides(context, found));
     first
         .chain(harder)
+        .chain(hot)
         .chain(sliding)
         .chain(warnings::of_course(found))
         .collect()
@@ -104,6 +108,17 @@ fn hits_harder(
     })
 }
 
+/// A patch of rotor and race that gets too hot in windows.
+fn gets_hot(went: &Went, bearing: usize, name: &str) -> Option<Warning> {
+    let [rise, time] = went.hottest(bearing)?;
+    let text = format!(
+        "While it runs out, after {time:.1} s, the patch where rotor and race rub{} is {rise:.0} K warmer than at the start, or more: steel softens and transforms \
+         there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.",
+        on(name)
+    );
+    (rise > STEEL_CHANGES).then(|| warning("AB2301", text))
+}
+
 /// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
 const SLIDES: f64 = 0.01;
 /// Shares of the speed of rolling below which a race lags, and stands.
@@ -148,8 +163,8 @@ fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
         "AB2318",
         format!(
             "{when} the rotor slides on its races in the windows that follow it{slowest}: friction makes {}. \
-             It is in run_out.load_dependent_heat and warms both bodies by halves: a race that stands is computed too warm, the rotor too cool. sliding_distance, \
-             wear and the temperatures of the rubbing surfaces are those of the first {:.3} s alone.",
+             It is in run_out.load_dependent_heat and warms both bodies by halves: a race that stands is computed too warm, the rotor too cool. sliding_distance \
+             and wear are those of the first {:.3} s alone.",
             rubs.join(", "),
             context.finished.ending.time
         ),

@@ -54,6 +54,13 @@ impl Went {
             .filter_map(|windows| windows.peaks.get(bearing));
         each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
     }
+    /// The largest rise of the patch of rotor and race of a bearing in all windows, K, and when, s.
+    pub fn hottest(&self, bearing: usize) -> Option<[f64; 2]> {
+        let each = self
+            .windows()
+            .filter_map(|windows| windows.hottest.get(bearing));
+        each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
+    }
     /// The first and the last instant at which windows saw the rotor whirl against its spin, s.
     pub fn whirled(&self) -> Option<[f64; 2]> {
         let each = self.windows().filter_map(|windows| windows.whirled);

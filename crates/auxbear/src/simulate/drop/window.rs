@@ -9,7 +9,7 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::Built;
+use crate::simulate::coast_down::build::{Built, ICE_POINT};
 use crate::simulate::coast_down::rows::BallsSeen;
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
@@ -24,7 +24,7 @@ use model::system::machine::record::{BearingRecord, ROLLS};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use thermal::bearing_network::{LUBRICANT, NODES};
+use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, ROTOR};
 use thermal::warm_machine::{Followed, InMotion};
 
 /// Turns of the rotor in which a window settles, more than the turns of the cage after which it counts as rolling, and in each of its
@@ -54,6 +54,8 @@ pub(super) struct Window {
     pub whirl: Vec<f64>,
     /// Largest contact force of each bearing, N.
     pub peaks: Vec<f64>,
+    /// Largest rise of the patch of rotor and race above the start of the drop, K; of surfaces that are as warm as the hotter body when a batch begins.
+    pub rises: Vec<f64>,
     /// Of the balls of each bearing.
     pub balls: Vec<Option<Arc<BallsSeen>>>,
     /// Standard error of the whole power over it.
@@ -81,6 +83,7 @@ struct Batch {
     nodes: Vec<f64>,
     friction: Vec<f64>,
     peaks: Vec<f64>,
+    rises: Vec<f64>,
     balls: Vec<Option<BallsSeen>>,
     drag_factors: Vec<f64>,
     /// Of the inner races, rad/s.
@@ -160,7 +163,7 @@ impl<'a> Way<'a> {
         let mut constants = made.constants.clone();
         constants.rotor.spin_held = true;
         for bearing in &mut constants.bearings {
-            (bearing.warm, bearing.surfaces) = (None, None);
+            bearing.warm = None;
         }
         let stepping = method::stepping(
             &drop,
@@ -225,6 +228,9 @@ impl<'a> Way<'a> {
             }
             pieces.push(Batch {
                 peaks: peaks(&finished),
+                rises: (finished.record.bearings.iter())
+                    .map(|record| record.heat.as_ref().map_or(0.0, |heat| heat.contact.value))
+                    .collect(),
                 whirl: (finished.record.bearings.iter())
                     .map(|record| record.whirl_turns * state[spin].signum())
                     .collect(),
@@ -279,6 +285,7 @@ impl<'a> Way<'a> {
             nodes,
             friction,
             peaks: Vec::new(),
+            rises: Vec::new(),
             balls: Vec::new(),
             whirl: Vec::new(),
             drag_factors,
@@ -417,6 +424,10 @@ fn mean(built: &Built, constants: &[AuxiliaryBearingConstants], batches: &[Batch
     let of_bearings = [drag_factors.as_slice(), spins.as_slice()];
     let (followed, beside) = beside_laws(built, &powers, &nodes, of_bearings, rotor);
     let whirl = of(batches.iter().map(|batch| &batch.whirl).collect());
+    let largest = |of: fn(&Batch) -> &Vec<f64>| -> Vec<f64> {
+        let of_bearing = |k: usize| batches.iter().map(|batch| of(batch)[k]).fold(0.0, f64::max);
+        (0..of(&batches[0]).len()).map(of_bearing).collect()
+    };
     Window {
         followed,
         beside,
@@ -426,12 +437,13 @@ fn mean(built: &Built, constants: &[AuxiliaryBearingConstants], batches: &[Batch
             .map(|(part, bearing)| bearing.contact.friction * part.warm.radial_load)
             .collect(),
         scatter: deviation / (count.sqrt() * whole),
-        peaks: (0..batches[0].peaks.len())
-            .map(|k| {
-                batches
-                    .iter()
-                    .map(|batch| batch.peaks[k])
-                    .fold(0.0, f64::max)
+        peaks: largest(|batch| &batch.peaks),
+        rises: (largest(|batch| &batch.rises).iter())
+            .zip(built.start.temperatures.chunks(NODES.len()))
+            .zip(&built.parts)
+            .map(|((rise, nodes), part)| {
+                let start = part.warm.heat.start_temperature - ICE_POINT;
+                rise + nodes[ROTOR].max(nodes[INNER_RACE]) - start
             })
             .collect(),
         balls: (0..batches[0].balls.len())

@@ -69,6 +69,8 @@ pub(super) struct Bounced {
     pub late: Option<f64>,
     /// Largest contact force of each bearing, N, and the time and the speed of its window, s and rad/s.
     pub peaks: Vec<[f64; 3]>,
+    /// Largest rise of the patch of rotor and race of each bearing above the start, K, and when, s.
+    pub hottest: Vec<[f64; 2]>,
     /// First and last instant at which it whirled against its spin, s.
     pub whirled: Option<[f64; 2]>,
     /// Least speed of an inner race over that at which it rolls, and when, s.
@@ -88,6 +90,12 @@ impl Bounced {
         for bearing in &window.followed.bearings {
             if self.slowest.is_none_or(|[least, _]| bearing.spin < least) {
                 self.slowest = Some([bearing.spin, start.time]);
+            }
+        }
+        self.hottest.resize(window.rises.len(), [0.0; 2]);
+        for (hottest, rise) in self.hottest.iter_mut().zip(&window.rises) {
+            if *rise > hottest[0] {
+                *hottest = [*rise, start.time];
             }
         }
         self.peaks.resize(window.peaks.len(), [0.0; 3]);
