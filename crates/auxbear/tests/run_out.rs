@@ -309,7 +309,13 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     assert!(change.abs() < 0.05, "{change}");
     // the loads of balls that bounce, of both their inner and their outer race, and their life: nothing is left out
     let loads = list(&found, "run_out.over_time.bearing.largest_ball_load");
-    assert!(loads[..start].iter().all(|load| *load > 1.5 * loads[start]));
+    // in the last windows it rolls
+    let lifted = 2 * start / 3;
+    assert!(
+        loads[..lifted]
+            .iter()
+            .all(|load| *load > 1.5 * loads[start])
+    );
     let index = number(&found, "run_out.indentation_index");
     let of_drop = number(&found, "indentation_index");
     let largest = number(&found, "run_out.peak_ball_load");

@@ -110,7 +110,7 @@ function displacementTile(run) {
 // From when on the rotor rolls, and what comes again after that.
 function rollingNote(run) {
   const start = numberOf(run, "run_out.start_time");
-  if (start === null) return "it never rolls";
+  if (start === null) return "it never loses only what laws of rolling say";
   const again = listOf(run, "run_out.return_end_times");
   const rolls = "rolls from " + engineeringText(start, "s", 3) + " on";
   return again.length ? `${rolls}, but for ${again.length} times ball by ball until ${engineeringText(lastNumber(again), "s", 3)}` : rolls;

@@ -23,10 +23,15 @@ pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
     let mut list: Vec<Warning> = away.into_iter().collect();
     list.extend(limits(ran));
     for (k, part) in ran.parts() {
-        let closed = open.then(|| [stays_closed(ran, k), viscosity(ran, k)]);
-        let found = closed.into_iter().flatten();
-        let found = found.chain([dents(ran, k), too_fast(ran, k), loose(ran, k)]);
-        list.extend(found.flatten().map(|found| named(&part.name, found)));
+        let closed = open.then(|| stays_closed(ran, k)).flatten();
+        let others = [
+            dents(ran, k),
+            viscosity(ran, k),
+            too_fast(ran, k),
+            loose(ran, k),
+        ];
+        let found = closed.into_iter().chain(others.into_iter().flatten());
+        list.extend(found.map(|found| named(&part.name, found)));
     }
     list.extend(turns_on(ran));
     list
@@ -87,11 +92,15 @@ pub(crate) fn away((time, calm): (f64, Option<f64>), rate: f64, changes: [f64; 3
             words(calm)
         ),
     };
+    let by = match changes.iter().sum::<f64>() < -CLOSES_ON {
+        true => "by their own warmth",
+        false => "as mounted",
+    };
     let [inner, balls, outer] = changes.map(|change| format!("{:+.1} µm", 1e6 * change));
     warning(
         "AB2311",
         format!(
-            "{when} its balls are preloaded by their own warmth and every kelvin makes more heat than it \
+            "{when} its balls are preloaded {by} and every kelvin makes more heat than it \
              takes away; a disturbance grows {:.1} times each {} ({rate:.2e} 1/s). To its clearance the inner ring has added {inner}, \
              the balls {balls}, the outer ring {outer}. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
             std::f64::consts::E,

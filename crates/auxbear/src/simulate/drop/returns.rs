@@ -21,15 +21,10 @@ use crate::simulate::coast_down::rows::{End, Row};
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::feedback::friction;
 use crate::simulate::drop::window::Last;
-use crate::simulate::drop::windows::{self, Bounced, Stretch};
+use crate::simulate::drop::windows::{self, Bounced, NEAR, Near, Stretch};
 use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::NODES;
 
-/// Speeds over a natural frequency between which the rotor is followed, and over each other in the windows there.
-const AROUND: [f64; 2] = [1.05, 0.95];
-const FINE: f64 = 0.985;
-/// Excess of a window at a natural frequency above which the rotor is not one that rolls.
-const EXCESS: f64 = 0.1;
 /// Share of what friction carries that a bearing may ask of it.
 const MARGIN: f64 = 1.2;
 /// Most returns of a run-out.
@@ -59,9 +54,9 @@ pub(super) struct Return {
 /// What a run-out by laws passes, and where it went back.
 #[derive(Default)]
 pub(super) struct Returned {
-    /// Natural frequencies passed, rad/s, and how much more windows lose there.
+    /// Natural frequencies passed, rad/s, and what windows find there.
     pub passed: Vec<f64>,
-    pub excess: Vec<f64>,
+    pub near: Vec<Near>,
     pub list: Vec<Return>,
     /// Steps of the windows that looked.
     pub looked: u64,
@@ -79,11 +74,11 @@ pub(super) fn follow(
     let mut passed: Vec<f64> = (frequencies.iter().copied())
         .filter(|frequency| *frequency > last)
         .collect();
-    let (excess, looked) = windows::looked_at(context, (&found, motion), &passed, interrupt);
-    passed.truncate(excess.len());
+    let (near, looked) = windows::looked_at(context, (&found, motion), &passed, interrupt);
+    passed.truncate(near.len());
     let mut returned = Returned {
         passed,
-        excess,
+        near,
         list: Vec::new(),
         looked,
     };
@@ -115,23 +110,19 @@ pub(super) fn follow(
     Ok(returned)
 }
 
-/// Whether windows at a natural frequency say that the rotor does not roll there, or do not end.
-pub(super) fn lifts(excess: f64) -> bool {
-    excess.is_nan() || excess > EXCESS
-}
-
 /// Where a run-out by laws must go back to motion next: from this speed on, how, and why.
 fn next(context: &Context, found: &Ran, returned: &Returned) -> Option<(f64, Stretch, Why)> {
     let start = found.built.start.speed;
-    let lifting = (returned.passed.iter().zip(&returned.excess))
-        .filter(|(frequency, excess)| lifts(**excess) && AROUND[1] * **frequency < start)
-        .map(|(frequency, _)| {
+    let lifting = (returned.passed.iter().zip(&returned.near))
+        .filter(|(frequency, near)| near.lifts() && NEAR[1] * **frequency < start)
+        .map(|(frequency, near)| {
             let stretch = Stretch {
-                until: AROUND[1] * frequency,
-                ratio: FINE,
+                until: NEAR[1] * frequency,
+                fine: NEAR[0] * frequency,
+                rolls: false,
             };
             let why = Why::Resonance(*frequency);
-            ((AROUND[0] * frequency).min(start), stretch, why)
+            ((near.from * frequency).min(start), stretch, why)
         });
     lifting
         .chain(sliding(context, found))
@@ -152,7 +143,8 @@ fn sliding(context: &Context, found: &Ran) -> Option<(f64, Stretch, Why)> {
     let behind = rows[at..].iter().find(|row| asks(row).is_none());
     let stretch = Stretch {
         until: behind.or(rows.last())?.speed,
-        ratio: windows::RATIO,
+        fine: 0.0,
+        rolls: false,
     };
     let why = Why::Traction(part.name.clone());
     (stretch.until < rows[at].speed).then_some((rows[at].speed, stretch, why))

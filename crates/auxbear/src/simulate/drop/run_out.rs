@@ -56,11 +56,16 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
     };
     let mut frequencies = frequencies(context, &built);
     let mut motion = Last::of(context);
-    let bounced = match goes_on && !rolls {
+    let bounced = match goes_on {
         true => {
-            let stretch = Stretch::UNTIL_ROLLING;
             let from = (&mut built, &mut motion);
-            windows::follow(context, from, stretch, &frequencies, interrupt)
+            windows::follow(
+                context,
+                from,
+                Stretch::until_rolling(rolls),
+                &frequencies,
+                interrupt,
+            )
         }
         false => Bounced::default(),
     };
@@ -81,6 +86,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         Err(problem) => return Some(After::none(Vec::new(), broken(stop, problem.found))),
     };
     let went = Went {
+        rolled: rolls,
         bounced,
         first,
         frequencies,
@@ -229,7 +235,7 @@ fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
     let first = &went.first;
     let rolled = |value: f64| match first.never {
         false => Ok(value),
-        true => Err("the rotor did not roll in this run".to_string()),
+        true => Err("the rotor never lost only what laws of rolling say".to_string()),
     };
     list.awaited("start_time", rolled(first.time), &CHANGE);
     list.number("start_speed", "rad/s", rolled(first.speed), &CHANGE);
@@ -270,7 +276,7 @@ fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
         (
             "resonance_excess",
             "1",
-            returned.excess.clone(),
+            returned.near.iter().map(|near| near.excess).collect(),
             &RESONANCES,
         ),
         (
@@ -374,8 +380,8 @@ fn frequencies(context: &Context, built: &Built) -> Vec<f64> {
 }
 
 const CHANGE: Origin = Origin {
-    law: "the rotor has pressed on every inner race, rotor and race, and cage, within 1 % of rolling, for 20 turns of every cage; kinetic \
-          energy, temperatures and speed go on as they are",
+    law: "windows ball by ball lose what laws of rolling say within 2 %: two, or one after the rotor has pressed on every inner race, rotor and race, and cage, \
+          within 1 % of rolling, for 20 turns of every cage; kinetic energy, temperatures and speed go on as they are",
     source: "crates/model/src/system/machine/bearing_record.rs; book/src/theory/heat.md",
     valid: "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window",
 };

@@ -6,7 +6,7 @@ use crate::simulate::coast_down::build::Part;
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::warnings;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::returns::{self, Returned, lifts};
+use crate::simulate::drop::returns::{self, Returned};
 use crate::simulate::drop::went::Went;
 
 /// What windows and returns say, the gravest first.
@@ -41,8 +41,8 @@ fn ends_early(context: &Context, went: &Went) -> Option<Warning> {
             "run.duration ends after {end:.4} s, before the rotor has landed on every bearing: its impacts are in none of these results. Give run.duration more."
         ),
         Some(late) => format!(
-            "run.duration ends after {end:.4} s, while inner races still come to their speed: {late:.2} s more at the speed of that instant. Heat, sliding and life \
-             of these are in none of these results. Give run.duration so much more."
+            "run.duration ends after {end:.4} s, while inner races still come to their speed: up to {late:.2} s more at the speed of that instant. Heat, sliding and life \
+             of these are in none of these results. Give run.duration that much more."
         ),
         None => return None,
     };
@@ -52,8 +52,12 @@ fn ends_early(context: &Context, went: &Went) -> Option<Warning> {
 /// A rotor that whirls against its spin in windows.
 fn whirls(went: &Went) -> Option<Warning> {
     let [since, until] = went.whirled()?;
+    let when = match until > since {
+        true => format!("from {since:.1} s to {until:.1} s"),
+        false => format!("at {since:.1} s"),
+    };
     let text = format!(
-        "Backward whirl while the rotor runs out: from {since:.1} s to {until:.1} s it runs round the bore against its spin in the windows that follow it. \
+        "Backward whirl while the rotor runs out: {when} it runs round the bore against its spin in the windows that follow it. \
          Contact forces of this kind destroy bearings and shafts."
     );
     Some(warning("AB1014", text))
@@ -202,12 +206,12 @@ fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
 
 /// Natural frequencies at which the rotor does not roll.
 fn lifted(returned: &Returned) -> Option<Warning> {
-    let found = returned.passed.iter().zip(&returned.excess);
-    let lifted = found.filter(|(_, excess)| lifts(**excess));
+    let found = returned.passed.iter().zip(&returned.near);
+    let lifted = found.filter(|(_, near)| near.lifts());
     let list: Vec<String> = lifted
-        .map(|(frequency, excess)| match excess.is_nan() {
+        .map(|(frequency, near)| match near.excess.is_nan() {
             true => format!("{frequency:.0} rad/s, where no window ended"),
-            false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * excess),
+            false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * near.excess),
         })
         .collect();
     (!list.is_empty()).then(|| {

@@ -31,6 +31,8 @@ impl Change {
 
 /// How the run went between its fidelities.
 pub(super) struct Went {
+    /// Whether the drop ended because the rotor rolled.
+    pub rolled: bool,
     pub bounced: Bounced,
     pub first: Change,
     /// Natural frequencies of the rotor that rolls, below the speed of the first change, the highest first, rad/s.
@@ -89,10 +91,15 @@ pub(super) fn way(context: &Context, went: &Went) -> String {
         (count, never) => {
             let last = match never {
                 false => rolled,
+                true if went.rolled => "It did so to the end.".to_string(),
                 true => "It never rolled.".to_string(),
             };
+            let but = match went.rolled {
+                false => "did not roll",
+                true => "rolled, but lost more than laws say",
+            };
             let windows = format!(
-                "After {:.4} s the rotor did not roll: {count} windows ball by ball followed, in slow time between them.",
+                "After {:.4} s the rotor {but}: {count} windows ball by ball followed, in slow time between them.",
                 context.finished.ending.time
             );
             vec![windows, last]

@@ -20,7 +20,7 @@ use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, HEATS};
 use model::bearing_heat::OfNodes;
 use model::system::machine::RotorMachine;
-use model::system::machine::record::{BearingRecord, ROLLS};
+use model::system::machine::record::BearingRecord;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -93,13 +93,6 @@ struct Batch {
     whirl: Vec<f64>,
 }
 
-/// What one more part of a window says.
-enum Piece {
-    Rolls,
-    Whole,
-    Lost(&'static str),
-}
-
 /// The last motion that was followed ball by ball.
 #[derive(Clone)]
 pub(super) struct Last {
@@ -150,12 +143,8 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// Means at the speed and the temperatures that the run-out has come to; none where the rotor rolls and that ends it.
-    pub fn window(
-        &mut self,
-        built: &Built,
-        until_rolling: bool,
-    ) -> Result<Option<Window>, &'static str> {
+    /// Means at the speed and the temperatures that the run-out has come to.
+    pub fn window(&mut self, built: &Built) -> Result<Window, &'static str> {
         let speed = built.start.speed;
         let drop = conditioned(self.context.drop, built);
         let made =
@@ -188,13 +177,12 @@ impl<'a> Way<'a> {
             settings,
             steps: stepping.steps,
             interval: f64::INFINITY,
-            until_rolling,
+            until_rolling: false,
             threads: Some(1),
             interrupt: self.interrupt,
             progress: &|_| {},
         };
         let mut pieces = Vec::new();
-        let mut rolls = false;
         let races = |state: &[f64]| -> Vec<f64> {
             let each = layout.bearings.iter();
             each.map(|at| state[at.inner + 5].abs()).collect()
@@ -212,14 +200,7 @@ impl<'a> Way<'a> {
             state.clone_from(&finished.ending.state);
             let span = finished.ending.time - time;
             time = finished.ending.time;
-            match outcome(&finished) {
-                Piece::Rolls => {
-                    rolls = true;
-                    break;
-                }
-                Piece::Lost(why) => return Err(why),
-                Piece::Whole => {}
-            }
+            whole(&finished)?;
             if settling {
                 settling =
                     spins.move_on(&races(&state), SPINS_UP * speed) && self.waited < LONGEST_WAIT;
@@ -239,10 +220,7 @@ impl<'a> Way<'a> {
             });
         }
         (self.last.state, self.last.time) = (state, time);
-        if rolls {
-            return Ok(None);
-        }
-        Ok(Some(mean(built, &machine.constants.bearings, &pieces)))
+        Ok(mean(built, &machine.constants.bearings, &pieces))
     }
 
     /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
@@ -392,13 +370,13 @@ fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
     ensemble::one(&member, plan)
 }
 
-fn outcome(finished: &Finished) -> Piece {
+/// Why a part of a window did not end as planned.
+fn whole(finished: &Finished) -> Result<(), &'static str> {
     match finished.ending.stop {
-        solve::Stop::Finished => Piece::Whole,
-        solve::Stop::Halted(ROLLS) => Piece::Rolls,
-        solve::Stop::Interrupted => Piece::Lost("it was interrupted"),
-        solve::Stop::Halted(why) => Piece::Lost(why),
-        _ => Piece::Lost("a window ball by ball did not end as planned"),
+        solve::Stop::Finished => Ok(()),
+        solve::Stop::Interrupted => Err("it was interrupted"),
+        solve::Stop::Halted(why) => Err(why),
+        _ => Err("a window ball by ball did not end as planned"),
     }
 }
 

@@ -4,8 +4,9 @@
 //!   window at Ω_j    spin held, oil and clearance as warm as they are; settle, then mean heats over whole turns
 //!   between          a run-out by laws with what both windows find beside them (slow_time.rs), farther where it went as foreseen
 //! ```
-//! It ends where the rotor rolls, or loses no more than by rolling in two windows: the run-out by laws goes on from there. Unbalance of a few micrometres lifts a fast rotor from
-//! rolling again and again (e Ω² near g), so that this is how most drops go on.
+//! It ends where the rotor loses no more than by rolling in two windows, or in one if the drop ended with a rotor that rolls: the run-out by laws goes on
+//! from there. Unbalance of a few micrometres lifts a fast rotor from rolling again and again (e Ω² near g), and above its natural frequency it moves
+//! the mount by e, so that this is how many drops go on.
 //!
 //! The spread of the means is that of batches; what scatters more than a tenth is reported.
 //!
@@ -20,15 +21,19 @@ use crate::simulate::drop::window::{Last, Way, Window};
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::NODES;
 
-/// Speed of a window over that before.
-pub(super) const RATIO: f64 = 0.95;
+/// Speed of a window over that before, and where a resonance lifts the rotor.
+const RATIO: f64 = 0.95;
+const FINE: f64 = 0.985;
 /// What windows find goes on as it was where the way to one was foreseen within [`AGREES`] by that before: then they lie twice as far apart, at
 /// most so many times [`RATIO`], and at no natural frequency.
 const FARTHEST: i32 = 4;
 /// Speeds around a natural frequency that no such step leads into or over, over it.
-const NEAR: [f64; 2] = [1.05, 0.95];
+pub(super) const NEAR: [f64; 2] = [1.05, 0.95];
 /// Share of the energy at the start of the run-out below which no window looks again unless a body warms.
 const SLOW: f64 = 0.01;
+
+/// Excess of a window at a natural frequency above which the rotor is not one that rolls.
+const EXCESS: f64 = 0.1;
 
 /// Windows one after the other in which the rotor loses no more than by rolling, within so much of that.
 const AGREEING: usize = 2;
@@ -41,16 +46,21 @@ const WHIRLING: f64 = 1.0;
 pub(super) struct Stretch {
     /// Speed above which they go on whatever they find, rad/s.
     pub until: f64,
-    /// Speed of each over that before, there.
-    pub ratio: f64,
+    /// Speed from which on down to that they lie [`FINE`] apart, rad/s.
+    pub fine: f64,
+    /// Whether the rotor rolls already, so that the first of them may say that laws know all it loses.
+    pub rolls: bool,
 }
 
 impl Stretch {
-    /// A rotor that does not roll yet, until it does.
-    pub const UNTIL_ROLLING: Stretch = Stretch {
-        until: f64::INFINITY,
-        ratio: RATIO,
-    };
+    /// Until the rotor loses what laws say.
+    pub const fn until_rolling(rolls: bool) -> Stretch {
+        Stretch {
+            until: f64::INFINITY,
+            fine: 0.0,
+            rolls,
+        }
+    }
 }
 
 /// How the windows went.
@@ -128,16 +138,21 @@ pub(super) fn follow(
             break Some(End::Stands);
         }
         let leaves = built.start.speed <= stretch.until;
-        let window = way.window(built, leaves);
+        let window = way.window(built);
         if bounced.late.is_none() {
             bounced.late = Some(way.waited);
         }
         let window = match window {
-            Ok(Some(window)) => window,
-            Ok(None) => break None,
+            Ok(window) => window,
             Err(_) if interrupt.load(Ordering::Relaxed) => break Some(End::Interrupted),
             Err(why) => break Some(End::Lost(why)),
         };
+        if stretch.rolls && bounced.scatter.is_empty() && rolling(built, &window) {
+            return Bounced {
+                steps: way.steps,
+                ..Bounced::default()
+            };
+        }
         if window.powers.iter().sum::<f64>() <= 0.0 {
             break Some(End::Lost("nothing brakes the rotor"));
         }
@@ -174,11 +189,12 @@ pub(super) fn follow(
             break None;
         }
         let start = built.start.clone();
+        // the last of its way is short, and a window there long
+        let slow = built.inertia * start.speed * start.speed < 2.0 * SLOW * built.energy;
         let ratio = match leaves {
-            // the last of its way is short, and a window there long
-            true if built.inertia * start.speed * start.speed < 2.0 * SLOW * built.energy => 0.0,
-            true => far(start.speed, apart, frequencies),
-            false => stretch.ratio,
+            false if start.speed <= stretch.fine => FINE,
+            true if slow => 0.0,
+            _ => far(start.speed, apart, frequencies),
         };
         match step(built, &window, &Until::Ratio(ratio), interrupt) {
             Ok((_, None)) => {}
@@ -206,42 +222,80 @@ fn far(speed: f64, apart: i32, frequencies: &[f64]) -> f64 {
     if inside { RATIO } else { longest }
 }
 
-/// Speeds around a natural frequency at which the rotor is looked at, over it.
+/// Speeds around a natural frequency at which the rotor is looked at, over it, and those on the way there where these say that it does not roll.
 const AROUND: [f64; 3] = [1.03, 1.0, 0.97];
+const ABOVE: [f64; 7] = [2.0, 1.75, 1.5, 1.35, 1.2, 1.1, 1.05];
 
-/// What the bearings take beside what the laws of a rotor that rolls say, less 1, around natural frequencies that a run-out by laws has
-/// passed: the largest of a few windows at each. Not a number where a window did not end.
+/// What windows find near a natural frequency.
+#[derive(Clone, Copy)]
+pub(super) struct Near {
+    /// What the bearings take beside what the laws of a rotor that rolls say, less 1, the largest around it. Not a number where a window did not end.
+    pub excess: f64,
+    /// Speed over it from which on they take more by [`AGREES`] on the way there, where it lifts the rotor.
+    pub from: f64,
+}
+
+impl Near {
+    /// Whether the rotor does not roll there, or no window ends.
+    pub fn lifts(&self) -> bool {
+        self.excess.is_nan() || self.excess > EXCESS
+    }
+}
+
+/// What windows find near natural frequencies that a run-out by laws has passed.
 pub(super) fn looked_at(
     context: &Context,
     (found, last): (&Ran, &Last),
     frequencies: &[f64],
     interrupt: &AtomicBool,
-) -> (Vec<f64>, u64) {
-    let mut last = last.clone();
-    let mut way = Way::from(context, &mut last, interrupt);
-    // none where it was interrupted
-    let mut at = |frequency: f64| -> Option<f64> {
-        let mut worst = 0.0f64;
+) -> (Vec<Near>, u64) {
+    let mut steps = 0;
+    // none where it was interrupted, 0 where the run-out has not been
+    let mut excess_at = |last: &mut Last, speed: f64| -> Option<f64> {
+        let Some(row) = found.free.rows.iter().find(|row| row.speed <= speed) else {
+            return Some(0.0);
+        };
+        let mut built = found.built.clone();
+        built.start = Start::at(row.time, speed, row.temperatures.clone(), built.parts.len());
+        let mut way = Way::from(context, last, interrupt);
+        let window = way.window(&built);
+        steps += way.steps;
+        match window {
+            Ok(window) => Some(excess(&built, &window)),
+            Err(_) if interrupt.load(Ordering::Relaxed) => None,
+            Err(_) => Some(f64::NAN),
+        }
+    };
+    let mut near = |frequency: &f64| -> Option<Near> {
+        let mut near = Near {
+            excess: 0.0,
+            from: NEAR[0],
+        };
+        let mut motion = last.clone();
         for ratio in AROUND {
-            let speed = ratio * frequency;
-            let Some(row) = found.free.rows.iter().find(|row| row.speed <= speed) else {
-                continue;
-            };
-            let mut built = found.built.clone();
-            built.start = Start::at(row.time, speed, row.temperatures.clone(), built.parts.len());
-            match way.window(&built, true) {
-                Ok(Some(window)) => worst = worst.max(excess(&built, &window)),
-                Ok(None) => {}
-                Err(_) if interrupt.load(Ordering::Relaxed) => return None,
-                Err(_) => return Some(f64::NAN),
+            let excess = excess_at(&mut motion, ratio * frequency)?;
+            if excess.is_nan() || excess > near.excess {
+                near.excess = excess;
+            }
+            if excess.is_nan() {
+                break;
             }
         }
-        Some(worst)
+        if near.lifts() {
+            // as the rotor comes there: from above, rolling
+            let mut motion = last.clone();
+            near.from = ABOVE[0];
+            for ratio in ABOVE {
+                if excess_at(&mut motion, ratio * frequency)?.abs() > AGREES {
+                    break;
+                }
+                near.from = ratio;
+            }
+        }
+        Some(near)
     };
-    let list = (frequencies.iter())
-        .map_while(|frequency| at(*frequency))
-        .collect();
-    (list, way.steps)
+    let list = frequencies.iter().map_while(&mut near).collect();
+    (list, steps)
 }
 
 /// Whether the bearings take what the laws of a rotor that rolls say, and it does not whirl.
