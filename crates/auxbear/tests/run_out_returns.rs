@@ -249,6 +249,26 @@ fn a_drop_that_ends_before_its_spin_up_says_so_and_rolls_all_the_same() {
     }
 }
 
+/// Of an unbalance that swings the rotor in its bore the run-out by laws warns, and of a small one not.
+#[test]
+fn a_swing_that_laws_do_not_see_is_warned_of() {
+    let never = AtomicBool::new(false);
+    let says = |unbalance: &str| {
+        let unbalance = format!("rotor.unbalance_eccentricity={unbalance}");
+        let sets = ["rotor.speed=3400 rpm", "run.duration=2 s", &unbalance];
+        let scenario = parsed(SHIPPED, &sets).unwrap();
+        let found = run(&scenario, &Options::unwatched(&never)).unwrap();
+        let each = found.warnings.into_iter();
+        each.filter(|w| w.code == "AB2325")
+            .map(|w| w.text)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(says("5 um"), Vec::<String>::new());
+    // √(g/c0), and no more than where laws begin
+    let [text] = says("8 um").try_into().unwrap();
+    assert!(text.contains("swings with 198 rad/s"), "{text}");
+}
+
 /// A rotor that whirls rolls on its race too, but not under its weight: windows follow it, and the heat of its whirl, until its bearing seizes.
 #[test]
 fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {

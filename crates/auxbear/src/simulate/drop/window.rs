@@ -38,6 +38,8 @@ const BATCHES: usize = 8;
 /// how long at most, s.
 const SPINS_UP: f64 = 0.01;
 const LONGEST_WAIT: f64 = 60.0;
+/// The same of a race that only sways, as under a rotor that swings: it has not come to another speed.
+const SWAYS: f64 = 0.05;
 
 /// What a window found at its speed.
 pub(super) struct Window {
@@ -187,7 +189,8 @@ impl<'a> Way<'a> {
             let each = layout.bearings.iter();
             each.map(|at| state[at.inner + 5].abs()).collect()
         };
-        let mut spins = Spins(races(&state).iter().map(|spin| [*spin; 2]).collect());
+        let before = races(&state);
+        let mut spins = Spins(before.iter().map(|spin| [*spin; 2]).collect());
         self.waited = 0.0;
         let mut settling = true;
         while settling || pieces.len() < BATCHES {
@@ -205,6 +208,10 @@ impl<'a> Way<'a> {
                 settling =
                     spins.move_on(&races(&state), SPINS_UP * speed) && self.waited < LONGEST_WAIT;
                 self.waited += if settling { span } else { 0.0 };
+                let mut moved = races(&state).into_iter().zip(&before);
+                if !settling && moved.all(|(now, before)| (now - before).abs() < SWAYS * speed) {
+                    self.waited = 0.0;
+                }
                 continue;
             }
             pieces.push(Batch {
