@@ -51,17 +51,17 @@ impl Went {
     }
     /// The largest contact force of a bearing in all windows, N, and when, s, and at which speed, rad/s.
     pub fn peak(&self, bearing: usize) -> Option<[f64; 3]> {
-        let each = self
-            .windows()
-            .filter_map(|windows| windows.peaks.get(bearing));
-        each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
+        largest(
+            self.windows()
+                .filter_map(|windows| windows.peaks.get(bearing)),
+        )
     }
     /// The largest rise of the patch of rotor and race of a bearing in all windows, K, and when, s.
     pub fn hottest(&self, bearing: usize) -> Option<[f64; 2]> {
-        let each = self
-            .windows()
-            .filter_map(|windows| windows.hottest.get(bearing));
-        each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
+        largest(
+            self.windows()
+                .filter_map(|windows| windows.hottest.get(bearing)),
+        )
     }
     /// The first and the last instant at which windows saw the rotor whirl against its spin, s.
     pub fn whirled(&self) -> Option<[f64; 2]> {
@@ -73,6 +73,11 @@ impl Went {
         let each = self.windows().flat_map(|windows| &windows.scatter);
         each.copied().collect()
     }
+}
+
+/// The one whose first number is the largest.
+fn largest<'a, const N: usize>(each: impl Iterator<Item = &'a [f64; N]>) -> Option<[f64; N]> {
+    each.copied().reduce(|a, b| if b[0] > a[0] { b } else { a })
 }
 
 /// How the run went from ball by ball into slow time and back, in words.

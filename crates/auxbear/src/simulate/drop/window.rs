@@ -27,8 +27,7 @@ use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, ROTOR};
 use thermal::warm_machine::{Followed, InMotion};
 
-/// Turns of the rotor in which a window settles, more than the turns of the cage after which it counts as rolling, and in each of its
-/// batches; and the longest that either takes, s.
+/// Turns of the rotor in which a window settles, and in each of its batches; and the longest that either takes, s.
 const SETTLING: (f64, f64) = (60.0, 1.0);
 const BATCH: (f64, f64) = (10.0, 0.2);
 /// Batches of a window: neighbours correlate, so that fewer say little of the scatter.

@@ -117,7 +117,7 @@ impl Bounced {
     }
 }
 
-/// Follows the rotor from its last motion through a stretch and until it rolls, or until there is a reason to end; `built` starts there afterwards.
+/// Follows the rotor from its last motion through a stretch and until it loses what laws say, or until there is a reason to end; `built` starts there afterwards.
 pub(super) fn follow(
     context: &Context,
     (built, last): (&mut Built, &mut Last),
