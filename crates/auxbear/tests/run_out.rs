@@ -233,13 +233,12 @@ fn slow_time_goes_on_as_ball_by_ball_would() {
     assert!(warm.stop.complete() && slow.stop.complete());
     assert!(number(&warm, "run_out.stop_time") > 1.1 * number(&slow, "run_out.stop_time"));
     let codes: Vec<&str> = warm.warnings.iter().map(|warning| warning.code).collect();
-    // so calm a rotor rolls at its natural frequency too, and that was looked at
+    // so calm a rotor rolls all the way down, at its natural frequency too, and that was looked at
     assert!(!codes.contains(&"AB2317"), "{codes:?}");
     assert!(!codes.contains(&"AB2316"), "{codes:?}");
-    let passed = list(&warm, "run_out.passed_frequencies");
-    assert_eq!(passed.len(), 1);
-    assert!((900.0..1150.0).contains(&passed[0]), "{passed:?}");
-    assert!(list(&warm, "run_out.resonance_excess")[0] < 0.1);
+    assert!(list(&warm, "run_out.return_times").is_empty());
+    let ratio = number(&warm, "run_out.peak_contact_force") / (4.0 * 9.80665);
+    assert!((1.0..1.5).contains(&ratio), "{ratio}");
 }
 
 #[test]
@@ -505,7 +504,7 @@ fn a_heavy_rotor_that_bounces_warms_its_bearings_as_laws_do() {
     ];
     let found = ran(&[&sets[..], &["rotor.unbalance_eccentricity=5 um"]].concat());
     assert!(number(&found, "run_out.windows") > 1.0);
-    let laws = ran(&sets);
+    let laws = ran(&[&sets[..], &["rotor.unbalance_eccentricity=0.1 um"]].concat());
     assert_eq!(number(&laws, "run_out.windows"), 0.0);
     for (name, apart) in [
         ("peak_inner_race_temperature", 1.0),

@@ -7,7 +7,7 @@ const GRAVE: &[&str] = &[
     "AB1001", "AB1002", "AB1005", "AB1006", "AB1014", "AB1017", "AB1029", "AB1032", "AB1042",
     "AB1044", "AB1060", "AB1070", "AB1090", "AB1092", "AB1094", "AB1095", "AB1096", "AB1127",
     "AB1128", "AB2021", "AB2030", "AB2032", "AB2035", "AB2300", "AB2301", "AB2302", "AB2303",
-    "AB2311", "AB2312", "AB2323", "AB2324", "AB2325",
+    "AB2311", "AB2312", "AB2323", "AB2324",
 ];
 /// What is left out, or to be kept in mind.
 const REMARKS: &[&str] = &[

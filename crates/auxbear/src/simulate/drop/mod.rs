@@ -6,6 +6,7 @@ pub(crate) mod context;
 pub(crate) mod each;
 pub mod ensemble;
 mod feedback;
+mod glide;
 mod layers;
 pub(crate) mod magnets;
 mod magnets_in_time;

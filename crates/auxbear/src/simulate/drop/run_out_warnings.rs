@@ -6,7 +6,7 @@ use crate::simulate::coast_down::build::Part;
 use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::warnings;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::returns::{self, Returned};
+use crate::simulate::drop::returns::Return;
 use crate::simulate::drop::went::Went;
 
 /// What windows and returns say, the gravest first.
@@ -15,19 +15,13 @@ pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
     let harder = parts.filter_map(|(k, name)| hits_harder(context, found, went, k, name));
     let early = ends_early(context, went);
     let whirl = early.into_iter().chain(whirls(went)).chain(scatters(went));
-    let first = whirl.chain(lifted(&went.returned));
+    let first = whirl.chain(leaves_rolling(went));
     let parts = context.parts().enumerate();
     let hot = parts.filter_map(|(k, name)| gets_hot(went, k, name));
-    let parts = context.parts().enumerate();
-    let swing = parts.filter_map(|(k, name)| swings(context, found, k, name));
-    let sliding = slid(context, found, went)
-        .into_iter()
-        .chain(slides(context, found));
     first
         .chain(harder)
         .chain(hot)
-        .chain(swing)
-        .chain(sliding)
+        .chain(slid(context, found, went))
         .chain(warnings::of_course(found))
         .collect()
 }
@@ -115,35 +109,6 @@ fn hits_harder(
     })
 }
 
-/// Eccentricity over the air clearance from which on unbalance may swing the rotor off its race: e Ω² is then a tenth of gravity at twice the
-/// frequency √(g/c0) of its swing, where this begins. 25 µm and 15 µm of 0.25 mm lift a rotor ball by ball, 5 µm do not.
-const SWINGS: f64 = 0.025;
-
-/// A rotor whose unbalance may swing it off its race where laws follow it.
-fn swings(context: &Context, found: &Ran, bearing: usize, name: &str) -> Option<Warning> {
-    let constants = &context.machine.constants;
-    let part = &constants.bearings[bearing];
-    let clearance = part.contact.radial_clearance;
-    let eccentricity = constants.rotor.eccentricity(&part.node);
-    let swing = (context.drop.gravity.acceleration / clearance).sqrt();
-    let by_laws = found.built.motion.is_none();
-    let first = by_laws.then(|| found.free.rows.get(found.built.start.rows.len()))??;
-    let passes = first.speed > swing && swing > 0.0;
-    (passes && eccentricity > SWINGS * clearance).then(|| {
-        let from = first.speed.min(2.0 * swing);
-        warning(
-            "AB2325",
-            format!(
-                "Below {from:.0} rad/s unbalance may swing the rotor off its race{}, and the run-out by laws does not see it: in its air clearance it swings with \
-                 {swing:.0} rad/s, less the farther, and {:.0} µm of eccentricity at the bearing excite that up to twice the speed. Then it hits the balls harder, and takes more of \
-                 their life, than this run says. A drop from rotor.speed = \"{from:.0} rad/s\" ball by ball shows it.",
-                on(name),
-                1e6 * eccentricity
-            ),
-        )
-    })
-}
-
 /// A patch of rotor and race that gets too hot in windows.
 fn gets_hot(went: &Went, bearing: usize, name: &str) -> Option<Warning> {
     let [rise, time] = went.hottest(bearing)?;
@@ -215,45 +180,31 @@ fn on(name: &str) -> String {
     }
 }
 
-/// Bearings that brake harder than friction of rotor and race may carry, where no windows follow that: the rotor slides in them.
-fn slides(context: &Context, found: &Ran) -> Vec<Warning> {
-    let of_bearing = |(k, part): (usize, &Part)| {
-        let [asked, carried] = returns::asked(context, found, k, part)?;
-        let name = match part.name.as_str() {
-            "" => "The bearing".to_string(),
-            name => name.to_string(),
-        };
-        Some(warning(
-            "AB2318",
-            format!(
-                "{name} brakes with {:.3} N mm in the run-out by laws, and friction of rotor and race carries {:.3} N mm: they may slide on \
-                 each other there, which heats the surfaces and which this run-out does not see.",
-                1e3 * asked,
-                1e3 * carried
-            ),
-        ))
+/// Where the rotor does not go on rolling.
+fn leaves_rolling(went: &Went) -> Option<Warning> {
+    let presses = |again: &Return| {
+        let peaks = again.windows.peaks.iter();
+        peaks.map(|[force, ..]| *force).fold(0.0, f64::max)
     };
-    found.parts().filter_map(of_bearing).collect()
-}
-
-/// Natural frequencies at which the rotor does not roll.
-fn lifted(returned: &Returned) -> Option<Warning> {
-    let found = returned.passed.iter().zip(&returned.near);
-    let lifted = found.filter(|(_, near)| near.lifts());
-    let list: Vec<String> = lifted
-        .map(|(frequency, near)| match near.excess.is_nan() {
-            true => format!("{frequency:.0} rad/s, where no window ended"),
-            false => format!("{frequency:.0} rad/s, {:.0} % more", 100.0 * near.excess),
-        })
+    let lifted: Vec<_> = went
+        .returned
+        .list
+        .iter()
+        .filter(|again| again.lifts())
         .collect();
-    (!list.is_empty()).then(|| {
-        warning(
-            "AB2317",
-            format!(
-                "The run-out passes natural frequencies of the rotor on its rolling bearings at which unbalance lifts it from rolling ({} loss than the laws \
-                 say): windows ball by ball follow it there, each as long as it likes at its speed. A rotor that passes quickly is lifted less.",
-                list.join("; ")
-            ),
-        )
-    })
+    let worst = lifted
+        .iter()
+        .copied()
+        .max_by(|a, b| presses(a).total_cmp(&presses(b)))?;
+    let ends = lifted.last()?.to;
+    let text = format!(
+        "Rolling does not last: unbalance lifts the rotor again, from {:.1} s and {:.0} rad/s on, the last time until {:.1} s and {:.0} rad/s, and it presses with up to {:.3e} N. \
+         Windows ball by ball follow it there, each as long as it likes at its speed: a rotor that passes quickly is lifted less.",
+        lifted[0].from[0],
+        lifted[0].from[1],
+        ends[0],
+        ends[1],
+        presses(worst)
+    );
+    Some(warning("AB2317", text))
 }

@@ -1,8 +1,8 @@
 //! How a run went between its fidelities: from ball by ball into slow time and back.
 
-use crate::simulate::coast_down::build::Built;
+use crate::simulate::coast_down::build::{Built, Part};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::returns::{Return, Returned};
+use crate::simulate::drop::returns::Returned;
 use crate::simulate::drop::windows::Bounced;
 
 /// The first change from motion to laws.
@@ -35,8 +35,6 @@ pub(super) struct Went {
     pub rolled: bool,
     pub bounced: Bounced,
     pub first: Change,
-    /// Natural frequencies of the rotor that rolls, below the speed of the first change, the highest first, rad/s.
-    pub frequencies: Vec<f64>,
     pub returned: Returned,
 }
 
@@ -46,20 +44,21 @@ impl Went {
         let again = self.returned.list.iter().map(|again| &again.windows);
         std::iter::once(&self.bounced).chain(again)
     }
+    /// These, and what was seen on the way by laws.
+    fn seen(&self) -> impl Iterator<Item = &Bounced> {
+        self.windows().chain([&self.returned.glanced])
+    }
     pub fn steps(&self) -> u64 {
-        self.windows().map(|windows| windows.steps).sum::<u64>() + self.returned.looked
+        self.seen().map(|windows| windows.steps).sum()
     }
     /// The largest contact force of a bearing in all windows, N, and when, s, and at which speed, rad/s.
     pub fn peak(&self, bearing: usize) -> Option<[f64; 3]> {
-        largest(
-            self.windows()
-                .filter_map(|windows| windows.peaks.get(bearing)),
-        )
+        largest(self.seen().filter_map(|windows| windows.peaks.get(bearing)))
     }
     /// The largest rise of the patch of rotor and race of a bearing in all windows, K, and when, s.
     pub fn hottest(&self, bearing: usize) -> Option<[f64; 2]> {
         largest(
-            self.windows()
+            self.seen()
                 .filter_map(|windows| windows.hottest.get(bearing)),
         )
     }
@@ -81,7 +80,7 @@ fn largest<'a, const N: usize>(each: impl Iterator<Item = &'a [f64; N]>) -> Opti
 }
 
 /// How the run went from ball by ball into slow time and back, in words.
-pub(super) fn way(context: &Context, went: &Went) -> String {
+pub(super) fn way(context: &Context, parts: &[Part], went: &Went) -> String {
     let first = &went.first;
     let at_once = (went.returned.list.first()).is_some_and(|again| again.from[0] <= first.time);
     let rolled = match at_once {
@@ -110,7 +109,7 @@ pub(super) fn way(context: &Context, went: &Went) -> String {
             vec![windows, last]
         }
     };
-    list.extend(went.returned.list.iter().map(Return::words));
+    list.extend(went.returned.list.iter().map(|again| again.words(parts)));
     list.retain(|sentence| !sentence.is_empty());
     list.join(" ")
 }

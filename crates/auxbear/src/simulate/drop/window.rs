@@ -28,10 +28,10 @@ use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, ROTOR};
 use thermal::warm_machine::{Followed, InMotion};
 
 /// Turns of the rotor in which a window settles, and in each of its batches; and the longest that either takes, s.
-const SETTLING: (f64, f64) = (60.0, 1.0);
-const BATCH: (f64, f64) = (10.0, 0.2);
+pub(super) const SETTLING: (f64, f64) = (60.0, 1.0);
+pub(super) const BATCH: (f64, f64) = (10.0, 0.2);
 /// Batches of a window: neighbours correlate, so that fewer say little of the scatter.
-const BATCHES: usize = 8;
+pub(super) const BATCHES: usize = 8;
 
 /// Change of the speed of an inner race over the rotor's while a window settles, beyond what it had been there, from which on it settles on; and
 /// how long at most, s.
@@ -42,9 +42,7 @@ const SWAYS: f64 = 0.05;
 
 /// What a window found at its speed.
 pub(super) struct Window {
-    /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
-    pub powers: Vec<f64>,
-    /// What that says beside the laws.
+    /// What its powers say beside the laws.
     pub followed: Followed,
     /// Heat of what brakes beside the laws, over the nodes of all bearings, W.
     pub beside: Vec<f64>,
@@ -53,14 +51,23 @@ pub(super) struct Window {
     pub rubbing: Vec<f64>,
     /// Turns of the rotor about each inner race, with its spin.
     pub whirl: Vec<f64>,
-    /// Largest contact force of each bearing, N.
-    pub peaks: Vec<f64>,
-    /// Largest rise of the patch of rotor and race above the start of the drop, K; of surfaces that are as warm as the hotter body when a batch begins.
-    pub rises: Vec<f64>,
+    /// What it saw.
+    pub seen: Seen,
     /// Of the balls of each bearing.
     pub balls: Vec<Option<Arc<BallsSeen>>>,
     /// Standard error of the whole power over it.
     pub scatter: f64,
+}
+
+/// What a batch or a window sees at its speed.
+#[derive(Default)]
+pub(super) struct Seen {
+    /// Mean power of the losses: of each bearing its steady moment and its other losses, then of the rotor, W.
+    pub powers: Vec<f64>,
+    /// Largest contact force of each bearing, N.
+    pub peaks: Vec<f64>,
+    /// Largest rise of the patch of rotor and race above the start of the drop, K; of surfaces that are as warm as the hotter body when a batch begins.
+    pub rises: Vec<f64>,
 }
 
 /// Least and largest speed of each inner race while a window settles, rad/s.
@@ -123,7 +130,7 @@ impl Last {
 /// A rotor on its way down.
 pub(super) struct Way<'a> {
     context: &'a Context<'a>,
-    interrupt: &'a AtomicBool,
+    pub interrupt: &'a AtomicBool,
     /// Where it is.
     pub last: &'a mut Last,
     /// Steps taken.
@@ -146,6 +153,30 @@ impl<'a> Way<'a> {
 
     /// Means at the speed and the temperatures that the run-out has come to.
     pub fn window(&mut self, built: &Built) -> Result<Window, &'static str> {
+        let mut plan = self.condition(built)?;
+        let speed = built.start.speed;
+        let before = self.races();
+        let mut spins = Spins(before.iter().map(|spin| [*spin; 2]).collect());
+        self.waited = 0.0;
+        loop {
+            let span = self.piece(&mut plan, speed, SETTLING)?.0;
+            if !spins.move_on(&self.races(), SPINS_UP * speed) || self.waited >= LONGEST_WAIT {
+                break;
+            }
+            self.waited += span;
+        }
+        let mut moved = self.races().into_iter().zip(&before);
+        if moved.all(|(now, before)| (now - before).abs() < SWAYS * speed) {
+            self.waited = 0.0;
+        }
+        let pieces: Result<Vec<Batch>, _> = (0..BATCHES)
+            .map(|_| self.batch(built, &mut plan, BATCH))
+            .collect();
+        Ok(mean(built, &self.last.machine.constants.bearings, &pieces?))
+    }
+
+    /// The machine at the speed and the temperatures that the run-out has come to, in the motion it had, and how it is computed.
+    fn condition(&mut self, built: &Built) -> Result<Plan<'a>, &'static str> {
         let speed = built.start.speed;
         let drop = conditioned(self.context.drop, built);
         let made =
@@ -161,9 +192,8 @@ impl<'a> Way<'a> {
             RotorMachine::new(constants.clone()).tangents(),
         );
         let machine = Arc::new(RotorMachine::new(constants));
-        self.last.machine = machine.clone();
-        let layout = machine.layout().clone();
-        let (mut state, mut time) = (self.last.state.clone(), self.last.time);
+        let layout = machine.layout();
+        let state = &mut self.last.state;
         let spin = layout.rotor.spin();
         // a rotor that jumps in its races would slip there, and may be thrown out of its motion
         let factor = speed / state[spin].abs();
@@ -172,61 +202,84 @@ impl<'a> Way<'a> {
             state[at.inner + 5] *= factor;
             (part.bearing).change_speeds(&mut state[at.own()], factor);
         }
-        let turn = TAU / speed;
-        let settings = settings_at(&drop.run, stepping.tolerance);
-        let mut plan = Plan {
-            settings,
+        self.last.machine = machine;
+        Ok(Plan {
+            settings: settings_at(&drop.run, stepping.tolerance),
             steps: stepping.steps,
             interval: f64::INFINITY,
             until_rolling: false,
             threads: Some(1),
             interrupt: self.interrupt,
             progress: &|_| {},
+        })
+    }
+
+    /// Speeds of the inner races, rad/s.
+    fn races(&self) -> Vec<f64> {
+        let each = self.last.machine.layout().bearings.iter();
+        each.map(|at| self.last.state[at.inner + 5].abs()).collect()
+    }
+
+    /// The motion goes on for so many turns, or so many seconds if these are less; how long that is, s, and what was seen.
+    fn piece(
+        &mut self,
+        plan: &mut Plan,
+        speed: f64,
+        (turns, longest): (f64, f64),
+    ) -> Result<(f64, Finished), &'static str> {
+        let time = self.last.time;
+        plan.settings.start = time;
+        plan.settings.end = time + (turns * TAU / speed).min(longest);
+        let machine = &self.last.machine;
+        self.last.state[machine.layout().ledger()..].fill(0.0);
+        let member = Member {
+            machine: machine.clone(),
+            following: None,
+            start: self.last.state.clone(),
+            keep_rows: false,
+            kind: 0,
         };
-        let mut pieces = Vec::new();
-        let races = |state: &[f64]| -> Vec<f64> {
-            let each = layout.bearings.iter();
-            each.map(|at| state[at.inner + 5].abs()).collect()
-        };
-        let before = races(&state);
-        let mut spins = Spins(before.iter().map(|spin| [*spin; 2]).collect());
-        self.waited = 0.0;
-        let mut settling = true;
-        while settling || pieces.len() < BATCHES {
-            let (turns, longest) = if settling { SETTLING } else { BATCH };
-            plan.settings.start = time;
-            plan.settings.end = time + (turns * turn).min(longest);
-            state[layout.ledger()..].fill(0.0);
-            let finished = piece(&machine, &state, &plan);
-            self.steps += finished.ending.work.accepted;
-            state.clone_from(&finished.ending.state);
-            let span = finished.ending.time - time;
-            time = finished.ending.time;
-            whole(&finished)?;
-            if settling {
-                settling =
-                    spins.move_on(&races(&state), SPINS_UP * speed) && self.waited < LONGEST_WAIT;
-                self.waited += if settling { span } else { 0.0 };
-                let mut moved = races(&state).into_iter().zip(&before);
-                if !settling && moved.all(|(now, before)| (now - before).abs() < SWAYS * speed) {
-                    self.waited = 0.0;
-                }
-                continue;
-            }
-            pieces.push(Batch {
-                peaks: peaks(&finished),
-                rises: (finished.record.bearings.iter())
-                    .map(|record| record.heat.as_ref().map_or(0.0, |heat| heat.contact.value))
-                    .collect(),
-                whirl: (finished.record.bearings.iter())
-                    .map(|record| record.whirl_turns * state[spin].signum())
-                    .collect(),
-                balls: finished.record.bearings.iter().map(balls).collect(),
-                ..self.heats(built, &state, span)
-            });
-        }
-        (self.last.state, self.last.time) = (state, time);
-        Ok(mean(built, &machine.constants.bearings, &pieces))
+        let finished = ensemble::one(&member, plan);
+        self.steps += finished.ending.work.accepted;
+        whole(&finished)?;
+        self.last.state.clone_from(&finished.ending.state);
+        self.last.time = finished.ending.time;
+        Ok((self.last.time - time, finished))
+    }
+
+    /// What one batch finds.
+    fn batch(
+        &mut self,
+        built: &Built,
+        plan: &mut Plan,
+        turns: (f64, f64),
+    ) -> Result<Batch, &'static str> {
+        let (span, finished) = self.piece(plan, built.start.speed, turns)?;
+        let state = &self.last.state;
+        let spin = self.last.machine.layout().rotor.spin();
+        let bearings = &finished.record.bearings;
+        Ok(Batch {
+            peaks: peaks(&finished),
+            rises: (bearings.iter())
+                .map(|record| record.heat.as_ref().map_or(0.0, |heat| heat.contact.value))
+                .collect(),
+            whirl: (bearings.iter())
+                .map(|record| record.whirl_turns * state[spin].signum())
+                .collect(),
+            balls: bearings.iter().map(balls).collect(),
+            ..self.heats(built, state, span)
+        })
+    }
+
+    /// What so many turns at the speed and the temperatures of a run-out see, or so many seconds if these are less.
+    pub fn glance(&mut self, built: &Built, turns: (f64, f64)) -> Result<Seen, &'static str> {
+        let mut plan = self.condition(built)?;
+        let batch = self.batch(built, &mut plan, turns)?;
+        Ok(Seen {
+            rises: rises(built, &batch.rises),
+            peaks: batch.peaks,
+            powers: batch.powers,
+        })
     }
 
     /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
@@ -365,17 +418,6 @@ fn all_balls(batches: &[Batch], bearing: usize) -> Option<BallsSeen> {
     })
 }
 
-fn piece(machine: &Arc<RotorMachine>, state: &[f64], plan: &Plan) -> Finished {
-    let member = Member {
-        machine: machine.clone(),
-        following: None,
-        start: state.to_vec(),
-        keep_rows: false,
-        kind: 0,
-    };
-    ensemble::one(&member, plan)
-}
-
 /// Why a part of a window did not end as planned.
 fn whole(finished: &Finished) -> Result<(), &'static str> {
     match finished.ending.stop {
@@ -421,20 +463,26 @@ fn mean(built: &Built, constants: &[AuxiliaryBearingConstants], batches: &[Batch
             .map(|(part, bearing)| bearing.contact.friction * part.warm.radial_load)
             .collect(),
         scatter: deviation / (count.sqrt() * whole),
-        peaks: largest(|batch| &batch.peaks),
-        rises: (largest(|batch| &batch.rises).iter())
-            .zip(built.start.temperatures.chunks(NODES.len()))
-            .zip(&built.parts)
-            .map(|((rise, nodes), part)| {
-                let start = part.warm.heat.start_temperature - ICE_POINT;
-                rise + nodes[ROTOR].max(nodes[INNER_RACE]) - start
-            })
-            .collect(),
         balls: (0..batches[0].balls.len())
             .map(|k| all_balls(batches, k).map(Arc::new))
             .collect(),
-        powers,
+        seen: Seen {
+            peaks: largest(|batch| &batch.peaks),
+            rises: rises(built, &largest(|batch| &batch.rises)),
+            powers,
+        },
     }
+}
+
+/// Rises of patches above the start of the drop, K, from those above the hotter body.
+fn rises(built: &Built, above: &[f64]) -> Vec<f64> {
+    let nodes = built.start.temperatures.chunks(NODES.len());
+    let each = above.iter().zip(nodes).zip(&built.parts);
+    each.map(|((rise, nodes), part)| {
+        let start = part.warm.heat.start_temperature - ICE_POINT;
+        rise + nodes[ROTOR].max(nodes[INNER_RACE]) - start
+    })
+    .collect()
 }
 
 /// The drop with oil, clearance and friction as warm as the run-out has made them.
