@@ -118,6 +118,7 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     };
     let found = with(&[
         "rotor.unbalance_eccentricity=5 um",
+        "rotor.speed=4000 rpm",
         "coast_down.stop_speed=240 rad/s",
     ]);
     let told = "it was followed in 3 windows ball by ball again, because it pressed with";
@@ -130,21 +131,19 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         (0.8..1.0).contains(&(speed / (5e5f64 / 4.5).sqrt())),
         "{speed}"
     );
-    assert!(number(&found, "run_out.start_speed") > 2.0 * speed);
+    assert!(number(&found, "run_out.start_speed") > 1.2 * speed);
+    // ball by ball it leaves its race from 276 to 243 rad/s, with up to 214 N, and has 243.8 rad/s after 80 s
     let force = number(&found, "run_out.peak_contact_force");
-    assert!(force > 1.9 * 4.0 * 9.80665, "{force}");
-    // 252.6 rad/s after 75 s ball by ball, lifted at both ends of the way and locked to its mount between them
-    let locked = with(&[
-        "rotor.unbalance_eccentricity=10 um",
-        "rotor.speed=4000 rpm",
-        "coast_down.stop_speed=250 rad/s",
-    ]);
-    let speed = speed_at(&locked, 75.0);
-    assert!((speed / 252.6 - 1.0).abs() < 5e-3, "{speed}");
-    // more unbalance, and it whirls out of the model there: no law goes on
+    assert!((180.0..250.0).contains(&force), "{force}");
+    let speed = speed_at(&found, 80.0);
+    assert!((speed / 243.8 - 1.0).abs() < 3e-3, "{speed}");
+    // much more unbalance and less damping, and it whirls out of the model there: no law goes on
     let lost = with(&[
+        "mount.damping=10 N s/m",
+        "levitation.stiffness=1e7 N/m",
         "rotor.unbalance_eccentricity=200 um",
-        "coast_down.stop_speed=320 rad/s",
+        "rotor.speed=3600 rpm",
+        "coast_down.stop_speed=280 rad/s",
     ]);
     assert_eq!(lost.stop.reason, "left the model");
     // its course goes on to where it ends

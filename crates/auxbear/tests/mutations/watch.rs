@@ -48,10 +48,10 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static MEMORY: Counting = Counting;
 
-/// The input that is being tried.
-static CURRENT: Mutex<Option<(Instant, String, Vec<u8>)>> = Mutex::new(None);
+/// The input that is being tried: since when, how long it may take, its name.
+static CURRENT: Mutex<Option<(Instant, Duration, String, Vec<u8>)>> = Mutex::new(None);
 
-fn current() -> MutexGuard<'static, Option<(Instant, String, Vec<u8>)>> {
+fn current() -> MutexGuard<'static, Option<(Instant, Duration, String, Vec<u8>)>> {
     CURRENT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -90,8 +90,8 @@ impl Watch {
             std::thread::spawn(|| {
                 loop {
                     std::thread::sleep(Duration::from_secs(1));
-                    if let Some((begin, name, input)) = &*current()
-                        && begin.elapsed() > 3 * LONGEST
+                    if let Some((begin, longest, name, input)) = &*current()
+                        && begin.elapsed() > 3 * *longest
                     {
                         let path = keep(name, input);
                         eprintln!("without end: {}", path.display());
@@ -123,7 +123,7 @@ impl Watch {
         let before = LIVE.load(Ordering::Relaxed);
         PEAK.store(before, Ordering::Relaxed);
         let begin = Instant::now();
-        *current() = Some((begin, name.clone(), input.to_vec()));
+        *current() = Some((begin, longest, name.clone(), input.to_vec()));
         let done = catch_unwind(AssertUnwindSafe(act));
         *current() = None;
         let (time, memory) = (
