@@ -397,6 +397,23 @@ fn what_cannot_run_out_is_refused() {
         (&["heat.network=off"][..], "AB0109", "heat.network = \"on\""),
         (&["rotor.spin=held"], "AB0109", "never stands"),
         (
+            &["gravity.acceleration=0 m/s^2"],
+            "AB0109",
+            "a rotor that no weight holds",
+        ),
+        (
+            &[
+                "bearing.lubricant_state.kind=grease",
+                "bearing.lubricant_state.rested_factor=0.3",
+                "bearing.lubricant_state.build_up_turns=0.7",
+                "bearing.lubricant_state.worked_factor=0.5",
+                "bearing.lubricant_state.breakdown_time=300 s",
+                "bearing.lubricant_state.recovery_time=6000 s",
+            ],
+            "AB0109",
+            "does not age in slow time",
+        ),
+        (
             &["coast_down.stop_speed=20000 rpm"],
             "AB0109",
             "rotor.speed",

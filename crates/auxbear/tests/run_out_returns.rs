@@ -272,6 +272,46 @@ fn an_unbalance_that_swings_the_rotor_in_its_bore_is_followed_ball_by_ball() {
     assert!((speed / 158.6 - 1.0).abs() < 0.01, "{speed}");
 }
 
+/// At twice the frequency of the swing unbalance excites it at half its own; it grows from nothing, and is followed on the branch that softens.
+#[test]
+fn a_swing_of_half_the_speed_is_found_and_followed() {
+    let never = AtomicBool::new(false);
+    let sets = ["rotor.speed=4000 rpm"];
+    let found = run(
+        &parsed(SHIPPED, &sets).unwrap(),
+        &Options::unwatched(&never),
+    )
+    .unwrap();
+    assert!(found.stop.complete(), "{}", found.stop.text);
+    let begin = list(&found, "run_out.return_speeds")[0];
+    let swing = (9.80665f64 / 0.25e-3).sqrt();
+    assert!((1.5..2.0).contains(&(begin / swing)), "{begin}");
+    // ball by ball 107 N, and 281.0 rad/s after 60 s
+    let force = number(&found, "run_out.peak_contact_force");
+    assert!((95.0..120.0).contains(&force), "{force}");
+    let speed = speed_at(&found, 60.0);
+    assert!((speed / 281.0 - 1.0).abs() < 2e-3, "{speed}");
+}
+
+/// Balls of a race that stands under a sliding rotor pass nothing: 9.1e-9 of the life in 40 s ball by ball, not that of the rotor's turns.
+#[test]
+fn a_race_that_stands_uses_no_life() {
+    let never = AtomicBool::new(false);
+    let sets = [
+        "rotor.speed=5000 rpm",
+        "bearing.operating_diametral_clearance=-25 um",
+        "contact.friction_coefficient=0.05",
+        "coast_down.longest=40 s",
+    ];
+    let found = run(
+        &parsed(SHIPPED, &sets).unwrap(),
+        &Options::unwatched(&never),
+    )
+    .unwrap();
+    let share = number(&found, "run_out.life_share") + number(&found, "life_share");
+    assert!((0.7..1.3).contains(&(share / 9.1e-9)), "{share}");
+}
+
 /// A rotor that whirls rolls on its race too, but not under its weight: windows follow it, and the heat of its whirl, until its bearing seizes.
 #[test]
 fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {

@@ -60,8 +60,10 @@ pub struct SurfaceHeat {
     pub pressure_speed: Peak,
     /// Distance slid, m.
     pub distance: f64,
-    /// Longest time that one place of the rotor stayed in the patch, s.
+    /// Longest time that one place of a rotor which whirls with its spin stayed in the patch, s.
     pub longest_stay: f64,
+    /// Since when one stays now, s, and the angle by which it has moved through the patch, rad.
+    stays: Option<(f64, f64)>,
 }
 
 /// What a step shows of a contact.
@@ -102,6 +104,7 @@ impl SurfaceHeat {
             pressure_speed: Peak::NONE,
             distance: 0.0,
             longest_stay: 0.0,
+            stays: None,
         }
     }
 
@@ -179,14 +182,34 @@ impl SurfaceHeat {
             for (peak, rise) in self.surfaces.iter_mut().zip(shared.surfaces) {
                 peak.raise(rise, middle);
             }
-            let stay = (2.0 * half_width / touch.passing[0]).min(since);
-            self.longest_stay = self.longest_stay.max(stay);
         }
+        self.stay(
+            [from, end],
+            [motions.spins[0], whirl],
+            2.0 * half_width / radii[0],
+        );
         self.known = (end, seen.heats[1]);
         self.impulse = 0.0;
         if seen.forces[1] == 0.0 {
             self.touched = None;
+            self.stays = None;
         }
+    }
+
+    /// How long one place of the rotor stays in a patch that is so wide, rad: one that whirls with its spin carries it along.
+    fn stay(&mut self, [from, end]: [f64; 2], [spin, whirl]: [f64; 2], width: f64) {
+        if whirl * spin.signum() <= 0.5 * spin.abs() {
+            self.stays = None;
+            return;
+        }
+        let (since, moved) = self.stays.unwrap_or((from, 0.0));
+        let now = moved + (spin - whirl) * (end - from);
+        let left = match now.abs() > width {
+            true => from + (width - moved.abs()).max(0.0) / (spin - whirl).abs(),
+            false => end,
+        };
+        self.longest_stay = self.longest_stay.max(left - since);
+        self.stays = (now.abs() <= width).then_some((since, now));
     }
 
     /// Tracks of both bodies, m².
@@ -211,5 +234,30 @@ impl SurfaceHeat {
 impl Default for SurfaceHeat {
     fn default() -> Self {
         Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_stays_while_the_whirl_keeps_up_with_the_spin() {
+        let stays = |spin: f64, whirl: f64, steps: usize| {
+            let mut heat = SurfaceHeat::new();
+            for k in 0..steps {
+                let from = 1e-3 * k as f64;
+                heat.stay([from, from + 1e-3], [spin, whirl], 0.02);
+            }
+            heat.longest_stay
+        };
+        // synchronous: as long as it lasts; nearly so: until the patch is passed
+        assert!((stays(300.0, 300.0, 200) - 0.2).abs() < 1e-12);
+        assert!((stays(300.0, 299.0, 200) - 0.02).abs() < 1e-12);
+        assert!((stays(-300.0, -301.0, 200) - 0.02).abs() < 1e-12);
+        // a rotor that whirls backward, rolls, or stands carries no place along
+        for (spin, whirl) in [(300.0, -300.0), (300.0, 0.0), (0.0, 0.0), (1e-3, 0.0)] {
+            assert_eq!(stays(spin, whirl, 200), 0.0);
+        }
     }
 }

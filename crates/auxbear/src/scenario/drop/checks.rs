@@ -106,6 +106,17 @@ impl Context<'_> {
             let path = "coast_down.stop_speed";
             return refuse(path, self.text(path), needed);
         }
+        if drop.gravity.acceleration == 0.0 {
+            let needed = "more than 0 is needed beside run.until = \"standstill\": a rotor that no weight holds on its races does not roll in them";
+            let path = "gravity.acceleration";
+            return refuse(path, self.text(path), needed);
+        }
+        let bearing = part.bearing.as_ref();
+        if bearing.is_some_and(|bearing| bearing.lubricant_state.is_some()) {
+            let needed = "no [bearing.lubricant_state] is needed beside run.until = \"standstill\": its grease does not age in slow time";
+            let path = "bearing.lubricant_state.kind";
+            return refuse(path, self.text(path), needed);
+        }
         match &part.warm {
             Some(warm) => self.brakes(warm),
             None => {

@@ -245,6 +245,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
             largest_ball_load: balls.map_or(by_law, |balls| {
                 by_law.max(balls.largest[0]).max(balls.largest[1])
             }),
+            spin: (built.motion.as_ref()).map_or(1.0, |motion| motion.between.spin(state.speed, k)),
             balls: balls.cloned(),
         }
     };

@@ -242,7 +242,7 @@ fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row, harder: f64
 fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
     let viscosity = part.viscosity.held(kelvin);
-    shared::viscosity_ratio(&part.warm, viscosity, row.speed)
+    shared::viscosity_ratio(&part.warm, viscosity, row.speed * row.bearings[k].spin)
 }
 
 /// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row and its load
@@ -268,6 +268,8 @@ fn used(
     let mut by_laws = vec![0.0; PLACES];
     let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for (row, turned) in (ran.free.rows.iter()).zip(turned(&ran.free.rows)) {
+        // balls pass with the race, which may slide under the rotor or stand
+        let turned = turned * row.bearings[k].spin;
         let zone = (part.zone).all_round(row.bearings[k].clearance, PLACES);
         let cubes: Vec<f64> = zone.into_iter().map(|load| load.powi(3)).collect();
         // a window is as closed as its bearing was then, and the laws know no impacts: the larger of both counts

@@ -29,6 +29,8 @@ pub(crate) struct RowOfBearing {
     pub clearance: f64,
     /// Of the most loaded ball, N.
     pub largest_ball_load: f64,
+    /// Speed of its inner race over that of one that rolls: 1 where laws follow it.
+    pub spin: f64,
     /// Of its balls, where windows follow them: as the nearest has seen them.
     pub balls: Option<Arc<BallsSeen>>,
 }

@@ -24,8 +24,10 @@ const STEP: f64 = 0.997;
 const STEPS: u32 = 5;
 const TURNS: (f64, f64) = (2.0, 0.04);
 
-/// A largest force over that before from which on its motion grows, and how often it is looked at again at its speed.
-const GROWS: f64 = 1.005;
+/// Largest force and way of a turn over those before from which on a motion grows, where the rotor lies and where it bounces, which is chaotic; and how often
+/// it is looked at again at its speed. A swing in the bore is far in its way when it shows in its force.
+const GROWS: [f64; 2] = [1.005, 1.05];
+const BOUNCES: [f64; 2] = [f64::INFINITY, 1.2];
 const STAYS: u32 = 20;
 
 /// What a motion is foreseen to be.
@@ -36,8 +38,8 @@ pub(super) struct Foreseen {
     within: f64,
     /// Most a contact force is, of each bearing, N.
     forces: Vec<f64>,
-    /// A largest force over that before from which on it grows: what bounces is chaotic and does not say.
-    grows: f64,
+    /// Whether the rotor lies under its weight.
+    lies: bool,
 }
 
 impl Foreseen {
@@ -47,7 +49,7 @@ impl Foreseen {
             power: 1.0,
             within: LOSES,
             forces: under_weight(built, LIFTS),
-            grows: GROWS,
+            lies: true,
         }
     }
     /// A motion that goes on as a window found it.
@@ -58,7 +60,7 @@ impl Foreseen {
             power: 1.0 + excess(built, &window.seen.powers),
             within: GOES_ON.max(SPREAD * of_batch),
             forces: peaks.map(|force| HARDER * force).collect(),
-            grows: f64::INFINITY,
+            lies: false,
         }
     }
     /// How what was seen is other than that.
@@ -97,6 +99,7 @@ impl Looked {
         };
         raise(&mut self.seen.peaks, &seen.peaks);
         raise(&mut self.seen.rises, &seen.rises);
+        raise(&mut self.seen.ways, &seen.ways);
     }
 }
 
@@ -147,7 +150,7 @@ impl Way<'_> {
         mut saw: impl FnMut(&Start, &Seen),
     ) -> Option<(f64, Other)> {
         let mut there = built.clone();
-        let (mut before, mut stays) = (f64::MAX, 0);
+        let (mut before, mut stays) = ([f64::MAX; 2], 0);
         loop {
             let ratio = if stays > 0 { 1.0 } else { STEP };
             let mut looked = Looked::default();
@@ -164,15 +167,21 @@ impl Way<'_> {
                 }
             }
             if foreseen.other(&looked).is_some() {
-                // what a step in speed and temperatures has stirred up dies away
-                let held = self.glance(&there, SETTLING);
-                match held.and_then(|_| self.glance(&there, BATCH)) {
-                    Ok(seen) => {
-                        looked = Looked::default();
-                        looked.and(&there, seen);
+                // what a step in speed and temperatures has stirred up dies away; a rotor that bounces may be thrown, once
+                let begun = std::mem::take(&mut looked);
+                for turns in [SETTLING, BATCH] {
+                    looked = Looked::default();
+                    match self.glance(&there, turns) {
+                        Ok(seen) => looked.and(&there, seen),
+                        Err(_) if self.interrupt.load(Ordering::Relaxed) => return None,
+                        Err(_) => return Some((there.start.speed, Other::Broken)),
                     }
-                    Err(_) if self.interrupt.load(Ordering::Relaxed) => return None,
-                    Err(_) => return Some((there.start.speed, Other::Broken)),
+                    if !foreseen.lies {
+                        saw(&there.start, &looked.seen);
+                    }
+                }
+                if !foreseen.lies || foreseen.other(&looked).is_some() {
+                    saw(&there.start, &begun.seen);
                 }
             }
             if let Some(other) = foreseen.other(&looked) {
@@ -180,8 +189,10 @@ impl Way<'_> {
             }
             saw(&there.start, &looked.seen);
             // a motion that grows is given the time that it needs
-            let most = looked.seen.peaks.iter().copied().fold(0.0, f64::max);
-            let grows = most > foreseen.grows * before;
+            let most = [&looked.seen.peaks, &looked.seen.ways]
+                .map(|each| each.iter().copied().fold(0.0, f64::max));
+            let least = if foreseen.lies { GROWS } else { BOUNCES };
+            let grows = (0..2).any(|k| most[k] > least[k] * before[k]);
             stays = if grows && stays < STAYS { stays + 1 } else { 0 };
             before = most;
         }

@@ -46,18 +46,29 @@ fn ends_early(context: &Context, went: &Went) -> Option<Warning> {
     Some(warning("AB2324", text))
 }
 
-/// A rotor that whirls against its spin in windows.
-fn whirls(went: &Went) -> Option<Warning> {
-    let [since, until] = went.whirled()?;
-    let when = match until > since {
+/// A rotor that whirls against its spin in windows, or with it.
+fn whirls(went: &Went) -> Vec<Warning> {
+    let when = |[since, until]: [f64; 2]| match until > since {
         true => format!("from {since:.1} s to {until:.1} s"),
         false => format!("at {since:.1} s"),
     };
-    let text = format!(
-        "Backward whirl while the rotor runs out: {when} it runs round the bore against its spin in the windows that follow it. \
-         Contact forces of this kind destroy bearings and shafts."
-    );
-    Some(warning("AB1014", text))
+    let back = went.whirled(0).map(|times| {
+        let text = format!(
+            "Backward whirl while the rotor runs out: {} it runs round the bore against its spin in the windows that follow it. \
+             Contact forces of this kind destroy bearings and shafts.",
+            when(times)
+        );
+        warning("AB1014", text)
+    });
+    let with = went.whirled(1).map(|times| {
+        let text = format!(
+            "Forward whirl while the rotor runs out: {} unbalance throws it round the bore with its spin in the windows that follow it. One place of it \
+             stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.",
+            when(times)
+        );
+        warning("AB2302", text)
+    });
+    back.into_iter().chain(with).collect()
 }
 
 /// Relative standard error of a window's power above which it is reported.

@@ -62,9 +62,9 @@ impl Went {
                 .filter_map(|windows| windows.hottest.get(bearing)),
         )
     }
-    /// The first and the last instant at which windows saw the rotor whirl against its spin, s.
-    pub fn whirled(&self) -> Option<[f64; 2]> {
-        let each = self.windows().filter_map(|windows| windows.whirled);
+    /// The first and the last instant at which windows saw the rotor whirl against (0) or with (1) its spin, s.
+    pub fn whirled(&self, way: usize) -> Option<[f64; 2]> {
+        let each = self.windows().filter_map(|windows| windows.whirled[way]);
         each.reduce(|first, last| [first[0], last[1]])
     }
     /// Relative standard errors of the powers of all windows.

@@ -49,10 +49,13 @@ pub(super) struct Window {
     /// Of the friction of rotor and race of each bearing in it, W, and what of a force it takes there, N.
     pub friction: Vec<f64>,
     pub rubbing: Vec<f64>,
-    /// Turns of the rotor about each inner race, with its spin.
+    /// Turns of the rotor about each inner race, with its spin, and about itself.
     pub whirl: Vec<f64>,
+    pub turns: f64,
     /// What it saw.
     pub seen: Seen,
+    /// Largest contact force of each bearing while it settled, N.
+    pub settled: Vec<f64>,
     /// Of the balls of each bearing.
     pub balls: Vec<Option<Arc<BallsSeen>>>,
     /// Standard error of the whole power over it.
@@ -68,6 +71,8 @@ pub(super) struct Seen {
     pub peaks: Vec<f64>,
     /// Largest rise of the patch of rotor and race above the start of the drop, K; of surfaces that are as warm as the hotter body when a batch begins.
     pub rises: Vec<f64>,
+    /// Way of the rotor's centre in each of its races over its turns, m.
+    pub ways: Vec<f64>,
 }
 
 /// Least and largest speed of each inner race while a window settles, rad/s.
@@ -99,6 +104,8 @@ struct Batch {
     rotor: f64,
     /// Turns of the rotor about each inner race, with its spin.
     whirl: Vec<f64>,
+    /// Way of its centre there over its turns, m.
+    ways: Vec<f64>,
 }
 
 /// The last motion that was followed ball by ball.
@@ -137,6 +144,8 @@ pub(super) struct Way<'a> {
     pub steps: u64,
     /// How long the last window waited for races to come to their speed, s.
     pub waited: f64,
+    /// Largest load of a ball of each bearing at both races since the last window, N.
+    largest: Vec<[f64; 2]>,
 }
 
 impl<'a> Way<'a> {
@@ -148,6 +157,7 @@ impl<'a> Way<'a> {
             last,
             steps: 0,
             waited: 0.0,
+            largest: Vec::new(),
         }
     }
 
@@ -158,8 +168,10 @@ impl<'a> Way<'a> {
         let before = self.races();
         let mut spins = Spins(before.iter().map(|spin| [*spin; 2]).collect());
         self.waited = 0.0;
+        let mut settled = Vec::new();
         loop {
-            let span = self.piece(&mut plan, speed, SETTLING)?.0;
+            settled.push(self.batch(built, &mut plan, SETTLING)?);
+            let span = plan.settings.end - plan.settings.start;
             if !spins.move_on(&self.races(), SPINS_UP * speed) || self.waited >= LONGEST_WAIT {
                 break;
             }
@@ -172,7 +184,9 @@ impl<'a> Way<'a> {
         let pieces: Result<Vec<Batch>, _> = (0..BATCHES)
             .map(|_| self.batch(built, &mut plan, BATCH))
             .collect();
-        Ok(mean(built, &self.last.machine.constants.bearings, &pieces?))
+        let constants = &self.last.machine.constants.bearings;
+        let largest = std::mem::take(&mut self.largest);
+        Ok(mean(built, constants, (&settled, &largest), &pieces?))
     }
 
     /// The machine at the speed and the temperatures that the run-out has come to, in the motion it had, and how it is computed.
@@ -258,6 +272,12 @@ impl<'a> Way<'a> {
         let state = &self.last.state;
         let spin = self.last.machine.layout().rotor.spin();
         let bearings = &finished.record.bearings;
+        let balls: Vec<_> = bearings.iter().map(balls).collect();
+        self.largest.resize(balls.len(), [0.0; 2]);
+        for (most, seen) in self.largest.iter_mut().zip(&balls) {
+            let loads = seen.as_ref().map_or([0.0; 2], |seen| seen.largest);
+            *most = [0, 1].map(|side: usize| most[side].max(loads[side]));
+        }
         Ok(Batch {
             peaks: peaks(&finished),
             rises: (bearings.iter())
@@ -266,7 +286,10 @@ impl<'a> Way<'a> {
             whirl: (bearings.iter())
                 .map(|record| record.whirl_turns * state[spin].signum())
                 .collect(),
-            balls: bearings.iter().map(balls).collect(),
+            balls,
+            ways: (bearings.iter())
+                .map(|record| TAU * record.travel.way / record.travel.turned)
+                .collect(),
             ..self.heats(built, state, span)
         })
     }
@@ -279,6 +302,7 @@ impl<'a> Way<'a> {
             rises: rises(built, &batch.rises),
             peaks: batch.peaks,
             powers: batch.powers,
+            ways: batch.ways,
         })
     }
 
@@ -325,6 +349,7 @@ impl<'a> Way<'a> {
             rises: Vec::new(),
             balls: Vec::new(),
             whirl: Vec::new(),
+            ways: Vec::new(),
             drag_factors,
             spins,
             rotor: others,
@@ -397,14 +422,13 @@ fn balls(record: &BearingRecord) -> Option<BallsSeen> {
     })
 }
 
-/// The batches of a window together.
-fn all_balls(batches: &[Batch], bearing: usize) -> Option<BallsSeen> {
+/// The batches of a window together, with the largest loads on the way to it.
+fn all_balls(batches: &[Batch], bearing: usize, largest: [f64; 2]) -> Option<BallsSeen> {
     let mut each = batches.iter().map(|batch| batch.balls[bearing].as_ref());
     let mut all = each.next()??.clone();
     for other in each {
         let other = other?;
         for side in 0..2 {
-            all.largest[side] = all.largest[side].max(other.largest[side]);
             for (sum, cube) in all.cubes[side].iter_mut().zip(&other.cubes[side]) {
                 *sum += cube;
             }
@@ -414,7 +438,7 @@ fn all_balls(batches: &[Batch], bearing: usize) -> Option<BallsSeen> {
     let mean = |ring: Vec<f64>| ring.into_iter().map(|sum| sum / count).collect();
     Some(BallsSeen {
         cubes: all.cubes.map(mean),
-        ..all
+        largest,
     })
 }
 
@@ -429,7 +453,12 @@ fn whole(finished: &Finished) -> Result<(), &'static str> {
 }
 
 /// Means of batches, and the standard error of their sum over it.
-fn mean(built: &Built, constants: &[AuxiliaryBearingConstants], batches: &[Batch]) -> Window {
+fn mean(
+    built: &Built,
+    constants: &[AuxiliaryBearingConstants],
+    (settled, largest_loads): (&[Batch], &[[f64; 2]]),
+    batches: &[Batch],
+) -> Window {
     let count = batches.len() as f64;
     let of = |each: Vec<&Vec<f64>>| -> Vec<f64> {
         let length = each.first().map_or(0, |one| one.len());
@@ -458,19 +487,29 @@ fn mean(built: &Built, constants: &[AuxiliaryBearingConstants], batches: &[Batch
         followed,
         beside,
         whirl: whirl.iter().map(|turns| count * turns).collect(),
+        turns: count * BATCH.0.min(BATCH.1 * built.start.speed / TAU),
         friction: of(batches.iter().map(|batch| &batch.friction).collect()),
         rubbing: (built.parts.iter().zip(constants))
             .map(|(part, bearing)| bearing.contact.friction * part.warm.radial_load)
             .collect(),
         scatter: deviation / (count.sqrt() * whole),
         balls: (0..batches[0].balls.len())
-            .map(|k| all_balls(batches, k).map(Arc::new))
+            .map(|k| all_balls(batches, k, largest_loads[k]).map(Arc::new))
             .collect(),
         seen: Seen {
             peaks: largest(|batch| &batch.peaks),
             rises: rises(built, &largest(|batch| &batch.rises)),
+            ways: largest(|batch| &batch.ways),
             powers,
         },
+        settled: (0..constants.len())
+            .map(|k| {
+                settled
+                    .iter()
+                    .map(|batch| batch.peaks[k])
+                    .fold(0.0, f64::max)
+            })
+            .collect(),
     }
 }
 

@@ -33,6 +33,8 @@ const AGREEING: usize = 2;
 const AGREES: f64 = 0.02;
 /// Turns about a race within a window from which on the rotor whirls there: it does not lie under its weight, whatever it loses.
 const WHIRLING: f64 = 1.0;
+/// The same with its spin, over the turns of the rotor, from which on one place of it stays on the race.
+const FORWARD: f64 = 0.5;
 
 /// How the windows went.
 #[derive(Clone, Debug, Default)]
@@ -52,8 +54,8 @@ pub(super) struct Bounced {
     pub peaks: Vec<[f64; 3]>,
     /// Largest rise of the patch of rotor and race of each bearing above the start, K, and when, s.
     pub hottest: Vec<[f64; 2]>,
-    /// First and last instant at which it whirled against its spin, s.
-    pub whirled: Option<[f64; 2]>,
+    /// First and last instant at which it whirled against its spin, and at which it whirled with its spin, s.
+    pub whirled: [Option<[f64; 2]>; 2],
     /// Least speed of an inner race over that at which it rolls, and when, s.
     pub slowest: Option<[f64; 2]>,
 }
@@ -64,9 +66,15 @@ impl Bounced {
         self.rubbed.iter().map(|[heat, _]| heat).sum()
     }
     fn saw(&mut self, start: &Start, window: &Window) {
-        if window.whirl.iter().any(|turns| *turns <= -WHIRLING) {
-            let since = self.whirled.map_or(start.time, |[since, _]| since);
-            self.whirled = Some([since, start.time]);
+        let with_spin = FORWARD * window.turns;
+        for (whirled, found) in self.whirled.iter_mut().zip([
+            window.whirl.iter().any(|turns| *turns <= -WHIRLING),
+            window.whirl.iter().any(|turns| *turns >= with_spin),
+        ]) {
+            if found {
+                let since = whirled.map_or(start.time, |[since, _]| since);
+                *whirled = Some([since, start.time]);
+            }
         }
         for bearing in &window.followed.bearings {
             if self.slowest.is_none_or(|[least, _]| bearing.spin < least) {
@@ -74,6 +82,7 @@ impl Bounced {
             }
         }
         self.glanced(start, &window.seen);
+        self.pressed(start, &window.settled);
     }
     pub fn glanced(&mut self, start: &Start, seen: &Seen) {
         self.hottest.resize(seen.rises.len(), [0.0; 2]);
@@ -82,8 +91,11 @@ impl Bounced {
                 *hottest = [*rise, start.time];
             }
         }
-        self.peaks.resize(seen.peaks.len(), [0.0; 3]);
-        for (largest, peak) in self.peaks.iter_mut().zip(&seen.peaks) {
+        self.pressed(start, &seen.peaks);
+    }
+    fn pressed(&mut self, start: &Start, peaks: &[f64]) {
+        self.peaks.resize(peaks.len(), [0.0; 3]);
+        for (largest, peak) in self.peaks.iter_mut().zip(peaks) {
             if *peak > largest[0] {
                 *largest = [*peak, start.time, start.speed];
             }
