@@ -48,10 +48,17 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static MEMORY: Counting = Counting;
 
-/// The input that is being tried: since when, how long it may take, its name.
-static CURRENT: Mutex<Option<(Instant, Duration, String, Vec<u8>)>> = Mutex::new(None);
+/// An input that is being tried.
+struct Tried {
+    begin: Instant,
+    longest: Duration,
+    name: String,
+    input: Vec<u8>,
+}
 
-fn current() -> MutexGuard<'static, Option<(Instant, Duration, String, Vec<u8>)>> {
+static CURRENT: Mutex<Option<Tried>> = Mutex::new(None);
+
+fn current() -> MutexGuard<'static, Option<Tried>> {
     CURRENT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -90,10 +97,10 @@ impl Watch {
             std::thread::spawn(|| {
                 loop {
                     std::thread::sleep(Duration::from_secs(1));
-                    if let Some((begin, longest, name, input)) = &*current()
-                        && begin.elapsed() > 3 * *longest
+                    if let Some(tried) = &*current()
+                        && tried.begin.elapsed() > 3 * tried.longest
                     {
-                        let path = keep(name, input);
+                        let path = keep(&tried.name, &tried.input);
                         eprintln!("without end: {}", path.display());
                         std::process::abort();
                     }
@@ -123,7 +130,12 @@ impl Watch {
         let before = LIVE.load(Ordering::Relaxed);
         PEAK.store(before, Ordering::Relaxed);
         let begin = Instant::now();
-        *current() = Some((begin, longest, name.clone(), input.to_vec()));
+        *current() = Some(Tried {
+            begin,
+            longest,
+            name: name.clone(),
+            input: input.to_vec(),
+        });
         let done = catch_unwind(AssertUnwindSafe(act));
         *current() = None;
         let (time, memory) = (

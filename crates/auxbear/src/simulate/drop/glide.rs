@@ -115,12 +115,14 @@ const HARDER: f64 = 1.5;
 const LIFTS: f64 = 0.9;
 pub(super) const LIES: f64 = 0.5;
 
-/// Most a contact force of each bearing is where a rotor lies under its weight, N: its load at rest and a share of the largest of these.
+/// Most a contact force of each bearing is where a rotor lies under its weight, N: its load at rest and a share of it, or of [`LIGHT`] of the largest of these,
+/// since one that carries hardly any never rests.
 pub(super) fn under_weight(built: &Built, share: f64) -> Vec<f64> {
     let loads = || built.parts.iter().map(|part| part.warm.radial_load);
-    let most = loads().fold(0.0, f64::max);
-    loads().map(|load| load + share * most).collect()
+    let least = LIGHT * loads().fold(0.0, f64::max);
+    loads().map(|load| load + share * load.max(least)).collect()
 }
+const LIGHT: f64 = 0.1;
 
 /// A contact force that is larger than these: its bearing, and it, N.
 pub(super) fn larger(peaks: &[f64], forces: &[f64]) -> Option<(usize, f64)> {
@@ -150,7 +152,8 @@ impl Way<'_> {
         mut saw: impl FnMut(&Start, &Seen),
     ) -> Option<(f64, Other)> {
         let mut there = built.clone();
-        let (mut before, mut stays) = ([f64::MAX; 2], 0);
+        let mut before: Option<Seen> = None;
+        let mut stays = 0;
         loop {
             let ratio = if stays > 0 { 1.0 } else { STEP };
             let mut looked = Looked::default();
@@ -189,13 +192,20 @@ impl Way<'_> {
             }
             saw(&there.start, &looked.seen);
             // a motion that grows is given the time that it needs
-            let most = [&looked.seen.peaks, &looked.seen.ways]
-                .map(|each| each.iter().copied().fold(0.0, f64::max));
-            let least = if foreseen.lies { GROWS } else { BOUNCES };
-            let grows = (0..2).any(|k| most[k] > least[k] * before[k]);
+            let grows = before.is_some_and(|before| looked.seen.grows(&before, foreseen.lies));
             stays = if grows && stays < STAYS { stays + 1 } else { 0 };
-            before = most;
+            before = Some(looked.seen);
         }
+    }
+}
+
+impl Seen {
+    /// Whether the largest force grows, or the way of a turn in any bearing.
+    fn grows(&self, before: &Seen, lies: bool) -> bool {
+        let [force, way] = if lies { GROWS } else { BOUNCES };
+        let most = |seen: &Seen| seen.peaks.iter().copied().fold(0.0, f64::max);
+        let mut ways = self.ways.iter().zip(&before.ways);
+        most(self) > force * most(before) || ways.any(|(now, before)| *now > way * before)
     }
 }
 
