@@ -113,7 +113,9 @@ function rollingNote(run) {
   if (start === null) return "it never loses only what laws of rolling say";
   const again = listOf(run, "run_out.return_end_times");
   const rolls = "rolls from " + engineeringText(start, "s", 3) + " on";
-  return again.length ? `${rolls}, but for ${again.length} times ball by ball until ${engineeringText(lastNumber(again), "s", 3)}` : rolls;
+  if (!again.length) return rolls;
+  const stretches = again.length === 1 ? "a stretch" : `${again.length} stretches`;
+  return `${rolls}, but for ${stretches} ball by ball until ${engineeringText(lastNumber(again), "s", 3)}`;
 }
 
 // The largest share of the limit in the run-out of any bearing: its index is the cube of it.
