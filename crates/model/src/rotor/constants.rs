@@ -120,6 +120,12 @@ impl RotorConstants {
     pub fn eccentricity(&self, node: &[f64]) -> f64 {
         self.arm(node).length_squared().sqrt()
     }
+    /// Bound of that at a node, m, however its modes turn against each other.
+    pub fn most_eccentric(&self, node: &[f64]) -> f64 {
+        let own = self.coordinates.iter().zip(node);
+        own.map(|(own, shape)| own.unbalance.length_squared().sqrt() * shape.abs())
+            .sum()
+    }
     /// -φ·N at φ = 0.
     pub(super) fn arm(&self, node: &[f64]) -> Vec2<f64> {
         let parts = self.coordinates.iter().zip(node);

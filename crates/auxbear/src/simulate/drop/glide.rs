@@ -227,16 +227,11 @@ fn between(start: &Start, end: &Start, speed: f64) -> Start {
 /// Acceleration of unbalance over that of gravity below which it lifts no rotor.
 const SHAKES: f64 = 0.01;
 
-/// Speed below which unbalance lifts no rotor, rad/s: no sum of its modes at a bearing is eccentric by more than all of them together.
+/// Speed below which unbalance lifts no rotor, rad/s.
 pub(super) fn calm(context: &Context) -> f64 {
     let constants = &context.machine.constants;
-    let shares = |node: &Vec<f64>| -> f64 {
-        let own = constants.rotor.coordinates.iter().zip(node);
-        own.map(|(own, shape)| own.unbalance.length_squared().sqrt() * shape.abs())
-            .sum()
-    };
     let bearings = constants.bearings.iter();
-    let most = bearings.map(|bearing| shares(&bearing.node));
+    let most = bearings.map(|bearing| constants.rotor.most_eccentric(&bearing.node));
     (SHAKES * context.drop.gravity.acceleration / most.fold(0.0, f64::max)).sqrt()
 }
 
