@@ -20,6 +20,15 @@ function closeLines(runs, [begin, end], name, scale, look) {
   });
 }
 
+// The line of the contact force through the begin, the peak and the end of each contact, which are known from dense output: rows lie as far apart
+// as run.output_interval, and a contact between two of them shows in none.
+function throughPeaks(line, [begin, end]) {
+  const known = line.run.contacts.flatMap((contact) => [[contact.start_s, 0], [contact.peak_time_s, contact.peak_force_N], [contact.end_s, 0]]);
+  const inside = known.filter(([time, force]) => isNumber(time) && isNumber(force) && time >= begin && time <= end).map(([time, force]) => [1e3 * time, force]);
+  const points = [...line.x.map((time, row) => [time, line.y[row]]), ...inside].sort(([one], [other]) => one - other);
+  return { ...line, x: points.map(([time]) => time), y: points.map(([, force]) => force) };
+}
+
 // Axes of a close-up and the instants inside it.
 function closeAxes(upright, marks, height) {
   return { across: `${timeline.words} [ms]`, upright, marks: marks.filter(({ at }) => isNumber(at)).map((mark) => ({ ...mark, at: 1e3 * mark.at })), height };
@@ -35,7 +44,7 @@ function firstContactsSection(runs) {
   const peaks = shown.map((run) => ({ x: inside(run).map((contact) => 1e3 * contact.peak_time_s), y: inside(run).map((contact) => contact.peak_force_N), colour: several ? run.colour : SERIES_COLOURS.rotor, fill: "#fff", radius: 3, dots: true, line: false }));
   const starts = several ? [] : shown[0].contacts.map((contact, index) => ({ at: contact.start_s, words: index ? String(index + 1) : "contact 1", colour: PALE_INK }));
   const force = [
-    ...closeLines(shown, span, "bearing.contact.force", 1, look("normal force [N]", "rotor")),
+    ...closeLines(shown, span, "bearing.contact.force", 1, look("normal force [N]", "rotor")).map((line) => throughPeaks(line, span)),
     ...closeLines(shown, span, "bearing.contact.friction_force", 1, look("friction force [N]", "race", [4, 3])),
     ...peaks,
   ];

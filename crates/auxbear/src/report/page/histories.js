@@ -8,7 +8,7 @@ function lines(runs, name, scale, look) {
     const values = scaledColumn(run, name, scale);
     if (!values) return [];
     const single = runs.length === 1;
-    return [{ ...look, label: run.prefix + look.label, time: run.time, values, colour: single ? look.colour : run.colour }];
+    return [{ ...look, run, label: run.prefix + look.label, time: run.time, values, colour: single ? look.colour : run.colour }];
   });
 }
 

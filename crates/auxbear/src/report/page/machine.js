@@ -36,6 +36,21 @@ function reachFigure(machine) {
   return curves({ series: [{ label: "largest displacement", x: at, y: gone, colour: "#22303c", dots: true }, ...around], across: "z [mm]", upright: "distance [µm]", level: { at: 0, words: "line of levitation" }, height: 260 });
 }
 
+// The row below the axis that each name prints in so that none lies over its neighbour: bearings from the first row on, what else stands there
+// from the second. Characters of 10.5 px are at most 6 px wide.
+function rowsOfNames(rooms, bearings, toX) {
+  const ends = [];
+  const rows = rooms.map(() => 0);
+  const order = rooms.map((_, k) => k).sort((a, b) => toX(rooms[a].z) - toX(rooms[b].z));
+  for (const k of order) {
+    const [middle, half] = [toX(rooms[k].z), 3 * rooms[k].name.length];
+    let row = k < bearings ? 0 : 1;
+    while (ends[row] > middle - half) row += 1;
+    [rows[k], ends[row]] = [row, middle + half + 6];
+  }
+  return rows;
+}
+
 function shapeDrawing(machine, shapes, row, width) {
   const run = machine[0];
   const z = listAt(run, "shape_positions");
@@ -43,9 +58,11 @@ function shapeDrawing(machine, shapes, row, width) {
   const reach = 1.25e6 * Math.max(...rooms.map((room) => room.clearance + Math.hypot(room.offset.x, room.offset.y)), 1e-6);
   const margin = { left: 74, right: 24, top: 12, between: 22, bottom: 58 };
   const tall = 150;
-  const height = margin.top + 2 * tall + margin.between + margin.bottom;
   const [first, last] = [z[0], z[z.length - 1]];
   const toX = (at) => margin.left + ((at - first) / (last - first || 1)) * (width - margin.left - margin.right);
+  const nameRows = rowsOfNames(rooms, machine.length, toX);
+  margin.bottom += 12 * Math.max(0, ...nameRows.map((nameRow) => nameRow - 1));
+  const height = margin.top + 2 * tall + margin.between + margin.bottom;
   const panels = SHAPE_WAYS.map(([way, words], panel) => {
     const top = margin.top + panel * (tall + margin.between);
     const toY = (value) => top + tall / 2 - (Math.max(-1.2 * reach, Math.min(1.2 * reach, value)) / reach) * (tall / 2);
@@ -66,7 +83,7 @@ function shapeDrawing(machine, shapes, row, width) {
   const below = height - margin.bottom + 14;
   const axis = axisSteps(first * 1e3, last * 1e3, Math.max(3, width / 110)).map((mm) => drawing("text", { x: toX(mm / 1e3), y: below, "text-anchor": "middle", "font-size": 11, fill: INK }, numberText(mm, 4)));
   // bearings above what else stands there: a magnet often has the name of the bearing beside it
-  const names = rooms.map((room, k) => drawing("text", { x: toX(room.z), y: below + (k < machine.length ? 26 : 38), "text-anchor": "middle", "font-size": 10.5, fill: room.colour }, room.name));
+  const names = rooms.map((room, k) => drawing("text", { x: toX(room.z), y: below + 26 + 12 * nameRows[k], "text-anchor": "middle", "font-size": 10.5, fill: room.colour }, room.name));
   return drawing("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, panels, axis, names, drawing("text", { x: 4, y: below, "font-size": 11, fill: INK }, "z [mm]"));
 }
 
