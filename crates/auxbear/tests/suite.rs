@@ -4,6 +4,7 @@ mod accuracy;
 mod cage_forces;
 mod catalogue;
 mod catalogue_file;
+mod coast_loads;
 mod drop_method;
 mod extremes;
 mod exudyn_cage_spin_up;

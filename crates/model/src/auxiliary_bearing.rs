@@ -127,8 +127,10 @@ pub mod probe {
     pub const BEARING_LOAD: usize = 10;
     /// Size of the force of the outer race on its mount, spring and damper together, N.
     pub const MOUNT_FORCE: usize = 11;
+    /// First of the largest u²Q of a ball at both races, (m/s)² N.
+    pub const LARGEST_SKIDS: usize = 12;
     /// Number of them.
-    pub const COUNT: usize = 12;
+    pub const COUNT: usize = 14;
 }
 
 /// Where an auxiliary bearing stands in the state, in the ledger and among the probes of its machine.
@@ -407,6 +409,8 @@ impl<R: Real> AuxiliaryBearing<R> {
                 bearing.land_force,
                 bearing.on_outer.force.length_squared().sqrt(),
                 mount.length_squared().sqrt(),
+                bearing.largest_skids[0],
+                bearing.largest_skids[1],
             ];
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
         }

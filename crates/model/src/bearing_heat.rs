@@ -17,7 +17,7 @@
 //! | mount damping | mount, where it is a node, else housing |
 //!
 //! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
-//! of the weight on the bearing, as it has it when it has come to rest, at the clearance there is.
+//! of the mean force of the rotor on the race in each span, at the clearance there is.
 //!
 //! From the span on in which a node passes its limit, a second set of temperatures takes the same heats through the same
 //! conductances with the nodes held at their limits: what must be taken from them for that.
@@ -35,6 +35,7 @@ use thermal::bearing_network::{
     ROTOR, together,
 };
 use thermal::held::Held;
+use thermal::load_zone::LoadZone;
 use thermal::oil_range::{self, BeyondData};
 use thermal::steady_speed::SteadySpeed;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
@@ -58,8 +59,8 @@ pub struct WarmBearing {
     pub network: BearingNetwork,
     /// Temperature of all nodes at the start, °C.
     pub start: f64,
-    /// Load of each ball under the weight, N.
-    pub loads: Vec<f64>,
+    /// Its balls under the weight.
+    pub zone: LoadZone,
     /// Its lubricant; none where no oil is given, which then has the viscosity of [`Self::viscosity`].
     pub oil: Option<Viscosity>,
     /// Viscosity of the lubricant at the start, m²/s.
@@ -108,6 +109,7 @@ pub struct Warmth {
     /// Spin of the inner race then, rad/s.
     spin: Option<f64>,
     taken: [f64; 2],
+    impulse: f64,
 }
 
 /// How fast a disturbance of the temperatures grows at the speed of an instant and under the weight, while the balls are preloaded.
@@ -203,6 +205,8 @@ pub struct Seen {
     pub drag_factor: f64,
     /// Friction heat that rotor and race have taken so far, where it is followed, J.
     pub taken: Option<[f64; 2]>,
+    /// ∫N dt of the force of the rotor on the race so far, N s; none where it is the weight.
+    pub impulse: Option<f64>,
 }
 
 /// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node; a node takes what the
@@ -296,12 +300,16 @@ impl WarmBearing {
         Some(drag_factor * moment.parts(spin, 0.0).speed_dependent * spin)
     }
 
-    /// Load of each ball under the weight at the clearance that these temperatures (°C) leave, N; none where it does not follow them.
-    fn loads_at(&self, temperatures: &[f64]) -> Option<Vec<f64>> {
-        match &self.losses.as_ref()?.load {
-            BearingLoad::Zone { zone, .. } => Some(zone.loads(zone.clearance_at(temperatures))),
-            BearingLoad::Radial(_) | BearingLoad::Closing { .. } => None,
-        }
+    /// Load of each ball under a force, N, at the clearance that these temperatures (°C) leave, where it follows them, and a speed of the
+    /// inner race, rad/s: N.
+    fn loads_at(&self, force: f64, temperatures: &[f64], speed: f64) -> Vec<f64> {
+        let start = [self.start; NODES.len()];
+        let load = self.losses.as_ref().map(|losses| &losses.load);
+        let temperatures = match load {
+            Some(BearingLoad::Zone { .. }) => temperatures,
+            _ => &start,
+        };
+        (self.zone).loads_under(force, self.zone.clearance_at(temperatures, speed))
     }
 
     /// Viscosity of the lubricant at a temperature in °C, m²/s.
@@ -383,7 +391,7 @@ impl Warmth {
             given_from: [0.0; NODES.len()],
             passes: part
                 .network
-                .passes(0.0, &[part.start; NODES.len()])
+                .passes(part.zone.load, 0.0, &[part.start; NODES.len()])
                 .map(|one| [one; 2]),
             loose: [None; 2],
             beyond_data,
@@ -393,7 +401,13 @@ impl Warmth {
             heats: [0.0; HEATS],
             spin: None,
             taken: [0.0; 2],
+            impulse: 0.0,
         }
+    }
+
+    /// Speed of the inner race when its temperatures became known, rad/s.
+    pub fn spin(&self) -> f64 {
+        self.spin.unwrap_or(0.0)
     }
 
     /// Until when its temperatures are known, s.
@@ -428,10 +442,12 @@ impl Warmth {
             .map(mean);
         let flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
         let nodes = sums(&flows);
-        let loads = part.loads_at(&self.temperatures);
+        let mean = |impulse: f64| (impulse - self.impulse) / span;
+        let force = seen.impulse.map_or(part.zone.load, mean);
         let operation = Operation {
             speed: seen.spin,
-            loads: loads.as_deref().unwrap_or(&part.loads),
+            force,
+            loads: &part.loads_at(force, &self.temperatures, seen.spin),
             viscosity: part.viscosity_at(lubricant),
             temperatures: &self.temperatures,
         };
@@ -439,7 +455,7 @@ impl Warmth {
         let Ok(network) = part.network.at(operation) else {
             return;
         };
-        let passes = part.network.passes(seen.spin, &self.temperatures);
+        let passes = part.network.passes(force, seen.spin, &self.temperatures);
         for ([least, most], now) in self.passes.iter_mut().zip(passes) {
             (*least, *most) = (least.min(now), most.max(now));
         }
@@ -486,6 +502,7 @@ impl Warmth {
         self.heats = seen.heats;
         self.spin = Some(seen.spin);
         self.taken = seen.taken.unwrap_or(self.taken);
+        self.impulse = seen.impulse.unwrap_or(self.impulse);
         let mut row = [0.0; NODES.len()];
         for (node, (now, peak)) in self.temperatures.iter().zip(&mut self.peaks).enumerate() {
             row[node] = *now;
@@ -499,7 +516,7 @@ impl Warmth {
         }
         let grows = || {
             let losses = part.losses.clone()?;
-            let (open, _) = losses.closing(&row)?;
+            let (open, _) = losses.closing(seen.spin, &row)?;
             let machine = |network| SteadySpeed {
                 network,
                 losses,

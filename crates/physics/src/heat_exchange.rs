@@ -121,6 +121,14 @@ pub fn line_half_width(force: f64, bore: f64, clearance: f64, length: f64, modul
     (4.0 * force * radius / (PI * length * modulus)).sqrt()
 }
 
+/// Whether that half-width, m, is one of the law's range in a bore of this radius with this radial clearance, m.
+///
+/// Source: derived; book/src/theory/heat.md.
+/// Valid: as [`line_half_width`].
+pub fn line_holds(half_width: f64, bore: f64, clearance: f64) -> bool {
+    half_width < 0.1 * bore && clearance > 1e-3 * bore
+}
+
 /// Conductance through the wall of a tube: 2πkL/ln(r₂/r₁), W/K.
 ///
 /// Source: derived.

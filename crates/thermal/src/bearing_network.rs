@@ -113,6 +113,8 @@ pub struct BearingNetwork {
 pub struct Operation<'a> {
     /// Speed of rotor and inner race, rad/s.
     pub speed: f64,
+    /// Radial force of the rotor on the inner race, N.
+    pub force: f64,
     /// Load of each ball on the inner race, N.
     pub loads: &'a [f64],
     /// Kinematic viscosity of the lubricant, m²/s.
@@ -160,7 +162,7 @@ impl BearingNetwork {
             conductance,
             temperature: self.ambient,
         };
-        let passes = self.passes(operation.speed, operation.temperatures);
+        let passes = self.passes(operation.force, operation.speed, operation.temperatures);
         let mut links = vec![
             link(ROTOR, INNER_RACE, passes[0]),
             link(INNER_RACE, BALLS, inner),
@@ -185,13 +187,21 @@ impl BearingNetwork {
         (links, grounds)
     }
 
+    /// Force of a ball on the outer race by its orbit, at a speed of the inner race, rad/s: N.
+    ///
+    /// Formula: F = m_b (d_m/2) ω_c², ω_c = Ω (1 − γ)/2
+    pub fn centrifugal(&self, speed: f64) -> f64 {
+        let cage = 0.5 * speed * (1.0 - self.gamma());
+        0.5 * self.ball_mass * self.pitch_diameter * cage * cage
+    }
+
     /// All balls to the inner and to the outer race, W/K.
     pub fn races(&self, operation: Operation<'_>) -> [f64; 2] {
         let gamma = self.gamma();
         let cage = 0.5 * operation.speed.abs() * (1.0 - gamma);
         // both tracks pass the balls at one speed where they roll
         let passing = 0.5 * cage * self.pitch_diameter * (1.0 + gamma);
-        let centrifugal = 0.5 * self.ball_mass * self.pitch_diameter * cage * cage;
+        let centrifugal = self.centrifugal(operation.speed);
         let one = |contact: &PointContact, load: f64| match load > 0.0 {
             true => {
                 let axes = [contact.semi_major(load), contact.semi_minor(load)];
@@ -232,15 +242,16 @@ impl BearingNetwork {
         }
     }
 
-    /// Conductances of the [`PASSES`] at a speed of the inner race, rad/s, and at temperatures of the nodes, °C: W/K.
-    pub fn passes(&self, speed: f64, temperatures: &[f64]) -> [f64; PASSES.len()] {
+    /// Conductances of the [`PASSES`] under a radial force of the rotor, N, at a speed of the inner race, rad/s, and at temperatures of the nodes,
+    /// °C: W/K.
+    pub fn passes(&self, force: f64, speed: f64, temperatures: &[f64]) -> [f64; PASSES.len()] {
         let at = |node: usize| temperatures[node];
         let room = self.ambient;
         [
-            (self.landing).conductance(speed, [at(ROTOR), at(INNER_RACE)]),
-            (self.outer_seat).conductance(0.0, [at(OUTER_RACE), at(HOUSING)]),
-            (self.surroundings).conductance(0.0, [at(HOUSING), room]),
-            (self.rotor_surroundings).conductance(speed, [at(self.open_rotor()), room]),
+            (self.landing).conductance(force, speed, [at(ROTOR), at(INNER_RACE)]),
+            (self.outer_seat).conductance(force, 0.0, [at(OUTER_RACE), at(HOUSING)]),
+            (self.surroundings).conductance(force, 0.0, [at(HOUSING), room]),
+            (self.rotor_surroundings).conductance(force, speed, [at(self.open_rotor()), room]),
         ]
     }
 
@@ -318,6 +329,7 @@ mod tests {
     fn at(speed: f64, loads: &[f64]) -> Operation<'_> {
         Operation {
             speed,
+            force: 0.0,
             loads,
             viscosity: 2e-5,
             temperatures: &[25.0; NODES.len()],

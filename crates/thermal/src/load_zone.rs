@@ -22,18 +22,21 @@ pub struct LoadZone {
     pub nodes: [usize; 3],
     /// Seats of the inner ring on its shaft and of the outer ring in its housing, where they are known.
     pub seats: [Option<Seat>; 2],
+    /// Clearance that the inner ring takes as it grows with its speed, over the square of the speed, m s².
+    pub growth: f64,
 }
 
 impl LoadZone {
-    /// Diametral clearance at the temperatures of a network in °C, m; negative: the balls are preloaded.
-    pub fn clearance_at(&self, temperatures: &[f64]) -> f64 {
+    /// Diametral clearance at the temperatures of a network in °C and at a speed of the inner race, rad/s: m; negative: the balls are
+    /// preloaded.
+    pub fn clearance_at(&self, temperatures: &[f64], speed: f64) -> f64 {
         let [inner, balls, outer] = self.nodes;
         let free = (self.clearance).at(
             temperatures[inner],
             temperatures[balls],
             temperatures[outer],
         );
-        free + self.by_seats(temperatures).iter().sum::<f64>()
+        free + self.by_seats(temperatures).iter().sum::<f64>() - self.growth * speed * speed
     }
     /// What both seats have added to it, m.
     fn by_seats(&self, temperatures: &[f64]) -> [f64; 2] {
@@ -58,7 +61,11 @@ impl LoadZone {
     }
     /// Load of each ball at a clearance, N.
     pub fn loads(&self, clearance: f64) -> Vec<f64> {
-        let moved = displacement(self.load, self.stiffness, clearance, &self.angles, 1.0);
+        self.loads_under(self.load, clearance)
+    }
+    /// The same under another radial load, N.
+    pub fn loads_under(&self, load: f64, clearance: f64) -> Vec<f64> {
+        let moved = displacement(load, self.stiffness, clearance, &self.angles, 1.0);
         let loads = self.angles.iter();
         loads
             .map(|angle| ball_load(self.stiffness, moved, clearance, *angle))
@@ -109,6 +116,7 @@ mod tests {
             },
             nodes: [0, 1, 2],
             seats: [None; 2],
+            growth: 0.0,
         };
         let pressing = |load: f64, clearance: f64| {
             let zone = zone(load);
@@ -151,8 +159,9 @@ mod tests {
             },
             nodes: [0, 1, 2],
             seats: [None; 2],
+            growth: 0.0,
         };
-        let at = |inner: f64| zone.loads(zone.clearance_at(&[inner, inner, 20.0]));
+        let at = |inner: f64| zone.loads(zone.clearance_at(&[inner, inner, 20.0], 0.0));
         let carrying = |loads: &[f64]| loads.iter().filter(|load| **load > 0.0).count();
         assert!(carrying(&at(20.0)) < 6);
         assert_eq!(carrying(&at(60.0)), 10);

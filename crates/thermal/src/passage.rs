@@ -53,8 +53,6 @@ pub struct Pressed {
     pub reference: f64,
     /// Length along the axis, m.
     pub length: f64,
-    /// Radial load that the ring carries, N.
-    pub load: f64,
     /// What fills the gaps of the joint.
     pub medium: Medium,
 }
@@ -62,8 +60,6 @@ pub struct Pressed {
 /// A rotor that rolls in the bore of a race.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Force of the rotor on this bearing, N.
-    pub load: f64,
     /// Radius of the bore, m.
     pub bore: f64,
     /// Radial clearance of the rotor in it, m.
@@ -99,14 +95,14 @@ pub struct Open {
 }
 
 impl Passage {
-    /// Conductance at a speed (rad/s) and at the temperatures of both bodies, °C: W/K.
-    pub fn conductance(&self, speed: f64, temperatures: [f64; 2]) -> f64 {
+    /// Conductance under a force that presses the bodies together, N, at a speed, rad/s, and at the temperatures of both, °C: W/K.
+    pub fn conductance(&self, force: f64, speed: f64, temperatures: [f64; 2]) -> f64 {
         let kelvin = temperatures.map(|celsius| celsius + ICE_POINT);
         match self {
             Passage::Given(conductance) => *conductance,
             Passage::Line(line) => {
                 let size = [line.bore, line.length, line.clearance];
-                line.metal(speed.abs()) + line.medium.across(size, kelvin)
+                line.metal(force, speed.abs()) + line.medium.across(size, kelvin)
             }
             Passage::Pressed(pressed) => {
                 let now = pressed.interference(speed, temperatures);
@@ -114,7 +110,7 @@ impl Passage {
                 let metal = [STEEL_HEAT.conductivity; 2];
                 let radius = 0.5 * pressed.seat.diameter;
                 let area = TAU * radius * pressed.length;
-                let pressure = pressed.seat.presses * now.max(0.0) + pressed.load / area;
+                let pressure = pressed.seat.presses * now.max(0.0) + force / area;
                 let joint = pressed_joint(metal, roughness, slope, pressure, hardness);
                 let size = [radius, pressed.length, 0.5 * (-now).max(0.0)];
                 area * joint + pressed.medium.across(size, kelvin)
@@ -148,19 +144,21 @@ impl Pressed {
 }
 
 impl Line {
-    /// Through the metal, W/K.
-    fn metal(&self, speed: f64) -> f64 {
-        let half = line_half_width(
-            self.load,
-            self.bore,
-            self.clearance,
-            self.length,
-            self.modulus,
-        );
+    /// Half-width of the contact under a force, N: m.
+    pub fn half_width(&self, force: f64) -> f64 {
+        line_half_width(force, self.bore, self.clearance, self.length, self.modulus)
+    }
+
+    /// Through the metal under a force, N: W/K.
+    fn metal(&self, force: f64, speed: f64) -> f64 {
+        if force <= 0.0 {
+            return 0.0;
+        }
+        let half = self.half_width(force);
         let (roughness, slope, hardness) = GROUND_STEEL;
         let area = 2.0 * half * self.length;
         let metal = [STEEL_HEAT.conductivity; 2];
-        let joint = area * pressed_joint(metal, roughness, slope, self.load / area, hardness);
+        let joint = area * pressed_joint(metal, roughness, slope, force / area, hardness);
         let rolling =
             rolling_line_conductance(self.length, half, speed * self.bore, STEEL_HEAT, STEEL_HEAT);
         joint * rolling / (joint + rolling)
@@ -187,7 +185,6 @@ mod tests {
 
     fn line(medium: Medium) -> Passage {
         Passage::Line(Line {
-            load: 40.0,
             bore: 12.5e-3,
             clearance: 0.25e-3,
             length: 12e-3,
@@ -199,9 +196,16 @@ mod tests {
     #[test]
     fn a_rough_line_insulates_in_proportion_to_the_load() {
         // ground surfaces at 40 N: about 0.13 W/K
-        let found = line(Medium::default()).conductance(2000.0, [20.0, 20.0]);
+        let found = line(Medium::default()).conductance(40.0, 2000.0, [20.0, 20.0]);
         assert!((0.08..0.2).contains(&found), "{found}");
-        assert_eq!(line(Medium::default()).conductance(0.0, [20.0, 20.0]), 0.0);
+        assert_eq!(
+            line(Medium::default()).conductance(40.0, 0.0, [20.0, 20.0]),
+            0.0
+        );
+        assert_eq!(
+            line(Medium::default()).conductance(0.0, 2000.0, [20.0, 20.0]),
+            0.0
+        );
     }
 
     #[test]
@@ -211,7 +215,7 @@ mod tests {
                 pressure,
                 emissivities: [emissivity; 2],
             };
-            line(medium).conductance(0.0, [60.0, 20.0])
+            line(medium).conductance(40.0, 0.0, [60.0, 20.0])
         };
         // air all round would be k/c A = 0.1 W/K; lying on one side it is k A/√(s (s + 2c)), s of 2.4 µm and 0.24 µm at 1 bar
         let (area, s) = (TAU * 12.5e-3 * 12e-3, 2.64e-6);
@@ -248,10 +252,9 @@ mod tests {
                 seat,
                 reference: 20.0,
                 length: 12e-3,
-                load: 0.0,
                 medium,
             };
-            Passage::Pressed(pressed).conductance(speed, temperatures)
+            Passage::Pressed(pressed).conductance(0.0, speed, temperatures)
         };
         // 5 MPa: 17 kW/m²K, and 3.6 at 1 MPa
         let area = TAU * 23.5e-3 * 12e-3;
@@ -276,10 +279,9 @@ mod tests {
             seat,
             reference: 20.0,
             length: 12e-3,
-            load: 40.0,
             medium: Medium::default(),
         };
-        let loose = Passage::Pressed(loaded).conductance(0.0, warm);
+        let loose = Passage::Pressed(loaded).conductance(40.0, 0.0, warm);
         assert!((0.13..0.2).contains(&loose), "{loose}");
         // gas of the rough joint is there pressed and loose: no step where it lets go
         let lets_go = |rest: f64| {
@@ -306,7 +308,7 @@ mod tests {
         for _ in 0..steps {
             let ground = Ground {
                 node: 0,
-                conductance: open.conductance(0.0, [now[0], -ICE_POINT]),
+                conductance: open.conductance(0.0, 0.0, [now[0], -ICE_POINT]),
                 temperature: -ICE_POINT,
             };
             let network = Network::new(&[capacity], &[], &[ground]).unwrap();

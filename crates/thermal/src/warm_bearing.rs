@@ -67,8 +67,8 @@ pub enum BearingLoad {
 }
 
 impl WarmBearings {
-    /// Diametral clearance, m, and preload of each ball, N; none where the load is given.
-    pub fn closing(&self, temperatures: &[f64]) -> Option<(f64, f64)> {
+    /// Diametral clearance, m, and preload of each ball, N, at a speed of the inner race, rad/s; none where the load is given.
+    pub fn closing(&self, speed: f64, temperatures: &[f64]) -> Option<(f64, f64)> {
         let (open, stiffness) = match &self.load {
             BearingLoad::Radial(_) => return None,
             BearingLoad::Closing {
@@ -84,7 +84,9 @@ impl WarmBearings {
                 );
                 (open, *stiffness)
             }
-            BearingLoad::Zone { zone, .. } => (zone.clearance_at(temperatures), zone.stiffness),
+            BearingLoad::Zone { zone, .. } => {
+                (zone.clearance_at(temperatures, speed), zone.stiffness)
+            }
         };
         Some((open, preload(stiffness, open)))
     }
@@ -105,11 +107,11 @@ impl WarmBearings {
             BearingLoad::Radial(load) => *load,
             BearingLoad::Closing { .. } => 0.0,
             BearingLoad::Zone { unpreloaded, zone } => {
-                zone.pressing(zone.clearance_at(temperatures), *unpreloaded)
+                zone.pressing(zone.clearance_at(temperatures, speed), *unpreloaded)
             }
         };
         let parts = moment.parts(speed, radial);
-        let closing = match (&self.load, self.closing(temperatures)) {
+        let closing = match (&self.load, self.closing(speed, temperatures)) {
             (
                 BearingLoad::Closing {
                     coefficient,

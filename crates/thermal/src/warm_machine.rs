@@ -44,6 +44,8 @@ pub struct InMotion {
     pub beside: f64,
     /// Speed of its inner race over that of one that rolls.
     pub spin: f64,
+    /// Mean force of the rotor on it, N.
+    pub force: f64,
 }
 
 /// What a machine does at a speed at which its motion was followed.
@@ -82,11 +84,16 @@ impl Between {
             factors: [0, 1].map(|part| along(from.factors[part], to.factors[part])),
             beside: along(from.beside, to.beside),
             spin: along(from.spin, to.spin),
+            force: along(from.force, to.force),
         }
     }
     /// Speed of the inner race of a bearing over that of one that rolls, at a speed of the rotor.
     pub fn spin(&self, speed: f64, bearing: usize) -> f64 {
         self.bearing(self.way(speed), bearing).spin
+    }
+    /// Mean force of the rotor on a bearing at a speed of the rotor, N.
+    pub fn force(&self, speed: f64, bearing: usize) -> f64 {
+        self.bearing(self.way(speed), bearing).force
     }
 }
 
@@ -225,6 +232,7 @@ mod tests {
                 factors: [1.0, factor],
                 beside,
                 spin: beside,
+                force: 100.0 * beside,
             }],
             rotor: 1e-3 * speed,
         };
@@ -246,6 +254,7 @@ mod tests {
             shares,
         };
         assert!((motion.spin(950.0, 0) - 0.3).abs() < 1e-12);
+        assert!((motion.force(950.0, 0) - 30.0).abs() < 1e-10);
         machine.motion = Some(motion);
         for (law, celsius) in law.iter().zip([40.0, 90.0]) {
             let found = moments(&machine, 950.0, celsius);

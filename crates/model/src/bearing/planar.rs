@@ -360,7 +360,7 @@ impl<R: Real> Planar<R> {
         let (cage_angle, cage_speed) = (state[0], state[1]);
         let lists = split(state, self.row.first, n);
         let (inner, outer) = (race(&motion.inner), race(&motion.outer));
-        let mut largest = [<R::Group as Real>::zero(); 3];
+        let mut largest = [<R::Group as Real>::zero(); 5];
         let mut sums = BallSums::<R, 15>::new(n);
         let mut from = 0;
         while from < n {
@@ -411,6 +411,8 @@ impl<R: Real> Planar<R> {
                 largest[0].max(r.inner_load),
                 largest[1].max(r.outer_load),
                 largest[2].max(r.pocket_force),
+                largest[3].max(r.inner_slip * r.inner_slip * r.inner_load),
+                largest[4].max(r.outer_slip * r.outer_slip * r.outer_load),
             ];
             let details = [
                 r.inner_load,
@@ -451,6 +453,7 @@ impl<R: Real> Planar<R> {
             },
             largest_inner_load: largest_part::<R>(largest[0]),
             largest_outer_load: largest_part::<R>(largest[1]),
+            largest_skids: [largest_part::<R>(largest[3]), largest_part::<R>(largest[4])],
             largest_pocket_force: largest_part::<R>(largest[2]),
             land_force: R::zero(),
         }

@@ -129,6 +129,8 @@ pub struct BearingReaction<R> {
     pub largest_inner_load: R,
     /// Largest ball load at the outer race, N.
     pub largest_outer_load: R,
+    /// Largest u²Q of a ball at the inner and at the outer race, (m/s)² N: its root goes with the flash of a skid.
+    pub largest_skids: [R; 2],
     /// Largest force between a ball and its pocket, or between two balls without a cage, N.
     pub largest_pocket_force: R,
     /// Force between cage and land, N.
@@ -151,6 +153,7 @@ impl<R: Real> BearingReaction<R> {
             heat: BearingHeat::zero(),
             largest_inner_load: zero,
             largest_outer_load: zero,
+            largest_skids: [zero; 2],
             largest_pocket_force: zero,
             land_force: zero,
         }

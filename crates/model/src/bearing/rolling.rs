@@ -224,6 +224,7 @@ impl<R: Real> Rolling<R> {
             },
             largest_inner_load: largest(detail, n, 0),
             largest_outer_load: largest(detail, n, 1),
+            largest_skids: [R::zero(); 2],
             largest_pocket_force: R::zero(),
             land_force: R::zero(),
         }

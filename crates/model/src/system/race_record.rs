@@ -5,11 +5,12 @@
 //!   loads that rise above the one that dents                        indentation
 //!   flash of the hottest contact of ball and race                   where balls skid
 //! ```
-//! It looks a few times a turn, and when the largest load has changed. Between two looks a ball passes the points between its places
+//! It looks a few times a turn, when the largest load has changed, and at the end of every step at which a ball skids harder, by u²Q, than
+//! at any look before. Between two looks a ball passes the points between its places
 //! with the cubes of its loads between those seen. Points of the inner ring turn with it, so that a load that goes round with the
 //! shaft stays where it is.
 //!
-//! Source: derived; book/src/theory/heat.md. Range: a flash that lasts shorter than a look may be missed where no load changes.
+//! Source: derived; book/src/theory/heat.md. Range: a flash is one of the end of a step; where u²Q is not the largest but the entrainment is smaller, of a look.
 
 use super::sampling::Peak;
 use crate::bearing::{BearingConstants, PlanarConstants};
@@ -51,6 +52,8 @@ pub struct RaceSeen {
     pub dents: u64,
     /// The hottest contact.
     pub flash: Flash,
+    /// Largest u²Q at any look, (m/s)² N.
+    skid: f64,
 }
 
 /// What both races have seen.
@@ -90,6 +93,7 @@ impl RaceRecord {
                 slip: 0.0,
                 score: 0.0,
             },
+            skid: 0.0,
         };
         RaceRecord {
             races: [race.clone(), race],
@@ -109,27 +113,34 @@ impl RaceRecord {
         }
     }
 
-    /// Whether it is time to look, with the largest ball load of the bearing, N.
-    pub fn is_due(&mut self, time: f64, load: f64) -> bool {
+    /// Whether it is time to look, with the largest ball load of the bearing, N, and the largest u²Q at both races, (m/s)² N.
+    pub fn is_due(&mut self, time: f64, load: f64, skids: [f64; 2]) -> bool {
         let [last, largest] = &mut self.loads;
         *largest = largest.max(load);
-        let due = time >= self.next || (load - *last).abs() > CHANGES * *largest;
+        let mut races = self.races.iter().zip(skids);
+        let due = time >= self.next
+            || (load - *last).abs() > CHANGES * *largest
+            || races.any(|(race, skid)| skid > race.skid);
         if due {
             (*last, self.next) = (load, time + self.interval);
+            for (race, skid) in self.races.iter_mut().zip(skids) {
+                race.skid = race.skid.max(skid);
+            }
         }
         due
     }
 
-    /// Looks at the only bearing of a system where it is time: the bearing, its own channels, the probe of its largest load, the
-    /// motion of its races in a state.
+    /// Looks at the only bearing of a system where it is time: the bearing, its own channels, the probe of its largest load and the first of its
+    /// largest skids, the motion of its races in a state.
     pub fn watch<M: Machine>(
         &mut self,
         step: &mut Step<M>,
-        (bearing, own, load): (&BearingConstants, Range<usize>, usize),
+        (bearing, own, [load, skid]): (&BearingConstants, Range<usize>, [usize; 2]),
         motion: impl Fn(&[f64]) -> Motion<f64>,
     ) {
         let (time, load) = (step.end, step.end_probe(load));
-        if self.is_due(time, load) {
+        let skids = [0, 1].map(|race: usize| step.end_probe(skid + race));
+        if self.is_due(time, load, skids) {
             let state = step.state(1.0);
             self.look(&Seen {
                 bearing,

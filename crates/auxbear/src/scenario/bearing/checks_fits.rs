@@ -62,7 +62,7 @@ impl Context<'_> {
         self.fits_have_an_effect(bearing)
     }
 
-    fn nested(&self, path: &str, holds: bool, allowed: &str) -> Check {
+    pub(crate) fn nested(&self, path: &str, holds: bool, allowed: &str) -> Check {
         if holds {
             return Ok(());
         }

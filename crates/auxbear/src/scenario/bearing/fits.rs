@@ -6,7 +6,7 @@ use crate::scenario::section::Section;
 use crate::scenario::values::{Value, Values};
 use crate::scenario::words::words;
 use physics::materials::BEARING_STEEL;
-use physics::ring::PressFit;
+use physics::ring::{PressFit, outside_growth};
 
 pub(crate) const UNMOUNTED: &str = "bearing.unmounted_diametral_clearance";
 pub(crate) const OPERATING: &str = "bearing.operating_diametral_clearance";
@@ -45,6 +45,18 @@ pub enum Growth {
     /// Together with the shaft it is pressed on.
     WithShaft = "with shaft",
 }
+}
+
+impl Growth {
+    /// Growth of the radius of an inner track with the square of its speed, m s²: of a ring of this bore on a shaft of that bore, diameters in m.
+    pub(crate) fn of_track(self, track: f64, ring_bore: f64, shaft_bore: f64) -> f64 {
+        let from = |inside: f64| outside_growth(BEARING_STEEL, 0.5 * inside, 0.5 * track);
+        match self {
+            Growth::None => 0.0,
+            Growth::FreeRing => from(ring_bore),
+            Growth::WithShaft => from(shaft_bore),
+        }
+    }
 }
 
 impl Fits {

@@ -150,10 +150,10 @@ pub(crate) const KEYS: &[Key] = &[
         "bearing.inner_race_growth",
         Kind::Word(Growth::WORDS),
         "none",
-        "How the inner race grows with its speed: as a ring by itself, or together with the shaft or sleeve it is pressed on. Its radii are those of [bearing.fits].",
+        "How the inner race grows with its speed: as a ring by itself, or together with the shaft or sleeve it is pressed on. Its radii are those of [bearing.fits], the ring's bore in a coast-down heat.bore_diameter.",
     )
     .default("none", "a few tenths of a micrometre below 20 000 rpm in small bearings")
-    .only(MOVING),
+    .only(LOADED),
     Key::new(
         "bearing.inner_groove_curvature",
         Kind::Coefficient,

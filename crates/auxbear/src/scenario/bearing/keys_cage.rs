@@ -3,14 +3,14 @@
 use crate::scenario::bearing::keys::{CAGE, STEEL_BALLS};
 use crate::scenario::bearing::separation::GuidanceKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
-use crate::scenario::system::MOVING;
+use crate::scenario::system::{MOVING, WITH_BALLS};
 use crate::scenario::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "bearing.fits",
         doc: "How the rings sit on shaft and in housing. The rings are taken as wide as their seats, shaft and housing of bearing steel.",
-        systems: MOVING,
+        systems: WITH_BALLS,
     },
     Section {
         path: "bearing.cage",
@@ -44,14 +44,16 @@ pub(crate) const KEYS: &[Key] = &[
         "Bore of the inner ring.",
     )
     .positive()
-    .optional("needed where the shaft presses the ring, or the ring grows"),
+    .optional("needed where the shaft presses the ring, or the ring grows")
+    .only(MOVING),
     Key::new(
         "bearing.fits.shaft_interference",
         Kind::Quantity("m"),
         "12 um",
         "Diametral interference of shaft or sleeve in the inner ring; negative is loose.",
     )
-    .default("0 m", "no fit presses the ring"),
+    .default("0 m", "no fit presses the ring")
+    .only(MOVING),
     Key::new(
         "bearing.fits.shaft_bore_diameter",
         Kind::Quantity("m"),
@@ -67,14 +69,16 @@ pub(crate) const KEYS: &[Key] = &[
         "Outside diameter of the outer ring.",
     )
     .positive()
-    .optional("needed where the housing presses the ring"),
+    .optional("needed where the housing presses the ring")
+    .only(MOVING),
     Key::new(
         "bearing.fits.housing_interference",
         Kind::Quantity("m"),
         "0 um",
         "Diametral interference of the outer ring in its housing; negative is loose.",
     )
-    .default("0 m", "no fit presses the ring"),
+    .default("0 m", "no fit presses the ring")
+    .only(MOVING),
     Key::new(
         "bearing.fits.housing_outer_diameter",
         Kind::Quantity("m"),
@@ -82,7 +86,8 @@ pub(crate) const KEYS: &[Key] = &[
         "Outside diameter of the housing as a ring.",
     )
     .positive()
-    .optional("needed where the housing presses the ring"),
+    .optional("needed where the housing presses the ring")
+    .only(MOVING),
     Key::new(
         "bearing.cage.pocket_contact",
         Kind::Switch,

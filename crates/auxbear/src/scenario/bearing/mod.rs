@@ -28,8 +28,6 @@ use crate::scenario::section::Section;
 use crate::scenario::values::Values;
 use crate::scenario::words::words;
 use physics::lubricant::{FVA_3, Lubricant, NAPHTHENIC_100, POLYALPHAOLEFIN_100};
-use physics::materials::BEARING_STEEL;
-use physics::ring::outside_growth;
 use physics::rolling::{RollingSet, ring_mass};
 use std::f64::consts::PI;
 
@@ -350,15 +348,10 @@ impl Bearing {
 
     /// Growth of the inner track's radius with the square of its speed, m s².
     pub fn inner_track_growth(&self) -> f64 {
-        let Some(fit) = self.fits.on_shaft(self.pitch_diameter - self.ball_diameter) else {
-            return 0.0;
-        };
-        let from = |inside: f64| outside_growth(BEARING_STEEL, inside, fit.outside_radius);
-        match self.inner_race_growth {
-            Growth::None => 0.0,
-            Growth::FreeRing => from(fit.joint_radius),
-            Growth::WithShaft => from(fit.bore_radius),
-        }
+        self.fits.bore_diameter.map_or(0.0, |bore| {
+            let track = self.pitch_diameter - self.ball_diameter;
+            (self.inner_race_growth).of_track(track, bore, self.fits.shaft_bore_diameter)
+        })
     }
 
     /// Speed at which an inner ring that is said to grow with its shaft leaves it, rad/s, where that is below a speed.

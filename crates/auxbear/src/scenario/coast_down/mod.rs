@@ -12,6 +12,8 @@ use crate::scenario::values::Values;
 pub struct CoastDown {
     /// The bearings, which are alike.
     pub bearing: Warm,
+    /// Bore of the shaft or sleeve that the inner ring may grow with, m.
+    pub shaft_bore_diameter: f64,
     /// Mass of the rotor, kg.
     pub rotor_mass: f64,
     /// Moment of inertia of the rotor about its axis, kg m².
@@ -57,6 +59,7 @@ impl CoastDown {
         let rotor = section("rotor");
         CoastDown {
             bearing: Warm::from_values(values, section("coast_down").number("radial_load")),
+            shaft_bore_diameter: section("bearing.fits").number("shaft_bore_diameter"),
             rotor_mass: rotor.number("mass"),
             polar_inertia: rotor.number("polar_inertia"),
             speed: rotor.number("speed"),

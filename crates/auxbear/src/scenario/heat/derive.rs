@@ -73,8 +73,7 @@ impl Values {
         if matches!(self.system(), SystemName::SpinUp | SystemName::Rig) {
             self.shaft_of_a_rig([bore, width])?;
         }
-        let with_clearance = self.system() == SystemName::CoastDown;
-        if with_clearance && self.number("heat.rotor_contact").is_none() {
+        if self.system() == SystemName::CoastDown {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }

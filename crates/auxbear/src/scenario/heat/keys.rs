@@ -235,12 +235,11 @@ pub(crate) const KEYS: &[Key] = &[
         "heat.radial_air_clearance",
         Kind::Quantity("m"),
         "0.25 mm",
-        "Radial clearance of the rotor in the inner race: how wide the line is that they touch along.",
+        "Radial clearance of the rotor in the inner race: the race turns slower than the rotor that rolls in it, by 2 radial_air_clearance/bore_diameter, and the line that they touch along is wider the smaller it is.",
     )
     .positive()
     .derived("1 % of heat.bore_diameter, assumed")
     .only(&[SystemName::CoastDown])
-    .excludes("heat.rotor_contact")
     .when(FOLLOWED),
     Key::new(
         "heat.outer_seat",
@@ -258,7 +257,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Conductance from the housing to its surroundings.",
     )
     .not_negative()
-    .derived("gas and radiation of heat.housing_area, where heat.gas_pressure or heat.housing_emissivity is given; else in air ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)")
+    .derived("gas and radiation of heat.housing_area, where heat.gas_pressure or heat.housing_emissivity is given; else in air ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter), which the standard means from the rings on: they rise up to 1.4 times as far here")
     .when(FOLLOWED),
     Key::new(
         "heat.rotor_surroundings",

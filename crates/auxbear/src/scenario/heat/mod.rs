@@ -5,6 +5,7 @@ pub(crate) mod derive;
 pub(crate) mod keys;
 
 use crate::scenario::bearing::ball_material;
+use crate::scenario::bearing::fits::Growth;
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
@@ -135,6 +136,8 @@ pub struct Warm {
     pub viscosity_points: Vec<[f64; 2]>,
     /// Radial load on it, N.
     pub radial_load: f64,
+    /// Growth of the diameter of its inner track with the square of its speed, m s².
+    pub growth: f64,
     /// Seats of its rings on shaft and in housing, where they are known.
     pub seats: [Option<Seat>; 2],
     /// What warms.
@@ -241,6 +244,7 @@ impl Warm {
                 .rows("bearing.moment.viscosity_points")
                 .unwrap_or_default(),
             radial_load,
+            growth: 2.0 * growth(values, &heat),
             seats: seats(values, &heat),
             heat,
         }
@@ -286,6 +290,17 @@ impl Warm {
             ball_material: self.ball_material,
         }
     }
+}
+
+/// Growth of the radius of the inner track with the square of its speed, m s².
+fn growth(values: &Values, heat: &Heat) -> f64 {
+    let section = |path| Section { values, path };
+    let (bearing, fits) = (section("bearing"), section("bearing.fits"));
+    let track = bearing.number("pitch_diameter") - bearing.number("ball_diameter");
+    let ring_bore = fits.maybe("bore_diameter").unwrap_or(heat.bore_diameter);
+    let chosen: Growth = bearing.chosen("inner_race_growth").unwrap_or(Growth::None);
+    let shaft_bore = fits.maybe("shaft_bore_diameter").unwrap_or(0.0);
+    chosen.of_track(track, ring_bore, shaft_bore)
 }
 
 /// Expansion of bearing steel, 1/K. Source: derived; book/src/theory/heat.md.
@@ -365,6 +380,15 @@ impl Heat {
         })
     }
 
+    /// Pressure of the gas, Pa: of the atmosphere where none is given.
+    pub(crate) fn pressure(&self) -> f64 {
+        let air = match self.atmosphere {
+            Atmosphere::Air => SEA_LEVEL,
+            Atmosphere::Vacuum => 0.0,
+        };
+        self.gas_pressure.unwrap_or(air)
+    }
+
     /// What fills the gap of rotor and inner race.
     pub(crate) fn medium(&self) -> Medium {
         Medium {
@@ -374,11 +398,7 @@ impl Heat {
     }
 
     /// A ring on a seat whose fit is known; air where nothing is said of it, bright steel where no emissivity is.
-    pub(crate) fn pressed(&self, seat: Seat, load: f64) -> Passage {
-        let air = match self.atmosphere {
-            Atmosphere::Air => SEA_LEVEL,
-            Atmosphere::Vacuum => 0.0,
-        };
+    pub(crate) fn pressed(&self, seat: Seat) -> Passage {
         let emissivity = match self.emissivity > 0.0 {
             true => self.emissivity,
             false => BRIGHT_STEEL,
@@ -387,9 +407,8 @@ impl Heat {
             seat,
             reference: self.start_temperature - ICE_POINT,
             length: self.width,
-            load,
             medium: Medium {
-                pressure: self.gas_pressure.unwrap_or(air),
+                pressure: self.pressure(),
                 emissivities: [emissivity; 2],
             },
         })

@@ -13,7 +13,7 @@ use physics::hertz::maximum_pressure;
 /// A history that is being named.
 pub(crate) struct Table<'a> {
     pub columns: Vec<Column>,
-    run: &'a BearingRun<'a>,
+    pub run: &'a BearingRun<'a>,
 }
 
 /// A value of the lubricant.

@@ -81,9 +81,9 @@ impl Follows {
         cosine.clamp(STEEPEST.cos(), 1.0).acos()
     }
 
-    /// Diametral clearance at these temperatures (°C), m.
-    pub fn clearance(&self, temperatures: &[f64]) -> f64 {
-        self.zone.clearance_at(temperatures)
+    /// Diametral clearance at these temperatures (°C) and at a speed of the inner race, rad/s: m.
+    pub fn clearance(&self, temperatures: &[f64], speed: f64) -> f64 {
+        self.zone.clearance_at(temperatures, speed)
     }
 
     /// What inner ring, balls and outer ring have added to it at these temperatures (°C), m.
@@ -102,8 +102,8 @@ impl Follows {
         self.oil.as_ref().map_or(1.0, |oil| oil.held(kelvin))
     }
 
-    /// Makes a bearing one of these temperatures, °C.
-    pub fn condition(&self, bearing: &mut Bearing, temperatures: &[f64]) {
+    /// Makes a bearing one of these temperatures, °C, and its steady moment that of a speed of the inner race, rad/s.
+    pub fn condition(&self, bearing: &mut Bearing, temperatures: &[f64], speed: f64) {
         if self.thins(bearing) {
             let warmer = self.viscosity(temperatures);
             if let (Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. }, Some(_)) =
@@ -124,8 +124,9 @@ impl Follows {
             bearing.contact_angle = self.contact_angle(bearing, temperatures);
         }
         if self.closes(bearing) {
-            let clearance = self.clearance(temperatures);
-            bearing.operating_diametral_clearance = clearance;
+            // its balls meet the growth of the inner track themselves
+            bearing.operating_diametral_clearance = self.clearance(temperatures, 0.0);
+            let clearance = self.clearance(temperatures, speed);
             if let Moment::Palmgren {
                 f1_factor,
                 f1_exponent,
@@ -180,31 +181,31 @@ impl FollowedBearing {
         })
     }
 
-    /// Whether it is another one at these temperatures of its nodes (°C) than it was in this state.
-    pub fn moved(&self, last: Option<State>, nodes: &[f64]) -> bool {
+    /// Whether it is another one at these temperatures of its nodes (°C) and this speed of its inner race (rad/s) than it was in this state.
+    pub fn moved(&self, last: Option<State>, nodes: &[f64], speed: f64) -> bool {
         let Some(last) = last else {
             return true;
         };
         let follows = &self.follows;
-        let closes = (follows.clearance(nodes) - last.clearance).abs() > CLOSES;
+        let closes = (follows.clearance(nodes, speed) - last.clearance).abs() > CLOSES;
         let thins = (follows.viscosity(nodes) / last.viscosity - 1.0).abs() > THINS;
         let grows = follows.closes(&self.bearing) || follows.tilts(&self.bearing);
         closes && grows || thins && follows.thins(&self.bearing)
     }
 
-    /// Its constants at these temperatures of its nodes, °C, at a time, s; why no law holds there.
+    /// Its constants at these temperatures of its nodes, °C, and this speed of its inner race, rad/s, at a time, s; why no law holds there.
     pub fn renewed(
         &self,
         last: &mut Option<State>,
-        nodes: &[f64],
+        (nodes, speed): (&[f64], f64),
         time: f64,
     ) -> Result<BearingConstants, String> {
         let mut bearing = self.bearing.clone();
-        self.follows.condition(&mut bearing, nodes);
+        self.follows.condition(&mut bearing, nodes, speed);
         let constants = ball_contacts(&bearing)
             .and_then(|contacts| constants_of(&bearing, &contacts, self.gravity))
             .map_err(|problem| problem.found)?;
-        let clearance = self.follows.clearance(nodes);
+        let clearance = self.follows.clearance(nodes, speed);
         let closed = last.and_then(|last| last.closed);
         let loose = self.follows.loose(nodes);
         let loose = [0, 1].map(|seat| {

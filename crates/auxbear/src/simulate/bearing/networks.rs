@@ -38,7 +38,7 @@ pub(crate) fn built(
     }
     Ok(Some(Box::new(WarmBearing {
         start: warm.heat.start_temperature - ICE_POINT,
-        loads: zone.loads(zone.clearance.at_reference),
+        zone,
         oil,
         viscosity: at_start,
         losses,

@@ -57,7 +57,8 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
     if followed.closes() {
         let at_start = followed.bearing.operating_diametral_clearance;
         let at_end = followed.follows();
-        let at_end = (at_end.iter()).map(|follows| follows.clearance(&warmth.temperatures));
+        let at_end =
+            (at_end.iter()).map(|follows| follows.clearance(&warmth.temperatures, warmth.spin()));
         let least = followed.state.map_or(at_start, |state| state.least);
         let least = at_end.fold(least.min(at_start), f64::min);
         list.number("smallest_clearance", "m", Ok(least), &CLEARANCE);
@@ -236,11 +237,12 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
         );
     }
     if let (true, Some(follows)) = (followed.closes(), followed.follows()) {
+        let run = table.run;
         table.add(
             "bearing.clearance",
             "m",
             "diametral clearance; negative is preload",
-            move |row| follows.clearance(&nodes_at(row.time)),
+            move |row| follows.clearance(&nodes_at(row.time), run.speed(row)),
         );
         if warmth.growth.largest.is_some() {
             table.add(
@@ -391,7 +393,7 @@ const AT_NODE: Origin = Origin {
 const PASSED: Origin = Origin {
     law: "least and largest conductance of the way: as given, or a rough line, gas between surfaces and in the open, radiation",
     source: "crates/thermal/src/passage.rs, crates/physics/src/air.rs; book/src/theory/heat.md",
-    valid: "at the ends of spans or steps; within a factor of two",
+    valid: "at the ends of spans or steps, by the mean force of the rotor on the race in them; within a factor of two",
 };
 const BY_NODE: Origin = Origin {
     law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",

@@ -128,8 +128,10 @@ impl<'a, M: Warms> Warming<'a, M> {
             return false;
         }
         self.take(machine, time, state);
-        let moved =
-            |followed: &FollowedBearing| followed.moved(self.state, &self.warmth.temperatures);
+        let warmth = &self.warmth;
+        let moved = |followed: &FollowedBearing| {
+            followed.moved(self.state, &warmth.temperatures, warmth.spin())
+        };
         self.broken.is_none() && self.followed.as_ref().is_some_and(moved)
     }
 
@@ -149,6 +151,7 @@ impl<'a, M: Warms> Warming<'a, M> {
             spin: state(machine.spin()),
             drag_factor: bearing.drag_factor(&|own| state(own_states + own)),
             taken: None,
+            impulse: None,
         };
         self.warmth.take(self.part, &seen);
     }
@@ -157,7 +160,11 @@ impl<'a, M: Warms> Warming<'a, M> {
     pub fn renewed(&mut self, machine: &M, time: f64, state: &[f64]) -> Option<Box<M>> {
         let followed = self.followed.as_ref()?;
         let new = followed
-            .renewed(&mut self.state, &self.warmth.temperatures, time)
+            .renewed(
+                &mut self.state,
+                (&self.warmth.temperatures, self.warmth.spin()),
+                time,
+            )
             .and_then(|bearing| machine.with(bearing));
         match new {
             Ok(new) => {

@@ -56,10 +56,10 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// Pressure of a ball under a load at the race where it is larger, Pa.
-    pub fn largest_pressure(&self, load: f64) -> f64 {
-        let contacts = self.network.contacts.iter();
-        let each = contacts.map(|contact| maximum_pressure(contact.pressure_factor, load));
+    /// Pressure of a ball under its loads at the inner and at the outer race where it is larger, Pa.
+    pub fn largest_pressure(&self, loads: [f64; 2]) -> f64 {
+        let contacts = self.network.contacts.iter().zip(loads);
+        let each = contacts.map(|(contact, load)| maximum_pressure(contact.pressure_factor, load));
         each.fold(0.0, f64::max)
     }
 }
@@ -239,7 +239,10 @@ impl Built {
 
 /// Builds a run-out by itself.
 pub(crate) fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
-    let part = part(&run.bearing, String::new(), run.planes)?;
+    let mut part = part(&run.bearing, String::new(), run.planes)?;
+    let heat = &part.warm.heat;
+    let clearance = heat.radial_air_clearance.unwrap_or(0.0);
+    part.losses.ratio = 1.0 - clearance / (0.5 * heat.bore_diameter);
     let start = part.warm.heat.start_temperature - ICE_POINT;
     Ok(Built {
         parts: vec![part],
@@ -337,6 +340,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         },
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
         seats: run.seats,
+        growth: run.growth,
     };
     // rings share the annulus between bore and outside at the pitch circle's shoulders
     let shoulder = |side: f64| run.pitch_diameter + side * 2.0 * SHOULDER * run.ball_diameter;
@@ -376,9 +380,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         film: heat.film_thickness,
         landing: match (heat.rotor_contact, on_rotor) {
             (Some(conductance), _) => Passage::Given(conductance),
-            (None, Some(seat)) => heat.pressed(seat, run.radial_load),
+            (None, Some(seat)) => heat.pressed(seat),
             (None, None) => Passage::Line(Line {
-                load: run.radial_load,
                 bore: 0.5 * heat.bore_diameter,
                 clearance: heat
                     .radial_air_clearance
@@ -389,7 +392,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             }),
         },
         outer_seat: match (heat.outer_seat, run.seats[1]) {
-            (None, Some(seat)) => heat.pressed(seat, run.radial_load),
+            (None, Some(seat)) => heat.pressed(seat),
             (given, _) => Passage::Given(given.unwrap_or(0.0)),
         },
         surroundings: heat.open_housing().unwrap_or(Passage::Given(0.0)),

@@ -184,12 +184,27 @@ fn step<L: Losses>(
 /// Logarithm of two speeds of which one step goes from one to the other whatever it warms.
 const LEAST_SLOWING: f64 = 1e-6;
 
-/// The clearance of a bearing at the temperatures of its nodes, m.
-fn clearance(part: &Part, temperatures: &[f64]) -> f64 {
+/// The clearance of a bearing at a speed of its inner race, rad/s, and at the temperatures of its nodes: m.
+fn clearance(part: &Part, speed: f64, temperatures: &[f64]) -> f64 {
     match part.closes {
-        true => part.zone.clearance_at(temperatures),
-        false => part.zone.clearance.at_reference,
+        true => part.zone.clearance_at(temperatures, speed),
+        false => part.zone.clearance.at_reference - part.zone.growth * speed * speed,
     }
+}
+
+/// Speed of an inner race at a speed of the rotor, rad/s: a race that slides turns slower, and its bearing is stirred and cooled less.
+fn race(built: &Built, speed: f64, bearing: usize) -> f64 {
+    let motion = built.motion.as_ref();
+    let spin = motion.map_or(1.0, |motion| motion.between.spin(speed, bearing));
+    built.parts[bearing].losses.ratio * speed * spin
+}
+
+/// Mean force of the rotor on a bearing at a speed of the rotor, N: its load where it rolls.
+fn force(built: &Built, speed: f64, bearing: usize) -> f64 {
+    let motion = built.motion.as_ref();
+    motion.map_or(built.parts[bearing].zone.load, |motion| {
+        motion.between.force(speed, bearing)
+    })
 }
 
 /// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
@@ -198,20 +213,26 @@ fn network(
     (speed, temperatures): (f64, &[f64]),
     held: &[bool],
 ) -> Result<Network, NetworkError> {
-    let each = || (built.parts.iter()).zip(temperatures.chunks(NODES.len()));
+    let each = || {
+        (built.parts.iter())
+            .zip(temperatures.chunks(NODES.len()))
+            .enumerate()
+    };
     let loads: Vec<Vec<f64>> = each()
-        .map(|(part, temperatures)| part.zone.loads(clearance(part, temperatures)))
+        .map(|(k, (part, temperatures))| {
+            let at = race(built, speed, k);
+            let force = force(built, speed, k);
+            part.zone
+                .loads_under(force, clearance(part, at, temperatures))
+        })
         .collect();
-    let motion = built.motion.as_ref();
     let operations = each()
         .zip(&loads)
-        .enumerate()
-        .map(|(k, ((part, temperatures), loads))| {
+        .map(|((k, (part, temperatures)), loads)| {
             let kelvin = temperatures[LUBRICANT] + ICE_POINT;
-            // a race that slides turns slower, and its bearing is stirred and cooled less
-            let spin = motion.map_or(1.0, |motion| motion.between.spin(speed, k));
             Operation {
-                speed: part.losses.ratio * speed * spin,
+                speed: race(built, speed, k),
+                force: force(built, speed, k),
                 loads,
                 viscosity: part.viscosity.held(kelvin),
                 temperatures,
@@ -235,17 +256,23 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
     losses.moments(state.speed, &state.temperatures, &mut all);
     let moments = by_kind(&all);
     let of_part = |(k, (part, temperatures)): (usize, (&Part, &[f64]))| {
-        let clearance = clearance(part, temperatures);
+        let speed = race(built, state.speed, k);
+        let clearance = clearance(part, speed, temperatures);
         let loads = part.zone.loads(clearance);
         let by_law = loads.iter().copied().fold(0.0, f64::max);
         let balls = (built.motion.as_ref()).and_then(|motion| motion.balls(state.speed, k));
+        let seen = balls.map_or([0.0; 2], |balls| balls.largest);
+        let loads = [
+            by_law.max(seen[0]),
+            (by_law + part.network.centrifugal(speed)).max(seen[1]),
+        ];
         RowOfBearing {
             moment: all[OF_BEARING * k..][..OF_BEARING].iter().sum(),
             clearance,
-            largest_ball_load: balls.map_or(by_law, |balls| {
-                by_law.max(balls.largest[0]).max(balls.largest[1])
-            }),
-            spin: (built.motion.as_ref()).map_or(1.0, |motion| motion.between.spin(state.speed, k)),
+            largest_pressure: part.largest_pressure(loads),
+            largest_ball_loads: loads,
+            force: force(built, state.speed, k),
+            speed,
             balls: balls.cloned(),
         }
     };

@@ -197,7 +197,7 @@ pub(crate) fn history(ran: &Ran) -> Vec<Column> {
             of_part(&part.name, "bearing.largest_ball_load"),
             "N",
             "load of the most loaded ball".into(),
-            &|row| row.bearings[k].largest_ball_load,
+            &|row| row.bearings[k].largest_ball_load(),
         );
     }
     add(

@@ -5,7 +5,7 @@ use crate::simulate::bearing::races as shared;
 use crate::simulate::bearing::warm::Warmed;
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::simulate::coast_down::ran::Ran;
-use crate::simulate::coast_down::rows::{BallsSeen, End, Row};
+use crate::simulate::coast_down::rows::{BallsSeen, End, Row, RowOfBearing};
 use model::system::layout::of_part;
 use physics::life::{RatedBearing, add_points, passages_per_turn, repetitions};
 use std::f64::consts::TAU;
@@ -99,7 +99,8 @@ fn heats(ran: &Ran, list: &mut List) {
         let mut passes = [[f64::INFINITY, 0.0]; PASSES.len()];
         for row in &free.rows {
             let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
-            let now = (part.network).passes(part.losses.ratio * row.speed, temperatures);
+            let now =
+                (part.network).passes(row.bearings[k].force, row.bearings[k].speed, temperatures);
             for ([least, most], now) in passes.iter_mut().zip(now) {
                 (*least, *most) = (least.min(now), most.max(now));
             }
@@ -180,18 +181,22 @@ fn clearance(ran: &Ran, k: usize, list: &mut List) {
     let closes = ran.first(|row| -row.bearings[k].clearance);
     let open = || "the bearing stays open".to_string();
     list.awaited(&of("closing_time"), closes.ok_or_else(open), &CLEARANCE);
-    let most = ran.rows(k).map(|row| row.largest_ball_load);
-    let most = most.fold(0.0, f64::max);
-    list.number(&of("peak_ball_load"), "N", Ok(most), &BALLS);
+    let most = |of: fn(&RowOfBearing) -> f64| ran.rows(k).map(of).fold(0.0, f64::max);
+    let load = most(RowOfBearing::largest_ball_load);
+    list.number(&of("peak_ball_load"), "N", Ok(load), &BALLS);
     let part = &ran.built.parts[k];
-    let pressure = part.largest_pressure(most);
+    let pressure = most(|row| row.largest_pressure);
     list.indentation_index(&part.name, pressure, part.pressure_limit);
 }
 
 fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     let of = |words: &str| of_part(&part.name, words);
-    let least = (ran.free.rows.iter()).map(|row| viscosity_ratio(k, part, row));
-    let least = least.fold(f64::INFINITY, f64::min);
+    let ratios = ran
+        .free
+        .rows
+        .iter()
+        .map(|row| viscosity_ratio(k, part, row));
+    let least = least_of_turns(ratios.zip(turned(&ran.free.rows)).collect());
     list.number(&of("smallest_viscosity_ratio"), "1", Ok(least), &KAPPA);
     let points = (part.warm.dynamic_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
@@ -204,8 +209,8 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
         .zip(part.warm.static_load_rating)
         .ok_or_else(|| format!("bearing.dynamic_load_rating or static_load_rating{NOT_GIVEN}"))
         .map(|(rating, still)| {
-            used(ran, k, part, rating, &|row, harder| {
-                life_factor(k, part, still, row, harder)
+            used(ran, k, part, rating, &|row, load| {
+                life_factor(k, part, still, row, load)
             })
         });
     list.number(
@@ -229,24 +234,38 @@ fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
     }
 }
 
-/// Life factor of lubricant and cleanliness at a row, a_ISO, with the rating of a hot ring in it, under a load that is so many times the weight.
-fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row, harder: f64) -> f64 {
+/// Share of the turns that a smallest value leaves out: the last ones before the standstill, which no lubricant film carries.
+const LAST_TURNS: f64 = 0.01;
+
+/// The value that all but the [`LAST_TURNS`] exceed, of values and the turns that each stands for.
+fn least_of_turns(mut values: Vec<(f64, f64)>) -> f64 {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut left = LAST_TURNS * values.iter().map(|(_, turns)| turns).sum::<f64>();
+    let exceeded = values.iter().find(|(_, turns)| {
+        left -= turns;
+        left <= 0.0
+    });
+    exceeded.map_or(f64::NAN, |(value, _)| *value)
+}
+
+/// Life factor of lubricant and cleanliness at a row, a_ISO, with the rating of a hot ring in it, under a load, N.
+fn life_factor(k: usize, part: &Part, static_rating: f64, row: &Row, load: f64) -> f64 {
     let warm = &part.warm;
     let races = [INNER_RACE, OUTER_RACE].map(|node| row.temperatures[k * NODES.len() + node]);
     let kappa = viscosity_ratio(k, part, row);
     let hot = races[0].max(races[1]);
-    shared::life_factor(warm, static_rating, harder * warm.radial_load, kappa, hot)
+    shared::life_factor(warm, static_rating, load, kappa, hot)
 }
 
 /// κ at a row.
 fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     let kelvin = row.temperatures[k * NODES.len() + LUBRICANT] + ICE_POINT;
     let viscosity = part.viscosity.held(kelvin);
-    shared::viscosity_ratio(&part.warm, viscosity, row.speed * row.bearings[k].spin)
+    shared::viscosity_ratio(&part.warm, viscosity, row.bearings[k].speed)
 }
 
-/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row and its load
-/// over the weight.
+/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row and the radial
+/// load that presses the balls as hard, W ΣQ/ΣQ_0, N.
 fn used(
     ran: &Ran,
     k: usize,
@@ -264,32 +283,40 @@ fn used(
         contact_angle: 0.0,
     };
     let passages = passages_per_turn(warm.ball_count as f64, gamma);
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+    let open = part.zone.clearance.at_reference.max(0.0);
+    let unpreloaded = mean(&part.zone.all_round(open, PLACES));
     // sums of cubes that pass each place, by laws from the load line on, by windows as they have seen them
-    let mut by_laws = vec![0.0; PLACES];
+    let mut by_laws = [vec![0.0; PLACES], vec![0.0; PLACES]];
     let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for (row, turned) in (ran.free.rows.iter()).zip(turned(&ran.free.rows)) {
         // balls pass with the race, which may slide under the rotor or stand
-        let turned = turned * row.bearings[k].spin;
-        let zone = (part.zone).all_round(row.bearings[k].clearance, PLACES);
-        let cubes: Vec<f64> = zone.into_iter().map(|load| load.powi(3)).collect();
+        let own = &row.bearings[k];
+        let turned = turned * own.speed / row.speed;
+        let zone = part.zone.all_round(own.clearance, PLACES);
+        let pressing = warm.radial_load * mean(&zone) / unpreloaded;
+        let cubes = [0.0, part.network.centrifugal(own.speed)]
+            .map(|more| -> Vec<f64> { zone.iter().map(|load| (load + more).powi(3)).collect() });
         // a window is as closed as its bearing was then, and the laws know no impacts: the larger of both counts
-        let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
-        let times = |balls: &BallsSeen| mean(&balls.cubes[1]) / (passages[1] * mean(&cubes));
-        let seen_by_window = row.bearings[k]
-            .balls
-            .as_ref()
-            .map(|balls| (balls, times(balls)));
+        let times = |balls: &BallsSeen| mean(&balls.cubes[1]) / (passages[1] * mean(&cubes[1]));
+        let seen_by_window = own.balls.as_ref().map(|balls| (balls, times(balls)));
         match seen_by_window.filter(|(_, times)| *times > 1.0) {
             Some((balls, times)) => {
-                let turned = turned / factor(row, times.cbrt());
+                let turned = turned / factor(row, times.cbrt() * pressing);
                 for (sum, cubes) in seen.iter_mut().zip(&balls.cubes) {
                     add_points(sum, cubes, turned);
                 }
             }
-            None => add_points(&mut by_laws, &cubes, turned / factor(row, 1.0)),
+            None => {
+                let turned = turned / factor(row, pressing);
+                for (sum, cubes) in by_laws.iter_mut().zip(&cubes) {
+                    add_points(sum, cubes, turned);
+                }
+            }
         }
     }
-    let mean = by_laws.iter().sum::<f64>() / PLACES as f64;
+    let [on_inner, mut by_laws] = by_laws;
+    let mean = on_inner.iter().sum::<f64>() / PLACES as f64;
     // from the load line to the frame's x axis
     let rotated = part.load_direction / TAU * PLACES as f64;
     by_laws.rotate_right(rotated.round().rem_euclid(PLACES as f64) as usize % PLACES);
@@ -337,22 +364,23 @@ const PEAK: Origin = Origin {
     valid: "bodies of one temperature; conductances of contacts and seats within a factor of two",
 };
 const CLEARANCE: Origin = Origin {
-    law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
+    law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b − 2u(Ω)",
     source: "crates/thermal/src/clearance.rs; book/src/theory/heat.md",
     valid: "rings free to grow, each of one temperature",
 };
 const BALLS: Origin = Origin {
-    law: "Q = K (δ cos φ − P_d/2)^1.5 with Σ Q cos φ = load",
+    law: "Q = K (δ cos φ − P_d/2)^1.5 with Σ Q cos φ = load; on the outer race m_b (d_m/2) ω_c² more",
     source: "crates/physics/src/load_zone.rs",
     valid: "quasi-static, one ball on the load line",
 };
 const KAPPA: Origin = Origin {
-    law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above",
+    law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above; exceeded in 99 % of the turns",
     source: "ISO 281:2007 (from memory)",
-    valid: "below 0.1 no life factor holds",
+    valid: "the last turns before the standstill are left out: no film carries them; below 0.1 no life factor holds",
 };
 const LUBRICATED: Origin = Origin {
-    law: "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22",
+    law: "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22, P the radial load that presses the balls as hard as load and \
+          preload do",
     source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
     valid: "below κ = 0.1 no factor holds, and 0.1 is taken; e_C = heat.contamination decides within a factor of ten",
 };
@@ -363,7 +391,7 @@ const RUNS: Origin = Origin {
     valid: "as life_share",
 };
 const LIFE: Origin = Origin {
-    law: "Σ turns Q³ at each place of both rings over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",
+    law: "Σ turns Q³ at each place of both rings, centrifugal load of the balls on the outer one included, over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",
     source: "crates/physics/src/life.rs; book/src/theory/heat.md",
     valid: "rolling fatigue alone, without lubricant factor (0.1 to 50); an order, never a promise: single bearings scatter 50 to 1",
 };

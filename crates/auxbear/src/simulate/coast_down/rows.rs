@@ -27,10 +27,14 @@ pub(crate) struct RowOfBearing {
     pub moment: f64,
     /// Diametral, m.
     pub clearance: f64,
-    /// Of the most loaded ball, N.
-    pub largest_ball_load: f64,
-    /// Speed of its inner race over that of one that rolls: 1 where laws follow it.
-    pub spin: f64,
+    /// Of the most loaded ball at the inner and at the outer race, N.
+    pub largest_ball_loads: [f64; 2],
+    /// Its largest pressure, Pa.
+    pub largest_pressure: f64,
+    /// Mean force of the rotor on it, N.
+    pub force: f64,
+    /// Speed of its inner race, rad/s.
+    pub speed: f64,
     /// Of its balls, where windows follow them: as the nearest has seen them.
     pub balls: Option<Arc<BallsSeen>>,
 }
@@ -43,6 +47,13 @@ pub(crate) struct BallsSeen {
     /// Cubes of the loads that pass each point of both rings in a turn, N³: of the inner ring from its angle 0 on, of the outer one from the
     /// frame's x axis on.
     pub cubes: [Vec<f64>; 2],
+}
+
+impl RowOfBearing {
+    /// Load of the most loaded ball, N.
+    pub fn largest_ball_load(&self) -> f64 {
+        self.largest_ball_loads[0].max(self.largest_ball_loads[1])
+    }
 }
 
 impl Row {

@@ -2,12 +2,14 @@
 
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::{DRAWN_ON, drawn_on};
-use crate::simulate::coast_down::build::ICE_POINT;
+use crate::simulate::bearing::severity::wide_line;
+use crate::simulate::coast_down::build::{ICE_POINT, Part};
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::{End, Row};
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{LUBRICANT, NODES};
 use thermal::oil_range::{self, BeyondData};
+use thermal::passage::Passage;
 
 /// Of a run-out by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
@@ -29,10 +31,12 @@ pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
             viscosity(ran, k),
             too_fast(ran, k),
             loose(ran, k),
+            wide(part),
         ];
         let found = closed.into_iter().chain(others.into_iter().flatten());
         list.extend(found.map(|found| named(&part.name, found)));
     }
+    list.extend(gas(ran));
     list.extend(turns_on(ran));
     list
 }
@@ -136,9 +140,7 @@ fn loose(ran: &Ran, k: usize) -> Option<Warning> {
     let part = &ran.built.parts[k];
     let at = |row: &Row| {
         let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
-        let by_heat = part
-            .network
-            .loose(part.losses.ratio * row.speed, temperatures);
+        let by_heat = part.network.loose(row.bearings[k].speed, temperatures);
         let by_size = part.zone.loose(temperatures);
         [0, 1].map(|seat| by_heat[seat] || by_size[seat])
     };
@@ -252,9 +254,11 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
 /// Balls that dent the races on the way.
 fn dents(ran: &Ran, k: usize) -> Option<Warning> {
     let part = &ran.built.parts[k];
-    let loads = ran.rows(k).map(|row| row.largest_ball_load);
-    let most = loads.fold(0.0, f64::max);
-    let (pressure, limit) = (part.largest_pressure(most), part.pressure_limit);
+    let hardest = ran
+        .rows(k)
+        .max_by(|a, b| a.largest_pressure.total_cmp(&b.largest_pressure))?;
+    let (pressure, most) = (hardest.largest_pressure, hardest.largest_ball_load());
+    let limit = part.pressure_limit;
     (pressure > limit).then(|| {
         warning(
             "AB1002",
@@ -315,6 +319,35 @@ fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
             until.map_or_else(|| "the whole run".to_string(), |(time, _)| words(time))
         ),
     ))
+}
+
+/// Pressure from which on gas brakes a rotor, Pa: a thousandth of the atmosphere.
+const BRAKES: f64 = 100.0;
+
+/// Gas that takes heat from a bearing and brakes nothing.
+fn gas(ran: &Ran) -> Option<Warning> {
+    let rotor = &ran.built.rotor;
+    let (_, part) = ran
+        .parts()
+        .find(|(_, part)| part.warm.heat.pressure() > BRAKES)?;
+    (rotor.drag == 0.0 && rotor.drag_square == 0.0).then(|| {
+        warning(
+            "AB2335",
+            format!(
+                "Gas of {:.3} bar cools the bearings and does not brake the rotor: rotor.windage is 0. The coast-down comes out too long by what the gas \
+                 brakes, and turns, heat and life of the bearings with it. Give rotor.windage, or heat.atmosphere = \"vacuum\" where there is none.",
+                1e-5 * part.warm.heat.pressure()
+            ),
+        )
+    })
+}
+
+/// A rotor in an air clearance that the law of its line does not reach.
+fn wide(part: &Part) -> Option<Warning> {
+    let Passage::Line(line) = &part.network.landing else {
+        return None;
+    };
+    wide_line(line.half_width(part.zone.load), line.bore, line.clearance)
 }
 
 fn turns_on(ran: &Ran) -> Option<Warning> {

@@ -255,8 +255,10 @@ impl Observer<RotorMachine> for Watched<'_> {
 /// Temperatures of a bearing, where they are followed.
 fn now<'a>(record: &'a Record, machine: &RotorMachine, bearing: usize) -> Option<Now<'a>> {
     let kept = &record.bearings[bearing];
+    let warmth = kept.warmth.as_ref()?;
     Some(Now {
-        nodes: &kept.warmth.as_ref()?.temperatures,
+        nodes: &warmth.temperatures,
+        spin: warmth.spin(),
         contact: kept.heat.as_ref().map_or(0.0, |heat| heat.rise),
         friction: machine.constants.bearings[bearing].contact.friction,
     })

@@ -3,21 +3,58 @@
 //! ```text
 //!   temperatures of the network ──► oil and clearance of every bearing
 //!   temperature of the contact of rotor and race ──► μ = μ_start f(T)/f(T_start)
+//!   temperatures of rotor and race ──► c0 = c0_start + α R₀ ΔT_race − α (R₀ − c0) ΔT_rotor
 //! ```
 //! Tracks that close on loaded balls do work on them, which the ledger counts as a source.
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::scenario::{AuxiliaryBearing, Drop};
+use crate::scenario::heat::{RotorBodies, STEEL_EXPANSION};
+use crate::scenario::{AuxiliaryBearing, Drop, Feedback};
 use crate::simulate::bearing::feedback::{FollowedBearing, Renewals, State};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::drop::build::gravity;
 use model::system::machine::RotorMachine;
 use model::table::Table;
-use thermal::bearing_network::{INNER_RACE, ROTOR};
+use thermal::bearing_network::{INNER_RACE, ROTOR, ROTOR_CORE};
 
+/// Change of an air clearance that matters, m: less than the roughness of ground surfaces.
+const OPENS: f64 = 1e-7;
 /// Change of friction that matters, over it.
 const RUBS: f64 = 1e-2;
+
+/// What the air clearance of a rotor in its race gains as both warm.
+#[derive(Debug)]
+pub(super) struct AirClearance {
+    /// Radius of the bore, and of the rotor in it, m.
+    radii: [f64; 2],
+    /// At the start, °C.
+    start: f64,
+    /// Node of the rotor whose mean it grows with.
+    rotor: usize,
+}
+
+impl AirClearance {
+    /// None where no clearance follows the temperatures.
+    pub fn of(part: &AuxiliaryBearing) -> Option<Self> {
+        let heat = &part.warm.as_ref()?.heat;
+        let bore = 0.5 * part.contact.bore_diameter;
+        (heat.feedback == Feedback::Full).then(|| AirClearance {
+            radii: [bore, bore - part.contact.radial_air_clearance],
+            start: heat.start_temperature - ICE_POINT,
+            rotor: match heat.rotor_bodies {
+                RotorBodies::One => ROTOR,
+                RotorBodies::LayerAndCore => ROTOR_CORE,
+            },
+        })
+    }
+    /// At temperatures of the nodes of the bearing, °C: m.
+    pub fn gained(&self, temperatures: &[f64]) -> f64 {
+        let [bore, rotor] = self.radii;
+        let [race, inside] = [INNER_RACE, self.rotor].map(|node| temperatures[node] - self.start);
+        STEEL_EXPANSION * (bore * race - rotor * inside)
+    }
+}
 
 /// The bearings of a machine that follow their temperatures.
 #[derive(Debug)]
@@ -29,6 +66,16 @@ pub(crate) struct Following {
 struct Part {
     followed: Option<FollowedBearing>,
     friction: Option<Friction>,
+    air: Option<AirClearance>,
+}
+
+impl Part {
+    /// What its air clearance has gained at temperatures of its nodes, °C, where that has moved from what it was last, m.
+    fn opened(&self, last: Option<&f64>, nodes: &[f64]) -> Option<f64> {
+        let gained = self.air.as_ref()?.gained(nodes);
+        let moved = gained - last.copied().unwrap_or(0.0);
+        (moved.abs() > OPENS).then_some(gained)
+    }
 }
 
 /// Friction over the temperature of its contact, of which the shape counts.
@@ -72,6 +119,8 @@ pub(super) fn friction(part: &AuxiliaryBearing, temperatures: &[f64]) -> f64 {
 pub(crate) struct Now<'a> {
     /// Of the nodes of its network, °C.
     pub nodes: &'a [f64],
+    /// Speed of its inner race, rad/s.
+    pub spin: f64,
     /// Rise of the contact of rotor and race, K.
     pub contact: f64,
     /// Coefficient of friction that acts there.
@@ -83,6 +132,8 @@ pub(crate) struct Now<'a> {
 pub(crate) struct Warmed {
     /// Of each bearing: the last clearance and viscosity of its constants, and its least clearance.
     parts: Vec<Option<State>>,
+    /// What the air clearance of each has gained, m.
+    air: Vec<f64>,
     /// Its machines.
     pub renewals: Renewals<RotorMachine>,
     /// Why it went on without following, and from when on.
@@ -96,8 +147,13 @@ impl Following {
             let bearing = part.bearing.as_ref()?;
             let followed = FollowedBearing::of(part.warm.as_deref(), bearing, gravity(drop));
             let friction = Friction::of(part);
-            let any = followed.is_some() || friction.is_some();
-            any.then_some(Part { followed, friction })
+            let air = AirClearance::of(part);
+            let any = followed.is_some() || friction.is_some() || air.is_some();
+            any.then_some(Part {
+                followed,
+                friction,
+                air,
+            })
         };
         let parts: Vec<_> = drop.auxiliary_bearings.iter().map(part).collect();
         parts
@@ -125,7 +181,8 @@ impl Following {
                 return false;
             };
             let followed = part.followed.as_ref();
-            followed.is_some_and(|followed| followed.moved(warmed.state(k), now.nodes))
+            part.opened(warmed.air.get(k), now.nodes).is_some()
+                || followed.is_some_and(|own| own.moved(warmed.state(k), now.nodes, now.spin))
         };
         warmed.broken.is_none() && self.parts.iter().enumerate().any(moved)
     }
@@ -140,20 +197,30 @@ impl Following {
     ) -> Option<Box<RotorMachine>> {
         let mut constants = machine.constants.clone();
         warmed.parts.resize(self.parts.len(), None);
+        warmed.air.resize(self.parts.len(), 0.0);
         for (k, part) in self.parts.iter().enumerate() {
             let (Some(part), Some(now)) = (part, now(k)) else {
                 continue;
             };
+            if let Some(gained) = part.opened(warmed.air.get(k), now.nodes) {
+                let clearance = &mut constants.bearings[k].contact.radial_clearance;
+                *clearance += gained - warmed.air[k];
+                warmed.air[k] = gained;
+                if *clearance <= 0.0 {
+                    warmed.broken = Some((time, "the rotor fills its air clearance".to_string()));
+                    return None;
+                }
+            }
             if let Some(friction) = &part.friction {
                 constants.bearings[k].contact.friction = friction.at(now.contact);
             }
             let due = |part: &&FollowedBearing| {
-                warmed.broken.is_none() && part.moved(warmed.parts[k], now.nodes)
+                warmed.broken.is_none() && part.moved(warmed.parts[k], now.nodes, now.spin)
             };
             let Some(followed) = part.followed.as_ref().filter(due) else {
                 continue;
             };
-            match followed.renewed(&mut warmed.parts[k], now.nodes, time) {
+            match followed.renewed(&mut warmed.parts[k], (now.nodes, now.spin), time) {
                 Ok(of_bearing) => constants.bearings[k].bearing = of_bearing,
                 Err(why) => {
                     warmed.broken = Some((time, why));

@@ -103,8 +103,8 @@ fn hits_harder(
     let before = context.record(bearing).peak_contact_force()?.value;
     let on = on(name);
     let part = &found.built.parts[bearing];
-    let most = found.rows(bearing).map(|row| row.largest_ball_load);
-    let most = part.largest_pressure(most.fold(0.0, f64::max));
+    let most = found.rows(bearing).map(|row| row.largest_pressure);
+    let most = most.fold(0.0, f64::max);
     let share = (most / part.pressure_limit).powi(3);
     (force > before).then(|| {
         warning(

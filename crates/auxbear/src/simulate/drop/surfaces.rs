@@ -2,9 +2,10 @@
 
 use crate::result::list::{List, NOT_GIVEN, Origin};
 use crate::result::outcome::{Value, Warning, warning};
-use crate::simulate::bearing::severity::STEEL_CHANGES;
+use crate::simulate::bearing::severity::{STEEL_CHANGES, wide_line};
 use crate::simulate::drop::context::Context;
 use model::surface_heat::SurfaceHeat;
+use physics::heat_exchange::line_half_width;
 use physics::severity::wear_volume_by_energy;
 use std::f64::consts::PI;
 
@@ -86,10 +87,19 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
 
 /// Surfaces that became so hot, or were heated at one place so long, that their numbers do not hold.
 pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
-    let Some(heat) = context.record(k).heat.as_deref() else {
+    let record = context.record(k);
+    let Some(heat) = record.heat.as_deref() else {
         return Vec::new();
     };
-    let mut list = Vec::new();
+    let constants = &context.machine.constants.bearings[k];
+    let contact = &constants.contact;
+    let wide =
+        (constants.surfaces.as_ref().zip(record.peak_contact_force())).and_then(|(own, peak)| {
+            let (bore, clearance) = (contact.bore_radius, contact.radial_clearance);
+            let half = line_half_width(peak.value, bore, clearance, own.length, own.modulus);
+            Some((half / bore, wide_line(half, bore, clearance)?))
+        });
+    let mut list: Vec<_> = wide.into_iter().collect();
     let rise = heat.contact.value;
     if rise > STEEL_CHANGES {
         let text = format!(
@@ -116,8 +126,8 @@ const PATCH: Origin = Origin {
     law: "rise of both surfaces in the patch of a Hertz line contact, mean over the patch at its hottest edge: surface layers and flash, \
           friction heat divided so that both sides are equally hot",
     source: FILE,
-    valid: "30 % by the width of the patch; a factor 2 where tilt or wear has changed its shape; asperities are hotter; friction does not \
-            follow it",
+    valid: "30 % by the width of the patch; a factor 2 where tilt or wear has changed its shape; asperities are hotter; chaotic after \
+            several contacts, within a factor of 2 (--repeat)",
 };
 const INDEX: Origin = Origin {
     law: "contact_temperature_rise over 500 K",
@@ -127,7 +137,7 @@ const INDEX: Origin = Origin {
 const SURFACE: Origin = Origin {
     law: "largest rise of the surface, averaged over the track that the patch has swept",
     source: FILE,
-    valid: "runs up to 2 s: the layer gives nothing to the metal behind it",
+    valid: "runs up to 2 s: the layer gives nothing to the metal behind it; chaotic after several contacts, within a factor of 2 (--repeat)",
 };
 const SHARE: Origin = Origin {
     law: "friction heat that went into this body; both add to rotor_race_friction_energy",

@@ -14,7 +14,7 @@ use crate::simulate::coast_down::rows::BallsSeen;
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
-use crate::simulate::drop::feedback::friction;
+use crate::simulate::drop::feedback::{AirClearance, friction};
 use crate::simulate::drop::method;
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, HEATS};
@@ -101,6 +101,8 @@ struct Batch {
     drag_factors: Vec<f64>,
     /// Of the inner races, rad/s.
     spins: Vec<f64>,
+    /// Mean forces of the rotor on them, N.
+    forces: Vec<f64>,
     rotor: f64,
     /// Turns of the rotor about each inner race, with its spin.
     whirl: Vec<f64>,
@@ -287,6 +289,9 @@ impl<'a> Way<'a> {
                 .map(|record| record.whirl_turns * state[spin].signum())
                 .collect(),
             balls,
+            forces: (bearings.iter())
+                .map(|record| record.impulse / span)
+                .collect(),
             ways: (bearings.iter())
                 .map(|record| TAU * record.travel.way / record.travel.turned)
                 .collect(),
@@ -348,6 +353,7 @@ impl<'a> Way<'a> {
             peaks: Vec::new(),
             rises: Vec::new(),
             balls: Vec::new(),
+            forces: Vec::new(),
             whirl: Vec::new(),
             ways: Vec::new(),
             drag_factors,
@@ -358,12 +364,12 @@ impl<'a> Way<'a> {
 }
 
 /// What the mean powers of a window say beside the laws at its speed and temperatures, and what heats the nodes besides, W: of powers as
-/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, and what brakes the rotor besides its drag, W.
+/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, the mean forces of the rotor on them, N, and what brakes the rotor besides its drag, W.
 fn beside_laws(
     built: &Built,
     powers: &[f64],
     nodes: &[f64],
-    [drag_factors, spins]: [&[f64]; 2],
+    [drag_factors, spins, forces]: [&[f64]; 3],
     rotor: f64,
 ) -> (Followed, Vec<f64>) {
     let start = &built.start;
@@ -393,6 +399,7 @@ fn beside_laws(
             factors: [factor(first, laws[0]), factor(second, laws[1])],
             beside: sides * (steady - first - second + other) / start.speed,
             spin: spins[k] / (part.losses.ratio * start.speed),
+            force: forces[k],
         });
     }
     let followed = Followed {
@@ -476,7 +483,8 @@ fn mean(
     let drag_factors = of(batches.iter().map(|batch| &batch.drag_factors).collect());
     let rotor = batches.iter().map(|batch| batch.rotor).sum::<f64>() / count;
     let spins = of(batches.iter().map(|batch| &batch.spins).collect());
-    let of_bearings = [drag_factors.as_slice(), spins.as_slice()];
+    let forces = of(batches.iter().map(|batch| &batch.forces).collect());
+    let of_bearings = [&drag_factors, &spins, &forces].map(Vec::as_slice);
     let (followed, beside) = beside_laws(built, &powers, &nodes, of_bearings, rotor);
     let whirl = of(batches.iter().map(|batch| &batch.whirl).collect());
     let largest = |of: fn(&Batch) -> &Vec<f64>| -> Vec<f64> {
@@ -529,13 +537,18 @@ fn conditioned(drop: &Drop, built: &Built) -> Drop {
     let mut warm = drop.clone();
     warm.rotor.speed = built.start.speed * drop.rotor.speed.signum();
     let temperatures = built.start.temperatures.chunks(NODES.len());
-    for (part, temperatures) in warm.auxiliary_bearings.iter_mut().zip(temperatures) {
+    let bearings = warm.auxiliary_bearings.iter_mut().zip(&built.parts);
+    for ((part, rolling), temperatures) in bearings.zip(temperatures) {
         part.contact.friction_coefficient = friction(part, temperatures);
+        if let Some(air) = AirClearance::of(part) {
+            part.contact.radial_air_clearance += air.gained(temperatures);
+        }
         let (Some(heat), Some(bearing)) = (&part.warm, &mut part.bearing) else {
             continue;
         };
         if let Some(follows) = Follows::of(heat, bearing) {
-            follows.condition(bearing, temperatures);
+            let race = rolling.losses.ratio * built.start.speed;
+            follows.condition(bearing, temperatures, race);
         }
     }
     warm

@@ -34,6 +34,8 @@ const MEANINGS: [&str; PROBES.len()] = [
     "largest ball load at the outer race",
     "",
     "",
+    "",
+    "",
 ];
 
 /// All columns; `time` first.

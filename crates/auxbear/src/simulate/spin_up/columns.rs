@@ -25,6 +25,8 @@ const MEANINGS: [&str; PROBES.len()] = [
     "largest ball load at the outer race",
     "largest force of a cage pocket, or between neighbouring balls without a cage",
     "normal force of cage and land",
+    "",
+    "",
 ];
 
 /// All columns; `time` first.

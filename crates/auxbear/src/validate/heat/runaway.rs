@@ -95,7 +95,7 @@ impl Bounds {
 }
 
 fn closing(machine: &SteadySpeed<WarmBearings>, state: &Warming) -> (f64, f64) {
-    (machine.losses.closing(&state.temperatures)).unwrap_or((f64::NAN, f64::NAN))
+    (machine.losses.closing(machine.speed, &state.temperatures)).unwrap_or((f64::NAN, f64::NAN))
 }
 
 /// The first state after a step's start at which something holds that holds at its end.

@@ -8,7 +8,8 @@ use super::travel::Travel;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
     BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-    MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED, SLIP_SPEED,
+    LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED,
+    SLIP_SPEED,
 };
 use crate::bearing::BearingConstants;
 use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
@@ -65,6 +66,8 @@ pub struct BearingRecord {
     pub whirl_turns: f64,
     /// Way of the rotor's geometric centre against that of the inner race.
     pub travel: Travel,
+    /// ∫N dt of the normal force of rotor and race, N s.
+    pub impulse: f64,
     /// Turns of the inner race, of either sense.
     pub turns: f64,
     /// Sum of the cube of the load on the bearing over them, N³.
@@ -162,6 +165,7 @@ impl BearingRecord {
             mount_displacement: Peak::NONE,
             whirl_turns: 0.0,
             travel: Travel::default(),
+            impulse: 0.0,
             turns: 0.0,
             cubed_load_turns: 0.0,
             races: (!part.is_bushing()).then(|| RaceRecord::new(part.bearing.balls(), speed)),
@@ -213,6 +217,10 @@ impl BearingRecord {
     }
     pub(super) fn contacts_of(&mut self, step: &mut Step<RotorMachine>) {
         let (at, bearing) = (self.at, self.bearing);
+        // it may follow the temperatures
+        self.clearance = step.machine.constants.bearings[bearing]
+            .contact
+            .radial_clearance;
         let (start, end) = (
             step.start_probe(at.probe(PENETRATION)),
             step.end_probe(at.probe(PENETRATION)),
@@ -364,6 +372,8 @@ impl BearingRecord {
             }
         }
         self.last_forces = (start, length);
+        let normal = at.probe(NORMAL_FORCE);
+        self.impulse += 0.5 * length * (step.start_probe(normal) + step.end_probe(normal));
         let spins = [step.start_state(at.inner + 5), step.end_state(at.inner + 5)];
         let share = length / (4.0 * PI);
         for (spin, forces) in spins.into_iter().zip([start, end]) {
@@ -456,7 +466,8 @@ impl BearingRecord {
     pub(super) fn balls_of(&mut self, step: &mut Step<RotorMachine>) {
         let (machine, time) = (step.machine, step.end);
         let load = step.end_probe(self.at.probe(LARGEST_INNER_LOAD));
-        if (self.races.as_mut()).is_some_and(|races| races.is_due(time, load)) {
+        let skids = [0, 1].map(|race: usize| step.end_probe(self.at.probe(LARGEST_SKIDS + race)));
+        if (self.races.as_mut()).is_some_and(|races| races.is_due(time, load, skids)) {
             self.look(machine, time, step.state(1.0));
         }
     }
@@ -492,6 +503,7 @@ impl BearingRecord {
             spin: state(self.at.inner + 5),
             drag_factor: part.bearing.drag_factor(&|own| state(first + own)),
             taken: self.heat.as_ref().map(|heat| heat.taken()),
+            impulse: Some(self.impulse),
         };
         warmth.take(warm, &seen);
     }

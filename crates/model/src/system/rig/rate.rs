@@ -17,9 +17,9 @@ use super::layout::{
     ACCELERATION, ARM, BEARING_HEAT, BEARING_LOAD, BELT_DRAG, BELT_HEAT, CAGE_SLIP, CAGE_SPEED,
     CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_SLIP, CLUTCH_TORQUE, DETAIL, DISTURBANCE, FLYWHEEL,
     FLYWHEEL_ACCELERATION, HEATS, HOUSING, INNER_LOAD_SUM, INNER_MOMENT, LAND_FORCE,
-    LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, MOMENTUM_RATE, MOTOR_TORQUE,
-    OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG, SUPPORT_HEAT, TEMPERATURE, THERMOCOUPLE,
-    bearing_impulse,
+    LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, MOMENTUM_RATE,
+    MOTOR_TORQUE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG, SUPPORT_HEAT, TEMPERATURE,
+    THERMOCOUPLE, bearing_impulse,
 };
 use super::{Clutch, Mode, RigMachine};
 use crate::bearing::{self, Bearing, POCKET_FRICTION};
@@ -259,6 +259,8 @@ impl RigMachine {
             show(LARGEST_OUTER_LOAD, plain(bearing.largest_outer_load));
             show(LARGEST_POCKET_FORCE, plain(bearing.largest_pocket_force));
             show(LAND_FORCE, plain(bearing.land_force));
+            show(LARGEST_SKIDS, plain(bearing.largest_skids[0]));
+            show(LARGEST_SKIDS + 1, plain(bearing.largest_skids[1]));
         }
     }
 }

@@ -6,7 +6,8 @@
 
 use super::layout::{
     ACCELERATION, BEARING, CAGE_SLIP, CLUTCH_TORQUE, INNER_MOMENT, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, TEMPERATURE,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
+    TEMPERATURE,
 };
 use super::mode::ClutchEvent;
 use super::rate::race_motion;
@@ -195,7 +196,7 @@ impl<'a> Observer<Segment<'a>> for Record {
         let bearing = (
             &machine.constants.bearing,
             machine.layout().bearing(),
-            LARGEST_INNER_LOAD,
+            [LARGEST_INNER_LOAD, LARGEST_SKIDS],
         );
         self.races.watch(step, bearing, race_motion);
         self.taps.sample(step);

@@ -66,8 +66,10 @@ pub const LARGEST_OUTER_LOAD: usize = 13;
 pub const LARGEST_POCKET_FORCE: usize = 14;
 /// Probe: force between cage and land, N.
 pub const LAND_FORCE: usize = 15;
+/// First probe of the largest u²Q of a ball at both races, (m/s)² N.
+pub const LARGEST_SKIDS: usize = 16;
 /// First probe of the bearing's detail.
-pub const DETAIL: usize = 16;
+pub const DETAIL: usize = 18;
 
 /// Names and units of the probes before the detail.
 pub const PROBES: [(&str, &str); DETAIL] = [
@@ -87,6 +89,8 @@ pub const PROBES: [(&str, &str); DETAIL] = [
     ("bearing.outer_race.largest_ball_load", "N"),
     ("bearing.cage.largest_pocket_force", "N"),
     ("bearing.cage.land_force", "N"),
+    ("bearing.inner_race.largest_skid", "m^2 N/s^2"),
+    ("bearing.outer_race.largest_skid", "m^2 N/s^2"),
 ];
 
 /// Names of the channels before the bearing's.

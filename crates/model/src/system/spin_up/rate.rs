@@ -16,7 +16,8 @@
 use super::layout::{
     ACCELERATION, APPLIED_LOAD, BEARING_LOAD, CAGE_SLIP, CAGE_SPEED, DETAIL, DRIVE_MOMENT,
     FRICTION_FORCE, HEATS, INNER, INNER_LOAD_SUM, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, ROTOR, ROTOR_SLIP, STEADY_MOMENT,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, OUTER_MOMENT, ROTOR, ROTOR_SLIP,
+    STEADY_MOMENT,
 };
 use super::{DriveKind, Mode, SpinUp};
 use crate::bearing::POCKET_FRICTION;
@@ -212,6 +213,7 @@ impl<R: Real> SpinUp<R> {
             probe[LARGEST_OUTER_LOAD] = bearing.largest_outer_load;
             probe[LARGEST_POCKET_FORCE] = bearing.largest_pocket_force;
             probe[LAND_FORCE] = bearing.land_force;
+            probe[LARGEST_SKIDS..][..2].copy_from_slice(&bearing.largest_skids);
         }
     }
 }

@@ -7,7 +7,7 @@
 use super::SpinUpMachine;
 use super::layout::{
     BEARING, CAGE_SLIP, DRIVE_MOMENT, INNER, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, OUTER_MOMENT, STEADY_MOMENT,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, OUTER_MOMENT, STEADY_MOMENT,
 };
 use super::rate::race_motion;
 use crate::bearing::BearingConstants;
@@ -141,7 +141,7 @@ impl Observer<SpinUpMachine> for Record {
         let bearing = (
             &machine.constants.bearing,
             machine.layout().bearing(),
-            LARGEST_INNER_LOAD,
+            [LARGEST_INNER_LOAD, LARGEST_SKIDS],
         );
         self.races.watch(step, bearing, race_motion);
         self.rows.sample(step, SpinUpMachine::content);
