@@ -23,7 +23,6 @@ mod shipped;
 mod source_text;
 mod suites;
 mod toolchain;
-mod validation_cases;
 
 use std::process::ExitCode;
 

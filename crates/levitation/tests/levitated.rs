@@ -1,6 +1,6 @@
 //! The levitated rotor of an independent implementation: eigenvalues, sensitivity, unbalance, impulse, static position, start of a drop.
 //!
-//! Source: `shared/cases/reference/machine_levitated.json` and `machine_drop_flexible.json`; tolerances are those of the files, for
+//! Source: `validation/cases/reference/machine_levitated.json` and `machine_drop_flexible.json`; tolerances are those of the files, for
 //! all coordinates of the rotor and for a reduced basis.
 
 #[path = "../../rotor/tests/published/mod.rs"]

@@ -1,6 +1,6 @@
 //! Eigenvalues, critical speeds, response to unbalance, sag and reduction against another program and closed forms.
 //!
-//! Source: ROSS 2.3.0 (files of `shared/cases/rotor`); values in 40 digits of the 52-element rotor.
+//! Source: ROSS 2.3.0 (files of `validation/cases/rotor`); values in 40 digits of the 52-element rotor.
 
 mod published;
 
@@ -22,9 +22,6 @@ fn lateral(entry: &Value) -> Vec<C64> {
 
 #[test]
 fn eigenvalues_are_those_of_the_files() {
-    if published::absent() {
-        return;
-    }
     for name in NAMES {
         let Case { rotor, file } = case(name);
         let analysis = Analysis::full(&rotor).unwrap();
@@ -47,9 +44,6 @@ fn eigenvalues_are_those_of_the_files() {
 
 #[test]
 fn bending_modes_of_the_52_element_rotor_agree_with_40_digits() {
-    if published::absent() {
-        return;
-    }
     let Case { mut rotor, .. } = case("ross_amb_rotor_freefree");
     rotor.supports.clear();
     for element in &mut rotor.elements {
@@ -72,9 +66,6 @@ fn bending_modes_of_the_52_element_rotor_agree_with_40_digits() {
 
 #[test]
 fn critical_speeds_are_those_of_the_files() {
-    if published::absent() {
-        return;
-    }
     let mut seen = 0;
     for name in NAMES {
         let Case { rotor, file } = case(name);
@@ -111,9 +102,6 @@ fn critical_speeds_are_those_of_the_files() {
 
 #[test]
 fn responses_to_unbalance_are_those_of_the_files() {
-    if published::absent() {
-        return;
-    }
     let mut seen = 0;
     for name in NAMES {
         let Case { rotor, file } = case(name);
@@ -161,9 +149,6 @@ fn responses_to_unbalance_are_those_of_the_files() {
 
 #[test]
 fn sag_and_loads_are_those_of_the_file() {
-    if published::absent() {
-        return;
-    }
     let Case { rotor, file } = case("ross_rotor_example");
     let gravity = C64::new(0.0, -9.8065);
     let sag = rotor::sag(&rotor, 0.0, gravity).unwrap();
@@ -194,9 +179,6 @@ fn sag_and_loads_are_those_of_the_file() {
 fn whirl_and_its_sign_are_those_of_a_disk() {
     // A disk on a short stiff shaft of no weight to speak of: the tilting mode of a free body, ω = 0 backward and
     // Ω I_p/I_d forward.
-    if published::absent() {
-        return;
-    }
     let Case { mut rotor, .. } = case("ross_amb_rotor_freefree");
     rotor.supports.clear();
     for element in &mut rotor.elements {
@@ -221,9 +203,6 @@ fn whirl_and_its_sign_are_those_of_a_disk() {
 #[test]
 fn rotating_damping_destabilises_above_the_critical_speed() {
     // Jeffcott: stable while Ω < ω(1 + c_e/c_i); with no other damping that is the critical speed itself.
-    if published::absent() {
-        return;
-    }
     let Case { mut rotor, .. } = case("ross_friswell_5_9_1_isotropic");
     for element in &mut rotor.elements {
         element.damping_rotating = 1e-5;
@@ -238,9 +217,6 @@ fn rotating_damping_destabilises_above_the_critical_speed() {
 
 #[test]
 fn the_reduced_rotor_says_what_the_whole_one_does() {
-    if published::absent() {
-        return;
-    }
     let Case { mut rotor, .. } = case("ross_amb_rotor_freefree");
     for support in &mut rotor.supports {
         support.coefficients = rotor::Coefficients::constant(rotor::Block::equal(2e5, 100.0));
@@ -289,9 +265,6 @@ fn the_reduced_rotor_says_what_the_whole_one_does() {
 
 #[test]
 fn more_modes_than_there_are_and_a_free_rotor_are_refused() {
-    if published::absent() {
-        return;
-    }
     let Case { mut rotor, .. } = case("ross_rotor_example");
     let analysis = Analysis::full(&rotor).unwrap();
     assert!(matches!(
@@ -309,9 +282,6 @@ fn more_modes_than_there_are_and_a_free_rotor_are_refused() {
 
 #[test]
 fn the_stiffness_map_meets_the_campbell_diagram() {
-    if published::absent() {
-        return;
-    }
     let Case { rotor, file } = case("ross_friswell_5_9_1_isotropic");
     let analysis = Analysis::full(&rotor).unwrap();
     let map = rotor::stiffness_map(&rotor, &analysis.basis, &[1e6], 4).unwrap();

@@ -33,7 +33,7 @@ pub fn complex(value: &Value) -> C64 {
 impl File {
     fn read(name: &str, beta: &str) -> Self {
         let path = format!(
-            "{}/../../../shared/cases/reference/{name}.json",
+            "{}/../../validation/cases/reference/{name}.json",
             env!("CARGO_MANIFEST_DIR")
         );
         let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! Rotors of the files in `shared/cases/rotor` beside the repository, as this crate's parts.
+//! Rotors of the files in `validation/cases/rotor`, as this crate's parts.
 #![allow(dead_code)] // each test uses its part
 
 use nalgebra::DMatrix;
@@ -27,16 +27,7 @@ pub struct Case {
 }
 
 fn folder() -> &'static str {
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/cases/rotor")
-}
-
-/// Whether the files are not here, outside the reference's own place.
-pub fn absent() -> bool {
-    let absent = !std::path::Path::new(folder()).is_dir();
-    if absent {
-        println!("NOT RUN: {} is absent", folder());
-    }
-    absent
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../../validation/cases/rotor")
 }
 
 pub fn json(name: &str) -> Value {
