@@ -13,6 +13,8 @@ def shown(what: str, wish: bool | Progress | None) -> tuple[Progress | None, Cal
     """What is told the share done, from 0 to 1, and what ends the line."""
     if callable(wish):
         return wish, lambda: None
+    if wish is not None and not isinstance(wish, bool):
+        raise TypeError(f"progress: a function, True, False or None is needed, not {wish!r}")
     is_watched = sys.stderr is not None and (sys.stderr.isatty() or "ipykernel" in sys.modules)
     if not (is_watched if wish is None else wish):
         return None, lambda: None

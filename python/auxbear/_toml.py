@@ -9,16 +9,16 @@ from typing import Any
 
 def value(of: Any) -> str:
     """One value as TOML: texts, numbers, switches, lists, tables, and quantities of pint."""
+    if hasattr(of, "magnitude") and hasattr(of, "units"):
+        return json.dumps(_quantity(of), ensure_ascii=False)
+    if hasattr(of, "tolist"):  # NumPy: a scalar, which may pass for a float of Python, or an array
+        of = of.tolist()
     if isinstance(of, bool):
         return "true" if of else "false"
     if isinstance(of, str):
         return json.dumps(of, ensure_ascii=False)
     if isinstance(of, (int, float)):
         return repr(of)
-    if hasattr(of, "magnitude") and hasattr(of, "units"):
-        return json.dumps(_quantity(of), ensure_ascii=False)
-    if hasattr(of, "tolist"):  # NumPy: a scalar or an array
-        return value(of.tolist())
     if isinstance(of, Mapping):
         return "{" + ", ".join(f"{_key(key)} = {value(item)}" for key, item in of.items()) + "}"
     if isinstance(of, Sequence):

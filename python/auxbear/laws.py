@@ -1,7 +1,7 @@
 """Laws over NumPy arrays.
 
-Every argument is a number or an array in SI; arrays are brought to one shape by NumPy's rules, and results have that shape. The
-laws are those of a run; the book tells their sources and ranges.
+Every argument is a number or an array in SI, a text with its unit, or a quantity of pint; arrays are brought to one shape by
+NumPy's rules, and results have that shape. The laws are those of a run; the book names their sources and ranges.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 import numpy
 import numpy.typing
 
-from auxbear import _auxbear
+from auxbear import _auxbear, _si
 
 Numbers = numpy.typing.ArrayLike
 Array = numpy.typing.NDArray[numpy.float64]
@@ -74,7 +74,14 @@ def hertz(
     - ``contact_modulus``: E* of 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, Pa
     - ``contact_angle``: rad
     """
-    given = (load, ball_diameter, pitch_diameter, groove_curvature, contact_angle, contact_modulus)
+    given = (
+        (load, "N"),
+        (ball_diameter, "m"),
+        (pitch_diameter, "m"),
+        (groove_curvature, "1"),
+        (contact_angle, "rad"),
+        (contact_modulus, "Pa"),
+    )
     return Hertz(*_each(_auxbear.hertz, given, _is_inner(race)))
 
 
@@ -102,16 +109,16 @@ def film(
     - the others: as of ``hertz``
     """
     given = (
-        entrainment,
-        load,
-        ball_diameter,
-        pitch_diameter,
-        groove_curvature,
-        contact_angle,
-        contact_modulus,
-        viscosity,
-        pressure_coefficient,
-        supply,
+        (entrainment, "m/s"),
+        (load, "N"),
+        (ball_diameter, "m"),
+        (pitch_diameter, "m"),
+        (groove_curvature, "1"),
+        (contact_angle, "rad"),
+        (contact_modulus, "Pa"),
+        (viscosity, "Pa s"),
+        (pressure_coefficient, "1/Pa"),
+        (supply, "1"),
     )
     return Film(*_each(_auxbear.film, given, _is_inner(race)))
 
@@ -138,14 +145,14 @@ def palmgren(
     - ``static_load_rating``: C0, N
     """
     given = (
-        speed,
-        load,
-        viscous_factor,
-        viscosity,
-        pitch_diameter,
-        load_factor,
-        load_exponent,
-        static_load_rating,
+        (speed, "rad/s"),
+        (load, "N"),
+        (viscous_factor, "1"),
+        (viscosity, "m^2/s"),
+        (pitch_diameter, "m"),
+        (load_factor, "1"),
+        (load_exponent, "1"),
+        (static_load_rating, "N"),
     )
     return Moment(*_each(_auxbear.palmgren, given))
 
@@ -179,24 +186,26 @@ def skf(
     - ``drag``: of an oil bath per squared speed, N mm/rpm²
     - ``seal_moment``: of both seals, N m
     """
-    factors = (*rolling_factors, *sliding_factors)
+    factors: list[Any] = [*rolling_factors, *sliding_factors]
     is_deep_groove = static_load_rating is not None
     if is_deep_groove and len(factors) == 4:
-        factors = (*factors, static_load_rating, 0.0)
+        factors += [static_load_rating, 0.0]
     elif is_deep_groove or len(factors) != 6:
         raise ValueError("R1, R2, S1, S2 with static_load_rating, or R1, R2, R3, S1, S2, S3 without it, are needed")
     given = (
-        speed,
-        radial_load,
-        axial_load,
-        mean_diameter,
-        viscosity,
-        starvation,
-        boundary_friction,
-        film_friction,
-        drag,
-        seal_moment,
-        *factors,
+        (speed, "rad/s"),
+        (radial_load, "N"),
+        (axial_load, "N"),
+        (mean_diameter, "m"),
+        (viscosity, "m^2/s"),
+        (starvation, "1"),
+        (boundary_friction, "1"),
+        (film_friction, "1"),
+        (drag, "1"),
+        (seal_moment, "N m"),
+        *((factor, "1") for factor in factors[:4]),
+        (factors[4], "N" if is_deep_groove else "1"),
+        (factors[5], "1"),
     )
     return Moment(*_each(_auxbear.skf, given, is_deep_groove))
 
@@ -215,7 +224,12 @@ def race_acceleration(
     - ``drive_moment``: bore radius times friction coefficient times load, N m
     - ``steady_moment``: N m
     """
-    given = (race_inertia, set_inertia, drive_moment, steady_moment)
+    given = (
+        (race_inertia, "kg m^2"),
+        (set_inertia, "kg m^2"),
+        (drive_moment, "N m"),
+        (steady_moment, "N m"),
+    )
     return _each(_auxbear.race_acceleration, given)[0]
 
 
@@ -225,7 +239,11 @@ def _is_inner(race: str) -> bool:
     return race == "inner"
 
 
-def _each(law: Callable[..., list[Any]], given: tuple[Numbers, ...], *more: bool) -> list[Any]:
-    arrays = numpy.broadcast_arrays(*(numpy.asarray(one, dtype=float) for one in given))
+def _each(law: Callable[..., list[Any]], given: tuple[tuple[Numbers, str], ...], *more: bool) -> list[Any]:
+    values = [_si.number(value, unit) for value, unit in given]
+    if all(isinstance(value, (float, int)) for value in values):
+        # a place alone needs no arrays, which would take longer than the law
+        return [found.reshape(()) for found in law(values, *more)]
+    arrays = numpy.broadcast_arrays(*(numpy.asarray(value, dtype=float) for value in values))
     flat = [numpy.ascontiguousarray(array).ravel() for array in arrays]
     return [found.reshape(arrays[0].shape) for found in law(flat, *more)]

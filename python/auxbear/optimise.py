@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from auxbear import _auxbear
+from auxbear import _si
 from auxbear.result import Evaluated, unknown
 from auxbear.scenario import Scenario
 
@@ -43,7 +43,7 @@ class Question:
     """What is asked of every candidate.
 
     - ``minimise``, ``maximise``: names of results, the objectives in this order
-    - ``at_most``, ``at_least``: limits by the names of results, numbers in SI or texts with a unit
+    - ``at_most``, ``at_least``: limits by the names of results, numbers in SI, texts with a unit or quantities of pint
     - ``draws``: changes that scatter, a dict of paths and values each; by default the scenario as it is
     """
 
@@ -53,8 +53,8 @@ class Question:
         *,
         minimise: Sequence[str] = (),
         maximise: Sequence[str] = (),
-        at_most: Mapping[str, float | str] | None = None,
-        at_least: Mapping[str, float | str] | None = None,
+        at_most: Mapping[str, Any] | None = None,
+        at_least: Mapping[str, Any] | None = None,
         draws: Sequence[Mapping[str, Any]] = ({},),
     ) -> None:
         self._scenario = scenario.copy()
@@ -75,7 +75,8 @@ class Question:
     def ask(self, candidates: Sequence[Mapping[str, Any]], *, threads: int | None = None) -> list[Answer]:
         """Runs every candidate with every draw, side by side, and returns an answer each.
 
-        A candidate is a dict of paths and values. One that is refused, or fails, is an answer with the reasons.
+        A candidate is a dict of paths and values. One whose run fails, or whose values are out of range, is an answer with the
+        reasons; an unknown key or a number without its unit raises ``Problem``.
         """
         changes = [{**candidate, **draw} for candidate in candidates for draw in self._draws]
         evaluated = self._scenario.evaluate(changes, threads=threads)
@@ -95,7 +96,7 @@ class Question:
         constraints = []
         for name, limit, sign in self._limits:
             mean, _ = _mean(evaluated, name, rows)
-            most = _auxbear.number_in(limit, evaluated.table.units[name]) if isinstance(limit, str) else float(limit)
+            most = float(_si.number(limit, evaluated.table.units[name]))
             constraints.append(sign * (mean - most) / (abs(most) or 1.0))
         return Answer(objectives, noise, constraints, failed)
 

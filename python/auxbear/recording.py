@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from auxbear import _auxbear
+from auxbear import _auxbear, _si
 
 if TYPE_CHECKING:
     import numpy.typing
@@ -49,11 +49,9 @@ class Recording:
 
         if (interval is None) == (time is None):
             raise TypeError("either interval or time is needed")
-        first = 0.0
+        first, step = 0.0, _si.number(interval, "s")
         if time is not None:
-            first, interval = _clock(numpy.asarray(time, dtype=float))
-        elif isinstance(interval, str):
-            interval = _auxbear.number_in(interval, "s")
+            first, step = _clock(numpy.asarray(time, dtype=float))
         units = units or {}
         unknown = set(units) - set(channels)
         if unknown:
@@ -70,7 +68,7 @@ class Recording:
         self._remove = weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self._path = Path(folder) / f"recording {next(_numbers)}.tdms"
         self.channels = [name for name, _, _ in given]
-        _auxbear.write_recording(self._path, given, interval, first)
+        _auxbear.write_recording(self._path, given, step, first)
 
     def __fspath__(self) -> str:
         return str(self._path)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import difflib
 import html
 import json
-from collections.abc import Iterator, Mapping
+import operator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from auxbear import _auxbear
+from auxbear import _auxbear, _si
 
 if TYPE_CHECKING:
     import numpy
@@ -41,8 +42,25 @@ class Spread(NamedTuple):
     members: int
 
 
+def _operator(function: Callable[..., Any], *, of_one_unit: bool, is_swapped: bool = False) -> Any:
+    """An operation of a quantity with another, a number in its unit, or where units have to agree a text with a unit."""
+
+    def operation(self: Quantity, other: Any) -> Any:
+        if isinstance(other, Quantity):
+            if of_one_unit and other.unit != self.unit:
+                raise TypeError(f"{self.name} is in {self.unit or '1'}, {other.name} in {other.unit or '1'}")
+            other = other._plain()
+        elif of_one_unit:
+            other = _si.number(other, self.unit)
+        return function(other, self._plain()) if is_swapped else function(self._plain(), other)
+
+    return operation
+
+
 class Quantity:
-    """A named result: ``float(quantity)``, ``quantity.unit``, ``quantity.law``."""
+    """A named result, which computes, compares and formats as its number: ``float(quantity)``, ``quantity > "700 N"``,
+    ``f"{quantity:.1f}"``, ``quantity.unit``, ``quantity.law``. Lists compute as arrays.
+    """
 
     __slots__ = ("name", "value", "unit", "why", "law", "source", "valid", "chaotic", "spread")
 
@@ -73,6 +91,47 @@ class Quantity:
             return self.value
         raise TypeError(f"{self.name} is no number: {self.value!r}")
 
+    def _plain(self) -> Any:
+        """The number, or the array of a list."""
+        return self.__array__() if isinstance(self.value, list) else float(self)
+
+    __add__ = __radd__ = _operator(operator.add, of_one_unit=True)
+    __sub__ = _operator(operator.sub, of_one_unit=True)
+    __rsub__ = _operator(operator.sub, of_one_unit=True, is_swapped=True)
+    __mul__ = __rmul__ = _operator(operator.mul, of_one_unit=False)
+    __truediv__ = _operator(operator.truediv, of_one_unit=False)
+    __rtruediv__ = _operator(operator.truediv, of_one_unit=False, is_swapped=True)
+    __pow__ = _operator(operator.pow, of_one_unit=False)
+    __lt__ = _operator(operator.lt, of_one_unit=True)
+    __le__ = _operator(operator.le, of_one_unit=True)
+    __gt__ = _operator(operator.gt, of_one_unit=True)
+    __ge__ = _operator(operator.ge, of_one_unit=True)
+
+    def __eq__(self, other: object) -> Any:
+        if isinstance(other, Quantity) and other.unit != self.unit:
+            return False
+        if self.value is None or isinstance(self.value, str) or other is None:
+            return self.value == (other.value if isinstance(other, Quantity) else other)
+        try:
+            return _operator(operator.eq, of_one_unit=True)(self, other)
+        except (TypeError, ValueError):
+            return NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.value)
+
+    def __neg__(self) -> Any:
+        return -self._plain()
+
+    def __abs__(self) -> Any:
+        return abs(self._plain())
+
+    def __round__(self, digits: int | None = None) -> Any:
+        return round(float(self), digits)
+
+    def __format__(self, spec: str) -> str:
+        return format(float(self), spec) if spec else str(self)
+
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray[Any, Any]:
         import numpy
 
@@ -94,7 +153,8 @@ class Table:
 
     Readers of Arrow take it without a copy: ``polars.DataFrame(table)``, ``pyarrow.table(table)``,
     ``pandas.DataFrame.from_arrow(table)``, and DuckDB by its name in a query. Unit and meaning stand in the metadata of the
-    fields, as in the Parquet file. ``table["time"]`` is a NumPy array of shape (rows,).
+    fields, as in the Parquet file. ``table["time"]`` is a NumPy array of shape (rows,), and ``pandas.DataFrame(dict(table))`` has
+    the columns of ``to_pandas()``.
     """
 
     __slots__ = ("_native",)
@@ -132,6 +192,16 @@ class Table:
     def __len__(self) -> int:
         """Number of rows."""
         return self._native.rows()
+
+    def keys(self) -> list[str]:
+        """Names of the columns, so that ``dict(table)`` has their arrays."""
+        return self._native.names()
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray[Any, Any]:
+        # numpy and pandas.DataFrame would take the names for the values
+        raise TypeError(
+            "a table has named columns: table.to_pandas(), pandas.DataFrame.from_arrow(table), or table[name] as an array"
+        )
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._native.__arrow_c_stream__(requested_schema)

@@ -70,6 +70,14 @@ class Scenario:
 
     __copy__ = copy
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> Scenario:
+        # what was read does not change, and recordings are files
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # recordings in memory live as long as this process holds them
+        return Scenario.parse, (self.toml(), self.title or "scenario from Python")
+
     @property
     def system(self) -> str:
         """Name of the system: ``"drop"``, ``"machine"``, ``"spin_up"``, ``"torque"``, ``"rig"``, …"""
@@ -147,7 +155,8 @@ class Scenario:
     ) -> Evaluated:
         """Simulates it once with each of these changes, dicts of paths and values, many side by side.
 
-        Returns a table of results, a row each, and the reasons of the rows that failed; changes that are refused fail so too. The
+        Returns a table of results, a row each, and the reasons of the rows that failed, also of values that are out of range. A
+        path or a value that no run could take, such as an unknown key or a number without its unit, raises ``Problem``. The
         numbers of a row depend on its changes alone.
         """
         given = [[(path, _toml.value(value)) for path, value in change.items()] for change in changes]

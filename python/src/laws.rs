@@ -9,18 +9,26 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-type Given<'py> = Vec<PyReadonlyArray1<'py, f64>>;
+/// What a law is given: an array for each of its arguments, or one number each.
+#[derive(FromPyObject)]
+pub enum Given<'py> {
+    Numbers(Vec<f64>),
+    Arrays(Vec<PyReadonlyArray1<'py, f64>>),
+}
 type Arrays<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 
 /// Evaluates a law of `N` numbers at each place; it gives `M` numbers, or says why there are none.
 fn each<'py, const N: usize, const M: usize>(
     py: Python<'py>,
     given: &Given<'py>,
-    law: impl Fn([f64; N]) -> Result<[f64; M], String>,
+    mut law: impl FnMut([f64; N]) -> Result<[f64; M], String>,
 ) -> PyResult<Arrays<'py>> {
-    let columns = (given.iter())
-        .map(|array| Ok(array.as_slice()?))
-        .collect::<PyResult<Vec<&[f64]>>>()?;
+    let columns: Vec<&[f64]> = match given {
+        Given::Numbers(numbers) => numbers.iter().map(std::slice::from_ref).collect(),
+        Given::Arrays(arrays) => (arrays.iter())
+            .map(|array| Ok(array.as_slice()?))
+            .collect::<PyResult<_>>()?,
+    };
     let columns: [&[f64]; N] = (columns.try_into())
         .map_err(|_| PyValueError::new_err(format!("{N} arrays are needed")))?;
     let count = columns.iter().map(|column| column.len()).min().unwrap_or(0);
@@ -45,16 +53,25 @@ fn race(is_inner: bool) -> Race {
 /// Load, ball and pitch diameter, groove curvature, contact angle, contact modulus.
 #[pyfunction]
 pub fn hertz<'py>(py: Python<'py>, given: Given<'py>, is_inner: bool) -> PyResult<Arrays<'py>> {
+    // the contact costs a hundred times its load: it is built anew where its bodies change
+    let mut built: Option<([f64; 5], PointContact)> = None;
     each(py, &given, |[load, ball, pitch, groove, angle, modulus]| {
-        let place = BallRace {
-            ball_diameter: ball,
-            pitch_diameter: pitch,
-            groove_curvature: groove,
-            contact_angle: angle,
-            race: race(is_inner),
+        let bodies = [ball, pitch, groove, angle, modulus];
+        let contact = match built {
+            Some((before, contact)) if before == bodies => contact,
+            _ => {
+                let place = BallRace {
+                    ball_diameter: ball,
+                    pitch_diameter: pitch,
+                    groove_curvature: groove,
+                    contact_angle: angle,
+                    race: race(is_inner),
+                };
+                PointContact::new(place.curvature(), modulus)
+                    .map_err(|refused| refused.to_string())?
+            }
         };
-        let contact =
-            PointContact::new(place.curvature(), modulus).map_err(|refused| refused.to_string())?;
+        built = Some((bodies, contact));
         Ok([
             contact.approach(load),
             contact.semi_major(load),

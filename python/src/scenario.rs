@@ -3,7 +3,7 @@
 use crate::outcome::Outcome;
 use crate::problem::raised;
 use crate::table::Table;
-use crate::watched::watched;
+use crate::watched::{PATIENCE, watched};
 use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
 use auxbear::problem::explain::explain as page_of;
 use auxbear::run::build;
@@ -82,8 +82,9 @@ impl Scenario {
         threads: Option<NonZeroUsize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Outcome> {
-        let found = watched(py, threads, progress, |options, _| {
-            build(&self.0).map(|machine| machine.run(options))
+        let scenario = self.0.clone();
+        let found = watched(py, threads, progress, PATIENCE, move |options, _| {
+            build(&scenario).map(|machine| machine.run(options))
         })?;
         Outcome::of(
             self.0.clone(),
@@ -100,11 +101,14 @@ impl Scenario {
         threads: Option<NonZeroUsize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Table, BTreeMap<usize, String>)> {
-        let found = watched(py, threads, progress, |options, _| {
-            evaluate(&self.0, &changes, options)
+        let scenario = self.0.clone();
+        let found = watched(py, threads, progress, PATIENCE, move |options, _| {
+            evaluate(&scenario, &changes, options)
         })?;
         // only Ctrl-C interrupts, and that was raised
-        let table = found.unwrap_or_default();
+        let table = found
+            .map_err(|problem| raised(py, problem))?
+            .unwrap_or_default();
         let failed = table.failed.clone();
         Ok((Table::of_members(table)?, failed))
     }

@@ -3,7 +3,7 @@
 use crate::problem::raised;
 use crate::scenario::Scenario;
 use crate::table::Table;
-use crate::watched::watched;
+use crate::watched::{LONG_PATIENCE, PATIENCE, watched};
 use auxbear::report::study::{Directory, part as part_of, read};
 use auxbear::scenario::StudyFile;
 use auxbear::study;
@@ -79,7 +79,7 @@ impl Study {
         threads: Option<NonZeroUsize>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let file = self.0.clone();
-        let done = watched(py, threads, None, |options, _| {
+        let done = watched(py, threads, None, PATIENCE, move |options, _| {
             let study = study::Study::new(file)?;
             // only Ctrl-C interrupts, and that is raised
             part_of(&study, part, options).unwrap_or_else(|| Ok(Vec::new()))
@@ -101,18 +101,24 @@ impl Study {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let file = self.0.clone();
-        let done = watched(py, threads, progress, |options, tell| {
-            let directory = Directory::open(&path, study::Study::new(file)?, add)?;
-            let all = directory.study.members() as f64;
-            directory.run(options, &|members| tell(members / all))
-        })?;
+        let done = watched(
+            py,
+            threads,
+            progress,
+            LONG_PATIENCE,
+            move |options, tell| {
+                let directory = Directory::open(&path, study::Study::new(file)?, add)?;
+                let all = directory.study.members() as f64;
+                directory.run(options, &|members| tell(members / all))
+            },
+        )?;
         done.map(|_| ()).map_err(|problem| raised(py, problem))
     }
 }
 
 /// A study directory that this process alone works on, whose parts are computed elsewhere.
 #[pyclass(frozen)]
-pub struct Parts(Directory);
+pub struct Parts(Arc<Directory>);
 
 #[pymethods]
 impl Parts {
@@ -120,7 +126,8 @@ impl Parts {
     fn open(py: Python<'_>, study: &Study, path: PathBuf, add: usize) -> PyResult<Parts> {
         let file = study.0.clone();
         let opened = py.detach(|| Directory::open(&path, study::Study::new(file)?, add));
-        opened.map(Parts).map_err(|problem| raised(py, problem))
+        let opened = opened.map_err(|problem| raised(py, problem))?;
+        Ok(Parts(Arc::new(opened)))
     }
 
     /// The study as it stands in its directory, and its scenario, as texts.
@@ -142,7 +149,10 @@ impl Parts {
 
     /// Writes what the members say that are there.
     fn finish(&self, py: Python<'_>) -> PyResult<()> {
-        let done = watched(py, None, None, |options, _| self.0.finish(options))?;
+        let directory = self.0.clone();
+        let done = watched(py, None, None, LONG_PATIENCE, move |options, _| {
+            directory.finish(options)
+        })?;
         done.map(|_| ()).map_err(|problem| raised(py, problem))
     }
 }

@@ -87,3 +87,27 @@ def test_skf_has_its_powers_and_signs():
     assert slow[1] / slow[0] == pytest.approx(2.0, rel=1e-3)
     with pytest.raises(ValueError, match="static_load_rating"):
         laws.skf(1.0, 300.0, mean_diameter=36e-3, viscosity=20e-6, rolling_factors=(4.1e-7, 1.7), sliding_factors=(3.73e-3, 14.6))
+
+
+def test_units_are_converted_and_others_refused():
+    pint = pytest.importorskip("pint")
+    units = pint.UnitRegistry()
+    plain = laws.hertz(100.0, **BALL, race="inner")
+    with_units = BALL | {"ball_diameter": units.Quantity(6.6, "mm"), "pitch_diameter": "36 mm"}
+    for load in (units.Quantity(0.1, "kN"), "0.1 kN", numpy.float32(100.0)):
+        found = laws.hertz(load, **with_units, race="inner")
+        assert found.maximum_pressure == pytest.approx(plain.maximum_pressure, rel=1e-12)
+    many = laws.hertz(units.Quantity([0.1, 0.2], "kN"), **BALL, race="inner")
+    assert many.maximum_pressure[0] == pytest.approx(plain.maximum_pressure, rel=1e-12)
+    with pytest.raises(pint.DimensionalityError):
+        laws.hertz(units.Quantity(1.0, "m"), **BALL, race="inner")
+    with pytest.raises(ValueError, match="quantity in N"):
+        laws.hertz("1 m", **BALL, race="inner")
+
+
+def test_bodies_that_change_from_place_to_place_are_each_their_own():
+    diameters = numpy.array([6.6e-3, 6.6e-3, 8e-3, 6.6e-3])
+    many = laws.hertz(50.0, **(BALL | {"ball_diameter": diameters}), race="outer")
+    for place, diameter in enumerate(diameters):
+        one = laws.hertz(50.0, **(BALL | {"ball_diameter": diameter}), race="outer")
+        assert many.stiffness[place] == one.stiffness and one.stiffness.shape == ()

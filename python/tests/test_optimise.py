@@ -112,3 +112,17 @@ def test_a_real_mount_is_chosen():
     study = asked(question, ["minimize"], lambda trial: {"mount.stiffness": f"{trial.suggest_float('k', 1e6, 1e8, log=True)} N/m"}, 2, seed=3)
     # a softer mount is hit less hard
     assert study.best_params["k"] < 3e6
+
+
+def test_a_key_or_a_number_that_no_run_can_take_raises(drop):
+    for change in [{"rotor.mas": "8 kg"}, {"rotor.mass": 8.0}, {"rotor.mass": numpy.float64(8.0)}, {"rotor.mass": "8 m"}]:
+        with pytest.raises(auxbear.Problem, match="rotor.mas"):
+            drop.evaluate([{}, change])
+        with pytest.raises(auxbear.Problem, match="rotor.mas"):
+            Question(drop, minimise=["first_impact_force"]).ask([change])
+
+
+def test_numbers_of_numpy_are_values_of_a_candidate(drop):
+    values = numpy.linspace(0.1, 0.3, 2)
+    table, failed = drop.evaluate([{"contact.friction_coefficient": value} for value in values])
+    assert not failed and numpy.isfinite(table["first_impact_force"]).all()

@@ -63,10 +63,14 @@ def test_a_history_goes_to_readers_of_arrow(result):
 
 
 def test_a_history_goes_to_pandas(result):
-    pytest.importorskip("pandas")
+    pandas = pytest.importorskip("pandas")
     frame = result.to_pandas()
     assert list(frame.columns) == result.history.columns
     assert frame.attrs["units"]["time"] == "s"
+    pandas.testing.assert_frame_equal(pandas.DataFrame(dict(result.history)), frame)
+    for wrong in (pandas.DataFrame, numpy.asarray):
+        with pytest.raises(TypeError, match="to_pandas"):
+            wrong(result.history)
 
 
 def test_a_run_directory_is_that_of_the_command(drop, result, tmp_path):
@@ -103,3 +107,19 @@ def test_repeated_runs_have_members_and_spread(drop):
     assert forces[0] == float(repeated["first_impact_force"])
     assert repeated["first_impact_force"].spread.members == 8
     assert drop.run().members is None
+
+
+def test_a_result_computes_compares_and_formats(result):
+    force, time = result["first_impact_force"], result["time_to_first_contact"]
+    value = float(force)
+    assert force + 1 == 1 + force == value + 1 and 2 * force == force + force and force - 1.0 == -(1.0 - force)
+    assert force / 2 == value / 2 and force * time == value * float(time) and force**2 == value**2
+    assert force > "1 N" and force < "1e9 N" and not force > value and force == value and force != value + 1
+    assert f"{force:.1f}" == f"{value:.1f}" and f"{force}".endswith(" N") and round(force, 1) == round(value, 1)
+    assert max(force, result["peak_contact_force"]) is not None and abs(force) == abs(value)
+    numpy.testing.assert_array_equal(force * numpy.arange(3.0), value * numpy.arange(3.0))
+    with pytest.raises(TypeError, match="is in N"):
+        force + time
+    with pytest.raises(ValueError, match="quantity in N"):
+        force > "1 m"
+    assert force != time and force != "no number" and result["whirl_direction"] == result["whirl_direction"].value

@@ -1,6 +1,7 @@
 """Threads, Ctrl-C, progress, studies, and what a call costs."""
 
 import _thread
+import os
 import signal
 import subprocess
 import sys
@@ -117,3 +118,23 @@ def test_a_call_costs_little_beside_the_computation():
 
     best = min(of_each(lambda: float(result["friction_moment"])) for _ in range(5))
     assert best < 50e-6
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_child_runs_too(drop):
+    script = f"""
+import multiprocessing, warnings, auxbear
+warnings.simplefilter("ignore")
+scenario = auxbear.Scenario.load({str(SCENARIOS / "reference_drop.toml")!r}).set("run.duration", "8 ms")
+def force(seed):
+    return scenario.run(repeat=8)["peak_contact_force"].spread.mean
+here = force(0)
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    assert pool.map(force, range(2)) == [here, here]
+"""
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
+
+
+def test_what_is_no_progress_is_refused(drop):
+    with pytest.raises(TypeError, match="progress"):
+        drop.run(progress=3)

@@ -1,6 +1,9 @@
 """Scenarios: from files and values, changed, checked, refused."""
 
+import copy
 import pickle
+import subprocess
+import sys
 
 import auxbear
 import numpy
@@ -99,3 +102,25 @@ def test_the_catalogue_is_asked():
         auxbear.bearing("no such")
     with pytest.raises(auxbear.Problem):
         auxbear.bearings(bore="25 kg")
+
+
+def test_a_scenario_is_pickled_and_copied_whole():
+    scenario = auxbear.Scenario.load(SCENARIOS / "reference_drop.toml").set("run.duration", "20 ms")
+    for other in (pickle.loads(pickle.dumps(scenario)), copy.deepcopy(scenario)):
+        assert other.values() == scenario.values() and other.system == "drop"
+        other.set("run.duration", "10 ms")
+        assert scenario.values()["run.duration"] == "20 ms"
+
+
+def test_numbers_of_numpy_are_numbers():
+    scenario = auxbear.Scenario.load(SCENARIOS / "reference_drop.toml")
+    for number in (numpy.float64(0.2), numpy.float32(0.25), numpy.int64(0)):
+        scenario.set("contact.friction_coefficient", number)
+        assert float(scenario.values()["contact.friction_coefficient"]) == float(number)
+
+
+def test_the_pages_are_there_when_they_are_named():
+    script = "import auxbear; print(auxbear.laws.hertz, auxbear.optimise.Question, auxbear.distributed.run)"
+    subprocess.run([sys.executable, "-c", script], check=True)
+    with pytest.raises(AttributeError):
+        auxbear.nothing

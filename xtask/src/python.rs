@@ -8,10 +8,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the tests of the package need beside it.
-const PACKAGES: [&str; 7] = [
+const PACKAGES: [&str; 9] = [
     "distributed",
     "numpy",
     "optuna",
+    "pandas",
+    "pint",
     "plotly",
     "polars",
     "pyarrow",

@@ -516,7 +516,9 @@ fn members_of_other_modes_run_beside_each_other() {
         change("120000 rad/s"),
     ];
     let options = Options::unwatched(&never);
-    let table = auxbear::study::evaluate(&parsed, &changes, &options).unwrap();
+    let table = auxbear::study::evaluate(&parsed, &changes, &options)
+        .unwrap()
+        .unwrap();
     assert!(table.failed.is_empty());
     let name = "drive_end.first_impact_force";
     let alone = ran(&given, &[varied, "rotor.cutoff=120000 rad/s"]);

@@ -138,6 +138,22 @@ pub enum Code {
 }
 
 impl Code {
+    /// Whether an input is refused for its form, whatever its size: key, type, unit, word.
+    pub fn is_of_form(self) -> bool {
+        use Code::*;
+        matches!(
+            self,
+            Syntax
+                | UnknownKey
+                | WrongType
+                | BareNumber
+                | UnreadableQuantity
+                | WrongDimension
+                | UnknownWord
+                | UnreadableSet
+        )
+    }
+
     /// Every code with its printed form, title and one sentence of explanation.
     const TABLE: &'static [(Code, &'static str, &'static str, &'static str)] = &[
         (

@@ -28,17 +28,22 @@ use table::{Column, Row, Table};
 pub const PART: usize = 64;
 
 /// Runs a scenario with each of these lists of changes, paths with their values as an override has them: a row each, results
-/// alone. What a scenario with those changes is refused for is the reason of a failed row. None where this was interrupted.
+/// alone. Values that are refused are the reason of a failed row; a change that no value could cure, such as an unknown key, is a
+/// problem of all. None where this was interrupted.
 pub fn evaluate(
     scenario: &Scenario,
     changes: &[Vec<(String, String)>],
     options: &Options,
-) -> Option<Table> {
+) -> Result<Option<Table>, Box<Problem>> {
     let scenarios: Vec<_> = (changes.par_iter())
         .map(|changes| scenario.with(changes))
         .collect();
+    let mut refused = scenarios.iter().filter_map(|read| read.as_ref().err());
+    if let Some(problem) = refused.find(|problem| problem.code.is_of_form()) {
+        return Err(problem.clone());
+    }
     let numbered = (0..changes.len()).map(|k| (k, Vec::new()));
-    table_of(&scenarios, numbered, Vec::new(), options)
+    Ok(table_of(&scenarios, numbered, Vec::new(), options))
 }
 
 /// Runs scenarios; each with its number and its inputs becomes a row.
