@@ -91,6 +91,8 @@ def _instants(result: Result) -> list[tuple[float, str]]:
         ("inner_race_time_to_95_percent", "race at 95 %"),
         ("closing_time", "clearance closed"),
     ]
+    release = result["release_time"].value if "release_time" in result else None
+    release = release if isinstance(release, float) else 0.0
     found = []
     for name in result:
         words = next((words for end, words in named if name == end or name.endswith("." + end)), None)
@@ -98,7 +100,8 @@ def _instants(result: Result) -> list[tuple[float, str]]:
             words = name.removesuffix("_limit_time").replace("_", " ") + " at its limit"
         value = result[name].value if words else None
         if isinstance(value, float) and value > 0.0:
-            found.append((value, words))
+            # the axis of time begins with the run
+            found.append((value + release if "time_to_" in name else value, words))
     return found
 
 
@@ -143,7 +146,8 @@ def _orbit(graph: Any, result: Result, bearing: str | None) -> Any:
     clearance = _clearance(result, bearing)
     if clearance is not None:
         radius = 1e6 * clearance
-        made.add_shape(type="circle", x0=-radius, y0=-radius, x1=radius, y1=radius, line_color="#b3261e", line_dash="dot")
+        x, y = (1e6 * float(history[xs.removesuffix("rotor.x") + f"bearing.inner_race.{axis}"][0]) for axis in "xy")
+        made.add_shape(type="circle", x0=x - radius, y0=y - radius, x1=x + radius, y1=y + radius, line_color="#b3261e", line_dash="dot")
     words = "dotted: air clearance of a race at rest" if clearance is not None else None
     made.update_layout(title_text="Orbit of the rotor", title_subtitle_text=words, xaxis_title="x [µm]", yaxis_title="y [µm]")
     made.update_xaxes(constrain="domain")

@@ -12,6 +12,7 @@ mod feedback;
 mod held_limits;
 mod levitated_run;
 mod machine;
+mod machine_results;
 mod machine_supports;
 mod measurement_file;
 mod oil_range;

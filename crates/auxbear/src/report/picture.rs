@@ -270,7 +270,7 @@ fn draw_force(svg: &mut String, run: &PageRun) {
         x: span(&points),
         y: (0.0, top.max(1e-9)),
     };
-    panel.axes(svg, "Contact force", "time since release [ms]", "force [N]");
+    panel.axes(svg, "Contact force", "time [ms]", "force [N]");
     panel.curve(svg, &points, ROTOR, "stroke-width=\"1.1\"");
 }
 
@@ -308,7 +308,7 @@ fn draw_speeds(svg: &mut String, run: &PageRun) {
         x: span(&curves[0].2),
         y,
     };
-    panel.axes(svg, "Speeds", "time since release [ms]", "speed [rpm]");
+    panel.axes(svg, "Speeds", "time [ms]", "speed [rpm]");
     if let Some(ratio) = summary_number(run, "rolling_cage_ratio") {
         let rolling: Vec<(f64, f64)> = curves[1].2.iter().map(|&(x, y)| (x, ratio * y)).collect();
         panel.curve(

@@ -193,7 +193,7 @@ pub(crate) const KEYS: &[Key] = &[
         "rotor.torque_share_over_time",
         Kind::Table("s", "1"),
         "[[\"0 s\", 1.0], [\"0.5 s\", 0.2]]",
-        "Share of rotor.torque_over_speed that acts, over the time from the release: of a drive that fades, or of a gas whose pressure falls after the trip. Straight between the rows and constant beyond them.",
+        "Share of rotor.torque_over_speed that acts, over the time from the start of the run: of a drive that fades, or of a gas whose pressure falls after the trip. Straight between the rows and constant beyond them.",
     )
     .not_negative()
     .when(&[TURNS])

@@ -77,7 +77,7 @@ pub struct Rotor {
     pub spin: Spin,
     /// Torque of a drive or a load over the size of the speed, rows of rad/s and N m; empty where there is none.
     pub torque_over_speed: Vec<[f64; 2]>,
-    /// The share of it that acts, over the time from the release, rows of s and share; empty where all of it does.
+    /// The share of it that acts, over the time from the start of the run, rows of s and share; empty where all of it does.
     pub torque_share_over_time: Vec<[f64; 2]>,
     /// Number of identical auxiliary bearings that share the rotor.
     pub planes: u32,

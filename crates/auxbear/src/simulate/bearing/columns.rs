@@ -251,15 +251,10 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Heats and works since an event ("release"). What a part's bearing cannot make has no column.
-    pub fn flows(
-        &mut self,
-        since: &str,
-        layout: &Layout,
-        bearing_of: impl Fn(&str) -> &'a BearingConstants,
-    ) {
+    /// Heats and works since the start. What a part's bearing cannot make has no column.
+    pub fn flows(&mut self, layout: &Layout, bearing_of: impl Fn(&str) -> &'a BearingConstants) {
         let mut add = |what: &str, entry: &Entry, channel: usize| {
-            let meaning = format!("{what} since {since}: {}", entry.kind.replace('_', " "));
+            let meaning = format!("{what} since the start: {}", entry.kind.replace('_', " "));
             self.channel(&layout.channel_name(channel), "J", &meaning, channel);
         };
         for (i, heat) in layout.heats().iter().enumerate() {

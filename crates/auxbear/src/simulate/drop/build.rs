@@ -200,8 +200,10 @@ fn constants(
     let each = bearings.len() as f64;
     let gravity = gravity(drop);
     let mass = drop.rotor.mass * share;
+    // the brake follows the release
+    let released = magnets.as_ref().map_or(0.0, |own| own.lost);
     let (brake_torque, brake_start) = match drop.rotor.spin {
-        Spin::Braked { torque, start } => (torque * share, start),
+        Spin::Braked { torque, start } => (torque * share, start + released),
         Spin::Free | Spin::Held => (0.0, f64::INFINITY),
     };
     let torque = torque::tables(drop);

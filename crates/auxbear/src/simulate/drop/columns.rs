@@ -34,7 +34,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     columns.extend(magnets::columns(context, &runs[0]));
     let start = context.at_start();
     let mut table = Table::over(&runs[0]);
-    table.flows("release", machine.layout(), |part| {
+    table.flows(machine.layout(), |part| {
         let k = context.parts().position(|name| name == part);
         runs[k.unwrap_or(0)].bearing
     });
@@ -50,8 +50,8 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
 fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
     let mut table = Table::over(run);
     let since = match context.controlled() {
-        Some(_) => "time since the start",
-        None => "time since release",
+        Some(_) => "time from the start of the run; the release is at release_time",
+        None => "time after the release, which is the start of the run",
     };
     table.add("time", "s", since, |row| row.time);
     if context.built.shaft.is_none() {
@@ -73,10 +73,14 @@ fn node<'a>(table: &mut Table<'a>, context: &Context<'a>, k: usize) {
     for (name, meaning, part) in [
         (
             "rotor.x",
-            "rotor centre at the bearing plane, to the right",
+            "rotor centre at the bearing plane, from the line of levitation to the right",
             0,
         ),
-        ("rotor.y", "rotor centre at the bearing plane, upwards", 1),
+        (
+            "rotor.y",
+            "rotor centre at the bearing plane, from the line of levitation upwards",
+            1,
+        ),
     ] {
         table.add(name, "m", meaning, move |row| {
             let at = centre(row);
@@ -96,13 +100,13 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
     table.channel(
         "bearing.outer_race.x",
         "m",
-        "outer race centre, to the right",
+        "outer race centre, from the line of levitation to the right",
         at.outer,
     );
     table.channel(
         "bearing.outer_race.y",
         "m",
-        "outer race centre, upwards",
+        "outer race centre, from the line of levitation upwards",
         at.outer + 1,
     );
     if context.given(k).bearing.is_some() {
@@ -152,6 +156,16 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
     table.bearing();
     if let Some(followed) = context.followed(k) {
         warm::columns(&followed, &mut table);
+    }
+    // the model counts places from where the bearing stands
+    let datum = context.machine.constants.bearings[k].datum;
+    for column in &mut table.columns {
+        let by = match column.name.rsplit('.').next() {
+            Some("x") => datum.x,
+            Some("y") => datum.y,
+            _ => continue,
+        };
+        column.values.iter_mut().for_each(|value| *value += by);
     }
     table.columns
 }

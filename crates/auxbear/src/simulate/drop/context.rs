@@ -36,6 +36,17 @@ impl<'a> Context<'a> {
         let shaft = self.drop.shaft.as_deref();
         shaft.filter(|_| self.machine.controlled())
     }
+    /// When the first magnet, axis or all power is lost, s; none where the magnets keep it to the end.
+    pub fn release_time(&self) -> Option<f64> {
+        match self.controlled() {
+            Some(given) => self.finished.record.released.map(|_| given.power_lost),
+            None => Some(0.0),
+        }
+    }
+    /// Where instants after the release count from, s: without one from the start.
+    pub fn counted_from(&self) -> f64 {
+        self.release_time().unwrap_or(0.0)
+    }
     /// Size of the spin at which the rotor is released, rad/s: at the start, or when its magnets lose their power; at the end where they
     /// have it still.
     pub fn release_speed(&self) -> f64 {

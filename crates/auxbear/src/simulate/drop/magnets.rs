@@ -49,12 +49,16 @@ pub(crate) fn stop(context: &Context) -> Stop {
     stop
 }
 
+/// Why nothing is released.
+pub(crate) fn kept() -> String {
+    "the magnets had power to the end".to_string()
+}
+
 /// Names what the controllers did.
 pub(crate) fn name(context: &Context, list: &mut List) {
     let Some(given) = context.controlled() else {
         return;
     };
-    let kept = || "the magnets had power to the end".to_string();
     let speed = context.finished.record.released.ok_or_else(kept);
     let lost = speed.clone().map(|_| given.power_lost);
     list.number("power_lost_at", "s", lost, &LOST);

@@ -127,7 +127,7 @@ pub(crate) fn run(
         }
     }
     let history = columns::history(first);
-    named.extend(orders::named(&history, first.parts()));
+    named.extend(orders::named(&history, first.counted_from(), first.parts()));
     Outcome {
         system: scenario.system.name().word(),
         title: scenario

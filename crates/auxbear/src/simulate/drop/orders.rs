@@ -30,8 +30,12 @@ struct Spectrum {
     amplitudes: Vec<f64>,
 }
 
-/// Names the orders at every bearing from the columns of a run.
-pub(crate) fn named<'a>(history: &[Column], parts: impl Iterator<Item = &'a str>) -> Vec<Quantity> {
+/// Names the orders at every bearing from the columns of a run, with the instant of its release, s.
+pub(crate) fn named<'a>(
+    history: &[Column],
+    release: f64,
+    parts: impl Iterator<Item = &'a str>,
+) -> Vec<Quantity> {
     let mut list = List(Vec::new());
     for part in parts {
         let found = spectrum(history, part);
@@ -46,7 +50,7 @@ pub(crate) fn named<'a>(history: &[Column], parts: impl Iterator<Item = &'a str>
         list.push(
             &of_part(part, "whirl_order_times"),
             "s",
-            lists(&|s| s.times.clone()),
+            lists(&|s| s.times.iter().map(|time| time - release).collect()),
             &ORDERS,
         );
         list.push(
@@ -168,7 +172,7 @@ fn spectrum(history: &[Column], part: &str) -> Option<Spectrum> {
 }
 
 const ORDERS: Origin = Origin {
-    law: "|Σ w z e^(−jnφ)|/Σ w of the orbit at the bearing in windows of eight turns (Hann), n from −3 to 3; amplitudes window by window",
+    law: "|Σ w z e^(−jnφ)|/Σ w of the orbit at the bearing in windows of eight turns (Hann), n from −3 to 3; amplitudes window by window, its middle in time after the release",
     source: "definition; crates/auxbear/src/simulate/drop/orders.rs",
     valid: "from the rows of the history: what is quicker than half their rate folds down",
 };
@@ -225,7 +229,7 @@ mod tests {
             found.amplitudes.len(),
             found.orders.len() * found.times.len()
         );
-        let named = named(&history, ["a"].into_iter());
+        let named = named(&history, 0.0, ["a"].into_iter());
         assert!(named.iter().any(|q| q.name == "a.largest_whirl_orders"));
         // too short for eight turns
         let short: Vec<Column> = (history.into_iter())

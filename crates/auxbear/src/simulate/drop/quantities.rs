@@ -8,6 +8,7 @@ use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::{magnets, shaft_results, surfaces};
+use model::system::energy::Content;
 use model::system::layout::of_part;
 use std::f64::consts::PI;
 
@@ -31,6 +32,8 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
         }));
     }
     shaft_results::name(context, &mut list);
+    let release = context.release_time().ok_or_else(magnets::kept);
+    list.number("release_time", "s", release, &RELEASE);
     magnets::name(context, &mut list);
     let spin = context.machine.layout().rotor.spin();
     list.number("rotor_final_speed", "rad/s", Ok(state[spin]), &SPEED);
@@ -46,6 +49,17 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
     if let Some(renewals) = context.renewals() {
         warm::work_of_rings(renewals.work_until(f64::INFINITY), &mut list);
     }
+    let balance = context.balance();
+    let ((stored, flowed), (now, by_now)) = (balance.start, balance.end);
+    let kinetic = |content: Content| content.translation + content.spin;
+    for (name, energy) in [
+        ("work_of_sources", by_now.work - flowed.work),
+        ("kinetic_energy_change", kinetic(now) - kinetic(stored)),
+        ("potential_energy_change", now.potential - stored.potential),
+        ("energy_balance_residual", balance.energy_residual()),
+    ] {
+        list.number(name, "J", Ok(energy), &BALANCE);
+    }
     let (energy, momentum) = residuals(context);
     list.number("energy_residual", "1", energy, &RESIDUAL);
     list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
@@ -59,12 +73,14 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     let machine = context.machine;
     let state = &ending.state;
     let no_contact = || "rotor and inner race never touched in this run".to_string();
+    let release = context.counted_from();
+    let after = |time: f64| time - release;
 
     // contacts
     let first = record.contacts.first();
     list.awaited(
         "time_to_first_contact",
-        first.map(|c| c.start).ok_or_else(no_contact),
+        first.map(|c| after(c.start)).ok_or_else(no_contact),
         &FIRST_CONTACT,
     );
     list.number(
@@ -88,16 +104,22 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
         Ok(record.contacts.len() as f64),
         &CONTACT_COUNT,
     );
-    let starts = record.contacts.iter().map(|c| c.start).collect();
+    let starts = record.contacts.iter().map(|c| after(c.start)).collect();
     list.push(
         "contact_start_times",
         "s",
         Value::List(starts),
-        &CONTACT_COUNT,
+        &CONTACT_STARTS,
     );
 
     // speeds
-    let never = |what: &str| format!("{what} was not reached in {} ms", digits(1e3 * ending.time));
+    let never = |what: &str| match context.release_time() {
+        Some(_) => {
+            let time = digits(1e3 * after(ending.time));
+            format!("{what} was not reached in {time} ms after the release")
+        }
+        None => magnets::kept(),
+    };
     let rolling = context.given(k).bearing.as_ref();
     if rolling.is_some() {
         list.rises(
@@ -106,7 +128,8 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
                 record.inner_race_time_to_50_percent(),
                 record.inner_race_time_to_95_percent(),
                 record.cage_time_to_95_percent(),
-            ],
+            ]
+            .map(|time| time.map(after)),
             [
                 never("half of the rotor's release speed"),
                 never("95 % of the rotor's release speed"),
@@ -284,7 +307,7 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
 const TURNS: Origin = Origin {
     law: "∫|ω_i| dt/2π",
     source: "definition",
-    valid: "from the release to the end of what is computed ball by ball",
+    valid: "from the start of the run to the end of what is computed ball by ball",
 };
 const MEAN_LOAD: Origin = Origin {
     law: "(∫W³ dn/n)^(1/3), W the load on the bearing, n the turns of the inner race",
@@ -294,17 +317,27 @@ const MEAN_LOAD: Origin = Origin {
 const TRAVEL: Origin = Origin {
     law: "longest way of the rotor's centre against the inner race in one turn of the rotor, over 2π c0",
     source: "definition; crates/model/src/system/machine/travel.rs",
-    valid: "0 of a rotor that lies still, 1 of a whirl around the whole gap once a turn; 64 points a turn, from the release on",
+    valid: "0 of a rotor that lies still, 1 of a whirl around the whole gap once a turn; 64 points a turn, over the whole run",
 };
 const SPEED_INDEX: Origin = Origin {
     law: "mean speed of the rotor's centre against the inner race over c0 times the mean spin",
     source: "definition; crates/model/src/system/machine/travel.rs",
-    valid: "as travel_index, over the whole run",
+    valid: "as travel_index",
+};
+const RELEASE: Origin = Origin {
+    law: "first instant, from the start of the run, at which a magnet, an axis or all power is lost",
+    source: "levitation.power_lost_at; 0 where the run begins with the release",
+    valid: "column time, contacts and instants in messages count from the start of the run, what is called after the release from here",
 };
 const FIRST_CONTACT: Origin = Origin {
-    law: "gap d = |C - c_i| - c0 closes; gravity and the levitated orbit's speed at release",
+    law: "gap d = |C - c_i| - c0 closes, after the release; gravity and the levitated orbit's speed then",
     source: EVENT,
-    valid: "sudden, total loss of levitation at t = 0",
+    valid: "negative of a rotor that touches before the release; from the start of the run where nothing is released",
+};
+const CONTACT_STARTS: Origin = Origin {
+    law: "begins of contact after the release, d = 0 rising",
+    source: EVENT,
+    valid: "as time_to_first_contact; late contacts may be chaotic: repeat the run",
 };
 const CONTACT_FORCE: Origin = Origin {
     law: "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
@@ -317,7 +350,7 @@ const CONTACT_COUNT: Origin = Origin {
     valid: "late contacts may be chaotic: repeat the run",
 };
 const RISE: Origin = Origin {
-    law: "first instant at which the speed reaches the level; levels refer to the rotor's speed at release",
+    law: "first instant after the release at which the speed reaches the level; levels refer to the rotor's speed at release",
     source: EQUATIONS,
     valid: "constant friction coefficient between rotor and race; friction of the bearing only as its fidelity has it",
 };
@@ -337,7 +370,7 @@ const MOUNT_DISPLACEMENT: Origin = Origin {
     valid: "linear mount; below a tenth of the bearing's size",
 };
 const ROTOR_DISPLACEMENT: Origin = Origin {
-    law: "largest distance of the rotor centre from the origin, while in contact, at the steps",
+    law: "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
     source: EVENT,
     valid: "compare it with seals and other air gaps at this plane",
 };
@@ -350,6 +383,11 @@ const ENERGY: Origin = Origin {
     law: "time integral of friction force times sliding speed, and of every other loss",
     source: LEDGER,
     valid: "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it",
+};
+const BALANCE: Origin = Origin {
+    law: "work_of_sources = kinetic_energy_change + potential_energy_change + dissipated_energy + energy_balance_residual",
+    source: LEDGER,
+    valid: "rotor and all bearings that are computed, over the whole run; sources below zero take energy out; of identical planes that of one",
 };
 const ALL_BEARINGS: Origin = Origin {
     law: "dissipated_energy times rotor.planes: of bearings computed one by one it is their sum already",

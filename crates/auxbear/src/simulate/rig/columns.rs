@@ -109,7 +109,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
         table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
     }
     table.bearing();
-    table.flows("the start", layout, |_| run.bearing);
+    table.flows(layout, |_| run.bearing);
     table.outer_race_works("shaft", "shaft", layout);
     table.energies(|row| context.balance(row.time, row.content, row.state));
     if let Some(warming) = context.warming {

@@ -49,7 +49,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
         }
     }
     table.bearing();
-    table.flows("the start", layout, |_| run.bearing);
+    table.flows(layout, |_| run.bearing);
     table.outer_race_works("inner race", "race", layout);
     table.energies(|row| context.balance(row.time, row.content, row.state));
     if let Some(followed) = context.warming.map(|warming| warming.followed()) {

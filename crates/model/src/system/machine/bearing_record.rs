@@ -58,7 +58,7 @@ pub struct BearingRecord {
     pub largest_mount_force: Peak,
     /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
     pub rotor_race_displacement: Peak,
-    /// Largest distance of the rotor's geometric centre from the origin while it touches the race, m.
+    /// Largest distance of the rotor's geometric centre from the line of levitation while it touches the race, m.
     pub rotor_displacement: Peak,
     /// Largest displacement of the outer race, m.
     pub mount_displacement: Peak,
@@ -258,7 +258,7 @@ impl BearingRecord {
             // nearer than this, the eccentric centre cannot be farther than ever before
             let least = (self.rotor_displacement.value - self.eccentricity).max(0.0);
             if mass_centre_at_end(step, bearing).length_squared() >= least * least {
-                let centre = centre_at_end(step, bearing);
+                let centre = centre_at_end(step, bearing) + step.machine.one.nodes[bearing].datum;
                 self.rotor_displacement
                     .raise(centre.length_squared().sqrt(), step.end);
             }
@@ -565,18 +565,17 @@ fn may_peak(last_slope: f64, slope: f64, length: f64, least: f64) -> bool {
     at_start > 0.0 && at_end < 0.0 && -0.125 * curving * length > least
 }
 
-/// Position of the rotor's mass centre at the node in a bearing at the end of a step, from its datum.
+/// Position of the rotor's mass centre at the node in a bearing at the end of a step, from the line of levitation.
 fn mass_centre_at_end(step: &Step<RotorMachine>, bearing: usize) -> Vec2<f64> {
     let rotor = step.machine.layout().rotor;
     let node = &step.machine.one.nodes[bearing];
     let channels = rotor.block(0).zip(rotor.block(1));
-    let sum = (node.row.iter().zip(channels)).fold(Vec2::zero(), |sum, (shape, (x, y))| {
+    (node.row.iter().zip(channels)).fold(Vec2::zero(), |sum, (shape, (x, y))| {
         sum + Vec2::new(step.end_state(x), step.end_state(y)) * *shape
-    });
-    sum - node.datum
+    })
 }
 
-/// Position of its geometric centre there.
+/// Position of its geometric centre there, from the datum of the bearing.
 fn centre_at_end(step: &mut Step<RotorMachine>, bearing: usize) -> Vec2<f64> {
     let machine = step.machine;
     let state = step.leading_state(1.0, machine.layout().rotor.channels());
