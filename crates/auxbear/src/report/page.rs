@@ -409,6 +409,19 @@ mod tests {
         }
     }
 
+    /// A tile is red where bearing or laws are beyond their range: the warning of each is then severe in the list too.
+    #[test]
+    fn warnings_behind_red_tiles_are_severe() {
+        let ranges = |script: &&'static str| Some(script.split_once("const RANGES = [")?.1);
+        let lines = SCRIPTS.iter().find_map(ranges).unwrap().lines().skip(1);
+        let lines = lines.take_while(|line| line.starts_with("  "));
+        let codes: Vec<&str> = lines.filter_map(|line| line.get(4..10)).collect();
+        assert!(codes.contains(&"AB1015") && codes.contains(&"AB1096"));
+        for code in codes.into_iter().chain(["AB2030"]) {
+            assert_eq!(crate::result::graveness::graveness(code), 0, "{code}");
+        }
+    }
+
     fn column_json(column: &PageColumn, rows: &[usize]) -> String {
         let mut json = String::new();
         push_column(&mut json, column, rows);

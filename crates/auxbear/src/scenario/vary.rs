@@ -129,6 +129,11 @@ impl Vary {
         }
     }
 
+    /// The same as a file has it.
+    pub(crate) fn given_text(&self) -> Option<String> {
+        self.given().map(|number| self.targets[0].text(number))
+    }
+
     fn number_at(&self, base: f64, coordinate: Coordinate) -> f64 {
         let law = match &self.distribution {
             Distribution::Lognormal(deviation) => law::Distribution::Lognormal(base, *deviation),

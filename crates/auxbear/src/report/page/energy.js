@@ -3,8 +3,10 @@
 const HEAT_PREFIX = "energy.heat.";
 const SOURCE_PREFIX = "energy.source.";
 
+// Columns of one kind of flow: of a bearing its own and those of the machine, of a whole machine those of every bearing under its name.
 function columnsUnder(run, prefix) {
-  return [...run.columns.keys()].filter((name) => name.startsWith(prefix) && columnOf(run, name)).map((name) => ({ key: name.slice(prefix.length), name: wordsOf(name.slice(prefix.length)), values: columnOf(run, name) }));
+  const own = [...run.columns.keys()].filter((name) => (name.startsWith(prefix) || name.includes("." + prefix)) && columnOf(run, name));
+  return own.map((name) => ({ key: name.replace(prefix, ""), name: wordsOf(name.replace(prefix, "")), values: columnOf(run, name) }));
 }
 
 function lastNumber(values) {
@@ -66,6 +68,11 @@ function balance(run) {
     if (amount > 0) came.push({ name: "source: " + source.name, amount, colour: SERIES_COLOURS.cage });
     else went.push({ name: "taken out: " + source.name, amount: -amount, colour: SERIES_COLOURS.limit });
   }
+  // rings that close on their balls as they warm
+  const rings = numberOf(run, "work_of_warm_rings") || 0;
+  if (rings !== 0) (rings > 0 ? came : went).push({ name: "work of warm rings", amount: Math.abs(rings), colour: SERIES_COLOURS.cage });
+  const missed = columnOf(run, "energy.residual") ? lastNumber(columnOf(run, "energy.residual")) : 0;
+  if (missed !== 0) (missed > 0 ? went : came).push({ name: "residual", amount: Math.abs(missed), colour: SERIES_COLOURS.limit });
   const bySize = (left, right) => right.amount - left.amount;
   return { came: came.sort(bySize), went: went.sort(bySize) };
 }
@@ -96,7 +103,7 @@ function balanceFigure(run, runs) {
   const share = isNumber(relative.value) ? numberText(relative.value, 3) + " of the largest energy of the ledger" : relative.why;
   return figure(
     title,
-    "Sources = change of stored energy + heats. Every entry stands on the side where its amount is positive.",
+    "Sources = change of stored energy + heats of all bearings + residual. Every entry stands on the side where its amount is positive.",
     element(
       "table",
       { class: "bars" },
@@ -116,7 +123,8 @@ function energySection(runs) {
     "energy",
     "Where the energy went",
     totals,
-    runs.map((run) => [heatHistory(run, runs), balanceFigure(run, runs)]),
+    runs.map((run) => heatHistory(run, runs)),
+    wholesOf(runs).map((machine, _, machines) => balanceFigure(machine, machines)),
     absentSources.map((run) => notInThisRun("energy sources: nothing drives or brakes this machine, or its history does not say", run)),
   );
 }

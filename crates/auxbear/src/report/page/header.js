@@ -9,6 +9,8 @@ function bandValue([value, band], unit) {
   return [whole(value), band === null ? null : element("div", { class: "tile-band" }, `± ${whole(band)} (2σ)`)];
 }
 
+const NOT_IN_THIS_RUN = "not in this run";
+
 // state: "good" or "bad" where there is a criterion, else nothing.
 function tile(title, value, notes, state) {
   return element(
@@ -65,7 +67,7 @@ function stateTile(run) {
 function forceNote(run) {
   const peak = peakContact(run);
   const count = numberOf(run, "contact_count");
-  const parts = [peak && "at " + engineeringText(peak.peak_time_s, "s", 4), isNumber(count) && count + (count === 1 ? " contact" : " contacts")];
+  const parts = [peak && `${engineeringText(peak.peak_time_s - releaseOf(run), "s", 4)} after the release`, isNumber(count) && count + (count === 1 ? " contact" : " contacts")];
   return parts.filter(Boolean);
 }
 
@@ -86,6 +88,25 @@ function spinUpNote(run) {
   return [half === null ? null : "50 % at " + engineeringText(half, "s", 4), "after the release"];
 }
 
+// Unbalance angles of the members of a run: it decides whether friction starts backward whirl.
+function unbalanceAngles(run) {
+  const members = run.summary.members_total || list(run.summary.members).length || 1;
+  const varied = new Set(list(run.summary.drawn).map((draws) => (draws || {})["rotor.unbalance_angle"]));
+  const random = String((inputOf(run, "repeat.unbalance_angle") || {}).value).includes("random");
+  return random ? members : Math.max(1, varied.size);
+}
+
+const ANGLES_FOR_WHIRL = 8;
+
+// Why a run in which no rotor whirled does not say that none will; none where it does.
+function whirlNotSought(run) {
+  const angles = unbalanceAngles(run);
+  const few = angles < ANGLES_FOR_WHIRL ? `none seen from ${angles} unbalance ${angles === 1 ? "angle" : "angles"}; ${ANGLES_FOR_WHIRL} at least are needed (--repeat ${ANGLES_FOR_WHIRL})` : null;
+  const { value, spread } = quantityOf(run, "inner_race_time_to_95_percent");
+  const slips = "inner_race_time_to_95_percent" in run.quantities && (spread ? spread.members < (run.summary.members_total || list(run.summary.members).length) : !isNumber(value));
+  return [few, slips ? "ends before the inner race reaches 95 % of the speed" : null].filter(Boolean);
+}
+
 function whirlTile(run) {
   const quantity = quantityOf(run, "whirl_direction");
   if (typeof quantity.value !== "string") return tile("Whirl", "–", ["not in this run: " + (quantity.why || "no reason given")]);
@@ -93,18 +114,21 @@ function whirlTile(run) {
   const spin = Math.sign(numberOf(run, "rotor_final_speed")) || 1;
   const sense = turns.value * spin < 0 ? "backward" : "forward";
   const count = isNumber(turns.value) ? `${numberText(Math.abs(turns.value), 3)} net turns, ${sense}, in the inner race` : null;
-  const rule = quantity.value === "none" ? "below one turn there is no whirl" : null;
-  const mean = meanNote(turns);
   const back = worstOf(turns, (value) => -value * spin);
+  const bad = quantity.value === "backward" || back >= 1;
+  const unknown = bad ? [] : whirlNotSought(run);
+  const rule = quantity.value === "none" && !unknown.length ? "below one turn there is no whirl" : null;
+  const mean = meanNote(turns);
   const others = quantity.value !== "backward" && back >= 1 ? `BACKWARD in other members: ${numberText(back, 3)} turns in the worst` : null;
-  return tile("Whirl", quantity.value, [others, count, rule, mean && `${mean} members; counter-clockwise is positive`], verdictState(run, quantity.value === "backward" || back >= 1));
+  const shown = unknown.length && quantity.value === "none" ? NOT_IN_THIS_RUN : quantity.value;
+  return tile("Whirl", shown, [others, unknown, count, rule, mean && `${mean} members; counter-clockwise is positive`], unknown.length ? null : verdictState(run, bad));
 }
 
 function displacementTile(run) {
   if (!("max_rotor_displacement" in run.quantities)) return null;
   const clearance = run.summary.clearance_radius_m;
   const beside = isNumber(clearance) ? `clearance ${engineeringText(clearance, "m", 4)}` : null;
-  return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => ["of its centre from the origin", beside]);
+  return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => ["of its centre from the line of levitation", beside]);
 }
 
 // From when on the rotor rolls, and what comes again after that.
@@ -134,16 +158,64 @@ function pressureTile(run) {
   return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => [pressureNote(run, pressure), others].flat(), () => state);
 }
 
-function verdict(run) {
-  return element(
-    "div",
-    { class: "tiles" },
+// Distances left along the shaft between it and seals, sensors and magnets, the smallest first; less than none where it rubs.
+function distancesOf(run) {
+  const [at, sizes, shape, gone] = ["clearance_positions", "clearances", "shape_positions", "largest_displacements"].map((name) => listAt(run, name));
+  const all = wordsAt(run, "clearance_names").map((name, k) => ({ name, clearance: sizes[k], displacement: gone[shape.indexOf(at[k])] }));
+  return all.filter((place) => isNumber(place.clearance) && isNumber(place.displacement)).sort((one, other) => one.clearance - one.displacement - other.clearance + other.displacement);
+}
+
+const RUB = "AB2030";
+
+function warningsOf(run, code) {
+  return list(run.summary.warnings).filter((warning) => warning && warning.code === code);
+}
+
+function distanceTile(run) {
+  if (run.summary.system !== "machine") return null;
+  const [least] = distancesOf(run);
+  const rubs = warningsOf(run, RUB);
+  const distance = least ? `least distance ${engineeringText(least.clearance - least.displacement, "m", 3)} at ${wordsOf(least.name)}` : null;
+  if (rubs.length) return tile("Clearances along the shaft", `rub: ${rubs.length} ${rubs.length === 1 ? "place" : "places"}`, [distance, `${RUB}: these contacts are not computed`], "bad");
+  if (!least) return tile("Clearances along the shaft", NOT_IN_THIS_RUN, ["no seal, sensor or gap of a magnet is given (rotor.node.clearance)"]);
+  return tile("Clearances along the shaft", engineeringText(least.clearance - least.displacement, "m", 3), [`least distance, at ${wordsOf(least.name)}`], verdictState(run, false));
+}
+
+// What bearing and laws are made for: the warning of each, and its words.
+const RANGES = [
+  ["AB1015", "above the limiting speed"],
+  ["AB2314", "above the limiting speed in the run-out"],
+  ["AB1096", "load beyond the axial preload"],
+  ["AB1002", "Hertz pressure above its limit"],
+  ["AB1070", "pressure between balls above its limit"],
+  ["AB1005", "force above the static load rating"],
+  ["AB1029", "static load above the rating"],
+  ["AB1018", "friction law out of its range"],
+  ["AB1031", "traction law of the lubricant out of its range"],
+  ["AB1035", "film temperatures beyond their law"],
+  ["AB1004", "contact damping out of its range"],
+  ["AB1001", "rotor bends: taken as rigid"],
+  ["AB2031", "too few modes for impacts"],
+];
+
+function rangeTile(run) {
+  const beyond = RANGES.filter(([code]) => warningsOf(run, code).length);
+  return tile("Bearing and laws", beyond.length ? `${beyond.length} beyond range` : "in range", beyond.map(([code, words]) => `${words} (${code})`), verdictState(run, beyond.length > 0));
+}
+
+// A radial model: what acts along the shaft is in no result.
+function axialTile(run) {
+  const share = numberOf(run, "axial_gravity_share");
+  return tile("Axial motion", NOT_IN_THIS_RUN, [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, "thrust, axial clearance and drop onto the faces are not computed"]);
+}
+
+// Of a machine once, whatever its bearings are.
+function machineTiles(run) {
+  return [
     stateTile(run),
-    quantityTile(run, "Peak contact force", "peak_contact_force", () => forceNote(run)),
-    pressureTile(run),
-    quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
-    whirlTile(run),
-    displacementTile(run),
+    distanceTile(run),
+    rangeTile(run),
+    axialTile(run),
     asksForRunOut(run) ? quantityTile(run, "Stands after", "run_out.stop_time", () => rollingNote(run)) : null,
     quantityTile(
       run,
@@ -152,6 +224,18 @@ function verdict(run) {
       () => "share of the energies that the ledger leaves unexplained",
       () => residualState(run),
     ),
+  ];
+}
+
+function verdict(run) {
+  return element(
+    "div",
+    { class: "tiles" },
+    quantityTile(run, "Peak contact force", "peak_contact_force", () => forceNote(run)),
+    pressureTile(run),
+    quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
+    whirlTile(run),
+    displacementTile(run),
   );
 }
 
@@ -245,20 +329,21 @@ function assumedItem(runs) {
 // Each warning once, the gravest first; with several runs or bearings it names those that have it.
 function warningBox(runs) {
   const found = new Map();
-  const add = (run, code, text) => {
+  const add = (run, code, text, warning = {}) => {
     // a text that begins with the name of a bearing says the same of each
     const bearing = list(run.bearingNames).find((name) => text.startsWith(`${name}: `));
+    if (bearing && run.summary.name !== bearing) return;
     const plain = bearing ? text.slice(bearing.length + 2) : text;
     // what differs in its numbers alone stands in one entry, with the text of each
     const key = `${code} ${plain.replace(/[\d.,]+/g, "#")}`;
-    if (!found.has(key)) found.set(key, { code, texts: new Map() });
+    if (!found.has(key)) found.set(key, { code, graveness: warning.graveness, texts: new Map() });
     const { texts } = found.get(key);
     if (!texts.has(plain)) texts.set(plain, new Set());
-    texts.get(plain).add(bearing || (ofOneRun(runs) ? "" : run.letter));
+    texts.get(plain).add(ofOneRun(runs) ? bearing || "" : run.letter);
   };
   for (const run of runs) {
     if (run.summaryProblem) add(run, "", run.summaryProblem);
-    for (const warning of list(run.summary.warnings).filter(Boolean)) if (warning.code !== ASSUMED) add(run, warning.code || "", warning.text || String(warning));
+    for (const warning of list(run.summary.warnings).filter(Boolean)) if (warning.code !== ASSUMED) add(run, warning.code || "", warning.text || String(warning), warning);
   }
   const assumed = assumedItem(runs);
   if (!found.size && !assumed) return null;
@@ -272,7 +357,7 @@ function warningBox(runs) {
   const parts = (texts) => [...texts].flatMap(([text, names], index) => [index ? " " : null, who(names), text]);
   const ranked = [...found.values()].sort((one, other) => graveness(one) - graveness(other));
   const items = ranked.map((warning) => element("li", { class: graveness(warning) === 0 ? "grave" : null }, warning.code ? element("code", {}, warning.code) : null, " ", parts(warning.texts)));
-  return element("div", { class: "warnings" }, element("strong", {}, ranked.length ? "Warnings, the gravest first" : "What is assumed"), element("ul", {}, items, assumed));
+  return element("div", { class: "warnings" }, element("strong", {}, ranked.length ? "Warnings, the most severe first" : "What is assumed"), element("ul", {}, items, assumed));
 }
 
 // Whether runs of different kinds were put side by side.
@@ -289,14 +374,20 @@ function header(runs) {
   const single = runs.length === 1 ? runs[0] : null;
   const parts = [element("h1", {}, ofOneRun(runs) ? runs[0].summary.title || runs[0].name : "Comparison of " + runs.length + " runs")];
   if (differentSystems(runs)) parts.push(element("div", { class: "warnings" }, element("strong", {}, "These runs cannot be compared: "), `they are of different kinds (${[...new Set(runs.map((run) => run.summary.system))].join(", ")}). Each is shown with its own pictures; quantities of one name may mean different things.`));
-  for (const run of runs) {
-    const facts = [run.summary.system, run.directory, run.summary.version && "auxbear " + run.summary.version];
-    const key = single ? null : element("span", { class: "swatch", style: "background:" + run.colour });
-    const origin = spreadOrigin(run);
-    const about = element("p", { class: "subtitle" }, key, single ? null : element("strong", {}, run.label + "  "), facts.filter(Boolean).join(" · "));
-    const own = systemOf(run);
-    const line = own.line(run);
-    parts.push(single ? [line, about] : [about, line], own.verdict(run), limitTiles(run), origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
+  // what all bearings of a machine share stands once, before what each has of its own
+  for (const bearings of machinesOf(runs)) {
+    const [first] = bearings;
+    const several = bearings.length > 1;
+    const machine = first.whole || first;
+    const own = systemOf(first);
+    const released = releaseOf(first) > 0 ? `released at ${engineeringText(releaseOf(first), "s", 4)} of the run` : null;
+    const facts = [first.summary.system, first.directory, released, first.summary.version && "auxbear " + first.summary.version];
+    const swatch = (run) => (single ? null : element("span", { class: "swatch", style: "background:" + run.colour }));
+    const about = element("p", { class: "subtitle" }, several ? null : swatch(first), several || single ? null : element("strong", {}, first.label + "  "), facts.filter(Boolean).join(" · "));
+    const shared = own.shared ? element("div", { class: "tiles" }, own.shared(machine)) : null;
+    const each = bearings.map((run) => [several ? element("p", { class: "subtitle" }, swatch(run), element("strong", {}, run.label)) : null, several ? own.line(run) : null, own.verdict(run)]);
+    const origin = spreadOrigin(first);
+    parts.push(several ? [own.rotor ? own.rotor(first) : null, about] : single ? [own.line(first), about] : [about, own.line(first)], shared, limitTiles(machine), each, origin ? element("p", { class: "small" }, "Large numbers: the unperturbed run. Below them: " + origin + ".") : null);
   }
   parts.push(warningBox(runs));
   return element("header", {}, parts);

@@ -92,7 +92,7 @@ function shapeFigure(machine) {
   const shapes = shapeColumns(run);
   const holder = element("div", { class: "curves" });
   const readout = element("span", { class: "readout" }, "");
-  const slider = element("input", { type: "range", min: "0", max: String(run.time.length - 1), value: "0", class: "time", "aria-label": "time since release" });
+  const slider = element("input", { type: "range", min: "0", max: String(run.time.length - 1), value: "0", class: "time", "aria-label": timeline.words });
   let playing = null;
   const draw = () => {
     const row = Number(slider.value);
@@ -131,7 +131,7 @@ function currentFigure(run) {
   if (!names.length) return null;
   const words = (name) => name.replace(/^magnet\.(.*)\.current_([12])$/, (_, magnet, axis) => `${wordsOf(magnet)}, axis ${axis} [A]`);
   const series = names.map((name, place) => ({ label: words(name), time: run.time, values: columnOf(run, name), colour: AXIS_COLOURS[place % AXIS_COLOURS.length], width: 1 }));
-  const marks = instantMarks([{ instant: numberOf(run, "power_lost_at"), words: "power lost", colour: SERIES_COLOURS.limit }]);
+  const marks = instantMarks([{ instant: numberOf(run, "release_time"), words: "power lost", colour: SERIES_COLOURS.limit }]);
   return figure("Control currents", "Of each axis of the magnets, without bias; after the loss of power what is left of them.", timePlot({ series, label: "current [A]", marks, ticks: [run], height: 240 }));
 }
 
@@ -150,14 +150,19 @@ function machineSection(runs) {
   );
 }
 
+function rotorFacts(run) {
+  return `rotor ${engineeringText(numberOf(run, "rotor_mass"), "kg", 4)}, bends at ${numberText(numberOf(run, "first_bending_frequency"), 4)} rad/s`;
+}
+
+// Of several bearings the rotor stands once, above them.
 function bentLine(run) {
-  const facts = [`rotor ${engineeringText(numberOf(run, "rotor_mass"), "kg", 4)}, bends at ${numberText(numberOf(run, "first_bending_frequency"), 4)} rad/s`];
   const line = machineLine(run);
-  return element("p", { class: "machine" }, [...facts, line ? line.textContent : null].filter(Boolean).join(" · "));
+  return element("p", { class: "machine" }, [run.whole ? null : rotorFacts(run), line ? line.textContent : null].filter(Boolean).join(" · "));
 }
 
 register("machine", {
   ...dropPage,
   line: bentLine,
+  rotor: (run) => element("p", { class: "machine" }, rotorFacts(run)),
   sections: (runs) => [[9, machineSection, runs], ...dropPage.sections(runs)],
 });

@@ -293,7 +293,7 @@ function drawTimeBar(pen, place, size) {
   pen.textAlign = "left";
   pen.fillText(timeline.text(timeline.begin), place.left, top + 14);
   pen.textAlign = "center";
-  pen.fillText("time since release", place.left + place.width / 2, top + 14);
+  pen.fillText(timeline.words, place.left + place.width / 2, top + 14);
   pen.textAlign = "right";
   pen.fillText(timeline.text(timeline.end), place.left + place.width, top + 14);
 }
@@ -334,7 +334,7 @@ function contactTable(run) {
   const more = run.contacts.length - CONTACTS_PRINTED;
   return figure(
     run.prefix + "Contacts",
-    run.contacts.length + (run.contacts.length === 1 ? " contact" : " contacts") + " of rotor and inner race, in order of time.",
+    run.contacts.length + (run.contacts.length === 1 ? " contact" : " contacts") + ` of rotor and inner race, in order of ${timeline.words}.`,
     element("div", { class: "scroll" }, element("table", { class: "numbers contacts" }, element("thead", {}, element("tr", {}, heads)), element("tbody", {}, run.contacts.map(row)))),
     more > 0 ? element("p", { class: "print-only" }, `and ${more} more, in summary.json`) : null,
   );
@@ -348,8 +348,9 @@ function orbitSection(runs) {
 
 const dropPage = {
   line: machineLine,
+  shared: machineTiles,
   verdict,
-  time: "time since release",
+  time: "time after release",
   facts: true,
   sections: (runs) => [[9.5, firstContactsSection, runs], [10, orbitSection, runs], [10.5, orderSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], ...LIMIT_SECTIONS(runs), ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
 };

@@ -80,12 +80,24 @@ function ofBearing(run, bearing, names) {
   return {
     ...run,
     name: `${run.name}, ${bearing.name}`,
+    whole: { ...run, summary: { ...run.summary, name: "", auxiliary_bearings: [] }, short: run.name, prefix: `${run.name}: ` },
     columns: new Map(of([...run.columns]).map(([name, column]) => [name, { ...column, name }])),
     bearingNames: names,
     contacts: run.contacts.filter((contact) => contact.auxiliary_bearing === bearing.name),
     quantities: Object.fromEntries(of(Object.entries(run.quantities))),
     summary: { ...run.summary, ...bearing, inputs: plain },
   };
+}
+
+// Each machine once: of runs that are bearings of one its whole, with the colour of the first.
+function wholesOf(runs) {
+  const machines = machinesOf(runs);
+  return machines.map(([first]) => (first.whole ? { ...first.whole, colour: first.colour, prefix: machines.length > 1 ? first.whole.prefix : "" } : first));
+}
+
+// Instant of the release, from the start of the run, s.
+function releaseOf(run) {
+  return numberOf(run, "release_time") || 0;
 }
 
 // Letter, directory and title of a run among several; a directory that is called as its letter is not said twice. Tables and small

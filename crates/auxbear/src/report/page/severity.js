@@ -1,4 +1,5 @@
-// Which limit of a run is nearest: the indices that are 1 at their limit, in order; of a drop until standstill those of its run-out too.
+// Which margin of a run is smallest: indices that are 1 at their limit, of a drop until standstill those of its run-out too, distances along
+// the shaft, severe warnings, limits of the file.
 
 const INDICES = [
   ["Dents of balls and races", ["indentation_index"]],
@@ -25,22 +26,47 @@ function indexRows(run) {
   return known.filter(({ name }) => !(followed && name === "heat_index")).sort((one, other) => value(other) - value(one));
 }
 
+// Distances along the shaft, severe warnings and limits of the file: what a machine has besides the indices of its bearings. Of a
+// warning no share is known: it stands first. What rubs is said by its distance.
+function marginRows(machine) {
+  const distances = distancesOf(machine).map(({ name, clearance, displacement }) => ({ name: `node.${name}`, words: `Clearance at ${wordsOf(name)}`, share: displacement / clearance, limit: `the shaft moves by ${engineeringText(displacement, "m", 4)} of ${engineeringText(clearance, "m", 4)}` }));
+  const severe = list(machine.summary.warnings).filter((warning) => warning && graveness(warning) === 0 && !(warning.code === RUB && distances.length));
+  const warned = severe.map(({ code, text }) => ({ name: code, words: "Severe warning", share: Infinity, state: "severe", limit: text }));
+  const held = limitsOf(machine).map((limit) => {
+    const [part, whole] = limit.side === "most" ? [limit.value, limit.bound] : [limit.bound, limit.value];
+    const known = limit.verdict !== "undecided" && isNumber(limit.value) && part >= 0 && whole > 0;
+    const share = known ? part / whole : limit.verdict === "fail" ? Infinity : null;
+    return { name: limit.quantity, words: `Limit: ${limitName(machine, limit)}`, share, limit: boundText(limit), why: `${limit.verdict}: ${limit.why}` };
+  });
+  return [...distances, ...warned, ...held];
+}
+
+function marginsOf(bearings) {
+  const indices = bearings.flatMap((run) => indexRows(run).map(({ name, words, quantity }) => ({ name, words: bearings.length > 1 ? `${run.summary.name}: ${words}` : words, share: isNumber(quantity.value) ? quantity.value : null, limit: `${quantity.law}; ${quantity.valid}`, why: quantity.why })));
+  const rank = ({ share }) => (share === null ? -1 : share);
+  return [...indices, ...marginRows(bearings[0].whole || bearings[0])].sort((one, other) => (rank(other) === rank(one) ? 0 : rank(other) - rank(one)));
+}
+
 function severitySection(runs) {
-  const several = runs.length > 1;
+  const machines = machinesOf(runs);
+  const several = machines.length > 1;
   const heads = [...(several ? ["Run"] : []), "What", "Share of its limit", "Limit"];
-  const share = ({ value, why }) => (isNumber(value) ? element("strong", {}, percentText(value)) : element("span", { class: "absent" }, "not known: " + why));
-  const row = (run, { name, words, quantity }) =>
+  const share = ({ share: part, state, why }) => {
+    if (part === null) return element("span", { class: "absent" }, "not known: " + why);
+    return element("strong", { class: part > 1 ? "failed" : null }, part === Infinity ? state || "exceeded" : percentText(part));
+  };
+  const row = (bearings, entry) =>
     element(
       "tr",
       {},
-      several ? element("td", {}, run.short) : null,
-      element("td", { class: "name" }, words, element("code", {}, name)),
-      element("td", {}, share(quantity)),
-      element("td", { class: "small" }, `${quantity.law}; ${quantity.valid}`),
+      several ? element("td", {}, bearings.length > 1 ? bearings[0].whole.short : bearings[0].short) : null,
+      element("td", { class: "name" }, entry.words, element("code", {}, breakable(entry.name))),
+      element("td", {}, share(entry)),
+      element("td", { class: "small" }, entry.limit),
     );
-  const rows = runs.flatMap((run) => indexRows(run).map((entry) => row(run, entry)));
-  const lead = element("p", { class: "lead" }, "The nearest first. Fracture of the cage, smearing, spalls that grow from dents, life of the lubricant and whirl have no index here: they may decide all the same.");
-  return section("severity", "Nearest limit", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
+  const rows = machines.flatMap((bearings) => marginsOf(bearings).map((entry) => row(bearings, entry)));
+  const lead = element("p", { class: "lead" }, "The smallest margin first. Fracture of the cage, smearing, spalls that grow from dents, life of the lubricant and whirl have no index here: they may decide all the same.");
+  return section("severity", "Smallest margins", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
 }
 
 // Rolling fatigue of a drop: the scatter of single bearings by Weibull, and apart from it the spread of repeated runs.
@@ -65,4 +91,4 @@ function lifeSection(runs) {
   return section("life", "Life by rolling fatigue", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
 }
 
-const LIMIT_SECTIONS = (runs) => [[85, severitySection, runs.filter((run) => indexRows(run).length)], [86, lifeSection, runs.filter((run) => run.quantities.life_share)]].filter(([, , some]) => some.length);
+const LIMIT_SECTIONS = (runs) => [[85, severitySection, runs.filter((run) => marginsOf([run]).length)], [86, lifeSection, runs.filter((run) => run.quantities.life_share)]].filter(([, , some]) => some.length);

@@ -32,11 +32,14 @@ function start() {
     return;
   }
   timeline.span(runs);
+  const compared = runs.length > 1 && !differentSystems(runs);
   const builders = [
-    ...(runs.length > 1 && !differentSystems(runs) ? [[differenceSection, runs]] : []),
-    ...(runs.some((run) => limitsOf(run).length) ? [[limitSection, runs]] : []),
+    ...(compared && !ofOneRun(runs) ? [[differenceSection, runs]] : []),
+    ...(runs.some((run) => limitsOf(run).length) ? [[limitSection, wholesOf(runs)]] : []),
     ...sectionsOf(runs),
     [quantitySection, runs],
+    // bearings of one machine differ as they were given: no finding of a comparison
+    ...(compared && ofOneRun(runs) ? [[differenceSection, runs]] : []),
     [inputSection, runs],
     ...[runs.filter((run) => systemOf(run).facts)].filter((some) => some.length).map((some) => [factSection, some]),
   ];

@@ -12,11 +12,11 @@ const timeline = {
   end: 1,
   unit: ["s", 1],
   listeners: [],
-  words: "time since release",
+  words: "time after release",
   span(runs) {
     const words = new Set(runs.map((run) => systemOf(run).time).filter(Boolean));
     if (words.size === 1) [this.words] = words;
-    if (runs.some((run) => run.quantities.power_lost_at)) this.words = "time since the start";
+    if (runs.some((run) => run.quantities.release_time && numberOf(run, "release_time") !== 0)) this.words = "time since the start";
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;
     this.first = Math.min(...times.map((time) => time[0]));

@@ -27,6 +27,8 @@ pub(super) fn scaled(name: &str, unit: &str, values: impl Iterator<Item = f64>) 
         .fold(0.0_f64, |most, v| most.max(v.abs()));
     let power = match unit {
         "" | "1" => return (1.0, plain(name)),
+        // unbalance
+        "kg m" => return (1e6, format!("{}, g mm", plain(name))),
         "s" | "m" | "N" | "J" | "W" | "Pa" | "N m" if most > 0.0 => {
             (most.log10() / 3.0 - 0.1).floor().clamp(-3.0, 3.0) as i32
         }

@@ -104,7 +104,9 @@ fn inputs(study: &Study) -> String {
             .scenario
             .resolved
             .get(&input.vary.path)
-            .and_then(|value| value.text.clone());
+            .and_then(|value| value.text.clone())
+            // parts of a rotor have paths of their own
+            .or_else(|| input.vary.given_text());
         vec![
             format!("<code>{}</code>", plain(&input.vary.path)),
             plain(&input.written),
