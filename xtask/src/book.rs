@@ -29,7 +29,8 @@ pub fn check(repository: &Repository) -> Outcome {
         let name = case
             .trim_start_matches("validation/")
             .trim_end_matches(".toml");
-        if !text(VALIDATION).contains(&format!("## {name}\n")) {
+        // files in folders are those of the reference, which the program does not ship
+        if !name.contains('/') && !text(VALIDATION).contains(&format!("## {name}\n")) {
             findings.push(format!(
                 "{VALIDATION}: {case} has no section; cargo xtask docs writes the page"
             ));

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use measure::file;
-use measure::recording::{Channel, Clock, Instant, Property, Value};
+use measure::recording::{Channel, Clock, Instant, Property, Recording, Value};
 use proptest::prelude::*;
 
-use super::all;
+use super::bytes::{BIG, META, NEW, RAW, Raw, Set, meta, segment};
+use super::{all, open};
 
 proptest! {
     // Each case waits for the disk.
@@ -90,5 +91,46 @@ fn what_is_no_tdms_is_reported() {
     assert!(message("noise.tdms", &[0, 1, 2, 3, 250, 0]).contains("no format that is known"));
     assert!(
         file::open(folder.join("absent.tdms")).is_err_and(|e| e.found.contains("cannot be opened"))
+    );
+}
+
+/// As laboratories leave them: big-endian, a start that was never set, and a `wf_samples` that is not the number of values.
+///
+/// npTDMS 1.13.0 reads these values, and those of the tests below of time stamps and of scaled and raw DAQmx data.
+#[test]
+fn a_big_endian_file_counts_its_own_values() {
+    let waveform = || {
+        vec![
+            ("wf_start_time", Set::Time(0, 0)),
+            ("wf_increment", Set::Double(0.001)),
+            ("wf_samples", Set::Whole(2)),
+            ("unit_string", Set::Text("V")),
+        ]
+    };
+    let objects = [
+        ("/'sweep'/'amplitude'", Raw::Plain(10, 3), waveform()),
+        ("/'sweep'/'phase'", Raw::Plain(10, 3), waveform()),
+    ];
+    let raw = |values: [f64; 3]| values.map(f64::to_be_bytes).concat();
+    let chunk = [raw([0.0, -1.5, 5.25]), raw([0.5, -0.75, 0.125])].concat();
+    let mut file = open(
+        "sweep.tdms",
+        &segment(
+            META | NEW | RAW | BIG,
+            &meta(true, &objects),
+            &[chunk.clone(), chunk].concat(),
+        ),
+    );
+    assert_eq!(file.notes(), []);
+    assert_eq!(all(&mut file, 0), [0.0, -1.5, 5.25, 0.0, -1.5, 5.25]);
+    assert_eq!(all(&mut file, 1), [0.5, -0.75, 0.125, 0.5, -0.75, 0.125]);
+    let phase = &file.channels()[1];
+    assert_eq!((phase.start, phase.unit.as_str()), (None, "V"));
+    assert_eq!(
+        phase.clock,
+        Clock::Uniform {
+            first: 0.0,
+            interval: 0.001
+        }
     );
 }
