@@ -234,3 +234,33 @@ fn the_flash_of_a_skid_is_the_largest_of_the_run() {
     near(number(&run, "inner_flash_temperature_rise"), 28.96, 0.02);
     near(number(&run, "outer_flash_temperature_rise"), 31.04, 0.02);
 }
+
+#[test]
+fn the_air_clearance_follows_rotor_and_race() {
+    let run = ran(WHIRL, &["run.duration=3 s", "run.output_interval=0.37 ms"]);
+    let of = |name: &str| column(&run, name);
+    let places = [
+        "rotor.x",
+        "rotor.y",
+        "bearing.inner_race.x",
+        "bearing.inner_race.y",
+    ]
+    .map(of);
+    let penetration = of("bearing.contact.penetration");
+    // distance of the centres less penetration; the mass centre goes round the geometric one at e: e²/(4 c0) of that is left in a mean over turns
+    let clearance = |row: usize| {
+        let [x, y, race_x, race_y] = places.map(|values| values[row]);
+        (x - race_x).hypot(y - race_y) - penetration[row]
+    };
+    let rows = penetration.len() - penetration.len() / 20..penetration.len();
+    let count = rows.len() as f64;
+    let found = rows.clone().map(clearance).sum::<f64>() / count;
+    let mean = |node: &str| rows.clone().map(|row| of(node)[row]).sum::<f64>() / count - 298.15;
+    let (race, rotor) = (mean("inner_race.temperature"), mean("rotor.temperature"));
+    // steel: α R_0 ΔT_race − α (R_0 − c0) ΔT_rotor; it follows in steps of 0.1 µm
+    let gained = 11.5e-6 * (12.5e-3 * race - 12.25e-3 * rotor);
+    assert!(gained > 0.5e-6, "{gained}");
+    let left = 10e-6 * 10e-6 / (4.0 * 0.25e-3);
+    let expected = 0.25e-3 + gained + left;
+    assert!((found - expected).abs() < 0.2e-6, "{found} {expected}");
+}
