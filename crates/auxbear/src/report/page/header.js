@@ -67,7 +67,7 @@ function stateTile(run) {
 function forceNote(run) {
   const peak = peakContact(run);
   const count = numberOf(run, "contact_count");
-  const parts = [peak && `${engineeringText(peak.peak_time_s - releaseOf(run), "s", 4)} after the release`, isNumber(count) && count + (count === 1 ? " contact" : " contacts")];
+  const parts = [peak && `${engineeringText(peak.peak_time_s - releaseOf(run), "s", 4)} after ${countedFrom(run)}`, isNumber(count) && count + (count === 1 ? " contact" : " contacts")];
   return parts.filter(Boolean);
 }
 

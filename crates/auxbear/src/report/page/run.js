@@ -100,6 +100,11 @@ function releaseOf(run) {
   return numberOf(run, "release_time") || 0;
 }
 
+// What instants of contact, spin-up and whirl count from; magnets that keep their power release nothing.
+function countedFrom(run) {
+  return run.quantities.release_time && numberOf(run, "release_time") === null ? "the start" : "the release";
+}
+
 // Letter, directory and title of a run among several; a directory that is called as its letter is not said twice. Tables and small
 // pictures have room for the letter and the directory alone.
 function runLabel(run, letter, ofOne) {
