@@ -110,7 +110,7 @@ pub struct Run {
     /// Override a value of the file, e.g. bearing.name=6005; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Number of runs of a drop from perturbed starts; the same as --set repeat.count=N
+    /// Number of runs of a drop, from sampled unbalance angles and perturbed starts; the same as --set repeat.count=N
     #[arg(long, value_name = "N")]
     pub repeat: Option<String>,
     /// Number of threads [all cores]; the numbers do not depend on it

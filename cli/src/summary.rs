@@ -241,7 +241,7 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
         text.push_str(&match varied.is_empty() {
             true => "± is one standard deviation over the perturbed starts (repeat.*): chaos, not tolerances of the machine\n".to_string(),
             false => format!(
-                "± is one standard deviation over machines that differ in {}, and over the perturbed starts (repeat.*)\n",
+                "± is one standard deviation over members with sampled {} and perturbed starts (repeat.*)\n",
                 varied.join(", ")
             ),
         });

@@ -128,7 +128,7 @@ class Scenario:
         A run that fails returns what was computed: see ``Result.complete``. Warnings of the model are issued as
         ``ModelWarning`` too. Ctrl-C ends it with ``KeyboardInterrupt``.
 
-        - ``repeat``: number of perturbed starts, ``repeat.count`` of a file
+        - ``repeat``: number of drops from random unbalance angles, ``repeat.count`` of a file
         - ``threads``: all cores by default
         - ``progress``: a function that is told the share done, from 0 to 1; True or False shows a line or none; by default a
           line is shown in notebooks and terminals

@@ -81,7 +81,10 @@ fn tolerances_of_the_machine_spread_what_they_should() {
         let quantity = outcome.quantities.iter().find(|q| q.name == name);
         quantity.and_then(|q| q.spread).expect("repeated")
     };
-    let (varied, chaos) = (ensemble(64, 2), outcome(&["repeat.count=16"], 2));
+    let (varied, chaos) = (
+        ensemble(64, 2),
+        outcome(&["repeat.count=16", "repeat.unbalance_angle=as given"], 2),
+    );
     // the fall takes √(2 c/g): half of a clearance's 5 %
     let fall = spread(&varied, "time_to_first_contact");
     let share = fall.standard_deviation / fall.mean;
@@ -91,6 +94,48 @@ fn tolerances_of_the_machine_spread_what_they_should() {
     assert!(still.standard_deviation < 1e-5 * still.mean, "{still:?}");
     let [low, median, high] = spread(&varied, "first_impact_force").quantiles;
     assert!(low < 0.95 * median && high > 1.05 * median);
+}
+
+/// A release chooses no angle of the rotor: members draw theirs, after all that the file varies, and member 0 has the one given.
+#[test]
+fn members_draw_the_unbalance_angle_evenly_unless_told_otherwise() {
+    let drawn = |more: &[&str]| {
+        let sets = [&["run.duration=0.1 ms", "repeat.count=65"], more].concat();
+        outcome(&sets, 2).drawn
+    };
+    let usual = drawn(&[]);
+    assert!(usual[0].is_empty(), "member 0 is the machine as given");
+    let angle = |draws: &Vec<(String, String)>| {
+        let (path, value) = draws.last().expect("it is drawn");
+        assert_eq!(path, "rotor.unbalance_angle");
+        units::parse_quantity(value).expect("an angle").value_si
+    };
+    let angles: Vec<f64> = usual[1..].iter().map(angle).collect();
+    assert!(
+        angles
+            .iter()
+            .all(|angle| (0.0..std::f64::consts::TAU).contains(angle))
+    );
+    // sums of 64 even angles have components of deviation √32: 2.5 of them
+    for turn in [1.0, 2.0] {
+        let sum = |of: fn(f64) -> f64| angles.iter().map(|angle| of(turn * angle)).sum::<f64>();
+        assert!(sum(f64::cos).hypot(sum(f64::sin)) < 2.5 * 32.0_f64.sqrt());
+    }
+    assert_eq!(drawn(&["repeat.unbalance_angle=random"]), usual);
+    let given = drawn(&["repeat.unbalance_angle=as given"]);
+    assert!(given.iter().all(Vec::is_empty));
+    // what else is varied draws what it drew without the angle
+    let friction = "repeat.friction_coefficient_deviation=0.2";
+    let both = drawn(&[friction]);
+    let alone = drawn(&[friction, "repeat.unbalance_angle=as given"]);
+    assert!((1..65).all(|k| both[k][0] == alone[k][0] && both[k].len() == 2));
+    // a distribution of the user's own takes its place
+    let own = drawn(&["vary.rotor.unbalance_angle={ uniform = [\"1 rad\", \"2 rad\"] }"]);
+    assert!(
+        own[1..]
+            .iter()
+            .all(|draws| draws.len() == 1 && (1.0..2.0).contains(&angle(draws)))
+    );
 }
 
 /// Air clearances, mm, from 0.25 to 0.31: some of 200, or as many as AUXBEAR_CLEARANCES says. Those between are of the 200

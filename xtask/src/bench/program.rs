@@ -99,6 +99,7 @@ impl Program {
         command.args(words).arg(&self.out);
         if task.count > 1 {
             command.args(["--repeat", &task.count.to_string()]);
+            command.args(["--set", "repeat.unbalance_angle=as given"]);
         }
         for setting in task.settings {
             command.args(["--set", setting]);

@@ -234,12 +234,16 @@ pub(crate) fn of_drop(
         .filter(|(_, deviation)| *deviation > 0.0)
         .filter_map(|(path, deviation)| by_repeat(path, Distribution::Lognormal(deviation), all))
         .collect();
-    if repeat.random_unbalance_angle {
-        let anywhere = Distribution::Uniform(0.0, TAU);
-        list.extend(by_repeat("rotor.unbalance_angle", anywhere, &all[..1]));
-    }
     for (path, raw, place) in entries {
         list.push(one(path, raw, *place, all)?);
+    }
+    let angle = "rotor.unbalance_angle";
+    if repeat.count > 1
+        && repeat.random_unbalance_angle
+        && list.iter().all(|vary| vary.path != angle)
+    {
+        let anywhere = Distribution::Uniform(0.0, TAU);
+        list.extend(by_repeat(angle, anywhere, &all[..1]));
     }
     Ok(list)
 }

@@ -351,7 +351,8 @@ fn several_bearings_are_varied_together_or_one_by_one() {
     let text = format!("{HEAD}{TWINS}");
     let drawn = |path: &str| {
         let set = format!("vary.{path}={{ lognormal = 0.3 }}");
-        outcome(&text, &["repeat.count=2", &set]).drawn[1].clone()
+        let as_given = "repeat.unbalance_angle=as given";
+        outcome(&text, &["repeat.count=2", as_given, &set]).drawn[1].clone()
     };
     let both = drawn("contact.friction_coefficient");
     assert_eq!(both.len(), 2);

@@ -276,7 +276,7 @@ function spreadOrigin(run) {
   const [position, angle] = ["repeat.rotor_position_deviation", "repeat.ball_angle_deviation"].map((path) => inputOf(run, path));
   const by = [position && inputText(position.value), angle && inputText(angle.value)].filter(Boolean).join(" and ");
   const varied = [...new Set(list(run.summary.drawn).flatMap((draws) => Object.keys(draws || {})))];
-  if (varied.length) return `spread of machines that differ in ${varied.join(", ")}, and of starts perturbed by ${by || "tiny amounts"} (see repeat.*)`;
+  if (varied.length) return `spread of members with sampled ${varied.join(", ")}, and starts perturbed by ${by || "tiny amounts"} (see repeat.*)`;
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 

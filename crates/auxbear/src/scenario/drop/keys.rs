@@ -494,10 +494,10 @@ pub(crate) const REPEAT: &[Key] = &[
     Key::new(
         "repeat.unbalance_angle",
         Kind::Word(UnbalanceAngle::WORDS),
-        "random",
-        "Direction of the unbalance at the release: a delevitation chooses no angle of the rotor.",
+        "as given",
+        "Direction of the unbalance at the release of members 1, 2, …: random, one angle for all planes from a full turn, or as rotor.unbalance_angle gives it.",
     )
-    .default("as given", "rotor.unbalance_angle counts"),
+    .default("random", "a delevitation chooses no angle of the rotor"),
     Key::new(
         "repeat.friction_coefficient_deviation",
         Kind::Coefficient,

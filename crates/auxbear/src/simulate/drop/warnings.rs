@@ -201,7 +201,8 @@ pub(crate) fn of(
                 "AB1011",
                 format!(
                     "{contacts} contacts: the first impacts, spin-up times and energies are reproducible, the late ones are \
-                     chaotic. Repeat the run (--repeat 16) to see the spread."
+                     chaotic. Repeat the run to see the spread: --repeat 16 samples the unbalance angle too, unless \
+                     repeat.unbalance_angle = \"as given\"."
                 ),
             )
         });
