@@ -1,7 +1,8 @@
 //! Reference files of rotors: a model element by element, with eigenvalues and what else was computed.
 
 use crate::import::draft::{Draft, DraftSupport};
-use rotor::{Annulus, Block, C64, Disk, Element, Material, Place, PointMass};
+use crate::import::ross::{coefficients, not_modelled};
+use rotor::{Annulus, C64, Disk, Element, Material, Place, PointMass};
 use serde_json::Value;
 
 /// The draft of a reference file.
@@ -44,6 +45,16 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
             Err(_) => Material::new(young, number(element, "nu")?, density),
         };
         let left = shaft_node(element, "n_l")?;
+        for note in element
+            .as_object()
+            .into_iter()
+            .flat_map(|own| not_modelled(own, "shaft"))
+        {
+            // once, of however many elements
+            if !draft.notes.contains(&note) {
+                draft.notes.push(note);
+            }
+        }
         let own = draft.material("shaft", material);
         draft.pieces.push((
             own,
@@ -94,23 +105,8 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
     }
     let bearings = model["bearings"].as_array().into_iter().flatten();
     for (index, bearing) in bearings.enumerate() {
-        let one = |key: String| {
-            let list = bearing[&key].as_array();
-            match list.map(Vec::as_slice) {
-                Some([value]) => value.as_f64().ok_or(format!("a bearing with a bad {key}")),
-                Some([]) | None => Ok(0.0),
-                Some(_) => Err(format!("a bearing with several values of {key}")),
-            }
-        };
-        let matrix = |letter: &str| -> Result<[[f64; 2]; 2], String> {
-            let of = |end: &str| one(format!("{letter}{end}"));
-            Ok([[of("xx")?, of("xy")?], [of("yx")?, of("yy")?]])
-        };
-        let block = Block {
-            stiffness: matrix("k")?,
-            damping: matrix("c")?,
-            mass: matrix("m")?,
-        };
+        let own = bearing.as_object().ok_or("a bearing is no table")?;
+        let rows = coefficients(own, &format!("bearing {}", index + 1))?;
         let on = bearing["n_link"].as_u64().map(|n| place(n as usize));
         let on = match on {
             Some(Place::Node(_)) => {
@@ -130,7 +126,7 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
         let support = DraftSupport {
             at,
             on,
-            rows: vec![(0.0, block)],
+            rows,
             seal: false,
         };
         draft
@@ -140,9 +136,18 @@ pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
     for entry in file["eigenvalues"].as_array().into_iter().flatten() {
         let modes = entry["modes"].as_array().into_iter().flatten();
         let lateral = modes.filter(|mode| mode["kind"] == "lateral");
-        let values = lateral.map(|mode| Ok(C64::new(number(mode, "re")?, number(mode, "im")?)));
-        let values: Result<Vec<C64>, String> = values.collect();
-        draft.stated.push((number(entry, "speed_rad_s")?, values?));
+        let Ok(speed) = number(entry, "speed_rad_s") else {
+            draft.nulls.push("eigenvalues at no speed".to_string());
+            continue;
+        };
+        let mut values = Vec::new();
+        for mode in lateral {
+            match (number(mode, "re"), number(mode, "im")) {
+                (Ok(re), Ok(im)) => values.push(C64::new(re, im)),
+                _ => (draft.nulls).push(format!("a mode at {speed} rad/s without re or im")),
+            }
+        }
+        draft.stated.push((speed, values));
     }
     draft.speed = draft
         .stated

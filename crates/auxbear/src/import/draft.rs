@@ -30,6 +30,8 @@ pub(crate) struct Draft {
     pub(crate) notes: Vec<String>,
     /// Eigenvalues that the file states: speed, list.
     pub(crate) stated: Vec<(f64, Vec<C64>)>,
+    /// Those that lack a number.
+    pub(crate) nulls: Vec<String>,
     /// Whether pieces are divided further, because the file says nothing of elements.
     pub(crate) divide: bool,
 }

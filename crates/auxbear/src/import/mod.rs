@@ -8,7 +8,7 @@
 
 pub(crate) mod case;
 pub(crate) mod draft;
-mod ross;
+pub(crate) mod ross;
 mod table;
 
 use crate::problem::{Code, Problem};

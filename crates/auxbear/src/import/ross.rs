@@ -10,6 +10,9 @@ use serde_json::{Map, Value};
 /// Keys of elements that say nothing of motion across the shaft.
 const OF_LOOKS: [&str; 4] = ["tag", "color", "scale_factor", "shear_method_calc"];
 
+/// Keys of the speeds of a table of coefficients, rad/s; ROSS has the first.
+const SPEEDS: [&str; 4] = ["frequency", "speed", "speed_rad_s", "speeds_rad_s"];
+
 /// The draft of a saved rotor.
 pub(super) fn draft(value: &Value) -> Result<Draft, String> {
     let Some(all) = value.as_object() else {
@@ -187,28 +190,37 @@ fn lay_out(draft: &mut Draft, shaft: &[(&str, &str, &Map<String, Value>)]) -> Re
                 damping_rotating: 0.0,
             },
         ));
-        for key in ["axial_force", "torque"] {
-            if number(element, key).is_some_and(|value| value != 0.0) {
-                draft.notes.push(format!(
-                    "ShaftElement {tag}: {key} is left out, which is not modelled"
-                ));
-            }
-        }
-        let shear = element.get("shear_method_calc").and_then(Value::as_str);
-        if let Some(other) = shear.filter(|word| *word != "cowper") {
-            draft.notes.push(format!(
-                "ShaftElement {tag}: shear coefficient of {other}; here it is Cowper's, and frequencies of short pieces differ"
-            ));
-        }
-        for key in ["shear_effects", "rotary_inertia", "gyroscopic"] {
-            if element.get(key).and_then(Value::as_bool) == Some(false) {
-                draft.notes.push(format!(
-                    "ShaftElement {tag}: {key} = false; here it is always taken into account"
-                ));
-            }
-        }
+        let notes = not_modelled(element, &format!("ShaftElement {tag}"));
+        draft.notes.extend(notes);
     }
     Ok(())
+}
+
+/// What an element of shaft says that is not modelled.
+pub(crate) fn not_modelled(element: &Map<String, Value>, what: &str) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (key, word) in [("axial_force", "axial force"), ("torque", "axial torque")] {
+        if number(element, key).is_some_and(|value| value != 0.0) {
+            notes.push(format!(
+                "{what}: {key} ({word}) is left out, which is not modelled"
+            ));
+        }
+    }
+    let shear = ["shear_method_calc", "shear_method"];
+    let shear = shear.iter().find_map(|key| element.get(*key)?.as_str());
+    if let Some(other) = shear.filter(|word| *word != "cowper") {
+        notes.push(format!(
+            "{what}: shear coefficient of {other}; here it is Cowper's, and frequencies of short pieces differ"
+        ));
+    }
+    for key in ["shear_effects", "rotary_inertia", "gyroscopic"] {
+        if element.get(key).and_then(Value::as_bool) == Some(false) {
+            notes.push(format!(
+                "{what}: {key} = false; here it is always taken into account"
+            ));
+        }
+    }
+    notes
 }
 
 fn support(
@@ -237,35 +249,8 @@ fn support(
             return Err(format!("{class} {tag} between two nodes of the shaft"));
         }
     };
-    let frequency = element.get("frequency").map(values).unwrap_or_default();
-    let rows = frequency.len().max(1);
-    let entry = |key: &str, row: usize| -> Result<f64, String> {
-        let list = element.get(key).map(values).unwrap_or_default();
-        match list.as_slice() {
-            [] => Ok(0.0),
-            [one] => Ok(*one),
-            list => list.get(row).copied().ok_or(format!(
-                "{class} {tag}: fewer values of {key} than of frequency"
-            )),
-        }
-    };
-    let mut table = Vec::new();
-    for row in 0..rows {
-        let matrix = |letter: char| -> Result<[[f64; 2]; 2], String> {
-            let of = |end: &str| entry(&format!("{letter}{end}"), row);
-            Ok([[of("xx")?, of("xy")?], [of("yx")?, of("yy")?]])
-        };
-        let block = Block {
-            stiffness: matrix('k')?,
-            damping: matrix('c')?,
-            mass: matrix('m')?,
-        };
-        table.push((frequency.get(row).copied().unwrap_or_default(), block));
-    }
-    if !table.windows(2).all(|pair| pair[0].0 < pair[1].0) {
-        return Err(format!("{class} {tag}: frequencies that do not rise"));
-    }
-    if rows > 1 {
+    let table = coefficients(element, &format!("{class} {tag}"))?;
+    if table.len() > 1 {
         draft.notes.push(format!(
             "{class} {tag}: its table over frequency is taken as one over speed, linear between its rows (ROSS: a spline)"
         ));
@@ -297,6 +282,47 @@ fn support(
         rows: table,
         seal,
     })
+}
+
+/// Coefficients of a bearing over speed, rad/s; one row where they are the same at every speed.
+pub(super) fn coefficients(
+    element: &Map<String, Value>,
+    what: &str,
+) -> Result<Vec<(f64, Block)>, String> {
+    let speeds = SPEEDS.iter().find_map(|key| element.get(*key));
+    let speeds = speeds.map(values).unwrap_or_default();
+    let rows = speeds.len().max(1);
+    let entry = |key: String, row: usize| -> Result<f64, String> {
+        let list = element.get(&key).map(values).unwrap_or_default();
+        match list.as_slice() {
+            [] => Ok(0.0),
+            [one] => Ok(*one),
+            list if list.len() == rows => Ok(list[row]),
+            list => Err(format!(
+                "{what}: {} values of {key} at {} speeds ({})",
+                list.len(),
+                speeds.len(),
+                SPEEDS.join(", ")
+            )),
+        }
+    };
+    let mut table = Vec::new();
+    for row in 0..rows {
+        let matrix = |letter: char| -> Result<[[f64; 2]; 2], String> {
+            let of = |end: &str| entry(format!("{letter}{end}"), row);
+            Ok([[of("xx")?, of("xy")?], [of("yx")?, of("yy")?]])
+        };
+        let block = Block {
+            stiffness: matrix('k')?,
+            damping: matrix('c')?,
+            mass: matrix('m')?,
+        };
+        table.push((speeds.get(row).copied().unwrap_or_default(), block));
+    }
+    match table.windows(2).all(|pair| pair[0].0 < pair[1].0) {
+        true => Ok(table),
+        false => Err(format!("{what}: speeds that do not rise")),
+    }
 }
 
 /// The node of an element.

@@ -1,8 +1,45 @@
 //! What comparisons with reference files share.
 
-use super::report::Row;
+use super::report::{Row, Verdict};
 use serde::Deserialize;
 use serde_json::Value;
+
+/// Why nothing of a file is compared.
+#[derive(Debug)]
+pub(super) enum Refusal {
+    /// It needs a model that this program does not have.
+    NotModelled(String),
+    /// It is wrong.
+    Wrong(String),
+}
+
+impl<T: Into<String>> From<T> for Refusal {
+    fn from(why: T) -> Self {
+        Refusal::Wrong(why.into())
+    }
+}
+
+/// The rows of a file, or the one that says why there are none.
+pub(super) fn rows_of(found: Result<Vec<Row>, Refusal>) -> Vec<Row> {
+    found.unwrap_or_else(|refusal| {
+        vec![match refusal {
+            Refusal::NotModelled(why) => Row::not_run(format!("model missing: {why}")),
+            Refusal::Wrong(why) => Row {
+                damaged: true,
+                ..Row::wrong(format!("wrong: {why}"))
+            },
+        }]
+    })
+}
+
+/// Whether there is a `null` in it, at any depth.
+fn has_null(value: &Value) -> bool {
+    match value {
+        Value::Array(list) => list.iter().any(has_null),
+        Value::Object(table) => table.values().any(has_null),
+        other => other.is_null(),
+    }
+}
 
 /// Reads a part of a reference file.
 pub(super) fn part<T: for<'de> Deserialize<'de>>(value: &Value) -> Result<T, String> {
@@ -10,14 +47,46 @@ pub(super) fn part<T: for<'de> Deserialize<'de>>(value: &Value) -> Result<T, Str
 }
 
 /// Keeps, of many comparisons under one name, the one that deviates most against its tolerance.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Worst {
     rows: Vec<(Row, usize)>,
 }
 
 impl Worst {
-    /// Adds a comparison.
+    /// Adds the comparisons of a row of a file. One that lacks a number where the file has `null` is left out by itself.
+    pub(super) fn row(
+        &mut self,
+        place: &str,
+        row: &Value,
+        compare: impl FnOnce(&mut Self) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let before = self.clone();
+        match compare(self) {
+            Err(why) if has_null(row) => {
+                *self = before;
+                self.add(Row::not_run(format!("it has a null: {why}")).of(place, ""));
+                Ok(())
+            }
+            other => other.map_err(|why| format!("{place}: {why}")),
+        }
+    }
+    /// Whether a row has a `null`; then it is left out.
+    pub(super) fn lacks(&mut self, place: &str, row: &Value) -> bool {
+        if has_null(row) {
+            self.add(Row::not_run("it has a null").of(place, ""));
+        }
+        has_null(row)
+    }
+    /// Adds a comparison. With a value that is no number in the file nothing is compared.
     pub(super) fn add(&mut self, row: Row) {
+        let row = match row.reference {
+            Some(reference) if reference.is_nan() => {
+                let why = format!("null in the file; {}", row.why);
+                Row::not_run(why).of(row.quantity, row.unit)
+            }
+            _ => row,
+        };
+        let idle = |row: &Row| (row.verdict == Verdict::NotRun).then(|| row.why.clone());
         let excess = |row: &Row| match (row.deviation, row.tolerance) {
             (Some(deviation), _) if deviation.is_nan() => f64::INFINITY,
             (Some(0.0), _) => 0.0,
@@ -27,7 +96,7 @@ impl Worst {
         match self
             .rows
             .iter_mut()
-            .find(|(known, _)| known.quantity == row.quantity)
+            .find(|(known, _)| known.quantity == row.quantity && idle(known) == idle(&row))
         {
             None => self.rows.push((row, 1)),
             Some((known, count)) => {
@@ -43,9 +112,11 @@ impl Worst {
         self.rows
             .into_iter()
             .map(|(mut row, count)| {
-                if count > 1 {
-                    row.why = format!("worst of {count}: {}", row.why);
-                }
+                row.why = match row.verdict {
+                    Verdict::NotRun => format!("{count} of them: {}", row.why),
+                    _ if count > 1 => format!("worst of {count}: {}", row.why),
+                    _ => row.why,
+                };
                 row
             })
             .collect()
@@ -66,7 +137,7 @@ pub(super) fn never(
     };
     match (reference, ours) {
         (None, None) => Row {
-            verdict: super::report::Verdict::Pass,
+            verdict: Verdict::Pass,
             why: "must not happen, and does not".into(),
             ..row
         },

@@ -32,6 +32,7 @@ pub use simulation::Simulation;
 pub use simulator::{LawsOnly, Simulator};
 
 use crate::problem::{Code, Problem};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -94,7 +95,35 @@ fn of_json(text: &str, path: &Path, simulator: &dyn Simulator) -> Vec<Row> {
             .or_else(|| heat::rows(&value))
             .or_else(|| machines::rows(&value, path, simulator))
             .or_else(|| reference::rows(&value, simulator))
-            .unwrap_or_else(|| vec![Row::not_run("a JSON file of no known format")]),
+            .unwrap_or_else(|| vec![Row::not_run(why_not(&value))]),
+    }
+}
+
+/// Reference files whose model this program does not have: two keys of each, and the model.
+const NOT_MODELLED: [([&str; 2], &str); 6] = [
+    (
+        ["faults", "base_shock"],
+        "faults of axes, sensors and controllers, limits of slew, base motion, re-levitation",
+    ),
+    (
+        ["bands", "full_slip_whirl"],
+        "needed friction of dry whirl over its frequency",
+    ),
+    (["duplex", "rows"], BEARING_IN_SPACE),
+    (["per_ball", "globals"], BEARING_IN_SPACE),
+    (["layout", "cases"], BEARING_IN_SPACE),
+    (["inputs", "note"], BEARING_IN_SPACE),
+];
+const BEARING_IN_SPACE: &str = "a bearing in space (axial motion, tilt, rows, contact angles)";
+
+/// Why a file that no comparison knows is not run.
+fn why_not(value: &Value) -> String {
+    let known = NOT_MODELLED
+        .iter()
+        .find(|(keys, _)| keys.iter().all(|key| value.get(key).is_some()));
+    match known {
+        Some((_, model)) => format!("model missing: {model}"),
+        None => "a JSON file of no known format".to_string(),
     }
 }
 
@@ -299,6 +328,21 @@ mod tests {
         let told = run(Some(&folder), &LawsOnly).unwrap_err().to_string();
         fs::remove_dir_all(&folder).unwrap();
         assert!(told.contains("more, which is a link"), "{told}");
+    }
+    #[test]
+    fn a_file_without_its_model_names_it() {
+        for (file, model) in [
+            (
+                r#"{"faults": "", "base_shock": "", "cases": []}"#,
+                "faults of axes",
+            ),
+            (r#"{"bands": [], "full_slip_whirl": {}}"#, "dry whirl"),
+            (r#"{"layout": "", "cases": []}"#, "bearing in space"),
+        ] {
+            let row = of_json(file, Path::new("case.json"), &LawsOnly).remove(0);
+            assert_eq!((row.verdict, row.damaged), (Verdict::NotRun, false));
+            assert!(row.why.contains(model), "{}", row.why);
+        }
     }
     #[test]
     fn no_folder_is_one_message() {

@@ -14,7 +14,7 @@ const SHARE: f64 = 1e-9;
 
 #[derive(Deserialize)]
 struct File {
-    points: Vec<DerivativePoint>,
+    points: Vec<Value>,
     per_ball_cols: Vec<String>,
     #[serde(default)]
     global_cols: Vec<String>,
@@ -25,11 +25,19 @@ struct File {
 pub(super) fn rows(value: &Value, simulator: &dyn Simulator) -> Result<Vec<Row>, String> {
     let file: File = part(value)?;
     let mut worst = Worst::default();
-    for (index, point) in file.points.iter().enumerate() {
-        check(point, &file).map_err(|error| format!("points[{index}]: {error}"))?;
-        match simulator.derivative(point) {
-            Err(why) => return Ok(vec![Row::not_run(why)]),
-            Ok(answer) => compare(&file, index, point, &answer, &mut worst)?,
+    for (index, given) in file.points.iter().enumerate() {
+        let mut cannot = None;
+        worst.row(&format!("points[{index}]"), given, |worst| {
+            let point: DerivativePoint = part(given)?;
+            check(&point, &file)?;
+            match simulator.derivative(&point) {
+                Err(why) => cannot = Some(why),
+                Ok(answer) => compare(&file, index, &point, &answer, worst)?,
+            }
+            Ok(())
+        })?;
+        if let Some(why) = cannot {
+            return Ok(vec![Row::not_run(why)]);
         }
     }
     Ok(worst.into_rows())

@@ -5,7 +5,7 @@
 //! compared here, rotors in `rotors.rs`; states and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
 //! A file with hundreds of numbers becomes one row per quantity: the one that deviates most.
 
-use super::compare::{Worst, never, part};
+use super::compare::{Refusal, Worst, never, part, rows_of};
 use super::report::{Row, Tolerance};
 use super::simulator::Simulator;
 use super::{drops, points, rotors};
@@ -23,26 +23,21 @@ pub fn rows(value: &Value, simulator: &dyn Simulator) -> Option<Vec<Row>> {
     let top = value.as_object()?;
     let has = |keys: &[&str]| keys.iter().all(|key| top.contains_key(*key));
     let rows = if has(&["rows", "spinup", "params"]) {
-        rolling(value)
+        rolling(value).map_err(Refusal::from)
     } else if has(&["rows", "tol_rel"]) && first_row_has(top, "stars") {
-        hertz(value)
+        hertz(value).map_err(Refusal::from)
     } else if has(&["points", "per_ball_cols", "quadratures"]) {
-        points::rows(value, simulator)
+        points::rows(value, simulator).map_err(Refusal::from)
     } else if has(&["model", "eigenvalues"]) {
         rotors::rows(value)
     } else if has(&["input", "M", "K", "G"]) {
         rotors::element(value)
     } else if has(&["params", "y0", "mean", "sd"]) {
-        drops::rows(value, simulator)
+        drops::rows(value, simulator).map_err(Refusal::from)
     } else {
         return None;
     };
-    Some(rows.unwrap_or_else(|error| {
-        vec![Row {
-            damaged: true,
-            ..Row::wrong(format!("wrong: {error}"))
-        }]
-    }))
+    Some(rows_of(rows))
 }
 
 fn first_row_has(top: &Map<String, Value>, key: &str) -> bool {
@@ -54,7 +49,7 @@ fn first_row_has(top: &Map<String, Value>, key: &str) -> bool {
 
 #[derive(Deserialize)]
 struct HertzFile {
-    rows: Vec<HertzRow>,
+    rows: Vec<Value>,
     tol_rel: f64,
 }
 
@@ -88,98 +83,105 @@ struct HertzRow {
 fn hertz(value: &Value) -> Result<Vec<Row>, String> {
     let file: HertzFile = part(value)?;
     let mut worst = Worst::default();
-    for row in &file.rows {
-        let geometry = BallRace {
-            ball_diameter: row.ball_diameter,
-            pitch_diameter: row.pitch_diameter,
-            groove_curvature: row.groove_curvature,
-            contact_angle: 0.0,
-            race: if row.inner { Race::Inner } else { Race::Outer },
-        };
-        let material = Material {
-            young_modulus: row.young_modulus,
-            poisson_ratio: row.poisson_ratio,
-            ..BEARING_STEEL
-        };
-        let curvature = geometry.curvature();
-        let modulus = contact_modulus(material, material);
-        let contact = PointContact::new(curvature, modulus).map_err(|error| error.to_string())?;
-        let fast =
-            PointContact::hamrock_brewe(curvature, modulus).map_err(|error| error.to_string())?;
-        let factors = EllipseFactors::exact(curvature.difference().abs())
-            .ok_or("a curvature difference outside 0 to 1")?;
-        let which = format!(
-            "{} race, f {}, D {} mm; exact integrals on both sides",
-            if row.inner { "inner" } else { "outer" },
-            row.groove_curvature,
-            row.ball_diameter * 1e3
-        );
-        let load = 100.0;
-        let mut compare = |quantity: &str, unit: &str, reference: f64, ours: f64| {
-            let tolerance = Tolerance::Relative(file.tol_rel);
-            worst.add(Row::compared(
-                quantity,
-                unit,
-                reference,
-                ours,
-                tolerance,
-                which.as_str(),
-            ));
-        };
-        compare("curvature_sum", "1/m", row.sum_rho, curvature.sum());
-        compare(
-            "curvature_difference",
-            "",
-            row.difference,
-            curvature.difference(),
-        );
-        compare("semi_major_factor", "", row.stars[0], factors.semi_major);
-        compare("semi_minor_factor", "", row.stars[1], factors.semi_minor);
-        compare("approach_factor", "", row.stars[2], factors.approach);
-        compare("ellipticity", "", row.stars[3], factors.ellipticity);
-        compare("stiffness", "N/m^1.5", row.stiffness, contact.stiffness);
-        compare(
-            "semi_major_axis_at_100_N",
-            "m",
-            row.at_100_newton[0],
-            contact.semi_major(load),
-        );
-        compare(
-            "semi_minor_axis_at_100_N",
-            "m",
-            row.at_100_newton[1],
-            contact.semi_minor(load),
-        );
-        compare(
-            "approach_at_100_N",
-            "m",
-            row.at_100_newton[2],
-            contact.approach(load),
-        );
-        let pressure = maximum_pressure(contact.pressure_factor, load);
-        compare(
-            "max_pressure_at_100_N",
-            "Pa",
-            row.at_100_newton[3],
-            pressure,
-        );
-        if let Some(reference) = row.fast_stiffness {
-            compare(
-                "stiffness_hamrock_brewe",
-                "N/m^1.5",
-                reference,
-                fast.stiffness,
-            );
-        }
+    for (at, row) in file.rows.iter().enumerate() {
+        worst.row(&format!("row {}", at + 1), row, |worst| {
+            hertz_row(&part(row)?, file.tol_rel, worst)
+        })?;
     }
     Ok(worst.into_rows())
+}
+
+fn hertz_row(row: &HertzRow, tolerance: f64, worst: &mut Worst) -> Result<(), String> {
+    let geometry = BallRace {
+        ball_diameter: row.ball_diameter,
+        pitch_diameter: row.pitch_diameter,
+        groove_curvature: row.groove_curvature,
+        contact_angle: 0.0,
+        race: if row.inner { Race::Inner } else { Race::Outer },
+    };
+    let material = Material {
+        young_modulus: row.young_modulus,
+        poisson_ratio: row.poisson_ratio,
+        ..BEARING_STEEL
+    };
+    let curvature = geometry.curvature();
+    let modulus = contact_modulus(material, material);
+    let contact = PointContact::new(curvature, modulus).map_err(|error| error.to_string())?;
+    let fast =
+        PointContact::hamrock_brewe(curvature, modulus).map_err(|error| error.to_string())?;
+    let factors = EllipseFactors::exact(curvature.difference().abs())
+        .ok_or("a curvature difference outside 0 to 1")?;
+    let which = format!(
+        "{} race, f {}, D {} mm; exact integrals on both sides",
+        if row.inner { "inner" } else { "outer" },
+        row.groove_curvature,
+        row.ball_diameter * 1e3
+    );
+    let load = 100.0;
+    let mut compare = |quantity: &str, unit: &str, reference: f64, ours: f64| {
+        let tolerance = Tolerance::Relative(tolerance);
+        worst.add(Row::compared(
+            quantity,
+            unit,
+            reference,
+            ours,
+            tolerance,
+            which.as_str(),
+        ));
+    };
+    compare("curvature_sum", "1/m", row.sum_rho, curvature.sum());
+    compare(
+        "curvature_difference",
+        "",
+        row.difference,
+        curvature.difference(),
+    );
+    compare("semi_major_factor", "", row.stars[0], factors.semi_major);
+    compare("semi_minor_factor", "", row.stars[1], factors.semi_minor);
+    compare("approach_factor", "", row.stars[2], factors.approach);
+    compare("ellipticity", "", row.stars[3], factors.ellipticity);
+    compare("stiffness", "N/m^1.5", row.stiffness, contact.stiffness);
+    compare(
+        "semi_major_axis_at_100_N",
+        "m",
+        row.at_100_newton[0],
+        contact.semi_major(load),
+    );
+    compare(
+        "semi_minor_axis_at_100_N",
+        "m",
+        row.at_100_newton[1],
+        contact.semi_minor(load),
+    );
+    compare(
+        "approach_at_100_N",
+        "m",
+        row.at_100_newton[2],
+        contact.approach(load),
+    );
+    let pressure = maximum_pressure(contact.pressure_factor, load);
+    compare(
+        "max_pressure_at_100_N",
+        "Pa",
+        row.at_100_newton[3],
+        pressure,
+    );
+    if let Some(reference) = row.fast_stiffness {
+        compare(
+            "stiffness_hamrock_brewe",
+            "N/m^1.5",
+            reference,
+            fast.stiffness,
+        );
+    }
+    Ok(())
 }
 
 #[derive(Deserialize)]
 struct RollingFile {
     params: RollingParameters,
-    rows: Vec<RollingRow>,
-    spinup: Vec<SpinUp>,
+    rows: Vec<Value>,
+    spinup: Vec<Value>,
     tol_rel: f64,
     tol_spinup_rel: f64,
 }
@@ -271,7 +273,9 @@ fn rolling(value: &Value) -> Result<Vec<Row>, String> {
         preload: 0.0,
     };
     let mut worst = Worst::default();
-    for row in &file.rows {
+    for (at, given) in file.rows.iter().enumerate() {
+        worst.row(&format!("row {}", at + 1), given, |worst| {
+            let row: RollingRow = part(given)?;
         let motion = set.rolling(row.acceleration);
         let inner = set.inner_traction(motion, row.pocket_friction);
         let outer = set.outer_traction(motion, row.pocket_friction);
@@ -314,30 +318,35 @@ fn rolling(value: &Value) -> Result<Vec<Row>, String> {
                 which.as_str(),
             ));
         }
+            Ok(())
+        })?;
     }
-    let mut rows = worst.into_rows();
-    for case in &file.spinup {
-        let quantity = format!(
-            "spin_up_time W {} N, mu {}, q {}",
-            case.load, case.friction_coefficient, case.q
-        );
-        let inertia = p.race_inertia + set.inner_inertia() + set.pocket_friction_arm() * case.q;
-        let drive = p.bore_radius * case.friction_coefficient * case.load;
-        // (16) as printed steps where ν Ω = 209 mm²/s·rad/s.
-        let knots = [0.0, 209.0 / p.nu_mm2_s, case.end_speed];
-        let moment = |speed: f64| palmgren.printed_moment(speed, case.load);
-        let ours = spin_up_time(inertia, drive, moment, &knots);
-        rows.push(match (case.t, ours) {
-            (Some(reference), Some(ours)) => Row::compared(
-                quantity,
-                "s",
-                reference,
-                ours,
-                Tolerance::Relative(file.tol_spinup_rel),
-                "quadrature of (19)",
-            ),
-            (reference, ours) => never(quantity, "s", reference, ours),
-        });
+    for (at, given) in file.spinup.iter().enumerate() {
+        worst.row(&format!("spinup {}", at + 1), given, |worst| {
+            let case: SpinUp = part(given)?;
+            let quantity = format!(
+                "spin_up_time W {} N, mu {}, q {}",
+                case.load, case.friction_coefficient, case.q
+            );
+            let inertia = p.race_inertia + set.inner_inertia() + set.pocket_friction_arm() * case.q;
+            let drive = p.bore_radius * case.friction_coefficient * case.load;
+            // (16) as printed steps where ν Ω = 209 mm²/s·rad/s.
+            let knots = [0.0, 209.0 / p.nu_mm2_s, case.end_speed];
+            let moment = |speed: f64| palmgren.printed_moment(speed, case.load);
+            let ours = spin_up_time(inertia, drive, moment, &knots);
+            worst.add(match (case.t, ours) {
+                (Some(reference), Some(ours)) => Row::compared(
+                    quantity,
+                    "s",
+                    reference,
+                    ours,
+                    Tolerance::Relative(file.tol_spinup_rel),
+                    "quadrature of (19)",
+                ),
+                (reference, ours) => never(quantity, "s", reference, ours),
+            });
+            Ok(())
+        })?;
     }
-    Ok(rows)
+    Ok(worst.into_rows())
 }

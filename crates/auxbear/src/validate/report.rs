@@ -100,6 +100,16 @@ impl Row {
         }
     }
 
+    /// The same with a deviation in a measure of its own: complex numbers by their distance, entries by their diagonal.
+    pub(super) fn by(mut self, deviation: f64) -> Row {
+        self.deviation = Some(deviation);
+        self.verdict = match self.tolerance {
+            Some(tolerance) if deviation <= tolerance => Verdict::Pass,
+            _ => Verdict::Fail,
+        };
+        self
+    }
+
     /// A case, or with [`Row::of`] a quantity, that was not run.
     pub fn not_run(why: impl Into<String>) -> Row {
         Row {

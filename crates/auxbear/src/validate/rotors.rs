@@ -3,9 +3,10 @@
 //! Matrices are those of M q̈ + (C + ΩG)q̇ + Kq = F with the coordinates (x, y, z, α, β, θ) of each node, β = Re ψ, α = -Im ψ;
 //! only the bending planes are compared. Whirl labels are not: eigenvalues are.
 
-use super::compare::Worst;
+use super::compare::{Refusal, Worst};
 use super::report::{Row, Tolerance};
-use crate::import::case;
+use crate::import::draft::Draft;
+use crate::import::{case, ross};
 use rotor::{
     Analysis, Annulus, C64, Element, Material, Place, Responder, Rotor, Unbalance, properties, sag,
 };
@@ -25,8 +26,8 @@ const STATIC: f64 = 1e-5;
 const STIFF: f64 = 1e6;
 
 /// Rows of a whole rotor.
-pub(super) fn rows(file: &Value) -> Result<Vec<Row>, String> {
-    let draft = case::draft(file)?;
+pub(super) fn rows(file: &Value) -> Result<Vec<Row>, Refusal> {
+    let draft = modelled(file)?;
     let rotor = draft.rotor();
     let mut worst = Worst::default();
     body(file, &rotor, &mut worst)?;
@@ -42,14 +43,31 @@ pub(super) fn rows(file: &Value) -> Result<Vec<Row>, String> {
     for (speed, stated) in &draft.stated {
         eigenvalues(&analysis, *speed, stated, tolerance, why, &mut worst)?;
     }
+    for why in &draft.nulls {
+        worst.add(Row::not_run(why).of("eigenvalue_modulus", "1/s"));
+    }
     criticals(file, &analysis, tolerance, why, &mut worst)?;
     unbalance(file, &rotor, &mut worst)?;
     standing(file, &rotor, &mut worst)?;
     Ok(worst.into_rows())
 }
 
+/// The rotor of a file, where all that the file says of it is modelled.
+pub(super) fn modelled(file: &Value) -> Result<Draft, Refusal> {
+    let draft = case::draft(file)?;
+    match draft.notes.is_empty() {
+        true => Ok(draft),
+        false => Err(Refusal::NotModelled(draft.notes.join("; "))),
+    }
+}
+
 /// Rows of a single element.
-pub(super) fn element(file: &Value) -> Result<Vec<Row>, String> {
+pub(super) fn element(file: &Value) -> Result<Vec<Row>, Refusal> {
+    let own = file["input"].as_object().ok_or("input is no table")?;
+    let notes = ross::not_modelled(own, "element");
+    if !notes.is_empty() {
+        return Err(Refusal::NotModelled(notes.join("; ")));
+    }
     let input = |key: &str| {
         let value = file["input"][key].as_f64();
         value.ok_or(format!("input without {key}"))
@@ -92,6 +110,13 @@ pub(super) fn element(file: &Value) -> Result<Vec<Row>, String> {
         compare(name, unit, matrix, &entry, rows.len(), 2, &mut worst);
     }
     Ok(worst.into_rows())
+}
+
+/// The entries of a list: `null` is no number.
+fn numbers(list: &Value) -> Vec<f64> {
+    let list = list.as_array().into_iter().flatten();
+    list.map(|value| value.as_f64().unwrap_or(f64::NAN))
+        .collect()
 }
 
 /// Whether dense solvers lose digits on the lowest modes.
@@ -173,7 +198,7 @@ fn compare(
         }
     }
     let (own, other) = found;
-    let mut row = Row::compared(
+    let row = Row::compared(
         format!("entries_of_{name}"),
         unit,
         other,
@@ -181,16 +206,11 @@ fn compare(
         Tolerance::Relative(MATRIX),
         "relative to the diagonal of row and column; the entry that deviates most",
     );
-    row.deviation = Some(most);
-    row.verdict = match most <= MATRIX {
-        true => super::report::Verdict::Pass,
-        false => super::report::Verdict::Fail,
-    };
-    worst.add(row);
+    worst.add(row.by(most));
 }
 
 fn matrices(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String> {
-    let Some(given) = file.get("matrices") else {
+    let Some(given) = file.get("matrices").filter(|given| !given.is_null()) else {
         return Ok(());
     };
     let speed = given["speed_rad_s"]
@@ -209,27 +229,30 @@ fn matrices(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
         ("G", "kg, kg m, kg m^2", &gyroscopic),
     ] {
         let sparse = &given[name];
-        let list = |key: &str| {
-            sparse[key]
-                .as_array()
-                .ok_or(format!("{name} without {key}"))
-        };
-        let mut dense = vec![0.0; dofs * dofs];
-        for ((i, j), value) in list("rows")?.iter().zip(list("cols")?).zip(list("vals")?) {
-            let at = i.as_u64().zip(j.as_u64()).zip(value.as_f64());
-            let ((i, j), value) = at.ok_or(format!("a bad entry of {name}"))?;
-            let cell = dense.get_mut(i as usize * dofs + j as usize);
-            *cell.ok_or(format!("an entry of {name} outside it"))? += value;
-        }
-        compare(
-            name,
-            unit,
-            ours,
-            &|i, j| dense[i * dofs + j],
-            dofs,
-            nodes,
-            worst,
-        );
+        worst.row(name, sparse, |worst| {
+            let list = |key: &str| {
+                sparse[key]
+                    .as_array()
+                    .ok_or(format!("{name} without {key}"))
+            };
+            let mut dense = vec![0.0; dofs * dofs];
+            for ((i, j), value) in list("rows")?.iter().zip(list("cols")?).zip(list("vals")?) {
+                let at = i.as_u64().zip(j.as_u64()).zip(value.as_f64());
+                let ((i, j), value) = at.ok_or(format!("a bad entry of {name}"))?;
+                let cell = dense.get_mut(i as usize * dofs + j as usize);
+                *cell.ok_or(format!("an entry of {name} outside it"))? += value;
+            }
+            compare(
+                name,
+                unit,
+                &ours,
+                &|i, j| dense[i * dofs + j],
+                dofs,
+                nodes,
+                worst,
+            );
+            Ok(())
+        })?;
     }
     Ok(())
 }
@@ -253,7 +276,7 @@ fn eigenvalues(
         let own = nearest
             .map(|at| ours.remove(at))
             .ok_or("fewer modes than the file has")?;
-        let mut row = Row::compared(
+        let row = Row::compared(
             "eigenvalue_modulus",
             "1/s",
             reference.norm(),
@@ -261,13 +284,7 @@ fn eigenvalues(
             Tolerance::Relative(tolerance),
             format!("|Δλ|/|λ| at {speed:.6} rad/s; {why}"),
         );
-        let deviation = distance(&own) / reference.norm();
-        row.deviation = Some(deviation);
-        row.verdict = match deviation <= tolerance {
-            true => super::report::Verdict::Pass,
-            false => super::report::Verdict::Fail,
-        };
-        worst.add(row);
+        worst.add(row.by(distance(&own) / reference.norm()));
     }
     Ok(())
 }
@@ -280,11 +297,12 @@ fn criticals(
     worst: &mut Worst,
 ) -> Result<(), String> {
     const SPEEDS: usize = 101;
-    let Some(list) = file["critical_speeds"]["rad_s"].as_array() else {
-        return Ok(());
-    };
-    let reference: Vec<f64> = list.iter().filter_map(Value::as_f64).collect();
+    let reference = numbers(&file["critical_speeds"]["rad_s"]);
     let top = 1.02 * reference.iter().copied().fold(0.0, f64::max);
+    // a rotor that is not said to have any is not searched
+    if reference.is_empty() {
+        return Ok(());
+    }
     let speeds: Vec<f64> = (0..SPEEDS)
         .map(|k| top * k as f64 / (SPEEDS - 1) as f64)
         .collect();
@@ -315,16 +333,8 @@ fn criticals(
 }
 
 fn unbalance(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String> {
-    let Some(given) = file.get("unbalance") else {
+    let Some(given) = file.get("unbalance").filter(|given| !given.is_null()) else {
         return Ok(());
-    };
-    let numbers = |value: &Value| -> Vec<f64> {
-        value
-            .as_array()
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_f64)
-            .collect()
     };
     let (nodes, amounts, phases) = (
         numbers(&given["node"]),
@@ -358,9 +368,13 @@ fn unbalance(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), Strin
                 C64::new(part("x_re"), part("x_im")),
                 C64::new(part("y_re"), part("y_im")),
             );
-            let scale = rx.norm().max(ry.norm());
+            // of a null nothing is compared
+            let scale = match (rx + ry).norm() {
+                nan if nan.is_nan() => nan,
+                _ => rx.norm().max(ry.norm()),
+            };
             let deviation = (x - rx).norm().max((y - ry).norm()) / scale;
-            let mut row = Row::compared(
+            let row = Row::compared(
                 "response_to_unbalance",
                 "m",
                 scale,
@@ -370,12 +384,7 @@ fn unbalance(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), Strin
                     "complex, of x and y, at {speed} rad/s; linear equations in double precision"
                 ),
             );
-            row.deviation = Some(deviation);
-            row.verdict = match deviation <= RESPONSE {
-                true => super::report::Verdict::Pass,
-                false => super::report::Verdict::Fail,
-            };
-            worst.add(row);
+            worst.add(row.by(deviation));
         }
     }
     Ok(())
@@ -390,9 +399,10 @@ fn standing(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
         let Place::Node(node) = support.at else {
             continue;
         };
-        let Some(reference) = forces.get(&format!("node_{node}")).and_then(Value::as_f64) else {
+        let Some(reference) = forces.get(&format!("node_{node}")) else {
             continue;
         };
+        let reference = reference.as_f64().unwrap_or(f64::NAN);
         let why = "the file holds the rotor in rigid supports";
         worst.add(Row::compared(
             "support_load",
@@ -404,4 +414,85 @@ fn standing(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
         ));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::compare::rows_of;
+    use super::*;
+    use crate::validate::report::Verdict;
+    use serde_json::json;
+
+    /// Two masses of 1 kg on a shaft without mass, on springs that grow from 1 to 4 MN/m at 200 rad/s: both move alike at √(k/m).
+    fn file() -> Value {
+        let mode = |frequency: f64| json!([{"re": 0.0, "im": frequency, "kind": "lateral"}]);
+        let at = |speed: f64, k: f64| json!({"speed_rad_s": speed, "modes": mode(k.sqrt())});
+        let disk = |n: usize| json!({"n": n, "m": 1.0, "Ip": 0.0, "Id": 0.01});
+        let bearing = |n: usize| json!({"n": n, "n_link": null, "frequency": [0.0, 200.0], "kxx": [1e6, 4e6], "kyy": [1e6, 4e6]});
+        json!({
+            "model": {
+                "node_positions_m": [0.0, 0.5],
+                "shaft_elements": [{
+                    "n_l": 0, "L": 0.5, "idl": 0.0, "odl": 0.05, "idr": 0.0, "odr": 0.05, "rho": 1e-6,
+                    "E": 2e11, "nu": 0.3, "alpha": 0.0, "beta": 0.0, "axial_force": 0.0, "torque": 0.0
+                }],
+                "disks": [disk(0), disk(1)],
+                "point_masses": [],
+                "bearings": [bearing(0), bearing(1)]
+            },
+            "eigenvalues": [at(0.0, 1e6), at(100.0, 2.5e6), at(200.0, 4e6), at(300.0, 4e6)]
+        })
+    }
+    fn verdicts(file: &Value) -> Vec<(Verdict, String)> {
+        let rows = rows_of(rows(file)).into_iter();
+        rows.map(|row| (row.verdict, row.why)).collect()
+    }
+
+    #[test]
+    fn coefficients_over_speed_are_read() {
+        let found = verdicts(&file());
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].0, Verdict::Pass, "{}", found[0].1);
+        assert!(found[0].1.starts_with("worst of 4"), "{}", found[0].1);
+        let mut other = file();
+        for key in ["kxx", "kyy"] {
+            other["model"]["bearings"][0][key] = json!([1e6, 4.1e6]);
+        }
+        assert_eq!(verdicts(&other)[0].0, Verdict::Fail);
+        other["model"]["bearings"][0]["kxx"] = json!([1e6, 4e6, 9e6]);
+        let wrong = rows_of(rows(&other)).remove(0);
+        assert!(
+            wrong.damaged && wrong.why.contains("3 values of kxx at 2 speeds"),
+            "{}",
+            wrong.why
+        );
+    }
+    #[test]
+    fn a_null_leaves_out_its_own_row_alone() {
+        let mut file = file();
+        file["eigenvalues"][1]["modes"][0]["re"] = Value::Null;
+        file["critical_speeds"] = json!({"rad_s": [null, 2000.0]});
+        let found = verdicts(&file);
+        let count = |verdict| found.iter().filter(|row| row.0 == verdict).count();
+        assert_eq!(
+            (count(Verdict::Pass), count(Verdict::NotRun)),
+            (1, 2),
+            "{found:?}"
+        );
+        assert!(found[0].1.starts_with("worst of 3"), "{found:?}");
+    }
+    #[test]
+    fn what_is_not_modelled_is_not_compared_as_if_it_were_not_there() {
+        for (key, value, word) in [
+            ("torque", json!(2e3), "axial torque"),
+            ("axial_force", json!(-1e4), "axial force"),
+            ("gyroscopic", json!(false), "gyroscopic"),
+        ] {
+            let mut file = file();
+            file["model"]["shaft_elements"][0][key] = value;
+            let found = verdicts(&file);
+            assert_eq!((found.len(), found[0].0), (1, Verdict::NotRun));
+            assert!(found[0].1.contains(word), "{}", found[0].1);
+        }
+    }
 }

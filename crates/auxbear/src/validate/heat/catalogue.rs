@@ -25,7 +25,7 @@ pub(super) fn is_example(row: &Value) -> bool {
 pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
     for row in list(file, "rows")? {
         let name = text(row, "name")?;
-        example(name, row, tally).map_err(|error| format!("{name}: {error}"))?;
+        tally.row(name, row, |tally| example(name, row, tally))?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! A rotor that runs out on two warm bearings: stop time, temperatures, energies; in fine steps and in windows.
 
-use super::json::{list, number, numbers, text, within};
+use super::json::{number, numbers, within};
 use super::tally::{Allowed, Tally, tolerance};
 use super::{network, warm};
 use serde_json::Value;
@@ -14,13 +14,8 @@ const WINDOWS: f64 = 1e-3;
 const SIDES: f64 = 2.0;
 
 /// Compares a file.
-pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
-    for case in list(file, "cases")? {
-        let name = text(case, "name")?;
-        tally.place = name.to_string();
-        one(case, tally).map_err(|error| format!("case {name}: {error}"))?;
-    }
-    Ok(())
+pub(super) fn compare(_: &Value, tally: &mut Tally) -> Result<(), String> {
+    tally.cases(one)
 }
 
 fn machine(
@@ -165,36 +160,40 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
             }
         }
     }
+    let place = tally.place.clone();
     for row in results["rows"].as_array().map_or(&[][..], Vec::as_slice) {
-        let instant = number(row, "t")?;
-        let Some(at) = found.at.iter().find(|at| at.time == instant) else {
-            return Err(format!("row at {instant} s, which the run did not reach"));
-        };
-        // as sure as the stop time: a speed that falls steadily is off by that share of the first
-        let allowed = Allowed {
-            relative: 0.0,
-            absolute: time.relative * number(inputs, "speed0")?,
-        };
-        let speed = number(row, "speed")?;
-        tally.add_by("speed over time", "rad/s", speed, at.speed, allowed);
-        let moments = fine.losses.of_one(at.speed, &at.temperatures);
-        for (key, ours) in [("M0", moments[0]), ("M1", moments[1])] {
-            // a moment is as sure as the viscosity at a temperature: 4 % for each kelvin
-            let allowed = Allowed {
-                relative: 0.04 * temperature.absolute,
-                absolute: 0.0,
+        tally.row(&place, row, |tally| {
+            let instant = number(row, "t")?;
+            let Some(at) = found.at.iter().find(|at| at.time == instant) else {
+                return Err(format!("row at {instant} s, which the run did not reach"));
             };
-            tally.add_by(key, "N m", number(row, key)?, ours, allowed);
-        }
-        for (node, name) in names.iter().enumerate() {
-            tally.add_by(
-                "temperatures over time",
-                "°C",
-                number(row, name)?,
-                at.temperatures[node],
-                temperature,
-            );
-        }
+            // as sure as the stop time: a speed that falls steadily is off by that share of the first
+            let allowed = Allowed {
+                relative: 0.0,
+                absolute: time.relative * number(inputs, "speed0")?,
+            };
+            let speed = number(row, "speed")?;
+            tally.add_by("speed over time", "rad/s", speed, at.speed, allowed);
+            let moments = fine.losses.of_one(at.speed, &at.temperatures);
+            for (key, ours) in [("M0", moments[0]), ("M1", moments[1])] {
+                // a moment is as sure as the viscosity at a temperature: 4 % for each kelvin
+                let allowed = Allowed {
+                    relative: 0.04 * temperature.absolute,
+                    absolute: 0.0,
+                };
+                tally.add_by(key, "N m", number(row, key)?, ours, allowed);
+            }
+            for (node, name) in names.iter().enumerate() {
+                tally.add_by(
+                    "temperatures over time",
+                    "°C",
+                    number(row, name)?,
+                    at.temperatures[node],
+                    temperature,
+                );
+            }
+            Ok(())
+        })?;
     }
 
     Ok(())

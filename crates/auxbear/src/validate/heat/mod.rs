@@ -16,6 +16,7 @@ mod surroundings;
 mod tally;
 mod warm;
 
+use super::compare::{Refusal, rows_of};
 use super::report::Row;
 use serde_json::Value;
 use tally::{Compare, Tally};
@@ -24,16 +25,10 @@ use tally::{Compare, Tally};
 pub(super) fn rows(value: &Value) -> Option<Vec<Row>> {
     let compare = of_file(value)?;
     let mut tally = Tally::new(value);
-    Some(match compare(value, &mut tally) {
-        Ok(()) => tally.into_rows(),
-        Err(error) => {
-            let row = Row::wrong(format!("wrong: {error}"));
-            vec![Row {
-                damaged: true,
-                ..row
-            }]
-        }
-    })
+    let found = compare(value, &mut tally);
+    Some(rows_of(
+        found.map(|()| tally.into_rows()).map_err(Refusal::from),
+    ))
 }
 
 /// The comparison of a whole file, by its keys.
@@ -90,14 +85,14 @@ fn of_kind(kind: &str) -> Option<Compare> {
 
 fn by_kind(file: &Value, tally: &mut Tally) -> Result<(), String> {
     for (at, row) in json::list(file, "rows")?.iter().enumerate() {
-        let place = format!("row {}", at + 1);
-        let named = |error| format!("{place}: {error}");
-        let kind = json::text(row, "kind").map_err(named)?;
-        tally.place.clone_from(&place);
-        match of_kind(kind) {
-            Some(compare) => compare(row, tally).map_err(named)?,
-            None => tally.leave_out(kind, "a kind of row that is not known"),
-        }
+        tally.row(&format!("row {}", at + 1), row, |tally| {
+            let kind = json::text(row, "kind")?;
+            match of_kind(kind) {
+                Some(compare) => compare(row, tally)?,
+                None => tally.leave_out(kind, "a kind of row that is not known"),
+            }
+            Ok(())
+        })?;
     }
     Ok(())
 }
@@ -138,6 +133,26 @@ mod tests {
             "/rows/7/outside_mm",
         ),
     ];
+
+    /// A body that cools alone, T = 20 + 80 e^(-t/100): each null leaves out its own row.
+    #[test]
+    fn a_null_leaves_out_its_own_row_alone() {
+        let at = |time: f64| json!({"time": time, "temperatures": [20.0 + 80.0 * (-time / 100.0).exp()]});
+        let mut file = json!({
+            "nodes": ["body"], "capacity": [200.0], "links": [], "grounds": [["body", 2.0, 20.0]],
+            "powers": [0.0], "start": [100.0], "time_constants": [100.0], "steady": [20.0],
+            "tolerance": 1e-9, "rows": [at(10.0), at(50.0), at(200.0)]
+        });
+        assert_eq!(count(&rows(&file).unwrap(), Verdict::Pass), 4);
+        file["rows"][1]["temperatures"][0] = Value::Null;
+        let found = rows(&file).unwrap();
+        let (passed, left) = (count(&found, Verdict::Pass), count(&found, Verdict::NotRun));
+        assert_eq!((passed, left, found.len()), (4, 1, 5), "{found:?}");
+        assert!(found.iter().all(|row| !row.damaged));
+        // a number that is none is wrong
+        file["rows"][2]["time"] = json!("x");
+        assert!(rows(&file).unwrap()[0].damaged);
+    }
 
     fn count(rows: &[Row], verdict: Verdict) -> usize {
         rows.iter().filter(|row| row.verdict == verdict).count()

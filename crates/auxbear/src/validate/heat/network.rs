@@ -27,23 +27,26 @@ pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
         tally.add("steady temperatures", "°C", *reference, ours)?;
     }
     for row in list(file, "rows")? {
-        let time = within(row, "time", 0.0, LARGEST)?;
-        tally.place = format!("at {time} s");
-        let mut ours = start.clone();
-        let given: f64 = network.advance(&mut ours, &powers, time).iter().sum();
-        let references = exactly(row, "temperatures", n)?;
-        for (reference, ours) in references.iter().zip(&ours) {
-            tally.add("temperatures", "°C", *reference, *ours)?;
-        }
-        let put_in = powers.iter().sum::<f64>() * time;
-        let end = network.stored(&ours);
-        let size = end.abs() + powers.iter().map(|power| power.abs()).sum::<f64>() * time;
-        let allowed = Allowed {
-            absolute: tally.allowed()?.relative * size,
-            relative: 0.0,
-        };
-        let found = end - network.stored(&start) + given;
-        tally.add_by("heat put in and found", "J", put_in, found, allowed);
+        tally.row("a row of the network", row, |tally| {
+            let time = within(row, "time", 0.0, LARGEST)?;
+            tally.place = format!("at {time} s");
+            let mut ours = start.clone();
+            let given: f64 = network.advance(&mut ours, &powers, time).iter().sum();
+            let references = exactly(row, "temperatures", n)?;
+            for (reference, ours) in references.iter().zip(&ours) {
+                tally.add("temperatures", "°C", *reference, *ours)?;
+            }
+            let put_in = powers.iter().sum::<f64>() * time;
+            let end = network.stored(&ours);
+            let size = end.abs() + powers.iter().map(|power| power.abs()).sum::<f64>() * time;
+            let allowed = Allowed {
+                absolute: tally.allowed()?.relative * size,
+                relative: 0.0,
+            };
+            let found = end - network.stored(&start) + given;
+            tally.add_by("heat put in and found", "J", put_in, found, allowed);
+            Ok(())
+        })?;
     }
     Ok(())
 }

@@ -15,13 +15,8 @@ const STEP_ERROR: f64 = 1e-3;
 const MOST_STEPS: usize = 50_000;
 
 /// Compares a file.
-pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
-    for case in list(file, "cases")? {
-        let name = text(case, "name")?;
-        tally.place = name.to_string();
-        one(case, tally).map_err(|error| format!("case {name}: {error}"))?;
-    }
-    Ok(())
+pub(super) fn compare(_: &Value, tally: &mut Tally) -> Result<(), String> {
+    tally.cases(one)
 }
 
 fn machine(inputs: &Value, names: &[&str]) -> Result<SteadySpeed<WarmBearings>, String> {
@@ -234,7 +229,7 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
             return Err(format!("closure at {ours:?} s, not at {reference:?}"));
         }
     }
-    let mut state = |row: &Value, at: &Warming, end: bool| -> Result<(), String> {
+    let state = |tally: &mut Tally, row: &Value, at: &Warming, end: bool| -> Result<(), String> {
         let (open, load) = closing(&machine, at);
         let moments = machine.losses.of_one(machine.speed, &at.temperatures);
         let [named_open, named_load, named_first, named_second] = match end {
@@ -266,12 +261,16 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
         }
         Ok(())
     };
-    state(results, &found.end, true)?;
+    state(tally, results, &found.end, true)?;
+    let place = tally.place.clone();
     for row in list(results, "rows")? {
-        let instant = number(row, "t")?;
-        let at = found.at.iter().find(|at| at.time == instant);
-        let at = at.ok_or_else(|| format!("row at {instant} s, which the run did not reach"))?;
-        state(row, at, false)?;
+        tally.row(&place, row, |tally| {
+            let instant = number(row, "t")?;
+            let at = found.at.iter().find(|at| at.time == instant);
+            let at =
+                at.ok_or_else(|| format!("row at {instant} s, which the run did not reach"))?;
+            state(tally, row, at, false)
+        })?;
     }
     let growth = machine.growth(&found.end.temperatures);
     let reference = number(results, "fastest_eigenvalue")?;

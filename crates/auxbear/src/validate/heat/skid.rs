@@ -1,6 +1,6 @@
 //! The skid of a rotor on a race under constant load: surface layers, flash, shares, energies.
 
-use super::json::{list, number, numbers, positive, text, within};
+use super::json::{list, number, numbers, positive, within};
 use super::tally::{Allowed, Tally, tolerance};
 use physics::heat_conduction::ThermalMaterial;
 use physics::heat_exchange::line_half_width;
@@ -14,13 +14,8 @@ const STEPS: usize = 400;
 const LARGEST: f64 = 1e14;
 
 /// Compares a file.
-pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
-    for case in list(file, "cases")? {
-        let name = text(case, "name")?;
-        tally.place = name.to_string();
-        one(case, tally).map_err(|error| format!("case {name}: {error}"))?;
-    }
-    Ok(())
+pub(super) fn compare(_: &Value, tally: &mut Tally) -> Result<(), String> {
+    tally.cases(one)
 }
 
 /// The inputs of a case.
@@ -181,50 +176,44 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
     let energy = tally.relative("energies")?;
     let exact = tally.relative("contact_time")?;
     let width = tally.relative("half_width")?;
-    let mut add = |key: &str, value: &Value, unit, ours: f64, allowed| -> Result<(), String> {
-        tally.add_by(
-            &key.replace('_', " "),
-            unit,
-            number(value, key)?,
-            ours,
-            allowed,
-        );
-        Ok(())
-    };
+    let place = tally.place.clone();
     let touch = skid.touch(end);
-    add("half_width", results, "m", skid.half_width, width)?;
-    add("patch_area", results, "m^2", touch.patch(), width)?;
-    add("contact_time", results, "s", end, exact)?;
+    tally.add_number((results, "half_width"), "m", skid.half_width, width)?;
+    tally.add_number((results, "patch_area"), "m^2", touch.patch(), width)?;
+    tally.add_number((results, "contact_time"), "s", end, exact)?;
     let faster = skid.race_speed_at(end);
-    add("race_speed_end", results, "rad/s", faster, exact)?;
+    tally.add_number((results, "race_speed_end"), "rad/s", faster, exact)?;
     let turned = end * 0.5 * (skid.race_speed + faster);
-    add("race_angle", results, "rad", turned, exact)?;
-    add("peak_contact_temperature", results, "K", hottest, contact)?;
+    tally.add_number((results, "race_angle"), "rad", turned, exact)?;
+    tally.add_number((results, "peak_contact_temperature"), "K", hottest, contact)?;
     let stop = seen.iter().find(|at| at.time == end);
     let stop = stop.ok_or("sliding does not end")?.states;
-    add("rotor_energy", results, "J", stop[0].energy, energy)?;
-    add("race_energy", results, "J", stop[1].energy, energy)?;
+    tally.add_number((results, "rotor_energy"), "J", stop[0].energy, energy)?;
+    tally.add_number((results, "race_energy"), "J", stop[1].energy, energy)?;
     for row in list(results, "rows")? {
-        let time = number(row, "t")?;
-        let at = seen.iter().find(|at| at.time == time);
-        let at = at.ok_or_else(|| format!("row at {time} s, which is none of the times"))?;
-        let slides = time < end;
-        let surfaces = if slides {
-            let shared = skid.touch(time).at_once(&skid.layers, &at.states);
-            let power = skid.power(time);
-            add("power", row, "W", power, exact)?;
-            add("rotor_share", row, "1", shared.powers[0] / power, energy)?;
-            add("contact", row, "K", shared.contact, contact)?;
-            shared.surfaces
-        } else {
-            [0, 1].map(|body| skid.layers[body].surface(&at.states[body], 0.0, skid.tracks[body]))
-        };
-        add("rotor_surface", row, "K", surfaces[0], surface)?;
-        add("race_surface", row, "K", surfaces[1], surface)?;
-        let speed = skid.race_speed_at(time.min(end));
-        add("race_speed", row, "rad/s", speed, exact)?;
-        add("rotor_energy", row, "J", at.states[0].energy, energy)?;
-        add("race_energy", row, "J", at.states[1].energy, energy)?;
+        tally.row(&place, row, |tally| {
+            let time = number(row, "t")?;
+            let at = seen.iter().find(|at| at.time == time);
+            let at = at.ok_or_else(|| format!("row at {time} s, which is none of the times"))?;
+            let slides = time < end;
+            let surfaces = if slides {
+                let shared = skid.touch(time).at_once(&skid.layers, &at.states);
+                let power = skid.power(time);
+                tally.add_number((row, "power"), "W", power, exact)?;
+                tally.add_number((row, "rotor_share"), "1", shared.powers[0] / power, energy)?;
+                tally.add_number((row, "contact"), "K", shared.contact, contact)?;
+                shared.surfaces
+            } else {
+                [0, 1]
+                    .map(|body| skid.layers[body].surface(&at.states[body], 0.0, skid.tracks[body]))
+            };
+            tally.add_number((row, "rotor_surface"), "K", surfaces[0], surface)?;
+            tally.add_number((row, "race_surface"), "K", surfaces[1], surface)?;
+            let speed = skid.race_speed_at(time.min(end));
+            tally.add_number((row, "race_speed"), "rad/s", speed, exact)?;
+            tally.add_number((row, "rotor_energy"), "J", at.states[0].energy, energy)?;
+            tally.add_number((row, "race_energy"), "J", at.states[1].energy, energy)
+        })?;
     }
     Ok(())
 }

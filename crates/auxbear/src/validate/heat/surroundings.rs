@@ -1,6 +1,6 @@
 //! Thermal reference speeds: where friction makes as much heat as a bearing may give to its surroundings.
 
-use super::json::{list, positive, text};
+use super::json::{list, positive};
 use super::tally::Tally;
 use physics::heat_exchange::to_surroundings;
 use physics::palmgren::{load_moment, printed_viscous_moment};
@@ -15,11 +15,12 @@ const LOAD_SHARE: f64 = 0.05;
 /// Compares a file.
 pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
     for row in list(file, "rows")? {
-        let name = text(row, "bearing")?;
-        tally.place = name.to_string();
-        let ours = reference_speed(row).map_err(|error| format!("{name}: {error}"))?;
-        let printed = positive(row, "reference_speed_rpm")?;
-        tally.add("thermal reference speed", "1/min", printed, ours)?;
+        let name = row["bearing"].as_str().unwrap_or("a bearing without name");
+        tally.row(name, row, |tally| {
+            let printed = positive(row, "reference_speed_rpm")?;
+            let ours = reference_speed(row)?;
+            tally.add("thermal reference speed", "1/min", printed, ours)
+        })?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Comparisons of a file, each quantity with the worst of its rows and the tolerance that the file gives.
 
-use super::json::number;
+use super::json::{list, number, text};
 use crate::validate::compare::Worst;
 use crate::validate::report::{Row, Tolerance};
 use serde_json::Value;
@@ -40,7 +40,6 @@ pub(super) struct Tally<'a> {
     /// Of which row they are.
     pub place: String,
     worst: Worst,
-    left_out: Vec<(String, String, usize)>,
 }
 
 impl<'a> Tally<'a> {
@@ -49,7 +48,6 @@ impl<'a> Tally<'a> {
             file,
             place: String::new(),
             worst: Worst::default(),
-            left_out: Vec::new(),
         }
     }
     /// The whole file.
@@ -109,26 +107,48 @@ impl<'a> Tally<'a> {
         let row = Row::compared(quantity, unit, reference, ours, allowed, why);
         self.worst.add(row);
     }
+    /// Compares a number of a table of the file, named as its key.
+    pub fn add_number(
+        &mut self,
+        (table, key): (&Value, &str),
+        unit: &str,
+        ours: f64,
+        allowed: Allowed,
+    ) -> Result<(), String> {
+        let reference = number(table, key)?;
+        self.add_by(&key.replace('_', " "), unit, reference, ours, allowed);
+        Ok(())
+    }
     /// Notes what is not compared.
     pub fn leave_out(&mut self, quantity: &str, why: &str) {
-        let known = self
-            .left_out
-            .iter_mut()
-            .find(|(known, reason, _)| known == quantity && reason == why);
-        match known {
-            Some((_, _, count)) => *count += 1,
-            None => self
-                .left_out
-                .push((quantity.to_string(), why.to_string(), 1)),
+        self.worst.add(Row::not_run(why).of(quantity, ""));
+    }
+    /// Compares a row of the file, or a case by its inputs. One that lacks a number where there is a `null` is left out by itself.
+    pub fn row(
+        &mut self,
+        place: &str,
+        row: &Value,
+        compare: impl FnOnce(&mut Self) -> Result<(), String>,
+    ) -> Result<(), String> {
+        let before = self.worst.clone();
+        self.place = place.to_string();
+        let found = compare(self);
+        let after = std::mem::replace(&mut self.worst, before);
+        self.worst.row(place, row, |worst| {
+            *worst = after;
+            found
+        })
+    }
+    /// Compares each case of the file.
+    pub fn cases(&mut self, one: Compare) -> Result<(), String> {
+        for case in list(self.file, "cases")? {
+            let name = format!("case {}", text(case, "name")?);
+            self.row(&name, &case["inputs"], |tally| one(case, tally))?;
         }
+        Ok(())
     }
     /// One row for each quantity.
     pub fn into_rows(self) -> Vec<Row> {
-        let mut rows = self.worst.into_rows();
-        let left_out = self.left_out.into_iter();
-        rows.extend(left_out.map(|(quantity, why, count)| {
-            Row::not_run(format!("{count} of them: {why}")).of(quantity, "")
-        }));
-        rows
+        self.worst.into_rows()
     }
 }

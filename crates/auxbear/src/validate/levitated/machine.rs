@@ -1,7 +1,7 @@
 //! The rotors, magnets and unbalances of the reference files as parts of the kernel.
 
-use crate::import::case;
-use crate::validate::compare::part;
+use crate::validate::compare::{Refusal, part};
+use crate::validate::rotors;
 use levitation::{
     Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Refused, Sensor,
     StateSpace, Timing,
@@ -64,7 +64,7 @@ pub(crate) struct Machine {
 
 impl Machine {
     /// Of a file, with damping added to every element: to ground, and rotating.
-    pub(crate) fn of(value: &Value, path: &Path, beta: [f64; 2]) -> Result<Self, String> {
+    pub(crate) fn of(value: &Value, path: &Path, beta: [f64; 2]) -> Result<Self, Refusal> {
         let mut rotor = named_rotor(value, path)?;
         for element in &mut rotor.elements {
             element.damping_of_stiffness += beta[0];
@@ -84,7 +84,7 @@ impl Machine {
         let nodes = machine.rotor.nodes.len();
         let lost = machine.loaded().find(|node| *node >= nodes);
         match lost {
-            Some(node) => Err(format!("node {node}, of {nodes} nodes")),
+            Some(node) => Err(format!("node {node}, of {nodes} nodes").into()),
             None => Ok(machine),
         }
     }
@@ -183,7 +183,7 @@ impl Law {
 }
 
 /// The free rotor of the file that a definition names: beside its own file, or in a folder `rotor` next to that one's.
-fn named_rotor(value: &Value, path: &Path) -> Result<Rotor, String> {
+fn named_rotor(value: &Value, path: &Path) -> Result<Rotor, Refusal> {
     let words = value["definition"]
         .as_str()
         .unwrap_or_default()
@@ -200,6 +200,5 @@ fn named_rotor(value: &Value, path: &Path) -> Result<Rotor, String> {
         found.ok_or_else(|| format!("its rotor {named} is neither beside it nor in ../rotor"))?;
     let text = std::fs::read_to_string(found).map_err(|error| format!("{named}: {error}"))?;
     let file: Value = serde_json::from_str(&text).map_err(|error| format!("{named}: {error}"))?;
-    let draft = case::draft(&file).map_err(|error| format!("{named}: {error}"))?;
-    Ok(draft.rotor().free())
+    Ok(rotors::modelled(&file)?.rotor().free())
 }

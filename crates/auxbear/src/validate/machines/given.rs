@@ -1,11 +1,10 @@
 //! Machines of the files as constants of the model.
 
-use super::json::{list, number, numbers};
-use crate::import::case;
+use super::json::{list, number, numbers, pair};
 use crate::simulate::drop::shaft::{in_coordinates, planes, row};
-use crate::validate::compare::part;
+use crate::validate::compare::{Refusal, part};
 use crate::validate::machine::ReferenceMachine;
-use crate::validate::simulation;
+use crate::validate::{rotors, simulation};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::BearingConstants;
 use model::levitation::Levitation;
@@ -81,14 +80,12 @@ impl Coordinates {
 }
 
 /// The rotor of a file, with its unbalances.
-pub(super) fn rotor(model: &Value, unbalances: &Value) -> Result<Rotor, String> {
-    let draft =
-        case::draft(&json!({ "model": model })).map_err(|error| format!("rotor: {error}"))?;
-    let mut rotor = draft.rotor();
+pub(super) fn rotor(model: &Value, unbalances: &Value) -> Result<Rotor, Refusal> {
+    let mut rotor = rotors::modelled(&json!({ "model": model }))?.rotor();
     rotor.unbalance = unbalance(unbalances)?;
     let nodes = rotor.nodes.len();
     match rotor.unbalance.iter().find(|plane| plane.node >= nodes) {
-        Some(plane) => Err(format!("unbalance at node {} of {nodes}", plane.node)),
+        Some(plane) => Err(format!("unbalance at node {} of {nodes}", plane.node).into()),
         None => Ok(rotor),
     }
 }
@@ -264,12 +261,28 @@ pub(super) fn machine(
     // with a decay time of zero they are off at once
     let decay = number(given, "tau_m")?;
     if decay > 0.0 {
-        let magnets = list(given, "magnets")?.iter().map(|magnet| {
-            let [x, y] = numbers(magnet, "i0")?;
-            let node = coordinates.row(index(magnet, "node")?);
-            let force = Vec2::new(x, y) * number(magnet, "ki")?;
-            Ok((node, force, number(magnet, "ks")?))
-        });
+        let magnets = list(given, "magnets")?
+            .iter()
+            .enumerate()
+            .map(|(k, magnet)| {
+                // control currents at the release, of each magnet or of the start
+                let current = match &given["start"]["control_current_A"][k] {
+                    Value::Null => pair(&magnet["i0"]),
+                    of_start => pair(of_start),
+                };
+                let key = ["node", "actuator_node"]
+                    .into_iter()
+                    .find(|key| !magnet[key].is_null());
+                let node = index(magnet, key.unwrap_or("node"))?;
+                if node >= coordinates.rotor.nodes.len() {
+                    return Err(format!(
+                        "a magnet at node {node}, which the rotor does not have"
+                    ));
+                }
+                let node = coordinates.row(node);
+                let force = current? * number(magnet, "ki")?;
+                Ok((node, force, number(magnet, "ks")?))
+            });
         let magnets = magnets.collect::<Result<Vec<_>, String>>()?;
         constants.magnets = Some(MagnetsConstants::fading(magnets, 1.0 / decay, 0.0));
     }

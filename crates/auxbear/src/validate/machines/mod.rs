@@ -9,6 +9,7 @@ mod mounts;
 mod points;
 mod run_up;
 
+use super::compare::{Refusal, rows_of};
 use super::report::Row;
 use super::simulator::Simulator;
 use serde_json::Value;
@@ -19,7 +20,7 @@ pub(super) fn rows(value: &Value, path: &Path, simulator: &dyn Simulator) -> Opt
     let top = value.as_object()?;
     let has = |keys: &[&str]| keys.iter().all(|key| top.contains_key(*key));
     let rows = if has(&["machines", "rotor", "names"]) {
-        points::rows as fn(&Value, &Path) -> Result<Vec<Row>, String>
+        points::rows as fn(&Value, &Path) -> Result<Vec<Row>, Refusal>
     } else if has(&["kinds", "motions", "results"]) {
         mounts::rows
     } else if has(&["supports", "runs", "rotor", "unbalance"]) {
@@ -32,11 +33,5 @@ pub(super) fn rows(value: &Value, path: &Path, simulator: &dyn Simulator) -> Opt
     if let Err(why) = simulator.machines() {
         return Some(vec![Row::not_run(why)]);
     }
-    Some(rows(value, path).unwrap_or_else(|error| {
-        let row = Row::wrong(format!("wrong: {error}"));
-        vec![Row {
-            damaged: true,
-            ..row
-        }]
-    }))
+    Some(rows_of(rows(value, path)))
 }

@@ -2,7 +2,7 @@
 
 use super::given::GivenMount;
 use super::json::{list, number, numbers, pair};
-use crate::validate::compare::{Worst, part};
+use crate::validate::compare::{Refusal, Worst, part};
 use crate::validate::report::{Row, Tolerance};
 use model::mount::squeeze_film::Film;
 use model::mount::{Mount, MountParts, SqueezeFilm, WholeMount};
@@ -13,10 +13,12 @@ use std::path::Path;
 /// Longest step, s: kinks of ring and stop cost its square.
 const STEP: f64 = 5e-7;
 
-pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, String> {
+pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, Refusal> {
     let mut worst = Worst::default();
-    for series in list(file, "results")? {
-        of_series(file, series, &mut worst)?;
+    for (at, series) in list(file, "results")?.iter().enumerate() {
+        worst.row(&format!("series {}", at + 1), series, |worst| {
+            of_series(file, series, worst)
+        })?;
     }
     dynamic_stiffness(file, &mut worst)?;
     squeeze_film(file, &mut worst)?;
@@ -85,6 +87,9 @@ fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), Stri
     let mut time = 0.0;
     let mut found: Vec<Compared> = Vec::new();
     for row in list(series, "rows")? {
+        if worst.lacks(&format!("row of {kind}"), row) {
+            continue;
+        }
         let until = number(row, "t")?;
         let steps = ((until - time) / STEP).ceil().max(0.0);
         let step = (until - time) / steps.max(1.0);

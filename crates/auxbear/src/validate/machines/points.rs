@@ -2,7 +2,7 @@
 
 use super::given::{Coordinates, machine, rotor};
 use super::json::{list, number, numbers, pairs};
-use crate::validate::compare::Worst;
+use crate::validate::compare::{Refusal, Worst};
 use crate::validate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::bearing::ball::BallMotion;
@@ -83,18 +83,21 @@ fn planar(machine: &RotorMachine, k: usize) -> Result<&PlanarConstants, String> 
     }
 }
 
-pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, String> {
+pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, Refusal> {
     let mut worst = Worst::default();
     for given in list(file, "machines")? {
         let coordinates = Coordinates::full(rotor(&file["rotor"], given)?)?;
         if number(given, "t")? != 0.0 {
-            return Err("points at another time than 0".to_string());
+            return Err("points at another time than 0".into());
         }
         let machine = RotorMachine::new(machine(given, &coordinates, 0.0)?);
-        for point in list(given, "points")? {
-            let mut classes = Classes::default();
-            compare(&machine, &coordinates, point, &mut classes)?;
-            classes.judge(&mut worst);
+        for (at, point) in list(given, "points")?.iter().enumerate() {
+            worst.row(&format!("point {}", at + 1), point, |worst| {
+                let mut classes = Classes::default();
+                compare(&machine, &coordinates, point, &mut classes)?;
+                classes.judge(worst);
+                Ok(())
+            })?;
         }
     }
     Ok(worst.into_rows())
