@@ -39,7 +39,7 @@ impl AirClearance {
     pub fn of(part: &AuxiliaryBearing) -> Option<Self> {
         let heat = &part.warm.as_ref()?.heat;
         let bore = 0.5 * part.contact.bore_diameter;
-        (heat.feedback == Feedback::Full).then(|| AirClearance {
+        (heat.feedback == Feedback::Full).then_some(AirClearance {
             radii: [bore, bore - part.contact.radial_air_clearance],
             start: heat.start_temperature - ICE_POINT,
             rotor: match heat.rotor_bodies {
