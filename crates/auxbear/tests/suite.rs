@@ -14,6 +14,7 @@ mod levitated_run;
 mod machine;
 mod machine_results;
 mod machine_supports;
+mod magnets_under_load;
 mod measurement_file;
 mod oil_range;
 mod races;

@@ -87,12 +87,14 @@ fn magnet(actuator: &Actuator) -> Result<(), Refused> {
         }
         Magnet::Pair(pair) => {
             positive(axis, "force constant, N m²/A²", pair.force_constant)?;
-            positive(axis, "bias current, A", pair.bias_current)?;
+            let bias = pair.bias_plus.max(pair.bias_minus);
+            positive(axis, "bias current, A", pair.bias_plus)?;
+            positive(axis, "bias current, A", pair.bias_minus)?;
             positive(axis, "gap, m", pair.gap)?;
-            if pair.bias_current > pair.largest_current {
+            if bias > pair.largest_current {
                 return Err(Refused::Bias {
                     axis: axis.name.clone(),
-                    bias: pair.bias_current,
+                    bias,
                     largest: pair.largest_current,
                 });
             }

@@ -63,11 +63,7 @@ impl<T: Coordinates> ClosedLoop<T> {
     /// A rotor with its levitation about the centres of the magnets. Over complex coordinates the levitation must be
     /// [`one_plane`](Levitation::one_plane) of the machine's. Refused where the mass matrix is singular.
     pub fn new(plant: Plant<T>, levitation: &Levitation) -> Result<Self, Refused> {
-        let slopes = levitation.actuators().iter().map(|actuator| {
-            let magnet = &actuator.magnet;
-            (magnet.current_stiffness(), magnet.position_stiffness())
-        });
-        Self::about(plant, levitation, slopes.collect())
+        Self::about(plant, levitation, levitation.slopes_at_centre())
     }
 
     /// The same with other slopes (k_i, k_s) of the magnet axes, as those about a static position.

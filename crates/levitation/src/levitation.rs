@@ -260,8 +260,8 @@ impl Levitation {
             }
         }
         for (command, actuator) in signals.commands.iter_mut().zip(&self.actuators) {
-            if let Some(most) = actuator.command_limit() {
-                *command = command.min(R::splat(most)).max(R::splat(-most));
+            if let Some([least, most]) = actuator.command_limits() {
+                *command = command.min(R::splat(most)).max(R::splat(least));
             }
         }
         for (index, current) in signals.currents.iter_mut().enumerate() {
@@ -383,6 +383,7 @@ impl Levitation {
     fn centred(&self, sensors: Vec<Sensor>) -> Self {
         let mut actuators = self.actuators.clone();
         for actuator in &mut actuators {
+            actuator.lowest_current = f64::NEG_INFINITY;
             actuator.largest_current = f64::INFINITY;
             if let Amplifier::Voltage {
                 largest_voltage, ..
@@ -414,6 +415,18 @@ impl Levitation {
         })
     }
 
+    /// [One plane](Levitation::one_plane) with the slopes (k_i, k_s) of its axes, where those of both planes are equal too.
+    #[must_use]
+    pub fn one_plane_about(&self, slopes: &[(f64, f64)]) -> Option<(Self, Vec<(f64, f64)>)> {
+        // a weight that both axes share leaves them equal up to round-off
+        let equal = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
+        let alike =
+            |pair: &[(f64, f64)]| equal(pair[0].0, pair[1].0) && equal(pair[0].1, pair[1].1);
+        let plane = self.one_plane()?;
+        let even = slopes.iter().step_by(2).copied().collect();
+        slopes.chunks(2).all(alike).then_some((plane, even))
+    }
+
     /// The same with other parts that are known to be right.
     fn rebuilt(&self, sensors: Vec<Sensor>, blocks: Vec<Block>, actuators: Vec<Actuator>) -> Self {
         let nodes = usize::MAX;
@@ -426,6 +439,14 @@ impl Levitation {
             _ => Control::Channels(blocks.into_iter().map(|block| block.filter).collect()),
         };
         Self::new(nodes, sensors, control, timing, actuators).expect("parts of a levitation fit")
+    }
+
+    /// k_i and k_s of every magnet axis with the rotor in the centre and no control current.
+    #[must_use]
+    pub fn slopes_at_centre(&self) -> Vec<(f64, f64)> {
+        let magnets = self.actuators.iter().map(|actuator| &actuator.magnet);
+        let slopes = magnets.map(|own| (own.current_stiffness(), own.position_stiffness()));
+        slopes.collect()
     }
 
     /// Gain at rest of the controller from signals to commands, row by magnet axis; `None` with an integrator.
@@ -444,13 +465,15 @@ impl Levitation {
     /// Static stiffness of every magnet axis with a channel of its own, k_i C(0) - k_s in N/m; infinite with an integrator.
     ///
     /// It is that of the bearing where sensor and magnet stand at one node. Empty where one filter serves all axes.
+    ///
+    /// - `slopes` k_i and k_s of each axis
     #[must_use]
-    pub fn static_stiffness(&self) -> Vec<f64> {
+    pub fn static_stiffness(&self, slopes: &[(f64, f64)]) -> Vec<f64> {
         let own = self.blocks.len() == self.actuators.len();
         let blocks = self.blocks.iter().zip(&self.actuators).filter(|_| own);
         blocks
-            .map(|(block, actuator)| {
-                let magnet = &actuator.magnet;
+            .zip(slopes)
+            .map(|((block, actuator), (ki, ks))| {
                 let volts_to_amperes = match actuator.amplifier {
                     Amplifier::Voltage {
                         resistance, gain, ..
@@ -458,10 +481,7 @@ impl Levitation {
                     _ => 1.0,
                 };
                 let gain = block.filter.static_gain().map(|gain| gain[(0, 0)]);
-                gain.map_or(f64::INFINITY, |gain| {
-                    magnet.current_stiffness() * gain * volts_to_amperes
-                        - magnet.position_stiffness()
-                })
+                gain.map_or(f64::INFINITY, |gain| ki * gain * volts_to_amperes - ks)
             })
             .collect()
     }

@@ -59,15 +59,18 @@ pub struct Actuator {
     pub magnet: Magnet<f64>,
     /// Its amplifier.
     pub amplifier: Amplifier,
-    /// Largest control current, A: what the coils leave above the bias; infinite where nothing limits it. Commands end there.
+    /// Lowest control current, A: at it the coil that pulls towards - has its largest current; infinite where nothing limits it.
+    pub lowest_current: f64,
+    /// Largest control current, A: at it the coil that pulls towards + has its largest current. Commands end at both.
     pub largest_current: f64,
 }
 
 impl Actuator {
     /// Where its commands end, A; none where they are volts, or have no limit.
-    pub(crate) fn command_limit(&self) -> Option<f64> {
+    pub(crate) fn command_limits(&self) -> Option<[f64; 2]> {
         let volts = matches!(self.amplifier, Amplifier::Voltage { gain: None, .. });
-        (!volts && self.largest_current.is_finite()).then_some(self.largest_current)
+        let limits = [self.lowest_current, self.largest_current];
+        (!volts && self.largest_current.is_finite()).then_some(limits)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Answers of the closed loop: to unbalance, to constant loads, to an impulse.
 
 use crate::plant::Coordinates;
-use crate::{C64, ClosedLoop, Levitation, Plant, Refused};
+use crate::{Amplifier, C64, ClosedLoop, Levitation, Plant, Refused};
 use nalgebra::{DMatrix, DVector};
 use physics::magnet::Magnet;
 use rotor::Unbalance;
@@ -15,6 +15,8 @@ pub struct Synchronous {
     pub backward: Vec<C64>,
     /// Currents Re(I e^{jΩt}) of the magnet axes, A; over complex coordinates along and across in one number.
     pub currents: Vec<C64>,
+    /// Displacements of the magnet axes in the same way, m.
+    pub gaps: Vec<C64>,
 }
 
 /// Steady response to unbalance at a speed, rad/s, that of the plant.
@@ -27,6 +29,7 @@ pub fn unbalance<T: Coordinates>(
     let answer = closed.response(C64::new(0.0, speed), forces)?;
     let nodes = closed.plant().nodes.map(C64::from);
     let size = nodes.ncols();
+    let planes = closed.plant().size() / size;
     let x = &nodes * answer.rows(0, size);
     let (forward, backward) = if T::COMPLEX {
         (x.clone(), DVector::zeros(nodes.nrows()))
@@ -40,6 +43,10 @@ pub fn unbalance<T: Coordinates>(
         forward: forward.iter().copied().collect(),
         backward: backward.iter().copied().collect(),
         currents: closed.currents_of(&answer, T::complex),
+        gaps: (closed.act.map(T::complex) * answer.rows(0, size * planes))
+            .iter()
+            .copied()
+            .collect(),
     })
 }
 
@@ -148,6 +155,8 @@ pub struct Equilibrium {
     pub currents: Vec<f64>,
     /// Displacements of the magnet axes, m.
     pub gaps: Vec<f64>,
+    /// k_i and k_s of the magnet axes there.
+    pub slopes: Vec<(f64, f64)>,
 }
 
 /// Steps of the search for the equilibrium of magnets that are not linear.
@@ -159,9 +168,7 @@ pub fn equilibrium(
     levitation: &Levitation,
     loads: &DVector<f64>,
 ) -> Result<Equilibrium, Refused> {
-    let mut slopes: Vec<(f64, f64)> = (levitation.actuators().iter())
-        .map(|a| (a.magnet.current_stiffness(), a.magnet.position_stiffness()))
-        .collect();
+    let mut slopes = levitation.slopes_at_centre();
     let mut beside = vec![0.0; slopes.len()];
     for _ in 0..SEARCH {
         let closed = ClosedLoop::about(plant.clone(), levitation, slopes.clone())?;
@@ -181,14 +188,14 @@ pub fn equilibrium(
             let (ki, ks) = actuator.magnet.slopes(current, gap);
             let force = actuator.magnet.force(current, gap, 1.0);
             let rest = force - ki * current - ks * gap;
-            let scale = actuator.magnet.current_stiffness() * pair.bias_current;
+            let scale = actuator.magnet.current_stiffness() * pair.bias_current();
             let (old_ki, old_ks) = slopes[index];
             let linear = old_ki * current + old_ks * gap + beside[index];
             moved |= (force - linear).abs() > 1e-12 * scale;
             (slopes[index], beside[index]) = ((ki, ks), rest);
         }
         if !moved {
-            return Ok(found);
+            return Ok(Equilibrium { slopes, ..found });
         }
     }
     Err(Refused::NoEquilibrium)
@@ -225,6 +232,7 @@ fn at_rest(closed: &ClosedLoop<f64>, loads: &DVector<f64>) -> Result<Equilibrium
     Ok(Equilibrium {
         currents: currents.iter().copied().collect(),
         gaps: gaps.iter().copied().collect(),
+        slopes: Vec::new(),
         coordinates,
         states,
     })
@@ -260,11 +268,148 @@ pub struct Start {
     pub currents: Vec<f64>,
 }
 
-/// Static equilibrium and synchronous response together, at rotor angle `angle` (rad): closed form, nothing settles.
+/// A limit that a steady motion would pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Limit {
+    /// Control current that a coil leaves above its bias, A.
+    Current,
+    /// Voltage of an amplifier, V.
+    Voltage,
+    /// Gap of a magnet, m.
+    Gap,
+    /// Control current at which the other coil has none left, A.
+    Idle,
+}
+
+/// A magnet axis whose steady motion passes a limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Excess {
+    /// Index of the axis.
+    pub axis: usize,
+    /// Which limit.
+    pub limit: Limit,
+    /// Size of the limit.
+    pub allowed: f64,
+    /// Static part.
+    pub fixed: f64,
+    /// Amplitude of the part that turns.
+    pub amplitude: f64,
+}
+
+/// Every limit that static position and unbalance together pass at a speed, rad/s.
+#[must_use]
+pub fn excesses(
+    levitation: &Levitation,
+    rest: &Equilibrium,
+    turning: Option<&Synchronous>,
+    speed: f64,
+) -> Vec<Excess> {
+    let mut out = Vec::new();
+    for (axis, actuator) in levitation.actuators().iter().enumerate() {
+        let amplitudes = turning.map(|own| (own.currents[axis], own.gaps[axis]));
+        let (current, gap) = amplitudes.unwrap_or_default();
+        let mut judge = |limit, range: [f64; 2], fixed: f64, amplitude: f64| {
+            let end = usize::from(fixed + amplitude - range[1] >= range[0] - fixed + amplitude);
+            let beyond = [range[0] - fixed + amplitude, fixed + amplitude - range[1]][end];
+            if beyond > 0.0 {
+                out.push(Excess {
+                    axis,
+                    limit,
+                    allowed: range[end].abs(),
+                    fixed,
+                    amplitude,
+                });
+            }
+        };
+        let range = [actuator.lowest_current, actuator.largest_current];
+        judge(Limit::Current, range, rest.currents[axis], current.norm());
+        if let Amplifier::Voltage {
+            inductance,
+            resistance,
+            largest_voltage,
+            ..
+        } = actuator.amplifier
+        {
+            let s = C64::new(0.0, speed);
+            let induced = s * actuator.magnet.current_stiffness() * gap;
+            let volts = (resistance + s * inductance) * current + induced;
+            let range = [-largest_voltage, largest_voltage];
+            let fixed = resistance * rest.currents[axis];
+            judge(Limit::Voltage, range, fixed, volts.norm());
+        }
+        if let Magnet::Pair(pair) = actuator.magnet {
+            let range = [-pair.gap, pair.gap];
+            judge(Limit::Gap, range, rest.gaps[axis], gap.norm());
+            let range = [-pair.bias_plus, pair.bias_minus];
+            judge(Limit::Idle, range, rest.currents[axis], current.norm());
+        }
+    }
+    out
+}
+
+/// A levitated rotor at one speed: its static equilibrium, and the closed loop about it.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The equilibrium.
+    pub rest: Equilibrium,
+    /// The loop with the slopes of the magnets there.
+    pub closed: ClosedLoop<f64>,
+    /// Speed, rad/s.
+    pub speed: f64,
+}
+
+impl Loaded {
+    /// About an equilibrium of a plant.
+    ///
+    /// - `speed` rad/s, that of the plant
+    pub fn about(
+        rest: Equilibrium,
+        plant: &Plant<f64>,
+        levitation: &Levitation,
+        speed: f64,
+    ) -> Result<Self, Refused> {
+        let closed = ClosedLoop::about(plant.clone(), levitation, rest.slopes.clone())?;
+        Ok(Self {
+            rest,
+            closed,
+            speed,
+        })
+    }
+
+    /// Static equilibrium and synchronous response together, at rotor angle `angle` (rad): closed form, nothing settles.
+    ///
+    /// A sampled controller starts as its continuous equal with the delay T_c + T_s/2; held commands are those of that instant.
+    pub fn start(
+        &self,
+        levitation: &Levitation,
+        imbalance: &[Unbalance],
+        angle: f64,
+    ) -> Result<Start, Refused> {
+        let (rest, closed) = (&self.rest, &self.closed);
+        let forces = turning_forces(closed.plant(), imbalance, self.speed);
+        let turning = closed.response(C64::new(0.0, self.speed), forces)?;
+        let currents = DVector::from_vec(closed.currents_of(&turning, C64::from));
+        let size = closed.plant().size();
+        let part = |from: usize, size: usize| turning.rows(from, size).into_owned();
+        let phase = C64::from_polar(1.0, angle);
+        let now = |amplitudes: &DVector<C64>| amplitudes.map(|value| (value * phase).re);
+        let coordinates = &rest.coordinates + now(&part(0, size));
+        let states = &rest.states + now(&part(2 * size, rest.states.len()));
+        let displacements = &closed.observe * &coordinates;
+        Ok(Start {
+            states: levitation.adopted(states.as_slice(), displacements.as_slice()),
+            rates: now(&part(size, size)),
+            coordinates,
+            currents: (rest.currents.iter().zip(now(&currents).iter()))
+                .map(|(a, b)| a + b)
+                .collect(),
+        })
+    }
+}
+
+/// [`Loaded::start`] of a rotor under constant forces on its coordinates.
 ///
-/// - `speed` rad/s, that of the plant; `loads` constant forces on the coordinates, weight first of all
-///
-/// A sampled controller starts as its continuous equal with the delay T_c + T_s/2; held commands are those of that instant.
+/// - `speed` rad/s, that of the plant
 pub fn start(
     plant: &Plant<f64>,
     levitation: &Levitation,
@@ -274,26 +419,5 @@ pub fn start(
     angle: f64,
 ) -> Result<Start, Refused> {
     let rest = equilibrium(plant, levitation, loads)?;
-    let slopes = levitation.actuators().iter().enumerate();
-    let slopes = slopes.map(|(k, a)| a.magnet.slopes(rest.currents[k], rest.gaps[k]));
-    let closed = ClosedLoop::about(plant.clone(), levitation, slopes.collect())?;
-    let forces = turning_forces(plant, imbalance, speed);
-    let s = C64::new(0.0, speed);
-    let turning = closed.response(s, forces)?;
-    let currents = DVector::from_vec(closed.currents_of(&turning, C64::from));
-    let size = plant.size();
-    let part = |from: usize, size: usize| turning.rows(from, size).into_owned();
-    let phase = C64::from_polar(1.0, angle);
-    let now = |amplitudes: &DVector<C64>| amplitudes.map(|value| (value * phase).re);
-    let coordinates = rest.coordinates + now(&part(0, size));
-    let states = rest.states.clone() + now(&part(2 * size, rest.states.len()));
-    let displacements = &closed.observe * &coordinates;
-    Ok(Start {
-        states: levitation.adopted(states.as_slice(), displacements.as_slice()),
-        rates: now(&part(size, size)),
-        coordinates,
-        currents: (rest.currents.iter().zip(now(&currents).iter()))
-            .map(|(a, b)| a + b)
-            .collect(),
-    })
+    Loaded::about(rest, plant, levitation, speed)?.start(levitation, imbalance, angle)
 }

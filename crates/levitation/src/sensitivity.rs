@@ -2,7 +2,7 @@
 
 use crate::plant::Coordinates;
 use crate::resolvent::Transfer;
-use crate::{C64, ClosedLoop, Pole, Refused};
+use crate::{C64, ClosedLoop, Pole, Refused, ZERO};
 use nalgebra::DMatrix;
 use std::f64::consts::{PI, TAU};
 
@@ -10,6 +10,8 @@ use std::f64::consts::{PI, TAU};
 const PER_DECADE: f64 = 120.0;
 /// Distance of grid points from an eigenvalue's frequency, in units of its decay |Re λ|.
 const AROUND: [f64; 9] = [-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0];
+/// Size of an open loop at ω = 0 from which on it is without bound: an integrator leaves round-off of its inverse.
+const INTEGRATES: f64 = 1e6;
 /// Relative width at which the search of a peak ends: |S| is flat there, its error is of the square of this.
 const WIDTH: f64 = 1e-8;
 
@@ -83,6 +85,8 @@ pub struct Sensitivity {
     pub values: Vec<Vec<C64>>,
     /// The largest |S| of each axis, found between the points of the grid.
     pub peaks: Vec<Peak>,
+    /// S of each axis below the grid, over rising frequencies from 0 on: gain margins count from there.
+    pub below: Vec<Vec<C64>>,
 }
 
 /// S of one axis at a time, all others closed, at any frequency: e/d for a signal d added to that of one sensor,
@@ -132,6 +136,16 @@ pub fn open_loop(sensitivity: C64) -> C64 {
 }
 
 impl Sensitivity {
+    /// Margins of an axis from ω = 0 to the end of the band.
+    #[must_use]
+    pub fn margins(&self, axis: usize) -> Margins {
+        let [below, values] = [&self.below[axis], &self.values[axis]];
+        let open: Vec<C64> = (below.iter().chain(values))
+            .map(|s| open_loop(*s))
+            .collect();
+        margins(&open)
+    }
+
     /// The same with each axis twice: over complex coordinates one stands for two that are alike.
     #[must_use]
     pub fn of_both_axes(self) -> Self {
@@ -139,6 +153,7 @@ impl Sensitivity {
         let all = || (0..self.peaks.len()).flat_map(twice);
         Self {
             values: all().map(|index| self.values[index].clone()).collect(),
+            below: all().map(|index| self.below[index].clone()).collect(),
             peaks: all().map(|index| self.peaks[index]).collect(),
             grid: self.grid,
         }
@@ -152,14 +167,25 @@ impl Sensitivity {
     ) -> Result<Self, Refused> {
         let axes = Axes::new(closed)?;
         let grid = band.grid(poles);
-        let mut values: Vec<Vec<C64>> = Vec::new();
-        for omega in &grid {
-            let row = axes.at(*omega)?;
-            values.resize(row.len(), Vec::new());
-            for (axis, value) in values.iter_mut().zip(row) {
-                axis.push(value);
+        let over = |grid: &[f64]| -> Result<Vec<Vec<C64>>, Refused> {
+            let mut values: Vec<Vec<C64>> = Vec::new();
+            for omega in grid {
+                let row = axes.at(*omega)?;
+                values.resize(row.len(), Vec::new());
+                for (axis, value) in values.iter_mut().zip(row) {
+                    axis.push(value);
+                }
             }
-        }
+            Ok(values)
+        };
+        let values = over(&grid)?;
+        let sizes = poles.iter().map(|pole| pole.value.norm());
+        let slowest = sizes.filter(|size| *size > ZERO).fold(band.from, f64::min);
+        let slow = Band {
+            from: 0.1 * slowest,
+            to: band.from,
+        };
+        let below = over(&[vec![0.0], slow.grid(poles)].concat())?;
         let search = |(axis, values): (usize, &Vec<C64>)| {
             let size = |omega| Ok(axes.at(omega)?[axis].norm());
             largest(&grid, values, size)
@@ -173,6 +199,7 @@ impl Sensitivity {
             grid,
             values,
             peaks,
+            below,
         })
     }
 }
@@ -249,22 +276,34 @@ pub struct Margins {
     pub phase: Option<f64>,
 }
 
-/// Margins of an open loop L over rising frequencies.
+/// Margins of an open loop L over rising frequencies, the first of which is 0: there L is real, and 1/L(0) is 0 of an integrator.
 #[must_use]
 pub fn margins(open: &[C64]) -> Margins {
     let mut out = Margins::default();
     let least = |old: Option<f64>, new: f64| Some(old.map_or(new, |old| old.min(new)));
     let most = |old: Option<f64>, new: f64| Some(old.map_or(new, |old| old.max(new)));
+    let mut crosses = |real: f64| {
+        if real < -1.0 {
+            out.lower_gain = most(out.lower_gain, -1.0 / real);
+        } else if real < 0.0 {
+            out.upper_gain = least(out.upper_gain, -1.0 / real);
+        }
+    };
+    let (at_rest, open) = match open {
+        [first, rest @ ..] => (first.re, rest),
+        [] => return out,
+    };
+    if at_rest.abs() < INTEGRATES {
+        crosses(at_rest);
+    }
     for pair in open.windows(2) {
         let (a, b) = (pair[0], pair[1]);
         if (a.im > 0.0) != (b.im > 0.0) {
-            let real = a.re + (b.re - a.re) * a.im / (a.im - b.im);
-            if real < -1.0 {
-                out.lower_gain = most(out.lower_gain, -1.0 / real);
-            } else if real < 0.0 {
-                out.upper_gain = least(out.upper_gain, -1.0 / real);
-            }
+            crosses(a.re + (b.re - a.re) * a.im / (a.im - b.im));
         }
+    }
+    for pair in open.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
         let (p, q) = (a.norm() - 1.0, b.norm() - 1.0);
         if (p > 0.0) != (q > 0.0) {
             let crossing = a + (b - a) * (p / (p - q));
@@ -312,10 +351,11 @@ mod tests {
     #[test]
     fn margins_of_a_loop_with_known_crossings() {
         // L = K/(s(s+1)²) has L(j) = -K/2: gain margin 2/K; unstable below nothing, so no lower one
-        let open: Vec<C64> = (0..4000)
+        let open = (0..4000)
             .map(|k| C64::new(0.0, 10.0_f64.powf(-2.0 + 4.0 * f64::from(k) / 4000.0)))
-            .map(|s| 0.5 / (s * (s + 1.0) * (s + 1.0)))
-            .collect();
+            .map(|s| 0.5 / (s * (s + 1.0) * (s + 1.0)));
+        // at rest the integrator has no bound
+        let open: Vec<C64> = std::iter::once(C64::from(f64::NAN)).chain(open).collect();
         let found = margins(&open);
         assert!((found.upper_gain.unwrap() - 4.0).abs() < 1e-4);
         assert_eq!(found.lower_gain, None);

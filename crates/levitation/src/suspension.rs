@@ -23,6 +23,8 @@ struct Suspension<T: Coordinates> {
 
 /// Magnets as what holds a rotor, in the coordinates of an analysis without them: complex ones where every direction is alike.
 ///
+/// - `slopes` k_i and k_s of each axis, as about a [static equilibrium](crate::response::Equilibrium)
+///
 /// # Errors
 ///
 /// As [`ClosedLoop::new`].
@@ -30,16 +32,17 @@ pub fn suspension(
     analysis: &Analysis,
     nodes: usize,
     levitation: &Levitation,
+    slopes: &[(f64, f64)],
 ) -> Result<Arc<dyn Feedback>, Refused> {
-    if let Some(plane) = levitation.one_plane()
+    if let Some((plane, slopes)) = levitation.one_plane_about(slopes)
         && let Some(plant) = Plant::turning(analysis, nodes, 0.0)
     {
-        return Ok(Arc::new(Suspension::of(ClosedLoop::new(plant, &plane)?)));
+        let closed = ClosedLoop::about(plant, &plane, slopes)?;
+        return Ok(Arc::new(Suspension::of(closed)));
     }
     let plant = Plant::planes(analysis, nodes, 0.0);
-    Ok(Arc::new(Suspension::of(ClosedLoop::new(
-        plant, levitation,
-    )?)))
+    let closed = ClosedLoop::about(plant, levitation, slopes.to_vec())?;
+    Ok(Arc::new(Suspension::of(closed)))
 }
 
 impl<T: Coordinates> Suspension<T> {

@@ -172,7 +172,14 @@ fn analyses_of_the_rotor_know_its_magnets() {
         }
         let analysis = file.analysis(Basis::Reduced);
         let count = file.rotor.nodes.len();
-        let held = suspension(&analysis, count, &file.levitation(0.3)).unwrap();
+        let levitation = file.levitation(0.3);
+        let held = suspension(
+            &analysis,
+            count,
+            &levitation,
+            &levitation.slopes_at_centre(),
+        );
+        let held = held.unwrap();
         let analysis = analysis.held_by(held);
         assert_eq!(analysis.turns(), equal);
         let responder = Responder::within(&analysis);

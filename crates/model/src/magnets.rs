@@ -50,8 +50,8 @@ pub struct AxisConstants {
     pub law: Magnet<f64>,
     /// Control current when the power was lost, where nothing controls it, A.
     pub current: f64,
-    /// Its largest, A; infinite without limit.
-    pub largest_current: f64,
+    /// Its lowest and its largest, A; infinite without limit.
+    pub current_limits: [f64; 2],
 }
 
 /// Sensors, controllers and amplifiers.
@@ -91,7 +91,7 @@ impl MagnetsConstants {
                     position_stiffness: stiffness,
                 },
                 current: force.dot(direction),
-                largest_current: f64::INFINITY,
+                current_limits: [f64::NEG_INFINITY, f64::INFINITY],
             };
             let axes = vec![axis(Vec2::new(1.0, 0.0)), axis(Vec2::new(0.0, 1.0))];
             MagnetConstants { node, axes }

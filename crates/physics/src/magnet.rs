@@ -1,14 +1,15 @@
 //! Force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents.
 //!
 //! ```text
-//!     ┌───┐ i₀ - i                 f > 0 pulls towards +x, where the gap g₀ - x closes
+//!     ┌───┐ b₋ - i                 f > 0 pulls towards +x, where the gap g₀ - x closes
 //!     │   │──gap g₀ + x──┐
 //!     └───┘            ( rotor )──gap g₀ - x──┌───┐       the nearer magnet pulls harder: without control
 //!                                             │   │       current f has the sign of x and pushes the rotor
-//!                                     i₀ + i  └───┘       away from the centre, k_s > 0
+//!                                     b₊ + i  └───┘       away from the centre, k_s > 0
 //! ```
 //! Power to the rotor is f·v, v the velocity of its axis against the magnet; a magnet is a source of either sign.
-//! Without current changes the force has the potential -½k_s x² (linear), -k[(i₀+i)²/(g₀-x) + (i₀-i)²/(g₀+x)] (pair).
+//! Without current changes the force has the potential -½k_s x² (linear), -k[(b₊+i)²/(g₀-x) + (b₋-i)²/(g₀+x)] (pair).
+//! Both coils have the bias i₀, or b₊ and b₋ with the mean i₀: the larger one carries a constant load k_i (b₊-b₋)/2 without control current.
 
 use number::{Gather, Real, constants};
 
@@ -31,8 +32,10 @@ constants! {
     pub struct OpposedPair {
         /// Force constant k of one magnet, N m²/A².
         force_constant: R,
-        /// Bias current i₀ of both, A.
-        bias_current: R,
+        /// Bias current b₊ of the coil that pulls towards +x, A.
+        bias_plus: R,
+        /// Bias current b₋ of the other, A.
+        bias_minus: R,
         /// Gap g₀ of both with the rotor in the centre, m.
         gap: R,
         /// Largest current of a coil, A.
@@ -95,18 +98,42 @@ impl<R: Real> OpposedPair<R> {
         let bias_current = gap * position_stiffness / current_stiffness;
         Self {
             force_constant: current_stiffness * gap.square() / (R::splat(4.0) * bias_current),
-            bias_current,
+            bias_plus: bias_current,
+            bias_minus: bias_current,
             gap,
             largest_current,
         }
     }
 
+    /// The same pair with biases that differ by b₊ - b₋, A, about their mean.
+    ///
+    /// Source: as given.
+    /// Valid: below twice the mean: neither coil pushes.
+    pub fn with_bias_difference(self, difference: R) -> Self {
+        let (mean, half) = (self.bias_current(), R::splat(0.5) * difference);
+        Self {
+            bias_plus: mean + half,
+            bias_minus: mean - half,
+            ..self
+        }
+    }
+
+    /// Mean bias i₀ of both coils, A.
+    ///
+    /// Source: as given.
+    /// Valid: always.
+    pub fn bias_current(&self) -> R {
+        R::splat(0.5) * (self.bias_plus + self.bias_minus)
+    }
+
     /// Currents of both coils, A: between nothing and the largest; `bias_share` of the bias is there.
     #[inline(always)]
     fn coils(&self, current: R, bias_share: R) -> (R, R) {
-        let bias = self.bias_current * bias_share;
         let clip = |coil: R| coil.max(R::zero()).min(self.largest_current);
-        (clip(bias + current), clip(bias - current))
+        (
+            clip(self.bias_plus * bias_share + current),
+            clip(self.bias_minus * bias_share - current),
+        )
     }
 }
 
@@ -123,14 +150,14 @@ impl<R: Real> Magnet<R> {
                 current_stiffness, ..
             } => current_stiffness,
             Self::Pair(pair) => {
-                R::splat(4.0) * pair.force_constant * pair.bias_current / pair.gap.square()
+                R::splat(4.0) * pair.force_constant * pair.bias_current() / pair.gap.square()
             }
         }
     }
 
     /// Force over displacement at the centre, N/m; positive pushes away.
     ///
-    /// Formula: k_s, or 4k i₀²/g₀³, so that k_s/k_i = i₀/g₀
+    /// Formula: k_s, or 2k(b₊² + b₋²)/g₀³; of equal biases 4k i₀²/g₀³, so that k_s/k_i = i₀/g₀
     ///
     /// Source: derivative of the law at i = 0, x = 0.
     /// Valid: bias below the largest current.
@@ -139,7 +166,11 @@ impl<R: Real> Magnet<R> {
             Self::Linear {
                 position_stiffness, ..
             } => position_stiffness,
-            Self::Pair(pair) => self.current_stiffness() * pair.bias_current / pair.gap,
+            Self::Pair(pair) => {
+                let mean = pair.bias_current();
+                let half = R::splat(0.5) * (pair.bias_plus - pair.bias_minus);
+                self.current_stiffness() * (mean + half * half / mean) / pair.gap
+            }
         }
     }
 
@@ -156,7 +187,7 @@ impl<R: Real> Magnet<R> {
 
     /// Force on the rotor along the axis, N.
     ///
-    /// Formula: k_i e i + k_s e² x, or k[(e i₀ + i)²/(g₀ - x)² - (e i₀ - i)²/(g₀ + x)²], coil currents within [0, i_max]
+    /// Formula: k_i e i + k_s e² x, or k[(e b₊ + i)²/(g₀ - x)² - (e b₋ - i)²/(g₀ + x)²], coil currents within [0, i_max]
     ///
     /// - `current` i, A; `displacement` x of the rotor's axis from the magnet's, m
     /// - `bias_share` e of the bias that is there: 1 while on, decaying to 0 after a loss of power
@@ -214,7 +245,8 @@ mod tests {
 
     const PAIR: OpposedPair<f64> = OpposedPair {
         force_constant: 1.2e-5,
-        bias_current: 2.0,
+        bias_plus: 2.0,
+        bias_minus: 2.0,
         gap: 0.4e-3,
         largest_current: 4.0,
     };
@@ -233,7 +265,7 @@ mod tests {
         assert!(same(over_displacement / over_current, 2.0 / 0.4e-3, 1e-14));
         let again = OpposedPair::of_stiffness(over_current, over_displacement, 0.4e-3, 4.0);
         assert!(same(again.force_constant, PAIR.force_constant, 1e-14));
-        assert!(same(again.bias_current, PAIR.bias_current, 1e-14));
+        assert!(same(again.bias_current(), PAIR.bias_current(), 1e-14));
     }
 
     #[test]
@@ -241,7 +273,8 @@ mod tests {
         let lift = |value: f64| Dual::<2>::splat(value);
         let magnet = Magnet::Pair(OpposedPair {
             force_constant: lift(PAIR.force_constant),
-            bias_current: lift(PAIR.bias_current),
+            bias_plus: lift(PAIR.bias_plus),
+            bias_minus: lift(PAIR.bias_minus),
             gap: lift(PAIR.gap),
             largest_current: lift(PAIR.largest_current),
         });
@@ -259,6 +292,29 @@ mod tests {
                 "{current}"
             );
         }
+    }
+
+    /// By hand, k 1.2e-5, biases 2.5 and 1.5 A, gap 0.4 mm: F = k(6.25 - 2.25)/g₀² = 300 N = k_i·½ A, k_i = 2k·4/g₀² = 600 N/A,
+    /// k_s = 2k·8.5/g₀³ = 3.1875e6 N/m. It is the equal pair with ½ A more control current, in every state within its limits.
+    #[test]
+    fn unequal_biases_carry_a_load_and_have_slopes_of_their_own() {
+        let unequal = Magnet::Pair(PAIR.with_bias_difference(1.0));
+        assert!(same(unequal.force(0.0, 0.0, 1.0), 300.0, 1e-14));
+        let (over_current, over_displacement) = unequal.slopes(0.0, 0.0);
+        assert!(same(over_current, 600.0, 1e-14) && same(over_displacement, 3.1875e6, 1e-14));
+        assert!(same(unequal.current_stiffness(), 600.0, 1e-14));
+        assert!(same(unequal.position_stiffness(), 3.1875e6, 1e-14));
+        let (i, x) = (0.3, 5e-5);
+        for share in [1.0, 0.4] {
+            let equal = Magnet::Pair(PAIR).force((i + 0.5) * share, x, share);
+            assert!(same(unequal.force(i * share, x, share), equal, 1e-14));
+        }
+        let mirrored = Magnet::Pair(PAIR.with_bias_difference(-1.0));
+        assert!(same(
+            mirrored.force(-i, -x, 1.0),
+            -unequal.force(i, x, 1.0),
+            1e-15
+        ));
     }
 
     #[test]

@@ -123,6 +123,8 @@ pub enum Code {
     CurrentLimit,
     /// AB2077
     LevitationParts,
+    /// AB2078
+    StartBeyondLimit,
     /// AB2200
     StudyScenario,
     /// AB2201
@@ -509,6 +511,12 @@ impl Code {
             "AB2077",
             "Magnet, sensor and controller do not fit",
             "A magnet has no sensor or controller, or two, or one of them belongs to no magnet.",
+        ),
+        (
+            Code::StartBeyondLimit,
+            "AB2078",
+            "Start beyond a limit of the magnets",
+            "Static part and unbalance amplitude of a coil current, a voltage or a displacement together exceed its limit.",
         ),
         (
             Code::StudyScenario,

@@ -1,4 +1,4 @@
-//! What the modes beyond `rotor.cutoff` would change: the beginning of a drop as it is, and once more with twice the cutoff.
+//! What twice `rotor.cutoff` would change, no bound of what all modes would: the beginning of a drop as it is, and once more with twice the cutoff.
 
 use crate::options::Options;
 use crate::result::outcome::{Quantity, Value};
@@ -80,9 +80,9 @@ pub(super) fn changes(
             name: format!("cutoff_change.{name}"),
             value,
             unit: "",
-            law: "the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
+            law: "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
             source: "crates/auxbear/src/run/cutoff.rs",
-            valid: "what the modes left out change there; later contacts are chaotic",
+            valid: "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic",
             chaotic: false,
             spread: None,
             awaited: false,

@@ -132,6 +132,10 @@ pub struct Key {
     pub when: &'static [Condition],
     /// The other key that gives the same thing.
     pub excludes: Option<&'static str>,
+    /// Of a part: names of keys beside all of which alone it has an effect.
+    pub beside: &'static [&'static str],
+    /// Of a part: names of keys beside any of which it has no effect.
+    pub unless: &'static [&'static str],
     /// The systems that have the key, where they are fewer than those of its section.
     pub systems: Option<&'static [SystemName]>,
 }
@@ -163,6 +167,8 @@ impl Key {
             doc,
             when: &[],
             excludes: None,
+            beside: &[],
+            unless: &[],
             systems: None,
         }
     }
@@ -241,6 +247,16 @@ impl Key {
 
     pub(crate) const fn excludes(mut self, other: &'static str) -> Key {
         self.excludes = Some(other);
+        self
+    }
+
+    pub(crate) const fn beside(mut self, others: &'static [&'static str]) -> Key {
+        self.beside = others;
+        self
+    }
+
+    pub(crate) const fn unless(mut self, others: &'static [&'static str]) -> Key {
+        self.unless = others;
         self
     }
 

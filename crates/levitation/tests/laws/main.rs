@@ -1,5 +1,6 @@
 //! Signs, limits and equalities of the levitation: each sign shown to fail when it is flipped.
 
+mod loaded;
 mod mass;
 #[path = "../../../rotor/tests/published/mod.rs"]
 mod published;
@@ -287,14 +288,16 @@ fn zero_static_stiffness_is_found_and_named() {
         let wanted = wanted["largest_other_real_part"].as_f64().unwrap();
         assert!((largest / wanted - 1.0).abs() < 1e-6);
         // the reason: k_i K_p = k_s without an integrator
-        let stiffness = levitation.static_stiffness();
+        let stiffness = levitation.static_stiffness(&levitation.slopes_at_centre());
         assert!(
             stiffness.iter().all(|k| k.abs() < 1e-9 * 1.6e5),
             "{stiffness:?}"
         );
     }
     // with the integrator the loop is stiff without bound at rest
-    assert_eq!(file.levitation(0.0).static_stiffness(), [f64::INFINITY; 4]);
+    let held = file.levitation(0.0);
+    let stiffness = held.static_stiffness(&held.slopes_at_centre());
+    assert_eq!(stiffness, [f64::INFINITY; 4]);
 }
 
 #[test]

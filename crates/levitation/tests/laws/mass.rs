@@ -54,6 +54,7 @@ impl Mass {
         let actuator = |angle| Actuator {
             axis: axis(angle),
             magnet: self.magnet,
+            lowest_current: f64::NEG_INFINITY,
             largest_current: f64::INFINITY,
             amplifier: self.amplifier,
         };

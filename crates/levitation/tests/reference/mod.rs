@@ -86,6 +86,7 @@ impl File {
                         current_stiffness: number(m, "ki"),
                         position_stiffness: number(m, "ks"),
                     },
+                    lowest_current: f64::NEG_INFINITY,
                     largest_current: f64::INFINITY,
                     amplifier: Amplifier::Current {
                         bandwidth: number(c, "amplifier_rad_s"),

@@ -75,7 +75,7 @@ impl<'a> Asked<'a> {
         let levitated = magnets
             .map(|model| levitated::find(analysis, model, &within))
             .transpose()?;
-        let within = levitated::on_magnets(within, &analysis.model)?;
+        let within = levitated::on_magnets(within, &analysis.model, levitated.as_ref())?;
         let held = levitated.is_some() || rotor::held(rotor, analysis.speed).is_ok();
         let supported = rotor.bearings().count() > 0;
         let needs = if supported {
@@ -236,8 +236,8 @@ impl<'a> Asked<'a> {
             };
             let whole = Analysis::new(rotor, &self.matrices, reference);
             // magnets that held the rotor in other coordinates hold it in these
-            let whole =
-                levitated::on_magnets(whole, &asked.model).map_err(|_| RotorError::NotConverged)?;
+            let whole = levitated::on_magnets(whole, &asked.model, self.levitated.as_ref())
+                .map_err(|_| RotorError::NotConverged)?;
             whole.error_of(&diagram, diagram.speeds.len() - 1, asked.frequency_to)
         };
         let reduction_error = reduced.then(error_of_reduction);

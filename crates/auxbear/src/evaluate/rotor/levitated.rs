@@ -3,10 +3,11 @@
 use crate::problem::Problem;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Value;
+use crate::result::outcome::Warning;
 use crate::scenario::{LevitationModel, RotorAnalysis, RotorModel};
-use crate::simulate::levitated::{failed, holds, strong, weak};
-use levitation::response::{Equilibrium, Synchronous, equilibrium, unbalance};
-use levitation::sensitivity::{Band, Sensitivity, margins, open_loop, zone};
+use crate::simulate::levitated::{at_rest, failed, holds, rise, warnings};
+use levitation::response::{Equilibrium, Excess, Synchronous, excesses, unbalance};
+use levitation::sensitivity::{Band, Sensitivity, open_loop, zone};
 use levitation::{
     C64, ClosedLoop, Coordinates, Plant, Pole, Refused, Verdict, suspension, verdict, weight,
 };
@@ -22,19 +23,29 @@ pub(crate) struct Levitated {
     band: Band,
     /// At standstill, at the rated speed.
     sensitivity: [Sensitivity; 2],
+    /// At standstill.
     rest: Equilibrium,
+    /// k_i and k_s of each axis about the static position at the rated speed.
+    slopes: Vec<(f64, f64)>,
     turning: Option<Synchronous>,
+    /// Limits that the steady motion at the rated speed passes.
+    excesses: Vec<Excess>,
     coordinates: usize,
     /// x + jy of each coordinate of the rotor at rest under its weight.
     pub(crate) sag: DVector<C64>,
 }
 
-/// A rotor in the coordinates of an analysis, held by its magnets too.
-pub(crate) fn on_magnets(within: Analysis, model: &RotorModel) -> Result<Analysis, Box<Problem>> {
-    let Some(levitation) = &model.levitation else {
+/// A rotor in the coordinates of an analysis, held by its magnets too, as they act about the static position at the rated speed.
+pub(crate) fn on_magnets(
+    within: Analysis,
+    model: &RotorModel,
+    found: Option<&Levitated>,
+) -> Result<Analysis, Box<Problem>> {
+    let (Some(levitation), Some(found)) = (&model.levitation, found) else {
         return Ok(within);
     };
-    let feedback = suspension(&within, model.rotor.nodes.len(), &levitation.levitation);
+    let (nodes, slopes) = (model.rotor.nodes.len(), &found.slopes);
+    let feedback = suspension(&within, nodes, &levitation.levitation, slopes);
     Ok(within.held_by(feedback.map_err(|error| failed(&error.to_string()))?))
 }
 
@@ -59,40 +70,38 @@ pub(crate) fn find(
 ) -> Result<Levitated, Box<Problem>> {
     let rotor = &analysis.model.rotor;
     let band = Band::of_speed(analysis.speed);
-    let plane = model.levitation.one_plane().filter(|_| rotor.turns());
     let nodes = rotor.nodes.len();
     let told = |error: Refused| failed(&error.to_string());
-    let loops = |speed: f64| -> Result<Looped, Refused> {
-        let turning = plane.as_ref().and_then(|plane| {
+    let loops = |speed: f64, slopes: &[(f64, f64)]| -> Result<Looped, Refused> {
+        let plane = model.levitation.one_plane_about(slopes);
+        let turning = plane.filter(|_| rotor.turns()).and_then(|(plane, slopes)| {
             let plant = Plant::turning(within, nodes, speed)?;
             Some(
-                ClosedLoop::new(plant, plane)
+                ClosedLoop::about(plant, &plane, slopes)
                     .and_then(|closed| looped(&closed, analysis, speed, band)),
             )
         });
         turning.unwrap_or_else(|| {
-            let closed = ClosedLoop::new(Plant::planes(within, nodes, speed), &model.levitation)?;
+            let plant = Plant::planes(within, nodes, speed);
+            let closed = ClosedLoop::about(plant, &model.levitation, slopes.to_vec())?;
             looped(&closed, analysis, speed, band)
         })
     };
-    let mut found = Vec::new();
-    for speed in [0.0, analysis.speed] {
-        let one = loops(speed).map_err(told)?;
-        holds(model, &one.poles, speed)?;
-        found.push(one);
-    }
-    let (Some(rated), Some(still)) = (found.pop(), found.pop()) else {
-        return Err(failed("no speed"));
-    };
     let gravity = [analysis.weight().re, analysis.weight().im];
     let loads = weight(rotor, within, gravity);
-    let rest = equilibrium(
-        &Plant::planes(within, nodes, 0.0),
-        &model.levitation,
-        &loads,
-    )
-    .map_err(|error| weak(&error.to_string()))?;
-    strong(model, &rest)?;
+    let mut found = Vec::new();
+    for speed in [analysis.speed, 0.0] {
+        let plant = Plant::planes(within, nodes, speed);
+        let rest = at_rest(model, &plant, &loads, speed)?;
+        let one = loops(speed, &rest.slopes).map_err(told)?;
+        holds(model, &one.poles, &rest.slopes, speed)?;
+        found.push((rest, one));
+    }
+    let (Some((rest, still)), Some((loaded, rated))) = (found.pop(), found.pop()) else {
+        return Err(failed("no speed"));
+    };
+    let turning = rated.turning.as_ref();
+    let excesses = excesses(&model.levitation, &loaded, turning, analysis.speed);
     let shapes = &within.basis.shapes;
     let plane = |from: usize| shapes * rest.coordinates.rows(from, shapes.ncols());
     Ok(Levitated {
@@ -101,9 +110,18 @@ pub(crate) fn find(
         band,
         sensitivity: [still.sensitivity, rated.sensitivity],
         turning: rated.turning,
+        slopes: loaded.slopes,
+        excesses,
         rest,
         coordinates: within.basis.len(),
     })
+}
+
+/// What the steady motion at the rated speed makes doubtful.
+pub(crate) fn warned(analysis: &RotorAnalysis, found: &Levitated) -> Vec<Warning> {
+    let model = analysis.model.levitation.iter();
+    let of = |model| warnings(model, &found.excesses, analysis.speed);
+    model.flat_map(of).collect()
 }
 
 /// One speed.
@@ -139,7 +157,9 @@ fn looped<T: Coordinates>(
         // one number stands for both axes
         sensitivity = sensitivity.of_both_axes();
         if let Some(turning) = &mut turning {
-            turning.currents = turning.currents.iter().flat_map(|i| [*i, *i]).collect();
+            for list in [&mut turning.currents, &mut turning.gaps] {
+                *list = list.iter().flat_map(|own| [*own, *own]).collect();
+            }
         }
     }
     Ok(Looped {
@@ -253,7 +273,8 @@ pub(crate) fn name(list: &mut List, analysis: &RotorAnalysis, found: &Levitated)
 
 /// The results of one axis.
 fn axis(list: &mut List, model: &LevitationModel, found: &Levitated, index: usize, begin: &str) {
-    let stiffness = model.levitation.static_stiffness().get(index).copied();
+    let slopes = &found.rest.slopes;
+    let stiffness = (model.levitation.static_stiffness(slopes).get(index)).copied();
     let stiffness = match stiffness {
         Some(k) if k.is_infinite() => Err("without bound: the controller integrates".to_string()),
         Some(k) => Ok(k),
@@ -275,6 +296,12 @@ fn axis(list: &mut List, model: &LevitationModel, found: &Levitated, index: usiz
         &format!("{begin}.static_displacement"),
         "m",
         Ok(found.rest.gaps[index]),
+        &STATIC,
+    );
+    list.number(
+        &format!("{begin}.position_stiffness_rise"),
+        "",
+        Ok(rise(model, index, slopes)),
         &STATIC,
     );
     let turning = (found.turning.as_ref())
@@ -310,8 +337,9 @@ fn axis(list: &mut List, model: &LevitationModel, found: &Levitated, index: usiz
             &SENSITIVITY,
         );
         let open: Vec<C64> = values.iter().map(|s| open_loop(*s)).collect();
-        let margins = margins(&open);
-        let none = || "the open loop does not cross there within the band".to_string();
+        let margins = one.margins(index);
+        let none =
+            || "the open loop does not cross there from 0 to the end of the band".to_string();
         for (name, unit, value) in [
             ("phase_margin", "rad", margins.phase),
             ("gain_margin_up", "", margins.upper_gain),
@@ -343,7 +371,7 @@ const GIVEN: Origin = Origin {
     source: "the scenario",
     valid: "",
 };
-const LINEAR: &str = "small motion about the centres of the magnets; samples as a delay, no limit of current and voltage";
+const LINEAR: &str = "small motion about the static position under weight, of a pair with its slopes there; samples as a delay, no limit of current and voltage";
 const POLES: Origin = Origin {
     law: "eigenvalues of rotor, magnets, amplifiers, controller, delay and sensors as one system; Im λ > 0 turns with positive spin",
     source: "crates/levitation/src/closed_loop.rs",
@@ -355,7 +383,7 @@ const SENSITIVITY: Origin = Origin {
     valid: LINEAR,
 };
 const STATIC: Origin = Origin {
-    law: "k_i C(0) - k_s of an axis; position and currents under weight with the full force law",
+    law: "k_i C(0) - k_s of an axis about the static position; position and currents under weight with the full force law; share by which k_s there exceeds that of equal biases in the centre",
     source: "crates/levitation/src/response.rs",
     valid: "a rotor at rest",
 };

@@ -1,6 +1,7 @@
 //! What the user should know of an analysis of a rotor.
 
 use crate::evaluate::rotor::asked::{Asked, Found};
+use crate::evaluate::rotor::levitated;
 use crate::result::outcome::{Warning, warning};
 use units::number_text;
 
@@ -8,8 +9,10 @@ use units::number_text;
 const REDUCTION: f64 = 1e-5;
 
 pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
-    let mut out = Vec::new();
     let analysis = asked.analysis;
+    let mut out: Vec<Warning> = (asked.levitated.iter())
+        .flat_map(|own| levitated::warned(analysis, own))
+        .collect();
     let all = analysis.model.supports.iter().zip(&asked.rotor().supports);
     for (name, support) in all {
         let Some((low, high)) = support.coefficients.range() else {

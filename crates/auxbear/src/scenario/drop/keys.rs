@@ -212,7 +212,7 @@ pub(crate) const KEYS: &[Key] = &[
         "rotor.cutoff_check",
         Kind::Quantity("s"),
         "20 ms",
-        "The drop until then is run twice more, as it is and with twice rotor.cutoff: the change of first impacts and displacements is told.",
+        "The drop until then is run twice more, as it is and with twice rotor.cutoff: the change of first impacts and displacements on doubling is given, which is no bound of their error.",
     )
     .positive()
     .optional("what the modes left out would change is not told")

@@ -73,10 +73,8 @@ pub(crate) fn model<'a>(
                 reference: 0.0,
             });
             actuators.push(Actuator {
-                axis: axis(at),
-                magnet: law(magnet)?,
                 amplifier: amplifier(magnet)?,
-                largest_current: largest_current(magnet).unwrap_or(f64::INFINITY),
+                ..actuator(magnet, number, axis(at))?
             });
         }
         channels.push((controller, channel(controller)?));
@@ -166,7 +164,24 @@ fn each_acts(list: &[&Part], magnets: &[&Part]) -> Built<()> {
     Ok(())
 }
 
-fn law(part: &Part) -> Built<Magnet<f64>> {
+/// An axis of a magnet with its force law and limits of its control current; its amplifier is another matter.
+fn actuator(part: &Part, number: usize, axis: Axis) -> Built<Actuator> {
+    let magnet = law(part, number)?;
+    let largest = part.number("largest_current").unwrap_or(f64::INFINITY);
+    let [plus, minus] = match magnet {
+        Magnet::Pair(pair) => [pair.bias_plus, pair.bias_minus],
+        Magnet::Linear { .. } => [0.0; 2],
+    };
+    Ok(Actuator {
+        axis,
+        magnet,
+        amplifier: Amplifier::Direct,
+        lowest_current: minus - largest,
+        largest_current: largest - plus,
+    })
+}
+
+fn law(part: &Part, number: usize) -> Built<Magnet<f64>> {
     let current_stiffness = part.needed("current_stiffness");
     let position_stiffness = part.needed("position_stiffness");
     let Some(gap) = part.number("gap") else {
@@ -177,7 +192,7 @@ fn law(part: &Part) -> Built<Magnet<f64>> {
     };
     let largest = part.number("largest_current").unwrap_or(f64::INFINITY);
     let pair = OpposedPair::of_stiffness(current_stiffness, position_stiffness, gap, largest);
-    let bias = pair.bias_current;
+    let bias = pair.bias_current();
     if let Some(given) = part.number("bias_current")
         && (given / bias - 1.0).abs() > BIAS_SHARE
     {
@@ -192,10 +207,27 @@ fn law(part: &Part) -> Built<Magnet<f64>> {
             allowed,
         )));
     }
+    let name = format!("bias_difference_{number}");
+    let difference = part.needed(&name);
+    if difference.abs() >= 2.0 * bias {
+        let found = format!("{difference} A");
+        let allowed = format!(
+            "less than twice the mean bias of {bias:.4} A is needed: both coils carry current"
+        );
+        return Err(Box::new(part.problem(
+            Code::MagnetValues,
+            &name,
+            found,
+            allowed,
+        )));
+    }
+    let pair = pair.with_bias_difference(difference);
+    let bias = pair.bias_plus.max(pair.bias_minus);
     if bias > largest {
         let found = format!("{largest} A");
-        let allowed =
-            format!("at least the bias is needed: {bias:.4} A follow from gap and stiffnesses");
+        let allowed = format!(
+            "at least the bias is needed: {bias:.4} A follow from gap, stiffnesses and bias_difference_{number}"
+        );
         return Err(Box::new(part.problem(
             Code::MagnetValues,
             "largest_current",
@@ -204,13 +236,6 @@ fn law(part: &Part) -> Built<Magnet<f64>> {
         )));
     }
     Ok(Magnet::Pair(pair))
-}
-
-/// What a coil leaves above its bias, A.
-fn largest_current(part: &Part) -> Option<f64> {
-    let ratio = part.needed("position_stiffness") / part.needed("current_stiffness");
-    let bias = part.number("gap").map_or(0.0, |gap| gap * ratio);
-    Some(part.number("largest_current")? - bias)
 }
 
 fn amplifier(part: &Part) -> Built<Amplifier> {

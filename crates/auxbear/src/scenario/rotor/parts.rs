@@ -15,7 +15,7 @@ use units::number_text;
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     pub(crate) kind: &'static PartKind,
-    /// Its name, else its number from 1.
+    /// Its name, else that of its magnet, else its number from 1.
     pub(crate) label: String,
     pub(crate) known: BTreeMap<&'static str, Known>,
     pub(crate) place: Place,
@@ -112,7 +112,7 @@ pub(crate) fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>,
         for (number, written) in (1..).zip(of_kind) {
             let part = read(kind, number, written, values)?;
             let same = |other: &&Part| other.kind.word == kind.word && other.label == part.label;
-            if all.iter().any(|other| same(&other)) {
+            if part.known.contains_key("name") && all.iter().any(|other| same(&other)) {
                 let found = format!("the name {} twice", quoted(&part.label));
                 let allowed = "a name of its own for each is needed";
                 return Err(Box::new(part.problem(
@@ -216,7 +216,8 @@ fn read(
         })?;
         part.known.insert(key.name(), known);
     }
-    for key in kind.keys {
+    let idle = idle(&part, values)?;
+    for key in kind.keys.iter().filter(|key| !idle.contains(&key.name())) {
         let other = key.excludes.and_then(|path| path.rsplit('.').next());
         if part.known.contains_key(key.name()) {
             if let Some(other) = other.filter(|other| part.known.contains_key(other)) {
@@ -244,4 +245,32 @@ fn read(
         }
     }
     Ok(part)
+}
+
+/// Keys that have no effect beside what is given; refused where one of them is given and says otherwise than its default.
+fn idle(part: &Part, values: &Values) -> Result<Vec<&'static str>, Box<Problem>> {
+    let given = |name: &&&str| part.known.contains_key(**name);
+    let mut out = Vec::new();
+    for key in part.kind.keys {
+        let missing = key.beside.iter().find(|name| !given(name));
+        let (word, other) = match (missing, key.unless.iter().find(given)) {
+            (Some(other), _) => ("beside", other),
+            (None, Some(other)) => ("without", other),
+            (None, None) => continue,
+        };
+        out.push(key.name());
+        let Some(known) = part.known.get(key.name()) else {
+            continue;
+        };
+        if let Presence::Default(fallback) = key.presence
+            && values.fall_back(key, &fallback)?.value == known.value
+        {
+            continue;
+        }
+        let allowed = format!("it is used only {word} {other}");
+        let found = "a key that has no effect";
+        let problem = part.problem(Code::UnusedKey, key.name(), found, allowed);
+        return Err(Box::new(problem));
+    }
+    Ok(out)
 }

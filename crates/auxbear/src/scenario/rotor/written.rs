@@ -18,10 +18,10 @@ pub(crate) struct WrittenPart {
 }
 
 impl WrittenPart {
-    /// Its name, where it has one.
+    /// Its name, of a sensor or controller that of its magnet, where it has one.
     pub(crate) fn name(&self) -> Option<&str> {
         self.keys.iter().find_map(|(key, raw, _)| match raw {
-            Raw::Text(name) if key == "name" => Some(name.as_str()),
+            Raw::Text(name) if key == "name" || key == "magnet" => Some(name.as_str()),
             _ => None,
         })
     }

@@ -96,11 +96,17 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
 pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
     let currents = &context.finished.record.currents;
     let (axis, share, first) = longest(context, currents.iter().map(|peak| peak.limited))?;
+    let given = context.controlled()?;
+    let own = given.model.levitation.as_ref()?.levitation.actuators();
+    let [least, most] = [own[axis].lowest_current, own[axis].largest_current];
     let text = format!(
-        "{} reaches the limit of its coil ({:.3} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says \
+        "{} reaches the limit of its coil ({} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says \
          of stability and response does not hold there.",
-        of_axis(context.controlled()?, axis, "current"),
-        currents[axis].largest.value,
+        of_axis(given, axis, "current"),
+        match -least == most {
+            true => format!("{most:.3}"),
+            false => format!("{least:.3} or {most:.3}"),
+        },
         100.0 * share,
         1e3 * first
     );

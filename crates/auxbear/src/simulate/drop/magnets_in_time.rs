@@ -35,8 +35,16 @@ pub(super) struct OnMagnets {
     pub states: Vec<f64>,
 }
 
-/// Refuses a loss of power after the start where there is none to lose, or where the run has no end of its own.
+/// Refuses currents that decay where there are none, and a loss of power after the start where there is none to lose, or where the run has no end of its own.
 pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>> {
+    if shaft.decay_time > 0.0 && shaft.model.levitation.is_none() {
+        let (found, allowed) = (
+            "a key that has no effect",
+            "it is used only with [[levitation.magnet]]",
+        );
+        let problem = Problem::new(Code::UnusedKey, UNNAMED, found, allowed);
+        return Err(Box::new(problem.on_key("levitation.decay_time")));
+    }
     let found = match (&shaft.model.levitation, &drop.run_out) {
         _ if shaft.power_lost <= 0.0 => return Ok(()),
         (None, _) => "no magnets, whose power could be lost",
@@ -70,7 +78,10 @@ pub(super) fn built(
                 direction: along(levitation.actuators()[axis].axis.angle),
                 law: levitation.actuators()[axis].magnet,
                 current: held.currents[axis],
-                largest_current: levitation.actuators()[axis].largest_current,
+                current_limits: [
+                    levitation.actuators()[axis].lowest_current,
+                    levitation.actuators()[axis].largest_current,
+                ],
             })
             .to_vec(),
     };

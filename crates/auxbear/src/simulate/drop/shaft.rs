@@ -2,13 +2,14 @@
 
 use crate::catalogue::geometry::millimetres;
 use crate::problem::{Code, Problem};
+use crate::result::outcome::Warning;
 use crate::scenario::several::path_of;
 use crate::scenario::{Drop, RotorModel, Shaft, Spin, UNNAMED};
 use crate::simulate::drop::magnets_in_time::{self, OnMagnets};
 use crate::simulate::drop::torque;
 use crate::simulate::levitated;
-use levitation::response::{equilibrium, start};
-use levitation::{ClosedLoop, Plant, weight};
+use levitation::response::{Loaded, excesses, unbalance};
+use levitation::{Plant, weight};
 use model::magnets::MagnetsConstants;
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::seal::SealConstants;
@@ -37,6 +38,8 @@ pub struct BuiltShaft {
     pub velocity: Vec<Vec2<f64>>,
     /// Modes of the rotor as it is held until the release, by rising frequency.
     pub held: Vec<HeldMode>,
+    /// What its steady motion on magnets makes doubtful.
+    pub warnings: Vec<Warning>,
 }
 
 /// A mode of the rotor as it is held, at the speed of the release.
@@ -90,6 +93,7 @@ pub(crate) fn build(
         still,
         carried,
         magnets: on_magnets,
+        warnings,
         modes: mut held,
     } = match &shaft.model.levitation {
         Some(_) => levitating(drop, shaft, &within, &loads)?,
@@ -122,6 +126,7 @@ pub(crate) fn build(
         position,
         velocity,
         held,
+        warnings,
     })
 }
 
@@ -251,6 +256,7 @@ struct Held {
     /// Nodes with what supports carry there, N.
     carried: Vec<(usize, Vec2<f64>)>,
     magnets: Option<OnMagnets>,
+    warnings: Vec<Warning>,
     modes: Vec<HeldMode>,
 }
 
@@ -268,28 +274,19 @@ fn levitating(
     let speed = drop.rotor.speed;
     let failed = |error: levitation::Refused| levitated::failed(&error.to_string());
     let plant = Plant::planes(within, rotor.nodes.len(), speed);
-    let closed = ClosedLoop::new(plant.clone(), &model.levitation).map_err(failed)?;
-    let poles = closed.poles().map_err(failed)?;
-    levitated::holds(model, &poles, speed)?;
+    let rest = levitated::at_rest(model, &plant, loads, speed)?;
+    let loaded = Loaded::about(rest, &plant, &model.levitation, speed).map_err(failed)?;
+    let poles = loaded.closed.poles().map_err(failed)?;
+    levitated::holds(model, &poles, &loaded.rest.slopes, speed)?;
     let held = poles.iter().filter(|pole| pole.oscillates());
     let held = held.map(|pole| HeldMode::new(pole.value, pole.turning, speed));
     let held = held.collect();
-    let still = Plant::planes(within, rotor.nodes.len(), 0.0);
-    let rest = equilibrium(&still, &model.levitation, loads);
-    levitated::strong(
-        model,
-        &rest.map_err(|error| levitated::weak(&error.to_string()))?,
-    )?;
+    let turning = unbalance(&loaded.closed, &rotor.unbalance, speed).map_err(failed)?;
+    let excesses = excesses(&model.levitation, &loaded.rest, Some(&turning), speed);
+    levitated::within_limits(model, &excesses)?;
     let angle = drop.rotor.unbalance_angle;
-    let start = start(
-        &plant,
-        &model.levitation,
-        loads,
-        &rotor.unbalance,
-        speed,
-        angle,
-    );
-    let start = start.map_err(|error| levitated::weak(&error.to_string()))?;
+    let start = loaded.start(&model.levitation, &rotor.unbalance, angle);
+    let start = start.map_err(failed)?;
     let size = within.basis.len();
     let pairs = |list: &DVector<f64>| -> Vec<Vec2<f64>> {
         (0..size)
@@ -305,6 +302,7 @@ fn levitating(
             currents: start.currents,
             states: start.states,
         }),
+        warnings: levitated::warnings(model, &excesses, speed),
         modes: held,
     })
 }
@@ -377,6 +375,7 @@ fn on_supports(
             .map(|(s, node)| (*node, Vec2::new(-x[size + s], -y[size + s])))
             .collect(),
         magnets: None,
+        warnings: Vec::new(),
         modes: held,
     })
 }

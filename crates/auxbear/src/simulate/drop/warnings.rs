@@ -169,6 +169,14 @@ pub(crate) fn of(
         shaft_results::thick(context, k).into_iter().collect()
     }));
     list.extend(shaft_results::few_modes(context));
+    list.extend(shaft_results::stiff(context));
+    list.extend(
+        context
+            .built
+            .shaft
+            .iter()
+            .flat_map(|own| own.warnings.clone()),
+    );
     let known = context.machine.tangents();
     let stepping = method::stepping(drop, context.built, known);
     list.extend(asked(context).warnings(stepping.steps));

@@ -121,6 +121,7 @@ impl Machine {
                         current_stiffness: given.ki,
                         position_stiffness: given.ks,
                     },
+                    lowest_current: f64::NEG_INFINITY,
                     largest_current: f64::INFINITY,
                     amplifier: match law.amplifier_rad_s {
                         Some(bandwidth) => Amplifier::Current { bandwidth },

@@ -161,7 +161,8 @@ impl Record {
         let axes = self.currents.iter_mut().zip(machine.axes());
         for ((own, axis), current) in axes.zip(currents) {
             own.largest.raise(current.abs(), time);
-            if current.abs() >= AT_LIMIT * axis.largest_current {
+            let [lowest, largest] = axis.current_limits;
+            if current >= AT_LIMIT * largest || current <= AT_LIMIT * lowest {
                 own.limited.add(time, length);
             }
         }
