@@ -143,7 +143,7 @@ pub(crate) fn within_limits(
         allowed,
     );
     Err(Box::new(
-        problem.on_key(&format!("levitation.magnet.{key}")),
+        problem.on_key(format!("levitation.magnet.{key}")),
     ))
 }
 

@@ -245,7 +245,7 @@ fn matrices(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
             compare(
                 name,
                 unit,
-                &ours,
+                ours,
                 &|i, j| dense[i * dofs + j],
                 dofs,
                 nodes,
