@@ -9,6 +9,7 @@ mod drop_method;
 mod extremes;
 mod exudyn_cage_spin_up;
 mod feedback;
+mod heat;
 mod held_limits;
 mod levitated_run;
 mod machine;

@@ -12,7 +12,8 @@
 //! | sliding and damping of ball and race | both sides by their effusivity √(kρc); half each of one material |
 //! | pockets, cage on its land | both sides by their effusivity |
 //! | orbit drag, inlets, the viscous part of the steady moment | lubricant |
-//! | the rest of the steady moment, which depends on load | balls half, races a quarter each |
+//! | where contact films warm: sliding and steady moment, inlets, less what the films keep | as the rest of the steady moment |
+//! | the rest of the steady moment, which depends on load | half at each race, both sides by their effusivity |
 //! | rotor on race | half each, or as the surfaces shared it |
 //! | mount damping | mount, where it is a node, else housing |
 //!
@@ -26,13 +27,15 @@
 //! tell more.
 
 use crate::bearing;
+use crate::bearing::lubricant_state::FILM_KINDS;
 use crate::heats::{HEATS, OWN_HEATS};
+use crate::system::sampling::Peak;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{
     BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, PASSES,
-    ROTOR, together,
+    ROTOR, relaxing, together,
 };
 use thermal::held::Held;
 use thermal::load_zone::LoadZone;
@@ -49,9 +52,6 @@ const SPAN: f64 = 10e-3;
 const LOOKS: f64 = 50e-3;
 /// Ice point, K.
 const ICE_POINT: f64 = 273.15;
-/// What carries the load-dependent part of the steady moment. Source: derived; book/src/theory/heat.md.
-const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
-
 /// Constants of a bearing that warms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WarmBearing {
@@ -88,6 +88,8 @@ pub struct Warmth {
     pub held: Option<Box<HeldWarmth>>,
     /// Heat made until now, J.
     pub made: f64,
+    /// Of it what the contact films keep, which no node has received, J.
+    pub in_films: f64,
     /// Heat given to the surroundings until now, J.
     pub given: f64,
     /// The heat made, by kinds of the ledger and nodes, J.
@@ -116,9 +118,9 @@ pub struct Warmth {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Growth {
     /// The largest rate, 1/s; none where the balls never were preloaded.
-    pub largest: Option<f64>,
-    /// From when on they run away, s, and the temperatures there, °C.
-    pub runs_away: Option<(f64, OfNodes)>,
+    pub largest: Option<Peak>,
+    /// From when on they run away, the rate there, and the temperatures, °C.
+    pub runs_away: Option<(Peak, OfNodes)>,
     /// When it did so no longer, s.
     pub calm: Option<f64>,
     /// Instants and rates, where they are kept.
@@ -138,9 +140,10 @@ impl Growth {
         }
         self.next = time + LOOKS;
         let Some(rate) = machine() else { return };
-        self.largest = Some(self.largest.map_or(rate, |largest| largest.max(rate)));
+        let now = Peak { value: rate, time };
+        self.largest.get_or_insert(now).raise(rate, time);
         if rate > 0.0 && self.runs_away.is_none() {
-            self.runs_away = Some((time, nodes));
+            self.runs_away = Some((now, nodes));
         }
         self.calm = match rate > 0.0 {
             true => None,
@@ -207,6 +210,8 @@ pub struct Seen {
     pub taken: Option<[f64; 2]>,
     /// ∫N dt of the force of the rotor on the race so far, N s; none where it is the weight.
     pub impulse: Option<f64>,
+    /// Heat that warm contact films keep, J; none where there are no such films.
+    pub films: Option<f64>,
 }
 
 /// Shares of every heat of the ledger: of balls and a cage of these materials, which is guided by the land of a node; a node takes what the
@@ -246,6 +251,36 @@ pub fn shares(
         };
     }
     list
+}
+
+/// Shares of the heat of sliding at both races, half at each, over the nodes: in each contact by the effusivity of ball and steel race.
+///
+/// Source: derived; book/src/theory/heat.md.
+pub fn sliding(ball: ThermalMaterial) -> OfNodes {
+    let [race, ball] = [STEEL_HEAT, ball].map(|material| material.effusivity());
+    let to_race = race / (race + ball);
+    of(&[
+        (INNER_RACE, 0.5 * to_race),
+        (BALLS, 1.0 - to_race),
+        (OUTER_RACE, 0.5 * to_race),
+    ])
+}
+
+/// Lets the heats of a span that shear the films reach balls and races, but for what the films keep of them, J: each kind keeps as much as its part
+/// of all such heat until then. Of the span and of the run so far, J; the balls are of a metal.
+fn through_films(
+    flows: &mut [OfNodes; HEATS],
+    [span, so_far]: [&[f64; HEATS]; 2],
+    kept: f64,
+    ball: ThermalMaterial,
+) {
+    let shears: Vec<bool> = kinds().map(|kind| FILM_KINDS.contains(&kind)).collect();
+    let sheared = |k: &usize| shears[*k];
+    let all: f64 = (0..HEATS).filter(sheared).map(|k| so_far[k]).sum();
+    for k in (0..HEATS).filter(sheared) {
+        let own = if all > 0.0 { so_far[k] / all } else { 0.0 };
+        flows[k] = sliding(ball).map(|share| share * (span[k] - own * kept));
+    }
 }
 
 /// What reaches each node, of all kinds.
@@ -312,6 +347,23 @@ impl WarmBearing {
         (self.zone).loads_under(force, self.zone.clearance_at(temperatures, speed))
     }
 
+    /// What its conductances follow at a spin of the inner race (rad/s), the force of the rotor on it (N), temperatures of the nodes (°C) and
+    /// loads of the balls (N).
+    fn operation<'a>(
+        &self,
+        [speed, force]: [f64; 2],
+        nodes: &'a [f64],
+        loads: &'a [f64],
+    ) -> Operation<'a> {
+        Operation {
+            speed,
+            force,
+            loads,
+            viscosity: self.viscosity_at(nodes[LUBRICANT]),
+            temperatures: nodes,
+        }
+    }
+
     /// Viscosity of the lubricant at a temperature in °C, m²/s.
     pub fn viscosity_at(&self, temperature: f64) -> f64 {
         (self.oil.as_ref()).map_or(self.viscosity, |oil| oil.held(temperature + ICE_POINT))
@@ -353,10 +405,7 @@ impl WarmBearing {
         for (k, heat) in heats.iter().enumerate() {
             let mut shares = self.shares[k];
             if k == steady {
-                shares = [0.0; NODES.len()];
-                for (node, share) in SLIDING {
-                    shares[node] = share * (1.0 - viscous);
-                }
+                shares = sliding(self.network.ball).map(|share| share * (1.0 - viscous));
                 shares[LUBRICANT] = viscous;
             }
             if let (true, Some(rotor)) = (k == friction, rubbing) {
@@ -386,6 +435,7 @@ impl Warmth {
             growth: Growth::default(),
             held: None,
             made: 0.0,
+            in_films: 0.0,
             given: 0.0,
             flows: [[0.0; NODES.len()]; HEATS],
             given_from: [0.0; NODES.len()],
@@ -440,17 +490,16 @@ impl Warmth {
         let viscous = power(self.spin.unwrap_or(seen.spin))
             .zip(power(seen.spin))
             .map(mean);
-        let flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
+        let mut flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
+        if let Some(films) = seen.films {
+            let kept = films - self.in_films;
+            through_films(&mut flows, [&heats, &seen.heats], kept, part.network.ball);
+        }
         let nodes = sums(&flows);
         let mean = |impulse: f64| (impulse - self.impulse) / span;
         let force = seen.impulse.map_or(part.zone.load, mean);
-        let operation = Operation {
-            speed: seen.spin,
-            force,
-            loads: &part.loads_at(force, &self.temperatures, seen.spin),
-            viscosity: part.viscosity_at(lubricant),
-            temperatures: &self.temperatures,
-        };
+        let loads = part.loads_at(force, &self.temperatures, seen.spin);
+        let operation = part.operation([seen.spin, force], &self.temperatures, &loads);
         // a state that is none ends the run elsewhere
         let Ok(network) = part.network.at(operation) else {
             return;
@@ -475,7 +524,8 @@ impl Warmth {
         let before = self.temperatures.clone();
         let given = network.advance(&mut self.temperatures, &powers, span);
         self.given += given.iter().sum::<f64>();
-        self.made += nodes.iter().sum::<f64>();
+        self.made += heats.iter().sum::<f64>();
+        self.in_films = seen.films.unwrap_or(0.0);
         for (so_far, flow) in self.flows.iter_mut().zip(&flows) {
             add(so_far, flow);
         }
@@ -517,14 +567,24 @@ impl Warmth {
         let grows = || {
             let losses = part.losses.clone()?;
             let (open, _) = losses.closing(seen.spin, &row)?;
-            let machine = |network| SteadySpeed {
-                network,
+            if open >= 0.0 {
+                return None;
+            }
+            let loads = part.loads_at(force, &row, seen.spin);
+            let operation = part.operation([seen.spin, force], &row, &loads);
+            let machine = SteadySpeed {
+                network: part.network.at(operation).ok()?,
                 losses,
                 sides: 1.0,
                 speed: seen.spin.abs(),
                 tolerance: 1.0,
             };
-            (open < 0.0).then(|| machine(network).growth(&row))
+            let passes = |moved: &[f64]| {
+                let loads = part.loads_at(force, moved, seen.spin);
+                let operation = part.operation([seen.spin, force], moved, &loads);
+                relaxing(&[(&part.network, operation)], &row)
+            };
+            Some(machine.growth_of(&row, &passes))
         };
         self.growth.look(grows, (seen.time, row), self.keep);
     }
@@ -564,6 +624,12 @@ mod tests {
         let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING)[place("inner_ball_slip")];
         assert_eq!(of(STEEL_HEAT)[INNER_RACE], 0.5);
         assert!((of(SILICON_NITRIDE_HEAT)[INNER_RACE] - 0.58).abs() < 0.005);
+        // sliding at both races: a ring's part of its contact is 0.58 beside silicon nitride
+        assert_eq!(sliding(STEEL_HEAT)[BALLS], 0.5);
+        let hybrid = sliding(SILICON_NITRIDE_HEAT);
+        for (node, share) in [(INNER_RACE, 0.29), (BALLS, 0.42), (OUTER_RACE, 0.29)] {
+            assert!((hybrid[node] - share).abs() < 0.005, "{hybrid:?}");
+        }
         // of a polyamide cage's friction the cage takes 5 %
         let polyamide = ThermalMaterial {
             conductivity: 0.25,

@@ -6,17 +6,22 @@
 //! ```
 //! The friction heat that the ledger books while they touch is divided by [`rubbing_contact`](thermal::rubbing_contact):
 //! what both layers have taken is that heat to rounding. The patch is Hertz's line contact; each body's track is the arc
-//! that the patch has swept, up to its circumference.
+//! between the smallest and the largest angle on that body where the patch has been, up to its circumference.
+//!
+//! Each layer exchanges heat with the metal behind it, k A/(L/2) from its mean: the rotor's with its core, the race's with its ring, to the
+//! mean of which the heat of an arc goes along the ring as well. Their temperatures are those of the bearing's network. Without a
+//! network the ring is alone and keeps what it gets, and the rotor's layer has an insulated back.
 //!
 //! Spans of heat are as long as a step at the touch and then a share of the time since: short where the flash grows, never
 //! so long that the force changes much.
 //!
-//! Assumes: steel-like layers with an insulated back (right until L²/α, about 2 s for 5 mm), the same heat at all places of
-//! a track. Does not model: friction and clearance that follow the temperature, hot spots beside each other, cooling by gas.
+//! Assumes: the same heat at all places of a track; without a network an insulated back of the rotor's layer (right until L²/α,
+//! about 2 s for 5 mm). Does not model: friction and clearance that follow the temperature, hot spots beside each other, cooling by gas.
 
 use crate::system::sampling::Peak;
 use number::Vec2;
 use physics::heat_exchange::line_half_width;
+use std::f64::consts::TAU;
 use thermal::layer::{Layer, LayerState};
 use thermal::rubbing_contact::Touch;
 
@@ -40,8 +45,12 @@ const LONGEST: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub struct SurfaceHeat {
     states: [LayerState; 2],
-    /// Angle that the patch has swept of each body, rad.
-    swept: [f64; 2],
+    /// Angle of the patch on each body, rad, and its smallest and largest.
+    angles: [[f64; 3]; 2],
+    /// When the patch was seen last, s, at which angle in space, rad, and the spins of both bodies then, rad/s.
+    seen: Option<(f64, f64, [f64; 2])>,
+    /// Track of each body, m²; 0 before anything has touched.
+    tracks: [f64; 2],
     /// Begin of this touch, s.
     touched: Option<f64>,
     /// Until when the layers are known, s, and the friction heat until then, J.
@@ -60,6 +69,8 @@ pub struct SurfaceHeat {
     pub pressure_speed: Peak,
     /// Distance slid, m.
     pub distance: f64,
+    /// ∫N|u| dt, N m.
+    pub rubbed: f64,
     /// Longest time that one place of a rotor which whirls with its spin stayed in the patch, s.
     pub longest_stay: f64,
     /// Since when one stays now, s, and the angle by which it has moved through the patch, rad.
@@ -76,6 +87,10 @@ pub(crate) struct Seen {
     pub slips: [f64; 2],
     /// Friction heat so far at both, J.
     pub heats: [f64; 2],
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Rises of the rotor's core and of the ring of the race above the start, K; none without a network.
+    pub cores: Option<[f64; 2]>,
 }
 
 /// Where the surfaces are, and how they move.
@@ -93,7 +108,9 @@ impl SurfaceHeat {
     pub fn new() -> Self {
         SurfaceHeat {
             states: Default::default(),
-            swept: [0.0; 2],
+            angles: [[0.0; 3]; 2],
+            seen: None,
+            tracks: [0.0; 2],
             touched: None,
             known: (0.0, 0.0),
             impulse: 0.0,
@@ -103,6 +120,7 @@ impl SurfaceHeat {
             surfaces: [Peak::NONE; 2],
             pressure_speed: Peak::NONE,
             distance: 0.0,
+            rubbed: 0.0,
             longest_stay: 0.0,
             stays: None,
         }
@@ -110,7 +128,7 @@ impl SurfaceHeat {
 
     /// Heat that rotor and race have taken, J.
     pub fn taken(&self) -> [f64; 2] {
-        self.states.map(|state| state.energy)
+        self.states.map(|state| state.energy + state.given)
     }
 
     /// Takes a step; true when its heat is due, which needs the motions at its end.
@@ -121,7 +139,7 @@ impl SurfaceHeat {
             return false;
         }
         if self.touched.is_none() {
-            self.rest(surfaces, start);
+            self.rest(surfaces, [bore, start], seen.cores);
             // what was made in a touch within one step is taken with this one
             self.known = (start, self.known.1);
             self.touched = Some(start);
@@ -157,8 +175,10 @@ impl SurfaceHeat {
         let distance = motions.offset.length_squared().max(1e-30);
         let whirl = motions.offset.cross(motions.velocity) / distance;
         let turning = motions.spins.map(|spin| (spin - whirl).abs());
-        for (swept, turning) in self.swept.iter_mut().zip(turning) {
-            *swept = (*swept + turning * span).min(2.0 * std::f64::consts::PI);
+        self.turn([from, end], whirl, motions);
+        self.tracks = self.tracks_of(surfaces, radii, half_width);
+        if seen.friction > 0.0 {
+            self.rubbed += power * span / seen.friction;
         }
         let since = 0.5 * (from + end) - touched;
         let touch = Touch {
@@ -167,7 +187,7 @@ impl SurfaceHeat {
             length: surfaces.length,
             passing: [0, 1].map(|body| radii[body] * turning[body]),
             since,
-            tracks: self.tracks(surfaces, radii, half_width),
+            tracks: self.tracks,
         };
         let halves = [0, 1].map(|body: usize| surfaces.layers[body].half_step(span));
         if half_width > 0.0 {
@@ -183,6 +203,7 @@ impl SurfaceHeat {
                 peak.raise(rise, middle);
             }
         }
+        self.exchange(surfaces, bore, seen.cores, span);
         self.stay(
             [from, end],
             [motions.spins[0], whirl],
@@ -212,21 +233,60 @@ impl SurfaceHeat {
         self.stays = (now.abs() <= width).then_some((since, now));
     }
 
+    /// Where the patch is on each body: its way in space less what the body has turned, between two touches the short way round.
+    fn turn(&mut self, [from, time]: [f64; 2], whirl: f64, motions: &Motions) {
+        let whole = |angle: f64| angle - TAU * (angle / TAU).round();
+        let place = motions.offset.y.atan2(motions.offset.x);
+        let first = (from, place - whirl * (time - from), motions.spins);
+        let (before, was, spins) = self.seen.unwrap_or(first);
+        let span = time - before;
+        for (body, [angle, least, most]) in self.angles.iter_mut().enumerate() {
+            let turned = 0.5 * (spins[body] + motions.spins[body]) * span;
+            *angle += match before == from {
+                true => whole(place - was) - turned,
+                false => whole(place - was - turned),
+            };
+            (*least, *most) = (least.min(*angle), most.max(*angle));
+        }
+        self.seen = Some((time, place, motions.spins));
+    }
+
     /// Tracks of both bodies, m².
-    fn tracks(&self, surfaces: &Surfaces, radii: [f64; 2], half_width: f64) -> [f64; 2] {
+    fn tracks_of(&self, surfaces: &Surfaces, radii: [f64; 2], half_width: f64) -> [f64; 2] {
         [0, 1].map(|body: usize| {
-            let whole = 2.0 * std::f64::consts::PI * radii[body];
-            surfaces.length * (2.0 * half_width + radii[body] * self.swept[body]).min(whole)
+            let (whole, [_, least, most]) = (TAU * radii[body], self.angles[body]);
+            surfaces.length * (2.0 * half_width + radii[body] * (most - least)).min(whole)
         })
     }
 
+    /// Lets both layers exchange heat with the metal behind their tracks for a time, s.
+    fn exchange(&mut self, surfaces: &Surfaces, bore: f64, cores: Option<[f64; 2]>, span: f64) {
+        let [rotor, race] = &surfaces.layers;
+        let [track, arc] = self.tracks;
+        let taken = self.taken()[1];
+        let [on_rotor, on_race] = &mut self.states;
+        if let Some([core, _]) = cores {
+            rotor.exchange(on_rotor, track, (1.0 / rotor.to_core(track), core), span);
+        }
+        let along = race.along_ring(arc, bore, surfaces.length);
+        let ring = match cores {
+            Some([_, ring]) => (along + 1.0 / race.to_core(arc), ring),
+            None => {
+                let whole = TAU * bore * surfaces.length;
+                (along, taken / race.capacity(whole))
+            }
+        };
+        race.exchange(on_race, arc, ring, span);
+    }
+
     /// Nothing touches until a time.
-    fn rest(&mut self, surfaces: &Surfaces, until: f64) {
+    fn rest(&mut self, surfaces: &Surfaces, [bore, until]: [f64; 2], cores: Option<[f64; 2]>) {
         let span = until - self.known.0;
         if span > 0.0 {
             for (layer, state) in surfaces.layers.iter().zip(&mut self.states) {
                 layer.advance(state, &layer.half_step(span), 0.0);
             }
+            self.exchange(surfaces, bore, cores, span);
         }
     }
 }
@@ -240,6 +300,34 @@ impl Default for SurfaceHeat {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_track_is_the_range_of_angles_at_which_a_body_was_touched() {
+        let range = |spins: [f64; 2], place: &dyn Fn(f64) -> f64| {
+            let mut heat = SurfaceHeat::new();
+            for k in 1..=1000 {
+                let [from, to] = [k - 1, k].map(|k| 1e-4 * f64::from(k));
+                let (angle, whirl) = (place(to), (place(to) - place(from)) / (to - from));
+                let motions = Motions {
+                    offset: Vec2::new(angle.cos(), angle.sin()),
+                    velocity: Vec2::zero(),
+                    spins,
+                };
+                heat.turn([from, to], whirl, &motions);
+            }
+            heat.angles.map(|[_, least, most]| most - least)
+        };
+        // a race that stands while the rotor rocks in it: from the bottom 0.3 rad to both sides, sampled to 1e-4 of its swing
+        let rocks = |time: f64| -0.5 * PI + 0.3 * (400.0 * time).sin();
+        let [rotor, race] = range([1000.0, 0.0], &rocks);
+        assert!((race - 0.6).abs() < 1e-3 && rotor > TAU, "{race} {rotor}");
+        // across the angle where a circle is cut, and a rotor that carries its patch along
+        let over = |time: f64| PI + 0.3 * (400.0 * time).sin();
+        assert!((range([0.0; 2], &over)[1] - 0.6).abs() < 1e-3);
+        let [rotor, race] = range([300.0, 0.0], &|time| 300.0 * time);
+        assert!(rotor < 1e-9 && (race - 30.0).abs() < 1e-9, "{rotor} {race}");
+    }
 
     #[test]
     fn a_place_stays_while_the_whirl_keeps_up_with_the_spin() {

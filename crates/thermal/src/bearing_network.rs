@@ -16,7 +16,7 @@
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::network::{Ground, Link, Network, NetworkError};
+use crate::network::{self, Ground, Link, Network, NetworkError};
 use crate::passage::Passage;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::heat_exchange::{ContactConductance, stream_transfer};
@@ -234,8 +234,8 @@ impl BearingNetwork {
         .map(|area| transfer * area)
     }
 
-    /// The node of the rotor that gives heat to its surroundings.
-    fn open_rotor(&self) -> usize {
+    /// The node of the rotor that is behind its surface, and gives heat to its surroundings.
+    pub fn open_rotor(&self) -> usize {
         match self.has(ROTOR_CORE) {
             true => ROTOR_CORE,
             false => ROTOR,
@@ -275,6 +275,17 @@ pub fn together(
     parts: &[(&BearingNetwork, Operation<'_>)],
     held: &[bool],
 ) -> Result<Network, NetworkError> {
+    let (capacities, links, grounds) = joined(parts);
+    Network::holding(&capacities, &links, &grounds, held)
+}
+
+/// C⁻¹ (grounds − G T) of the same with the conductances of these instants, at temperatures of the nodes in °C: K/s.
+pub fn relaxing(parts: &[(&BearingNetwork, Operation<'_>)], temperatures: &[f64]) -> Vec<f64> {
+    let (capacities, links, grounds) = joined(parts);
+    network::relaxing(&capacities, &links, &grounds, temperatures)
+}
+
+fn joined(parts: &[(&BearingNetwork, Operation<'_>)]) -> (Vec<f64>, Vec<Link>, Vec<Ground>) {
     let (mut capacities, mut links, mut grounds) = (Vec::new(), Vec::new(), Vec::new());
     for (part, operation) in parts {
         let (own, to_surroundings) = part.links(*operation, capacities.len());
@@ -284,7 +295,7 @@ pub fn together(
         links.extend(own);
         grounds.extend(to_surroundings);
     }
-    Network::holding(&capacities, &links, &grounds, held)
+    (capacities, links, grounds)
 }
 
 #[cfg(test)]
@@ -370,6 +381,110 @@ mod tests {
         assert!((nodes[ROTOR] - nodes[ROTOR_CORE] - left).abs() < 1e-9);
         let held = 100.0 * (nodes[ROTOR] - 25.0) + 1700.0 * (nodes[ROTOR_CORE] - 25.0);
         assert!((held / 1800.0 - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_jacobian_of_closing_rings_is_the_slope_of_what_the_temperatures_do() {
+        use crate::clearance::ThermalClearance;
+        use crate::load_zone::LoadZone;
+        use crate::steady_speed::SteadySpeed;
+        use crate::warm_bearing::{BearingLoad, WarmBearings};
+        use physics::palmgren::Palmgren;
+        use physics::viscosity::Viscosity;
+        let network = bearing();
+        let zone = LoadZone {
+            load: 118.0,
+            stiffness: 8.35e9,
+            angles: (0..10).map(|k| 0.2 * PI * f64::from(k)).collect(),
+            clearance: ThermalClearance {
+                at_reference: 12.9e-6,
+                reference: 25.0,
+                tracks: [29.65e-3, 42.35e-3],
+                ball: 6.35e-3,
+                expansions: [11.5e-6; 3],
+            },
+            nodes: [INNER_RACE, BALLS, OUTER_RACE],
+            seats: [None; 2],
+            growth: 0.0,
+        };
+        let share = |node: usize| (0..NODES.len()).map(|k| f64::from(k == node)).collect();
+        let losses = WarmBearings {
+            count: 1.0,
+            ratio: 1.0,
+            moment: Palmgren {
+                viscous_factor: 1.1,
+                viscosity: 1e-4,
+                pitch_diameter: 36e-3,
+                load_factor: 0.0007,
+                load_exponent: 0.5,
+                static_load_rating: 6550.0,
+                preload: 0.0,
+            },
+            oil: Viscosity::through((313.15, 100e-6), (373.15, 11e-6)).unwrap(),
+            load: BearingLoad::Zone {
+                unpreloaded: zone.loads(0.0).iter().sum(),
+                zone: zone.clone(),
+            },
+            windage: 0.0,
+            lubricant: LUBRICANT,
+            shares: [share(LUBRICANT), share(BALLS)],
+        };
+        let there = [92.0, 92.0, 80.0, 75.0, 85.0, 40.0, 30.0, 90.0, 25.0];
+        assert!(zone.clearance_at(&there, 2094.0) < -5e-6);
+        let with = |temperatures: &[f64], act: &dyn Fn(Operation<'_>) -> Vec<f64>| {
+            act(Operation {
+                speed: 2094.0,
+                force: 118.0,
+                loads: &zone.loads(zone.clearance_at(temperatures, 2094.0)),
+                viscosity: losses.oil.held(temperatures[LUBRICANT] + 273.15),
+                temperatures,
+            })
+        };
+        let machine = |network: Network| SteadySpeed {
+            network,
+            losses: losses.clone(),
+            sides: 1.0,
+            speed: 2094.0,
+            tolerance: 1.0,
+        };
+        // what the machine does in a short time, from anywhere, with the conductances of there
+        const SHORT: f64 = 1e-5;
+        let change = |from: &[f64]| {
+            with(from, &|operation| {
+                let machine = machine(network.at(operation).unwrap());
+                let mut to = from.to_vec();
+                machine
+                    .network
+                    .advance(&mut to, &machine.powers(from), SHORT);
+                to.iter().zip(from).map(|(a, b)| (a - b) / SHORT).collect()
+            })
+        };
+        let now = with(&there, &|operation| {
+            let machine = machine(network.at(operation).unwrap());
+            let passes =
+                |moved: &[f64]| with(moved, &|moved| relaxing(&[(&network, moved)], &there));
+            let jacobian = machine.jacobian(&there, &passes);
+            let largest = jacobian.amax();
+            for column in 0..NODES.len() {
+                let moved = |by: f64| {
+                    let mut moved = there;
+                    moved[column] += by;
+                    change(&moved)
+                };
+                for (row, (above, below)) in moved(0.05).iter().zip(moved(-0.05)).enumerate() {
+                    let slope = (above - below) / 0.1;
+                    // rounding of temperatures over the short time, 1e-14 · 100 K/(1e-5 s · 0.1 K), and what decays in it, 1e-5 of the rates
+                    let off = jacobian[(row, column)] - slope;
+                    assert!(
+                        off.abs() < 1e-4 * largest,
+                        "{row} {column}: {off} of {slope}"
+                    );
+                }
+            }
+            vec![machine.growth(&there), machine.growth_of(&there, &passes)]
+        });
+        // balls that are pressed harder conduct more: with constant conductances it would seem to run away
+        assert!(now[0] > 0.0 && now[1] < now[0], "{now:?}");
     }
 
     #[test]

@@ -11,7 +11,7 @@
 //! of m_k, with n_k⁻² the mean of their n⁻²; those beyond the last group answer at once (R_fast). Under constant power a
 //! step of any length is exact, and splitting it changes nothing.
 //!
-//! Temperatures are rises above the start. What a layer gives to the core behind it is drawn from its mean, by its user.
+//! Temperatures are rises above the start. What a layer gives to the metal behind it is drawn from its mean, by its user.
 //!
 //! Source: the series of a slab under constant flux.
 
@@ -50,6 +50,8 @@ struct Group {
 pub struct LayerState {
     /// Energy above the start, J.
     pub energy: f64,
+    /// Heat given to the metal behind or beside it, J.
+    pub given: f64,
     /// z of each group, J.
     modes: [f64; MOST_GROUPS],
 }
@@ -108,6 +110,11 @@ impl Layer {
         self.material
     }
 
+    /// Time in which heat passes it, s: L²/α.
+    pub fn through(&self) -> f64 {
+        self.thickness * self.thickness / self.material.diffusivity()
+    }
+
     /// C = ρ c A L, J/K.
     pub fn capacity(&self, area: f64) -> f64 {
         self.material.density * self.material.specific_heat * area * self.thickness
@@ -116,6 +123,16 @@ impl Layer {
     /// From its mean to the core behind it: k A/(L/2), W/K.
     pub fn to_core(&self, area: f64) -> f64 {
         2.0 * self.material.conductivity * area / self.thickness
+    }
+
+    /// From its mean under an arc of a ring of this depth to the mean of that ring, K/W: the heat goes along the ring.
+    ///
+    /// Formula: π r (1 − s)²/(6 k L b), s the arc's share of the circumference, b its width along the axis: uniform heat on the arc, which the
+    /// whole ring stores, once the shape of the temperatures has settled; 0 of the whole circumference
+    pub fn along_ring(&self, area: f64, radius: f64, width: f64) -> f64 {
+        let rest = (1.0 - area / (2.0 * PI * radius * width)).max(0.0);
+        let section = self.thickness * width;
+        PI * radius * rest * rest / (6.0 * self.material.conductivity * section)
     }
 
     /// Mean rise, K.
@@ -157,6 +174,25 @@ impl Layer {
         {
             let whole = decay * decay;
             *z = *z * whole + power * (1.0 - whole) / group.rate;
+        }
+    }
+
+    /// Lets its mean exchange heat with metal of a rise in K through a resistance in K/W for a time in s; without resistance they are one.
+    ///
+    /// Formula: C d(T̄ − T_c)/dt = −(T̄ − T_c)/R
+    pub fn exchange(
+        &self,
+        state: &mut LayerState,
+        area: f64,
+        (resistance, rise): (f64, f64),
+        time: f64,
+    ) {
+        let capacity = self.capacity(area);
+        if capacity > 0.0 {
+            let above = state.energy - capacity * rise;
+            let given = -above * (-time / (resistance * capacity)).exp_m1();
+            state.energy -= given;
+            state.given += given;
         }
     }
 
@@ -215,6 +251,39 @@ mod tests {
         let answer = layer.answer(&LayerState::default(), &layer.half_step(2e-3), AREA);
         let reached = layer.surface(&half, 300.0, AREA);
         assert!((answer.free + 300.0 * answer.resistance - reached).abs() < 1e-12 * reached);
+    }
+
+    #[test]
+    fn an_arc_under_power_is_warmer_than_its_ring_by_the_way_along_it() {
+        // own finite differences of a ring unrolled: half the circumference, heat on the first share s of it, no heat through its ends
+        let (layer, radius, width) = (Layer::new(STEEL, 3.2e-3), 12.5e-3, 12e-3);
+        let whole = 2.0 * PI * radius * width;
+        for share in [0.1, 0.5] {
+            let cells = 200;
+            let step = PI * radius / cells as f64;
+            let heated = (share * cells as f64) as usize;
+            // flux through each face of 1 W on both halves, the ring storing evenly: temperatures from the middle of the arc on
+            let (mut rise, mut rises) = (0.0, vec![0.0]);
+            for cell in 1..cells {
+                let passed = 0.5 * cell.min(heated) as f64 / heated as f64;
+                let stored = 0.5 * cell as f64 / cells as f64;
+                rise -= (passed - stored) * step / (46.0 * 3.2e-3 * width);
+                rises.push(rise);
+            }
+            let mean = |rises: &[f64]| rises.iter().sum::<f64>() / rises.len() as f64;
+            let exact = mean(&rises[..heated]) - mean(&rises);
+            let ours = layer.along_ring(share * whole, radius, width);
+            // cells of a hundredth of the arc and less
+            assert!((ours / exact - 1.0).abs() < 0.01, "{share} {ours} {exact}");
+        }
+        assert_eq!(layer.along_ring(whole, radius, width), 0.0);
+        // heat that the arc keeps and has given is what it got; at rest it has the temperature of the ring
+        let mut state = LayerState::default();
+        layer.advance(&mut state, &layer.half_step(1e-3), 300.0);
+        layer.exchange(&mut state, AREA, (0.3, 0.02), 0.1);
+        assert!((state.energy + state.given - 0.3).abs() < 1e-15 && state.given > 0.0);
+        layer.exchange(&mut state, AREA, (0.0, 0.02), 0.1);
+        assert!((layer.mean(&state, AREA) - 0.02).abs() < 1e-15);
     }
 
     #[test]

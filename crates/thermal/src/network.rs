@@ -60,6 +60,27 @@ impl fmt::Display for NetworkError {
     }
 }
 
+/// C⁻¹ (grounds − G T): rate of change of the temperatures without powers, K/s.
+pub fn relaxing(
+    capacities: &[f64],
+    links: &[Link],
+    grounds: &[Ground],
+    temperatures: &[f64],
+) -> Vec<f64> {
+    let mut rates = vec![0.0; capacities.len()];
+    for link in links {
+        let [a, b] = link.nodes;
+        let flow = link.conductance * (temperatures[a] - temperatures[b]);
+        rates[a] -= flow / capacities[a];
+        rates[b] += flow / capacities[b];
+    }
+    for ground in grounds {
+        let flow = ground.conductance * (temperatures[ground.node] - ground.temperature);
+        rates[ground.node] -= flow / capacities[ground.node];
+    }
+    rates
+}
+
 /// Constants of a network: built once, shared by any number of states.
 #[derive(Clone, Debug)]
 pub struct Network {
@@ -164,17 +185,6 @@ impl Network {
             });
             -modes.sum::<f64>() * scale(column) / scale(row)
         })
-    }
-
-    /// C⁻¹ (grounds − G T): what the temperatures change by without powers, K/s.
-    pub fn relaxing(&self, temperatures: &[f64]) -> DVector<f64> {
-        let none = vec![0.0; self.capacities.len()];
-        let mut rates = self.decay() * DVector::from_column_slice(temperatures);
-        let grounds = self.sources(&none);
-        for ((rate, source), capacity) in rates.iter_mut().zip(&grounds).zip(&self.capacities) {
-            *rate += source / capacity;
-        }
-        rates
     }
 
     /// Time constants 1/λ, s, shortest first; infinite for what only stores.

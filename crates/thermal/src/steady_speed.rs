@@ -125,37 +125,15 @@ impl<L: Losses> SteadySpeed<L> {
         (next, error)
     }
 
-    /// Largest real part of the eigenvalues of C⁻¹(∂P/∂T − G), 1/s: above 0 the machine runs away.
+    /// Largest real part of the eigenvalues of the Jacobian of conductances that are constants, C⁻¹(∂P/∂T − G), 1/s.
     pub fn growth(&self, temperatures: &[f64]) -> f64 {
-        self.growth_of(temperatures, &|_| None)
+        self.growth_of(temperatures, &|_| vec![0.0; temperatures.len()])
     }
 
-    /// The same where conductances follow the temperatures, as those of a seat: −(∂G/∂T) T joins in. `follows` gives the network at other
-    /// temperatures; none where there is none.
-    pub fn growth_of(
-        &self,
-        temperatures: &[f64],
-        follows: &dyn Fn(&[f64]) -> Option<Network>,
-    ) -> f64 {
+    /// Largest real part of the eigenvalues of [`Self::jacobian`], 1/s: above 0 the machine runs away.
+    pub fn growth_of(&self, temperatures: &[f64], relaxing: &dyn Fn(&[f64]) -> Vec<f64>) -> f64 {
+        let matrix = self.jacobian(temperatures, relaxing);
         let n = temperatures.len();
-        let mut matrix = self.network.decay();
-        for column in 0..n {
-            let delta = 1e-4 * (1.0 + temperatures[column].abs());
-            let at = |sign: f64| {
-                let mut moved = temperatures.to_vec();
-                moved[column] += sign * delta;
-                let relaxing = follows(&moved).map(|network| network.relaxing(temperatures));
-                (self.powers(&moved), relaxing)
-            };
-            let (above, below) = (at(1.0), at(-1.0));
-            for row in 0..n {
-                let slope = (above.0[row] - below.0[row]) / (2.0 * delta);
-                matrix[(row, column)] += slope / self.network.capacity(row);
-                if let (Some(above), Some(below)) = (&above.1, &below.1) {
-                    matrix[(row, column)] += (above[row] - below[row]) / (2.0 * delta);
-                }
-            }
-        }
         // a node that exchanges nothing with the others has no part in it
         let alone = |node: &usize| matrix.row(*node).iter().all(|rate| *rate == 0.0);
         let nodes: Vec<usize> = (0..n).filter(|node| !alone(node)).collect();
@@ -167,6 +145,33 @@ impl<L: Losses> SteadySpeed<L> {
             true => largest,
             false => 0.0,
         }
+    }
+
+    /// ∂Ṫ/∂T = C⁻¹(∂P/∂T − G − (∂G/∂T) T), 1/s: balls that are pressed harder conduct more, and so does a seat.
+    ///
+    /// - `relaxing`: C⁻¹(grounds − G T), K/s, with the conductances that the nodes have at other temperatures, T being those here
+    pub fn jacobian(
+        &self,
+        temperatures: &[f64],
+        relaxing: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> DMatrix<f64> {
+        let n = temperatures.len();
+        let mut matrix = self.network.decay();
+        for column in 0..n {
+            let delta = 1e-4 * (1.0 + temperatures[column].abs());
+            let at = |sign: f64| {
+                let mut moved = temperatures.to_vec();
+                moved[column] += sign * delta;
+                (self.powers(&moved), relaxing(&moved))
+            };
+            let (above, below) = (at(1.0), at(-1.0));
+            for row in 0..n {
+                let made = (above.0[row] - below.0[row]) / self.network.capacity(row);
+                let passed = above.1[row] - below.1[row];
+                matrix[(row, column)] += (made + passed) / (2.0 * delta);
+            }
+        }
+        matrix
     }
 }
 
@@ -181,7 +186,7 @@ fn largest_real_part(matrix: &DMatrix<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::network::Ground;
+    use crate::network::{Ground, relaxing};
 
     /// A heat that grows with temperature: P = p (1 + a (T − 25)) at 1 rad/s.
     #[derive(Clone, Copy)]
@@ -240,22 +245,20 @@ mod tests {
     fn a_way_that_closes_as_it_warms_runs_away() {
         // C Ṫ = p − G (1 − k (T − 25)) (T − 25): λ = −G (1 − 2 k y)/C, above 0 from y = 1/(2k) on
         let machine = machine(0.0);
-        let at = |temperatures: &[f64]| {
-            let ground = Ground {
-                node: 0,
-                conductance: 0.5 * (1.0 - 0.02 * (temperatures[0] - 25.0)),
-                temperature: 25.0,
-            };
-            Network::new(&[10.0], &[], &[ground]).ok()
+        let at = |temperatures: &[f64]| Ground {
+            node: 0,
+            conductance: 0.5 * (1.0 - 0.02 * (temperatures[0] - 25.0)),
+            temperature: 25.0,
         };
         for rise in [10.0, 24.0, 26.0, 40.0] {
             let temperatures = [25.0 + rise];
             let there = SteadySpeed {
-                network: at(&temperatures).unwrap(),
+                network: Network::new(&[10.0], &[], &[at(&temperatures)]).unwrap(),
                 ..machine.clone()
             };
             let exact = -0.5 * (1.0 - 0.04 * rise) / 10.0;
-            let found = there.growth_of(&temperatures, &at);
+            let relaxing = |moved: &[f64]| relaxing(&[10.0], &[], &[at(moved)], &temperatures);
+            let found = there.growth_of(&temperatures, &relaxing);
             assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
             // held, it would never
             assert!(there.growth(&temperatures) < 0.0);

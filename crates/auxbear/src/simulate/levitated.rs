@@ -142,9 +142,7 @@ pub(crate) fn within_limits(
         exceeds(model, all),
         allowed,
     );
-    Err(Box::new(
-        problem.on_key(format!("levitation.magnet.{key}")),
-    ))
+    Err(Box::new(problem.on_key(format!("levitation.magnet.{key}"))))
 }
 
 /// What the steady motion of an analysis makes doubtful: limits that it passes, and coils without current.

@@ -11,7 +11,7 @@
 //! The laws stand in [`lubricant_state`](physics::lubricant_state). D and F multiply what acts on a ball and on a ring in
 //! opposite directions alike, so every pair stays a pair and every heat stays not negative. P is made of heats that stand
 //! in the ledger already: Θ stores nothing mechanical, and neither energy nor momentum notices these states. Of that heat the
-//! films keep C Θ̇; the rest, P - C Θ̇ = G Θ, flows into the bearing, on a rig into its node.
+//! films keep C Θ̇; the rest, P - C Θ̇ = G Θ, flows into balls and races, on a rig into its node.
 //!
 //! Where the balls roll, no traction is computed: F has no effect. A bearing without a steady moment has no D.
 //!
@@ -181,6 +181,14 @@ impl<R: Real> Lubricant<R> {
         rate[FILM_RISE] = warmed;
     }
 }
+
+/// The kinds of heat that warm the films: those of [`film_heat`].
+pub const FILM_KINDS: [&str; 4] = [
+    "inner_ball_slip",
+    "outer_ball_slip",
+    "steady_moment",
+    "inlet_rolling",
+];
 
 /// Power that warms the films, W: what is made where lubricant is sheared between balls and races.
 #[inline(always)]

@@ -136,12 +136,23 @@ impl BearingConstants {
     }
     /// D of the lubricant in the states of the bearing: 1 where it has none.
     pub fn drag_factor(&self, state: &dyn Fn(usize) -> f64) -> f64 {
-        let Some(lubricant) = self.lubricant() else {
-            return 1.0;
-        };
+        let lubricant = self.lubricant_by(state);
+        lubricant.map_or(1.0, |(_, now)| now.drag_factor)
+    }
+    /// Heat that its contact films keep in the states of the bearing, J: C Θ; none where no film warms.
+    pub fn in_films(&self, state: &dyn Fn(usize) -> f64) -> Option<f64> {
+        let (lubricant, now) = self.lubricant_by(state)?;
+        let films = lubricant.films?;
+        Some(films.heat_capacity * now.film_temperature_rise)
+    }
+    fn lubricant_by(
+        &self,
+        state: &dyn Fn(usize) -> f64,
+    ) -> Option<(&LubricantConstants, LubricantAt)> {
+        let lubricant = self.lubricant()?;
         let first = self.lubricant_states();
         let own: [f64; lubricant_state::STATES] = std::array::from_fn(|k| state(first + k));
-        lubricant.at(&own).drag_factor
+        Some((lubricant, lubricant.at(&own)))
     }
     /// Changes all speeds of its states that follow the inner race's by one factor, as when all turn faster at once.
     pub fn change_speeds(&self, state: &mut [f64], factor: f64) {

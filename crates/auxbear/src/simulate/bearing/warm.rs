@@ -53,7 +53,7 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
     }
     limits(followed, list);
     let stored_in = followed.part.stored(&warmth.temperatures);
-    let stored: f64 = stored_in.iter().sum();
+    let stored: f64 = stored_in.iter().sum::<f64>() + warmth.in_films;
     if followed.closes() {
         let at_start = followed.bearing.operating_diametral_clearance;
         let at_end = followed.follows();
@@ -72,7 +72,8 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
             closed.ok_or_else(|| why.to_string()),
             &CLEARANCE,
         );
-        let growth = warmth.growth.largest.ok_or_else(|| {
+        let growth = warmth.growth.largest.map(|largest| largest.value);
+        let growth = growth.ok_or_else(|| {
             match followed.part.losses {
                 Some(_) => "the balls are not preloaded",
                 None => "only Palmgren's law says how a preload brakes",
@@ -83,6 +84,9 @@ pub(crate) fn name(followed: &Followed, list: &mut List) {
     }
     list.number("heat_made", "J", Ok(warmth.made), &HEAT);
     list.number("stored_heat", "J", Ok(stored), &HEAT);
+    if warmth.in_films != 0.0 {
+        list.number("stored_heat_in_films", "J", Ok(warmth.in_films), &FILMS);
+    }
     list.number("heat_to_surroundings", "J", Ok(warmth.given), &HEAT);
     let left = warmth.made - stored - warmth.given;
     list.number(
@@ -272,9 +276,9 @@ pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
 /// A bearing that its own warmth closes further and further.
 fn runs_away(followed: &Followed) -> Option<(f64, Warning)> {
     let growth = &followed.warmth.growth;
-    let ((time, nodes), rate) = (growth.runs_away?, growth.largest?);
+    let ((first, nodes), largest) = (growth.runs_away?, growth.largest?);
     let changes = followed.follows()?.changes(&nodes);
-    Some((rate, away((time, growth.calm), rate, changes)))
+    Some((largest.value, away([first, largest], growth.calm, changes)))
 }
 
 /// A clearance that closes.
@@ -366,7 +370,7 @@ const TAKE: Origin = Origin {
             of a run-out all bearings together",
 };
 const GROWTH: Origin = Origin {
-    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G); above 0 a disturbance grows, 1/it is the time",
+    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G − (∂G/∂T) T); above 0 a disturbance grows, 1/it is the time",
     source: "crates/thermal/src/steady_speed.rs; book/src/theory/heat.md",
     valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
@@ -381,9 +385,14 @@ const CLEARANCE: Origin = Origin {
     valid: "rings free to grow, each of one temperature: from about 0.1 s on",
 };
 const HEAT: Origin = Origin {
-    law: "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes; ∫G (T − T_ambient) dt",
+    law: "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes, with what contact films keep; ∫G (T − T_ambient) dt",
     source: "crates/model/src/bearing_heat.rs",
     valid: "of one of equal bearings",
+};
+const FILMS: Origin = Origin {
+    law: "C Θ of the contact films: what of their heat balls and races have not received yet; a part of stored_heat",
+    source: "crates/model/src/bearing/lubricant_state.rs, crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
+    valid: "as heat_made",
 };
 const AT_NODE: Origin = Origin {
     law: "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
@@ -398,7 +407,7 @@ const PASSED: Origin = Origin {
 const BY_NODE: Origin = Origin {
     law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",
     source: "shares of crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
-    valid: "as heat_made: of each loss the sum is the ledger's, the shares are constants or follow the state",
+    valid: "as heat_made: of each loss the sum is the ledger's, less what contact films keep of it, the shares are constants or follow the state",
 };
 const RESIDUAL: Origin = Origin {
     law: "|heat made − stored − given away| over the heat made",

@@ -150,6 +150,7 @@ impl<'a, M: Warms> Warming<'a, M> {
             heats,
             spin: state(machine.spin()),
             drag_factor: bearing.drag_factor(&|own| state(own_states + own)),
+            films: bearing.in_films(&|own| state(own_states + own)),
             taken: None,
             impulse: None,
         };

@@ -1,10 +1,12 @@
 //! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
 
+use crate::catalogue::Ring;
 use crate::problem::{Code, Problem};
 pub(crate) use crate::scenario::heat::ICE_POINT;
 use crate::scenario::heat::{SHOULDER, STEEL_EXPANSION};
 use crate::scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
 use crate::simulate::coast_down::rows::{BallsSeen, End, Row};
+use model::bearing_heat::sliding;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, PointContact, Race, maximum_pressure};
 use physics::load_zone::joint_stiffness;
@@ -29,9 +31,6 @@ use thermal::warm_machine::{Between, OF_BEARING, RotorDrag, WarmMachine};
 const CERAMIC_EXPANSION: f64 = 3.2e-6;
 /// Specific heat of oil and grease, J/(kg K). Source: mineral oils, 1800 to 2000.
 const OIL_SPECIFIC_HEAT: f64 = 1900.0;
-/// Shares of the heat of M1: sliding at ball and race, half to each side. Source: derived; book/src/theory/heat.md.
-const SLIDING: [(usize, f64); 3] = [(INNER_RACE, 0.25), (BALLS, 0.5), (OUTER_RACE, 0.25)];
-
 /// Pressure that dents where none is given, Pa. Source: ISO 76 (ball bearings, 4200 MPa).
 const DENTS: f64 = 4.2e9;
 
@@ -345,7 +344,16 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     // rings share the annulus between bore and outside at the pitch circle's shoulders
     let shoulder = |side: f64| run.pitch_diameter + side * 2.0 * SHOULDER * run.ball_diameter;
     let annulus = |outer: f64, inner: f64| outer * outer - inner * inner;
-    let outer_mass = run.inner_race_mass * annulus(heat.outer_diameter, shoulder(1.0))
+    // of the inner race's mass the ring has no more than the steel between bore and shoulder; the rest is sleeve
+    let ring = Ring {
+        smooth_radius: 0.5 * heat.bore_diameter,
+        shoulder_radius: 0.5 * shoulder(-1.0),
+        track_radius: 0.5 * (run.pitch_diameter - gap),
+        groove_radius: run.inner_groove_curvature * gap,
+        width: heat.width,
+    };
+    let ring_mass = (BEARING_STEEL.density * ring.volume_moments().0).min(run.inner_race_mass);
+    let outer_mass = ring_mass * annulus(heat.outer_diameter, shoulder(1.0))
         / annulus(shoulder(-1.0), heat.bore_diameter);
     if outer_mass.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
         return Err(problem(
@@ -452,10 +460,6 @@ pub(crate) fn losses(
     };
     let mut viscous = vec![0.0; NODES.len()];
     viscous[LUBRICANT] = 1.0;
-    let mut sliding = vec![0.0; NODES.len()];
-    for (node, share) in SLIDING {
-        sliding[node] = share;
-    }
     Ok(WarmBearings {
         count: f64::from(sides),
         ratio: 1.0,
@@ -464,7 +468,7 @@ pub(crate) fn losses(
         load,
         windage: 0.0,
         lubricant: LUBRICANT,
-        shares: [viscous, sliding],
+        shares: [viscous, sliding(run.ball_material.heat()).to_vec()],
     })
 }
 

@@ -4,7 +4,7 @@ use crate::problem::Problem;
 use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, hold};
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use std::sync::atomic::{AtomicBool, Ordering};
-use thermal::bearing_network::{LUBRICANT, NODES, Operation, together};
+use thermal::bearing_network::{BearingNetwork, LUBRICANT, NODES, Operation, relaxing, together};
 use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
 use thermal::held::Held;
 use thermal::losses::Losses;
@@ -208,11 +208,16 @@ fn force(built: &Built, speed: f64, bearing: usize) -> f64 {
 }
 
 /// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
-fn network(
+fn network(built: &Built, at: (f64, &[f64]), held: &[bool]) -> Result<Network, NetworkError> {
+    operating(built, at, |all| together(all, held))
+}
+
+/// What all bearings do at a speed of the rotor, rad/s, and at temperatures of their nodes, °C.
+fn operating<T>(
     built: &Built,
     (speed, temperatures): (f64, &[f64]),
-    held: &[bool],
-) -> Result<Network, NetworkError> {
+    act: impl FnOnce(&[(&BearingNetwork, Operation<'_>)]) -> T,
+) -> T {
     let each = || {
         (built.parts.iter())
             .zip(temperatures.chunks(NODES.len()))
@@ -240,7 +245,7 @@ fn network(
         });
     let networks = built.parts.iter().map(|part| &part.network);
     let all: Vec<_> = networks.zip(operations).collect();
-    together(&all, held)
+    act(&all)
 }
 
 fn no_network(why: NetworkError) -> Box<Problem> {
@@ -281,9 +286,10 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         .iter()
         .zip(state.temperatures.chunks(NODES.len()));
     let bearings = each.enumerate().map(of_part).collect();
-    let follows = |temperatures: &[f64]| {
-        let seats = built.seats_follow();
-        seats.then(|| network(built, (state.speed, temperatures), &[]).ok())?
+    let passes = |moved: &[f64]| {
+        operating(built, (state.speed, moved), |all| {
+            relaxing(all, &state.temperatures)
+        })
     };
     let growth = match network(built, (state.speed, &state.temperatures), &[]) {
         Ok(network) => SteadySpeed {
@@ -293,7 +299,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
             speed: state.speed,
             tolerance: 1.0,
         }
-        .growth_of(&state.temperatures, &follows),
+        .growth_of(&state.temperatures, &passes),
         Err(_) => f64::NAN,
     };
     Row {

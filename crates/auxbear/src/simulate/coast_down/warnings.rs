@@ -6,6 +6,7 @@ use crate::simulate::bearing::severity::wide_line;
 use crate::simulate::coast_down::build::{ICE_POINT, Part};
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::{End, Row};
+use model::system::sampling::Peak;
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{LUBRICANT, NODES};
 use thermal::oil_range::{self, BeyondData};
@@ -65,29 +66,32 @@ fn words(time: f64) -> String {
 const SLIGHT: f64 = 0.01;
 
 fn runs_away(ran: &Ran) -> Option<Warning> {
-    let rows = ran.free.rows.iter();
-    let row = rows
-        .clone()
-        .find(|row| row.growth > 0.0 && row.clearance() < 0.0)?;
-    let most = rows.map(|row| row.growth).fold(0.0, f64::max);
+    let grows = |row: &&Row| row.growth > 0.0 && row.clearance() < 0.0;
+    let growing = || ran.free.rows.iter().filter(grows);
+    let row = growing().next()?;
+    let most = growing().max_by(|a, b| a.growth.total_cmp(&b.growth))?;
     let closed = |k: &usize| row.bearings[*k].clearance;
     let first = (0..row.bearings.len()).min_by(|a, b| closed(a).total_cmp(&closed(b)))?;
     let temperatures = row.temperatures.chunks(NODES.len()).nth(first)?;
     let changes = ran.built.parts[first].zone.changes_at(temperatures);
-    let grows = |row: &&Row| row.growth > 0.0 && row.clearance() < 0.0;
     let last = ran.free.rows.iter().rposition(|row| grows(&row));
     // what left the model has not calmed down
     let calm = last.and_then(|last| ran.free.rows.get(last + 1));
     let calm = calm.filter(|_| !ran.free.end.leaves());
     let calm = calm.map(|row| row.time);
-    let slight = calm.is_some_and(|calm| most * (calm - row.time) < SLIGHT);
+    let slight = calm.is_some_and(|calm| most.growth * (calm - row.time) < SLIGHT);
     let name = &ran.built.parts[first].name;
-    (!slight).then(|| named(name, away((row.time, calm), most, changes)))
+    let at = |row: &Row| Peak {
+        value: row.growth,
+        time: row.time,
+    };
+    (!slight).then(|| named(name, away([at(row), at(most)], calm, changes)))
 }
 
-/// A bearing that runs away from a time on, s, until it does no longer, if so: with the largest rate, 1/s, and what inner ring, balls and
-/// outer ring have added to its clearance until then, m.
-pub(crate) fn away((time, calm): (f64, Option<f64>), rate: f64, changes: [f64; 3]) -> Warning {
+/// A bearing that runs away, until a time, s, if it does no longer: its growth rate (1/s) as that begins and the largest, and what inner ring,
+/// balls and outer ring have added to its clearance until it begins, m.
+pub(crate) fn away([first, largest]: [Peak; 2], calm: Option<f64>, changes: [f64; 3]) -> Warning {
+    let time = first.time;
     let when = match calm {
         None => format!("The bearing runs away: from {} on", words(time)),
         Some(calm) => format!(
@@ -105,10 +109,14 @@ pub(crate) fn away((time, calm): (f64, Option<f64>), rate: f64, changes: [f64; 3
         "AB2311",
         format!(
             "{when} its balls are preloaded {by} and every kelvin makes more heat than it \
-             takes away; a disturbance grows {:.1} times each {} ({rate:.2e} 1/s). To its clearance the inner ring has added {inner}, \
-             the balls {balls}, the outer ring {outer}. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
+             takes away; a disturbance grows {:.1} times each {} then ({:.2e} 1/s), and each {} at the largest rate, at {} ({:.2e} 1/s). To its \
+             clearance the inner ring had added {inner}, the balls {balls}, the outer ring {outer} as this began. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
             std::f64::consts::E,
-            words(1.0 / rate),
+            words(1.0 / first.value),
+            first.value,
+            words(1.0 / largest.value),
+            words(largest.time),
+            largest.value,
         ),
     )
 }

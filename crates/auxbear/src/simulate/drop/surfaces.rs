@@ -6,7 +6,7 @@ use crate::simulate::bearing::severity::{STEEL_CHANGES, wide_line};
 use crate::simulate::drop::context::Context;
 use model::surface_heat::SurfaceHeat;
 use physics::heat_exchange::line_half_width;
-use physics::severity::wear_volume_by_energy;
+use physics::severity::wear_volume;
 use std::f64::consts::PI;
 
 /// Time in the patch, s, from which on one place of the rotor is heated on its own.
@@ -73,11 +73,12 @@ pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
         coefficient.ok_or_else(|| format!("contact.surface.wear_coefficient{NOT_GIVEN}"));
     let depth = |diameter: f64| {
         let coefficient = coefficient.clone()?;
-        let work = of(&|heat| heat.taken().iter().sum())?;
+        let rubbed = of(&|heat| heat.rubbed)?;
         match contact.friction_coefficient > 0.0 {
             true => {
-                let volume = wear_volume_by_energy(coefficient, contact.friction_coefficient, work);
-                Ok(volume / (PI * diameter * contact.width.unwrap_or(f64::NAN)))
+                let area = PI * diameter * contact.width.unwrap_or(f64::NAN);
+                // ∫N|u| dt: the distance slid under 1 N
+                Ok(wear_volume(coefficient, 1.0, rubbed) / area)
             }
             false => Err("without friction the ledger does not tell the sliding".to_string()),
         }
@@ -117,6 +118,18 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
         );
         list.push((heat.longest_stay, warning("AB2302", text)));
     }
+    let layer = context.given(k).contact.rotor_layer();
+    let first = context.record(k).contacts.first();
+    let since = first.map_or(0.0, |first| heat.surfaces[0].time - first.start);
+    if context.record(k).warmth.is_none() && since > layer.through() {
+        let text = format!(
+            "The rotor's surface is hottest {since:.1} s after the first contact, and without heat.network = \"on\" its layer gives no heat to the metal \
+             behind it: from {:.1} s on its rise, contact_temperature_rise and the share of heat that the race takes are too high. A bushing has no \
+             network: a deeper contact.surface.rotor_layer is right for longer.",
+            layer.through()
+        );
+        list.push((since, warning("AB2331", text)));
+    }
     list
 }
 
@@ -135,9 +148,9 @@ const INDEX: Origin = Origin {
     valid: "1: the surface of steel changes; other materials and coatings have limits of their own",
 };
 const SURFACE: Origin = Origin {
-    law: "largest rise of the surface, averaged over the track that the patch has swept",
+    law: "largest rise of the surface, averaged over its track: the arc of that body between the smallest and the largest angle of contact",
     source: FILE,
-    valid: "runs up to 2 s: the layer gives nothing to the metal behind it; chaotic after several contacts, within a factor of 2 (--repeat)",
+    valid: "with heat.network, or until the rotor's layer is warm throughout (AB2331); chaotic after several contacts, within a factor of 2 (--repeat)",
 };
 const SHARE: Origin = Origin {
     law: "friction heat that went into this body; both add to rotor_race_friction_energy",
@@ -155,7 +168,7 @@ const DISTANCE: Origin = Origin {
     valid: "of the drop ball by ball; windows of a run-out after it are reported by AB2318",
 };
 const WEAR: Origin = Origin {
-    law: "(k/μ) E_friction over the landing surface of the race, k = contact.surface.wear_coefficient",
-    source: "Archard, by the friction heat; crates/physics/src/severity.rs",
+    law: "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient",
+    source: "Archard, by the friction heat over the coefficient of its instant; crates/physics/src/severity.rs",
     valid: "volume worn off both bodies together, spread evenly; k is uncertain by decades; of the drop ball by ball, not of a run-out after it",
 };

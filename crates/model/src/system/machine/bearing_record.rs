@@ -21,6 +21,7 @@ use number::Vec2;
 use solve::Step;
 use solve::watch::{maximum, root};
 use std::f64::consts::PI;
+use thermal::bearing_network::INNER_RACE;
 
 /// One contact of rotor and inner race.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -426,6 +427,11 @@ impl BearingRecord {
             return;
         };
         let at = self.at;
+        let behind = part.warm.as_ref().zip(self.warmth.as_ref());
+        let cores = behind.map(|(warm, warmth)| {
+            let nodes = [warm.network.open_rotor(), INNER_RACE];
+            nodes.map(|node| warmth.temperatures[node] - warm.start)
+        });
         let both = |kind| {
             [
                 step.start_probe(at.probe(kind)),
@@ -440,6 +446,8 @@ impl BearingRecord {
                 step.start_state(self.friction_heat),
                 step.end_state(self.friction_heat),
             ],
+            friction: part.contact.friction,
+            cores,
         };
         let contact = &part.contact;
         if !heat.watch(surfaces, contact.bore_radius, &seen) {
@@ -502,6 +510,7 @@ impl BearingRecord {
             heats: std::array::from_fn(|k| state(self.first_heat + k)),
             spin: state(self.at.inner + 5),
             drag_factor: part.bearing.drag_factor(&|own| state(first + own)),
+            films: part.bearing.in_films(&|own| state(first + own)),
             taken: self.heat.as_ref().map(|heat| heat.taken()),
             impulse: Some(self.impulse),
         };
