@@ -483,8 +483,8 @@ mod tests {
             }
             vec![machine.growth(&there), machine.growth_of(&there, &passes)]
         });
-        // balls that are pressed harder conduct more: with constant conductances it would seem to run away
-        assert!(now[0] > 0.0 && now[1] < now[0], "{now:?}");
+        // balls that are pressed harder conduct more: it is further from running away than with constant conductances
+        assert!(now[1] < now[0], "{now:?}");
     }
 
     #[test]
