@@ -113,7 +113,7 @@ const OF_ROTOR: &[&str] = &[
     "reduction_error",
 ];
 /// Of each critical speed, place and support of a rotor.
-const OF_ROTOR_PARTS: [(&str, &[&str]); 4] = [
+const OF_ROTOR_PARTS: [(&str, &[&str]); 6] = [
     (
         "critical_",
         &["speed", "amplification", "separation", "verdict"],
@@ -122,6 +122,8 @@ const OF_ROTOR_PARTS: [(&str, &[&str]); 4] = [
         "response.",
         &["peak_amplitude", "peak_speed", "rated_amplitude"],
     ),
+    ("relative.", &["peak_amplitude", "rated_amplitude"]),
+    ("force.", &["peak_amplitude", "rated_amplitude"]),
     ("load.", &[]),
     (
         "levitation.",

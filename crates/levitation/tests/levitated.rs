@@ -208,7 +208,7 @@ fn analyses_of_the_rotor_know_its_magnets() {
         }
         let speeds: Vec<f64> = (0..=60).map(|k| 25.0 * f64::from(k)).collect();
         let diagram = analysis.campbell(&speeds, 3000.0).unwrap();
-        let criticals = analysis.criticals(&diagram);
+        let criticals = analysis.criticals(&diagram).unwrap();
         assert!(criticals.len() >= 4, "{}", criticals.len());
         for critical in &criticals {
             let poles = even.turning(Basis::Reduced, critical.speed).poles();

@@ -1,6 +1,6 @@
 //! From parts to matrices.
 
-use crate::{C64, Rotor, Support};
+use crate::{C64, Element, Rotor, Support};
 use nalgebra::{ComplexField, DMatrix};
 
 /// The matrices of shaft, disks, masses and housings without supports, in the complex coordinates of the rotor.
@@ -33,7 +33,13 @@ impl Matrices {
             damping_rotating: DMatrix::zeros(size, size),
         };
         for element in &rotor.elements {
-            let own = element.matrices();
+            let beneath = |other: &&Element| other.carries && other.left == element.left;
+            let shaft = rotor
+                .elements
+                .iter()
+                .find(beneath)
+                .filter(|_| !element.carries);
+            let own = element.matrices_in(shaft.unwrap_or(element).shear_ratio());
             let at = rotor.displacement(element.left);
             let add = |whole: &mut DMatrix<f64>, part: nalgebra::Matrix4<f64>| {
                 let mut block = whole.view_mut((at, at), (4, 4));

@@ -39,6 +39,10 @@ pub struct Campbell {
     pub speeds: Vec<f64>,
     /// The branches, by rising frequency at the first speed.
     pub branches: Vec<Branch>,
+    /// The eigenvalue that grows fastest at each speed, as [`Analysis::growing`].
+    pub growing: Vec<Option<C64>>,
+    /// Modes that whirl faster than the rotor turns at each speed: with positive Im λ, with negative.
+    above: Vec<[usize; 2]>,
 }
 
 /// A speed at which a mode whirls once a turn.
@@ -48,8 +52,8 @@ pub struct Critical {
     pub speed: f64,
     /// The mode there; its frequency is the speed.
     pub mode: Mode,
-    /// Index of its branch.
-    pub branch: usize,
+    /// What round-off may leave of no damping, 1/s.
+    round_off: f64,
 }
 
 impl Critical {
@@ -58,7 +62,7 @@ impl Critical {
     pub fn amplification(&self) -> Option<f64> {
         let ratio = self.mode.damping_ratio();
         // What round-off leaves of no damping has either sign.
-        if ratio.abs() < 1e-9 {
+        if ratio.abs() < 1e-9 || self.mode.eigenvalue.re.abs() <= self.round_off {
             return Some(f64::INFINITY);
         }
         (ratio > 0.0).then(|| 0.5 / ratio)
@@ -81,6 +85,39 @@ impl Critical {
 const HEADROOM: f64 = 1.5;
 /// Eigenvalues that agree to this share of their size are the same.
 const SAME: f64 = 1e-6;
+/// Critical speeds within this share of each other are one that two searches found.
+const CLOSE: f64 = 1e-9;
+
+/// A branch at a speed.
+#[derive(Debug, Clone)]
+struct Point {
+    speed: f64,
+    state: State,
+    /// |Im λ| less the speed.
+    gap: f64,
+}
+
+impl Point {
+    fn new(speed: f64, state: State) -> Self {
+        let gap = state.0.im.abs() - speed.abs();
+        Self { speed, state, gap }
+    }
+
+    fn above(&self) -> bool {
+        self.gap > 0.0
+    }
+
+    /// 1 where Im λ is negative.
+    fn sense(&self) -> usize {
+        usize::from(self.state.0.im < 0.0)
+    }
+}
+
+/// How many eigenvalues whirl faster than a speed: with positive Im λ, with negative.
+fn above(all: &[C64], speed: f64) -> [usize; 2] {
+    let count = |sign: f64| all.iter().filter(|z| sign * z.im > speed.abs()).count();
+    [count(1.0), count(-1.0)]
+}
 
 impl Analysis {
     /// Frequencies up to `limit` (rad/s) over rising speeds (rad/s).
@@ -89,18 +126,27 @@ impl Analysis {
     ///
     /// As [`Analysis::eigenvalues`].
     pub fn campbell(&self, speeds: &[f64], limit: f64) -> Result<Campbell, RotorError> {
-        let (mut all, mut taken) = (Vec::new(), Vec::new());
+        let (mut all, mut taken) = (Vec::<Vec<C64>>::new(), Vec::new());
+        let (mut growing, mut over) = (Vec::new(), Vec::new());
+        let mut next = |speed: f64, all: &mut Vec<Vec<C64>>, taken: &mut Vec<Vec<bool>>| {
+            let (spectrum, read_from) = self.spectrum(speed)?;
+            growing.push(spectrum.growing);
+            over.push(above(&spectrum.oscillations, speed));
+            taken.push(vec![false; spectrum.oscillations.len()]);
+            all.push(spectrum.oscillations);
+            Ok::<_, RotorError>(read_from)
+        };
         if let Some(first) = speeds.first() {
-            let found = self.oscillations(*first)?;
-            taken.push(vec![false; found.len()]);
-            all.push(found);
+            next(*first, &mut all, &mut taken)?;
         }
         let mut branches = Vec::new();
         let last = speeds.len().saturating_sub(1);
-        for (start, step) in [(0, 1_isize), (last, -1)] {
+        // what comes into the range from above, and what was lost on the way, begins where it is seen
+        let ends = [(0, HEADROOM), (last, HEADROOM)].into_iter();
+        for (start, range) in ends.chain((0..=last).map(|at| (at, 1.0))) {
             let mut runners: Vec<Runner> = Vec::new();
             for (k, value) in all.get(start).into_iter().flatten().enumerate() {
-                if taken[start][k] || value.im.abs() > HEADROOM * limit {
+                if taken[start][k] || value.im.abs() > range * limit {
                     continue;
                 }
                 taken[start][k] = true;
@@ -113,30 +159,32 @@ impl Analysis {
                     step: C64::default(),
                 });
             }
-            let mut at = start;
-            while let Some(next) = at.checked_add_signed(step).filter(|n| *n < speeds.len()) {
-                // on the way down the eigenvalues are known, and few are left to follow
-                let mut triangle = None;
-                if next == all.len() {
-                    let (found, read_from) = self.followed(speeds[next])?;
-                    taken.push(vec![false; found.len()]);
-                    all.push(found);
-                    triangle = read_from;
-                }
-                let found = self.carry(
-                    speeds[next],
-                    (&all[next], triangle.as_ref()),
-                    &mut taken[next],
-                    &runners,
-                )?;
-                for (runner, state) in runners.iter_mut().zip(found) {
-                    if let Some(state) = &state {
-                        runner.step = state.0 - runner.last.0;
+            for step in [1, -1_isize] {
+                for runner in &mut runners {
+                    if let Some(state) = &runner.states[start] {
                         runner.last.clone_from(state);
                     }
-                    runner.states[next] = state;
+                    runner.step = C64::default();
                 }
-                at = next;
+                let mut at = start;
+                while let Some(to) = at.checked_add_signed(step).filter(|n| *n < speeds.len()) {
+                    // on the way down the eigenvalues are known, and few are left to follow
+                    let triangle = match to == all.len() {
+                        true => next(speeds[to], &mut all, &mut taken)?,
+                        false if runners.is_empty() => break,
+                        false => None,
+                    };
+                    let known = (&all[to][..], triangle.as_ref());
+                    let found = self.carry(speeds[to], known, &mut taken[to], &runners)?;
+                    for (runner, state) in runners.iter_mut().zip(found) {
+                        if let Some(state) = &state {
+                            runner.step = state.0 - runner.last.0;
+                            runner.last.clone_from(state);
+                        }
+                        runner.states[to] = state;
+                    }
+                    at = to;
+                }
             }
             branches.extend(runners.into_iter().map(|runner| runner.states));
         }
@@ -155,6 +203,8 @@ impl Analysis {
         Ok(Campbell {
             speeds: speeds.to_vec(),
             branches,
+            growing,
+            above: over,
         })
     }
 
@@ -166,7 +216,7 @@ impl Analysis {
         taken: &mut [bool],
         runners: &[Runner],
     ) -> Result<Vec<Option<State>>, RotorError> {
-        let dynamics = self.dynamics(speed);
+        let (dynamics, round_off) = (self.dynamics(speed), self.round_off(speed));
         let vectors: Vec<&DVector<C64>> = runners.iter().map(|runner| &runner.last.1).collect();
         let entered = triangle.map(|triangle| (triangle, triangle.enter(&vectors)));
         let mut out: Vec<Option<State>> = vec![None; runners.len()];
@@ -175,11 +225,11 @@ impl Analysis {
             let ahead = value + runner.step;
             let found = [ahead, *value].iter().find_map(|from| {
                 let (value, vector) = match &entered {
-                    Some((triangle, entered)) => triangle.follow(*from, entered, k)?,
-                    None => dynamics.follow(*from, vector)?,
+                    Some((triangle, entered)) => triangle.follow(*from, entered, k, round_off)?,
+                    None => dynamics.follow(*from, vector, round_off)?,
                 };
                 let same = |(at, z): &(usize, &C64)| {
-                    !taken[*at] && (*z - value).norm() <= SAME * value.norm()
+                    !taken[*at] && (*z - value).norm() <= SAME * value.norm() + round_off
                 };
                 let (at, _) = all.iter().enumerate().find(same)?;
                 Some((at, vector))
@@ -225,92 +275,225 @@ impl Analysis {
 
     /// The speeds at which a mode of the diagram whirls once a turn, of either sense, by rising speed.
     ///
-    /// Between neighbouring speeds of the diagram the crossing is searched to round-off; where a branch comes near the line
-    /// and turns away between two speeds, the nearest point is looked at too.
-    #[must_use]
-    pub fn criticals(&self, diagram: &Campbell) -> Vec<Critical> {
-        let mut out = Vec::new();
-        for (index, branch) in diagram.branches.iter().enumerate() {
-            let gap = |at: usize| {
-                let (value, _) = branch.states.get(at)?.as_ref()?;
-                Some(value.im.abs() - diagram.speeds[at].abs())
-            };
-            for at in 1..diagram.speeds.len() {
-                let (Some(before), Some(here)) = (gap(at - 1), gap(at)) else {
-                    continue;
-                };
-                let ends = (diagram.speeds[at - 1], diagram.speeds[at]);
-                let start = branch.states[at - 1].as_ref();
-                let mut crossed = |from: (f64, f64), to: (f64, f64), start: &State| {
-                    if let Some((speed, state)) = self.crossing(from, to, start) {
-                        out.push(Critical {
-                            speed,
-                            mode: self.mode(state.0, &state.1, speed),
-                            branch: index,
-                        });
-                    }
-                };
-                if let Some(start) = start {
-                    if (before > 0.0) != (here > 0.0) {
-                        crossed((ends.0, before), (ends.1, here), start);
-                    } else if let Some(next) = gap(at + 1)
-                        && (next > 0.0) == (here > 0.0)
-                        && here.abs() < before.abs()
-                        && here.abs() < next.abs()
-                        && let Some((speed, value, state)) = self.nearest(
-                            ends.0,
-                            diagram.speeds[at + 1],
-                            [before, here, next],
-                            start,
-                        )
-                        && (value > 0.0) != (before > 0.0)
-                    {
-                        crossed((ends.0, before), (speed, value), start);
-                        crossed((speed, value), (diagram.speeds[at + 1], next), &state);
-                    }
+    /// Between neighbouring speeds of the diagram the crossing of a branch is searched to round-off; where a branch comes near the line
+    /// and turns away between two speeds, the nearest point is looked at too. As a mode comes below the line or above it only
+    /// there, the numbers of modes above it at both speeds say how many there must be: what branches lack is searched by counting.
+    ///
+    /// # Errors
+    ///
+    /// As [`Analysis::eigenvalues`], and where one is missing.
+    pub fn criticals(&self, diagram: &Campbell) -> Result<Vec<Critical>, RotorError> {
+        let mut found: Vec<Point> = Vec::new();
+        for branch in &diagram.branches {
+            let points: Vec<Point> = (branch.states.iter().zip(&diagram.speeds))
+                .filter_map(|(state, speed)| Some(Point::new(*speed, state.clone()?)))
+                .collect();
+            for (k, pair) in points.windows(2).enumerate() {
+                let (from, to) = (&pair[0], &pair[1]);
+                if from.above() != to.above() {
+                    found.extend(self.crossing(from, to)?);
+                } else if let Some(after) = points.get(k + 2)
+                    && after.above() == to.above()
+                    && to.gap.abs() < from.gap.abs().min(after.gap.abs())
+                    && let Some(nearest) = self.nearest(from, to, after)
+                    && nearest.above() != to.above()
+                {
+                    found.extend(self.crossing(from, &nearest)?);
+                    found.extend(self.crossing(&nearest, after)?);
                 }
             }
         }
-        out.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-        out
+        for k in 1..diagram.speeds.len() {
+            let end = |at: usize| (diagram.speeds[at], diagram.above[at]);
+            for sense in 0..2 {
+                self.complete(end(k - 1), end(k), sense, &mut found)?;
+            }
+        }
+        found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        let critical = |point: Point| Critical {
+            speed: point.speed,
+            mode: self.mode(point.state.0, &point.state.1, point.speed),
+            round_off: self.round_off(point.speed),
+        };
+        Ok(found.into_iter().map(critical).collect())
     }
 
-    /// The speed between two with gaps of opposite sign at which |Im λ| is the speed.
-    fn crossing(&self, from: (f64, f64), to: (f64, f64), start: &State) -> Option<(f64, State)> {
-        let ((mut a, mut fa), (mut b, mut fb)) = (from, to);
-        let mut state = start.clone();
-        // Regula falsi that halves the end that stays (Illinois).
-        for _ in 0..80 {
-            let speed = (a * fb - b * fa) / (fb - fa);
-            state = self.dynamics(speed).follow(state.0, &state.1)?;
-            let f = state.0.im.abs() - speed.abs();
-            if f.abs() <= 1e-12 * speed.abs() || (b - a).abs() <= 1e-14 * speed.abs() {
-                return Some((speed, state));
+    /// Adds the critical speeds of a sense that lie between two speeds by their numbers of modes above the line, and are not found yet.
+    fn complete(
+        &self,
+        from: (f64, [usize; 2]),
+        to: (f64, [usize; 2]),
+        sense: usize,
+        found: &mut Vec<Point>,
+    ) -> Result<(), RotorError> {
+        let lacking = |found: &[Point]| {
+            let within = |point: &&Point| {
+                point.sense() == sense
+                    && point.speed >= from.0 * (1.0 - CLOSE)
+                    && point.speed <= to.0 * (1.0 + CLOSE)
+            };
+            let needed = from.1[sense].abs_diff(to.1[sense]);
+            needed.saturating_sub(found.iter().filter(within).count())
+        };
+        if lacking(found) == 0 {
+            return Ok(());
+        }
+        let middle = 0.5 * (from.0 + to.0);
+        let all = self.oscillations(middle)?;
+        if to.0 - from.0 > 0.1 * CLOSE * to.0 {
+            let there = (middle, above(&all, middle));
+            self.complete(from, there, sense, found)?;
+            return self.complete(there, to, sense, found);
+        }
+        let mut near: Vec<&C64> = (all.iter())
+            .filter(|z| usize::from(z.im < 0.0) == sense)
+            .filter(|z| {
+                (z.im.abs() - middle).abs() <= 10.0 * CLOSE * middle + self.round_off(middle)
+            })
+            .collect();
+        near.sort_by(|a, b| {
+            (a.im.abs() - middle)
+                .abs()
+                .total_cmp(&(b.im.abs() - middle).abs())
+        });
+        for (k, value) in near.iter().take(lacking(found)).enumerate() {
+            let state = (**value, self.vector(**value, middle, k)?);
+            found.push(Point::new(middle, state));
+        }
+        // a mode that ceases to oscillate leaves the count without a critical speed
+        let ceases = |z: &C64| {
+            let share = z.im.abs() / (self.least_oscillation() * z.norm());
+            z.im.abs() >= middle && (0.5..2.0).contains(&share)
+        };
+        if lacking(found) > 0 && !self.eigenvalues(middle)?.iter().any(ceases) {
+            return Err(RotorError::CriticalMissing(middle));
+        }
+        Ok(())
+    }
+
+    /// The speed between two with gaps of opposite sign at which |Im λ| is the speed; `None` where the branch jumps there.
+    fn crossing(&self, from: &Point, to: &Point) -> Result<Option<Point>, RotorError> {
+        let (mut a, mut b) = (from.clone(), to.clone());
+        let (mut fa, mut fb) = (a.gap, b.gap);
+        // Regula falsi that halves the end that stays (Illinois), and the bracket at every third step.
+        for step in 0..120 {
+            let chord = (a.speed * fb - b.speed * fa) / (fb - fa);
+            let inside = a.speed.min(b.speed) < chord && chord < a.speed.max(b.speed);
+            let speed = match inside && step % 3 != 2 {
+                true => chord,
+                false => 0.5 * (a.speed + b.speed),
+            };
+            if speed == a.speed || speed == b.speed {
+                break;
             }
-            if (f > 0.0) == (fb > 0.0) {
-                (b, fb) = (speed, f);
+            let Some(point) = self.between(&a, &b, speed)? else {
+                return Ok(None);
+            };
+            if point.gap.abs() <= 1e-12 * speed {
+                return Ok(Some(point));
+            }
+            if point.above() == b.above() {
                 fa *= 0.5;
             } else {
                 (a, fa) = (b, fb);
-                (b, fb) = (speed, f);
+            }
+            fb = point.gap;
+            b = point;
+            if (b.speed - a.speed).abs() <= 1e-14 * speed {
+                break;
             }
         }
-        None
+        let best = if a.gap.abs() < b.gap.abs() { a } else { b };
+        let exact = best.gap.abs() <= CLOSE * best.speed + self.round_off(best.speed);
+        Ok(exact.then_some(best))
     }
 
-    /// The lowest point of a parabola through the gaps at two speeds and between them, with what the gap is there.
-    fn nearest(
-        &self,
-        from: f64,
-        to: f64,
-        gaps: [f64; 3],
-        start: &State,
-    ) -> Option<(f64, f64, State)> {
-        let bend = gaps[0] - 2.0 * gaps[1] + gaps[2];
-        let step = 0.5 * (to - from);
-        let speed = from + step * (1.0 - 0.5 * (gaps[2] - gaps[0]) / bend);
-        let state = self.dynamics(speed).follow(start.0, &start.1)?;
-        Some((speed, state.0.im.abs() - speed.abs(), state))
+    /// A branch between two of its points.
+    fn between(&self, a: &Point, b: &Point, speed: f64) -> Result<Option<Point>, RotorError> {
+        let share = (speed - a.speed) / (b.speed - a.speed);
+        let chord = b.state.0 - a.state.0;
+        let expected = a.state.0 + chord * share;
+        let nearer = if share < 0.5 { a } else { b };
+        let followed =
+            self.dynamics(speed)
+                .follow(expected, &nearer.state.1, self.round_off(speed));
+        let likely =
+            |(value, _): &State| (value - expected).norm() <= chord.norm() + 0.01 * value.norm();
+        if let Some(state) = followed.filter(likely) {
+            return Ok(Some(Point::new(speed, state)));
+        }
+        let distance = |z: &C64| (z - expected).norm();
+        let all = self.oscillations(speed)?;
+        let Some(value) = all
+            .into_iter()
+            .min_by(|x, y| distance(x).total_cmp(&distance(y)))
+        else {
+            return Ok(None);
+        };
+        let vector = self.vector(value, speed, 0)?;
+        Ok(Some(Point::new(speed, (value, vector))))
+    }
+
+    /// The lowest point of a parabola through the gaps at three speeds, evenly apart.
+    fn nearest(&self, from: &Point, at: &Point, to: &Point) -> Option<Point> {
+        let bend = from.gap - 2.0 * at.gap + to.gap;
+        let step = 0.5 * (to.speed - from.speed);
+        let speed = from.speed + step * (1.0 - 0.5 * (to.gap - from.gap) / bend);
+        let state =
+            (self.dynamics(speed)).follow(at.state.0, &at.state.1, self.round_off(speed))?;
+        Some(Point::new(speed, state))
+    }
+
+    /// Ranges of speed in which a motion grows, of those of a diagram; their ends between its speeds to 1e-9 of the speed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Analysis::eigenvalues`].
+    pub fn unstable(&self, diagram: &Campbell) -> Result<Vec<(f64, f64)>, RotorError> {
+        let mut out: Vec<(f64, f64)> = Vec::new();
+        for (k, growing) in diagram.growing.iter().enumerate() {
+            let here = diagram.speeds[k];
+            let before = k
+                .checked_sub(1)
+                .map(|k| (diagram.speeds[k], diagram.growing[k].is_some()));
+            match before {
+                Some((speed, grew)) if grew != growing.is_some() => {
+                    let (mut low, mut high) = (speed, here);
+                    while high - low > 1e-9 * high {
+                        let middle = 0.5 * (low + high);
+                        match self.growing(middle)?.is_some() == grew {
+                            true => low = middle,
+                            false => high = middle,
+                        }
+                    }
+                    match out.last_mut() {
+                        Some(last) if grew => last.1 = high,
+                        _ => out.push((high, here)),
+                    }
+                }
+                None if growing.is_some() => out.push((here, here)),
+                _ => {}
+            }
+            if let (Some(last), true) = (out.last_mut(), growing.is_some()) {
+                last.1 = here;
+            }
+        }
+        Ok(out)
+    }
+
+    /// Largest relative difference of modes at a speed from those of another analysis of the same rotor.
+    ///
+    /// # Errors
+    ///
+    /// As [`Analysis::eigenvalues`].
+    pub fn error_of_modes(&self, modes: &[Mode], speed: f64) -> Result<f64, RotorError> {
+        let exact = self.oscillations(speed)?;
+        let error = |mode: &Mode| {
+            let value = mode.eigenvalue;
+            let distance = |z: &C64| (C64::new(z.re, z.im.abs()) - value).norm();
+            exact.iter().map(distance).fold(f64::INFINITY, f64::min) / value.norm()
+        };
+        Ok(modes.iter().map(error).fold(0.0, f64::max))
     }
 
     /// Largest difference of the eigenvalues of a diagram from those of another analysis of the same rotor at one of its

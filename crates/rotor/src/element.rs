@@ -118,12 +118,18 @@ impl Element {
     /// Mass, stiffness and gyroscopic matrix.
     #[must_use]
     pub fn matrices(&self) -> ElementMatrices {
+        self.matrices_in(self.shear_ratio())
+    }
+
+    /// The same in the shapes of a shaft of this shear ratio: a sleeve that only adds mass moves as the shaft it rides on.
+    #[must_use]
+    pub fn matrices_in(&self, shear_ratio: f64) -> ElementMatrices {
         let Material {
             young,
             shear,
             density,
         } = self.material;
-        let (phi, kappa) = (self.shear_ratio(), self.shear_coefficient());
+        let (phi, kappa) = (shear_ratio, self.shear_coefficient());
         let mut out = ElementMatrices {
             mass: Matrix4::zeros(),
             stiffness: Matrix4::zeros(),

@@ -1,7 +1,7 @@
 //! Why an analysis has no answer.
 
 /// Why an analysis has no answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RotorError {
     /// The mass matrix is not positive: something has no mass.
     NoMass,
@@ -14,6 +14,8 @@ pub enum RotorError {
         /// How many there are.
         there: usize,
     },
+    /// A mode crosses the line of once a turn at about this speed, rad/s, and its critical speed was not found.
+    CriticalMissing(f64),
     /// The eigen-solver did not converge.
     NotConverged,
 }
@@ -26,6 +28,10 @@ impl std::fmt::Display for RotorError {
             RotorError::TooManyModes { asked, there } => {
                 write!(to, "{asked} modes were asked for, {there} oscillate")
             }
+            RotorError::CriticalMissing(speed) => write!(
+                to,
+                "a mode comes to whirl once a turn at about {speed:.6} rad/s, and its critical speed was not found"
+            ),
             RotorError::NotConverged => write!(to, "the eigen-solver did not converge"),
         }
     }

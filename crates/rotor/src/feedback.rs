@@ -81,9 +81,16 @@ impl Whole<'_> {
     }
 
     /// The eigenvalue and vector that Newton's iteration finds from those of a system nearby; `None` where it finds none.
-    pub fn follow(&self, from: C64, vector: &DVector<C64>) -> Option<(C64, DVector<C64>)> {
+    ///
+    /// Steps below `round_off` (1/s) that do not get smaller are the end too.
+    pub fn follow(
+        &self,
+        from: C64,
+        vector: &DVector<C64>,
+        round_off: f64,
+    ) -> Option<(C64, DVector<C64>)> {
         const STEPS: usize = 12;
-        let (mut value, mut vector) = (from, vector.clone());
+        let (mut value, mut vector, mut before) = (from, vector.clone(), f64::INFINITY);
         for _ in 0..STEPS {
             let (system, slope) = self.at(value)?;
             let next = match system.lu().solve(&(slope * &vector)) {
@@ -95,9 +102,11 @@ impl Whole<'_> {
             let step = C64::from(1.0) / share;
             vector = &next / C64::from(next.norm());
             value -= step;
-            if step.norm() <= 1e-13 * value.norm() {
+            let size = step.norm();
+            if size <= 1e-13 * value.norm() || (size <= round_off && size >= 0.5 * before) {
                 return Some((value, vector));
             }
+            before = size;
         }
         None
     }

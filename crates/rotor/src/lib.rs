@@ -27,6 +27,7 @@ mod campbell;
 mod element;
 mod error;
 mod feedback;
+mod frame;
 mod material;
 mod mesh;
 mod modes;

@@ -5,8 +5,8 @@
 //! few 10⁻¹⁶ of the highest frequency. Where every support turns with the rotor the complex form is solved: Im λ > 0
 //! turns with the spin (forward), Im λ < 0 against it. Else the real form, whose shapes tell the sense.
 
-use crate::assembly::Carried;
 use crate::feedback::{Feedback, Whole};
+use crate::frame::Frame;
 use crate::triangle::Triangle;
 use crate::{Basis, C64, Dynamics, Matrices, Rotor, RotorError};
 use nalgebra::{DMatrix, DVector};
@@ -81,12 +81,21 @@ pub struct Analysis {
     /// The coordinates.
     pub basis: Basis,
     /// Matrices in those coordinates.
-    pub(crate) matrices: Matrices,
-    pub(crate) carried: Carried,
+    plain: Frame,
+    /// Those in which eigenvalues and responses are computed; the same where magnets hold the rotor.
+    pub(crate) turned: Frame,
     /// What holds the rotor besides its supports.
     pub(crate) feedback: Option<Arc<dyn Feedback>>,
     turns: bool,
     nodes: usize,
+}
+
+/// The eigenvalues at one speed.
+pub(crate) struct Spectrum {
+    /// Those that oscillate, as [`Analysis::oscillations`].
+    pub oscillations: Vec<C64>,
+    /// As [`Analysis::growing`].
+    pub growing: Option<C64>,
 }
 
 /// Below this share of |λ| the imaginary part is no oscillation.
@@ -102,13 +111,10 @@ impl Analysis {
     /// A rotor in a basis.
     #[must_use]
     pub fn new(rotor: &Rotor, matrices: &Matrices, basis: Basis) -> Self {
-        let mut own = matrices.project(&basis.shapes);
-        own.mass = DMatrix::identity(basis.len(), basis.len());
-        let squares = basis.frequencies.iter().map(|omega| omega * omega);
-        own.stiffness = DMatrix::from_diagonal(&DVector::from_iterator(basis.len(), squares));
+        let plain = Frame::new(rotor, matrices, &basis);
         Self {
-            matrices: own,
-            carried: Carried::new(rotor).project(&basis.shapes),
+            turned: plain.turned(),
+            plain,
             feedback: None,
             turns: rotor.turns(),
             nodes: rotor.nodes.len(),
@@ -120,6 +126,7 @@ impl Analysis {
     #[must_use]
     pub fn held_by(mut self, feedback: Arc<dyn Feedback>) -> Self {
         self.turns &= feedback.turns();
+        self.turned = self.plain.clone();
         self.feedback = Some(feedback);
         self
     }
@@ -144,22 +151,25 @@ impl Analysis {
     /// The system at a speed (rad/s) over complex coordinates of the basis; `None` where a support treats x and y differently.
     #[must_use]
     pub fn complex_dynamics(&self, speed: f64) -> Option<Dynamics<C64>> {
-        let whole = || self.matrices.complex(&self.carried, speed);
+        let whole = || self.plain.matrices.complex(&self.plain.carried, speed);
         self.turns.then(whole)
     }
 
     /// The system at a speed (rad/s) over real coordinates of the basis: the x-plane first, then the y-plane.
     #[must_use]
     pub fn real_dynamics(&self, speed: f64) -> Dynamics<f64> {
-        self.matrices.real(&self.carried, speed)
+        self.plain.matrices.real(&self.plain.carried, speed)
     }
 
     /// The system at a speed over complex numbers; in real coordinates where something treats x and y differently.
     pub(crate) fn dynamics(&self, speed: f64) -> Whole<'_> {
+        let Frame {
+            matrices, carried, ..
+        } = &self.turned;
         let dynamics = match self.turns {
-            true => self.matrices.complex(&self.carried, speed),
+            true => matrices.complex(carried, speed),
             false => {
-                let real = self.matrices.real(&self.carried, speed);
+                let real = matrices.real(carried, speed);
                 Dynamics {
                     mass: real.mass.map(C64::from),
                     damping: real.damping.map(C64::from),
@@ -194,20 +204,65 @@ impl Analysis {
 
     /// The first-order form at a speed, without magnets.
     fn triangle(&self, speed: f64) -> Result<Triangle, RotorError> {
+        let Frame {
+            matrices, carried, ..
+        } = &self.turned;
         match self.turns {
-            true => Triangle::complex(&self.matrices.complex(&self.carried, speed)),
-            false => Triangle::real(&self.matrices.real(&self.carried, speed)),
+            true => Triangle::complex(&matrices.complex(carried, speed)),
+            false => Triangle::real(&matrices.real(carried, speed)),
         }
     }
 
-    /// What oscillates at a speed, as [`Analysis::oscillations`], and what it was read from where there are no magnets.
-    pub(crate) fn followed(&self, speed: f64) -> Result<(Vec<C64>, Option<Triangle>), RotorError> {
-        if self.feedback.is_some() {
-            return Ok((self.oscillations(speed)?, None));
-        }
-        let mut triangle = self.triangle(speed)?;
-        let all = std::mem::take(&mut triangle.eigenvalues);
-        Ok((self.oscillating(self.upper_half(all)), Some(triangle)))
+    /// The eigenvalues at a speed, sorted out, and what they were read from where there are no magnets.
+    pub(crate) fn spectrum(&self, speed: f64) -> Result<(Spectrum, Option<Triangle>), RotorError> {
+        let (all, triangle) = match self.feedback {
+            Some(_) => (self.eigenvalues(speed)?, None),
+            None => {
+                let mut triangle = self.triangle(speed)?;
+                let all = std::mem::take(&mut triangle.eigenvalues);
+                (self.upper_half(all), Some(triangle))
+            }
+        };
+        let growing = self.fastest_growth(&all, speed);
+        let oscillations = self.oscillating(all);
+        let spectrum = Spectrum {
+            growing,
+            oscillations,
+        };
+        Ok((spectrum, triangle))
+    }
+
+    /// The eigenvalue that grows fastest at a speed, of a motion that whirls or one that is pulled over; `None` where none grows by more
+    /// than round-off.
+    ///
+    /// # Errors
+    ///
+    /// As [`Analysis::eigenvalues`].
+    pub fn growing(&self, speed: f64) -> Result<Option<C64>, RotorError> {
+        Ok(self.fastest_growth(&self.eigenvalues(speed)?, speed))
+    }
+
+    fn fastest_growth(&self, all: &[C64], speed: f64) -> Option<C64> {
+        let round_off = self.round_off(speed);
+        let grows = |z: &&C64| {
+            let feedback = self.feedback.as_ref().map_or(0.0, |_| 1e-9 * z.norm());
+            z.norm() > RIGID_BELOW && z.re > round_off.max(feedback)
+        };
+        let growing = all.iter().filter(grows);
+        growing.max_by(|a, b| a.re.total_cmp(&b.re)).copied()
+    }
+
+    /// Error that round-off may leave in an eigenvalue at a speed, 1/s: ε times the highest, times the number of coordinates.
+    #[must_use]
+    pub fn round_off(&self, speed: f64) -> f64 {
+        let Dynamics {
+            mass: _,
+            damping,
+            stiffness,
+        } = self.dynamics(speed).dynamics;
+        let largest = |m: &DMatrix<C64>| m.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let highest = largest(&stiffness).sqrt().max(largest(&damping));
+        f64::EPSILON * highest * 2.0 * stiffness.nrows() as f64
     }
 
     /// Eigenvalues that oscillate, by rising frequency |Im λ|.
@@ -219,11 +274,16 @@ impl Analysis {
         Ok(self.oscillating(self.eigenvalues(speed)?))
     }
 
-    fn oscillating(&self, mut all: Vec<C64>) -> Vec<C64> {
-        let least = match self.feedback {
+    /// Share of |λ| that the imaginary part of an oscillation exceeds.
+    pub(crate) fn least_oscillation(&self) -> f64 {
+        match self.feedback {
             Some(_) => OSCILLATION_OF_FILTERS,
             None => OSCILLATION,
-        };
+        }
+    }
+
+    fn oscillating(&self, mut all: Vec<C64>) -> Vec<C64> {
+        let least = self.least_oscillation();
         all.retain(|z| z.im.abs() > least * z.norm() && z.im.abs() > RIGID_BELOW);
         all.sort_by(|a, b| a.im.abs().total_cmp(&b.im.abs()));
         all
@@ -299,7 +359,7 @@ impl Analysis {
         vector: &DVector<C64>,
         against: bool,
     ) -> (DVector<C64>, DVector<C64>) {
-        let shapes = &self.basis.shapes;
+        let shapes = &self.turned.shapes;
         let lift = |part: DVector<C64>| {
             DVector::from_fn(shapes.nrows(), |i, _| {
                 (0..part.len()).map(|k| part[k] * shapes[(i, k)]).sum()

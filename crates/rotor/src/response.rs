@@ -19,6 +19,10 @@ pub struct Response {
     pub forward: DVector<C64>,
     /// b of each coordinate: turns against it.
     pub backward: DVector<C64>,
+    /// f and b of the motion across each support, in the order of the rotor, m.
+    pub across: Vec<[C64; 2]>,
+    /// f and b of the force of each support on what it holds, N.
+    pub forces: Vec<[C64; 2]>,
 }
 
 impl Response {
@@ -59,11 +63,11 @@ impl Responder {
     #[must_use]
     pub fn within(analysis: &Analysis) -> Self {
         Self {
-            matrices: analysis.matrices.clone(),
-            carried: analysis.carried.clone(),
+            matrices: analysis.turned.matrices.clone(),
+            carried: analysis.turned.carried.clone(),
             feedback: analysis.feedback.clone(),
             turns: analysis.turns(),
-            basis: Some(analysis.basis.shapes.clone()),
+            basis: Some(analysis.turned.shapes.clone()),
         }
     }
 
@@ -104,9 +108,12 @@ impl Responder {
             let (system, _) = whole.at(C64::i() * speed).ok_or(RotorError::NotHeld)?;
             system.lu().solve(force).ok_or(RotorError::NotHeld)
         };
-        let (forward, backward) = if self.turns {
+        // X and Y of x = Re(X e^{jφ}), y = Re(Y e^{jφ})
+        let [x, y] = if self.turns {
             let system = self.matrices.complex(&self.carried, speed);
-            (answer(system, &force)?, DVector::zeros(size))
+            let forward = answer(system, &force)?;
+            let y = &forward * -C64::i();
+            [forward, y]
         } else {
             let system = self.matrices.real(&self.carried, speed);
             let [mass, damping, stiffness] =
@@ -121,9 +128,29 @@ impl Responder {
                 stiffness,
             };
             let solution = answer(system, &both)?;
-            let part = |from: usize| solution.rows(from, size).into_owned();
-            split(&part(0), &part(size))
+            [0, size].map(|from| solution.rows(from, size).into_owned())
         };
+        let (forward, backward) = match self.turns {
+            true => (x.clone(), DVector::zeros(size)),
+            false => split(&x, &y),
+        };
+        let senses = |[x, y]: [C64; 2]| [(x + C64::i() * y) * 0.5, (x - C64::i() * y) * 0.5];
+        let (mut across, mut forces) = (Vec::new(), Vec::new());
+        for (row, support) in &self.carried.rows {
+            let along =
+                |part: &DVector<C64>| -> C64 { row.iter().zip(part).map(|(r, z)| z * *r).sum() };
+            let motion = [along(&x), along(&y)];
+            let block = support.coefficients.at(speed);
+            let push = [0, 1].map(|i| {
+                let of = |j: usize| {
+                    let (k, c, m) = (block.stiffness[i][j], block.damping[i][j], block.mass[i][j]);
+                    C64::new(k - speed * speed * m, speed * c) * motion[j]
+                };
+                -(of(0) + of(1))
+            });
+            across.push(senses(motion));
+            forces.push(senses(push));
+        }
         let lift = |part: DVector<C64>| match &self.basis {
             None => part,
             Some(basis) => DVector::from_fn(basis.nrows(), |i, _| {
@@ -134,6 +161,8 @@ impl Responder {
             speed,
             forward: lift(forward),
             backward: lift(backward),
+            across,
+            forces,
         })
     }
 }

@@ -3,8 +3,8 @@
 //! Every support of the shaft gets the same stiffness k in both directions, housings keep theirs, seals do not count. A
 //! forward critical speed obeys K x = Ω²(M - G)x, a backward one K x = Ω²(M + G)x.
 
-use crate::assembly::Carried;
 use crate::basis::symmetric;
+use crate::frame::Frame;
 use crate::{Basis, Matrices, Place, Rotor, RotorError};
 use nalgebra::DMatrix;
 
@@ -32,10 +32,10 @@ pub fn stiffness_map(
 ) -> Result<Vec<MapPoint>, RotorError> {
     crate::held(rotor, 0.0)?;
     let matrices = Matrices::new(rotor);
-    let gyroscopic = matrices.project(&basis.shapes).gyroscopic;
-    let squares = basis.frequencies.iter().map(|omega| omega * omega);
-    let shaft = DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(basis.len(), squares));
-    let carried = Carried::new(rotor).project(&basis.shapes);
+    let Frame {
+        matrices, carried, ..
+    } = Frame::new(rotor, &matrices, basis).turned();
+    let (shaft, gyroscopic) = (matrices.stiffness, matrices.gyroscopic);
     let mass = DMatrix::<f64>::identity(basis.len(), basis.len());
     let point = |stiffness: &f64| {
         let mut whole = shaft.clone();

@@ -90,7 +90,13 @@ impl Triangle {
 
     /// The eigenvalue and vector, in the coordinates of T, that inverse iteration with its own quotient finds from a value and the
     /// `k`-th of the vectors that came in; `None` where it finds none.
-    pub fn follow(&self, from: C64, entered: &Entered, k: usize) -> Option<(C64, DVector<C64>)> {
+    pub fn follow(
+        &self,
+        from: C64,
+        entered: &Entered,
+        k: usize,
+        round_off: f64,
+    ) -> Option<(C64, DVector<C64>)> {
         const STEPS: usize = 12;
         let mut value = from;
         let mut vector = entered.displacements.column(k) + entered.velocities.column(k) * from;
@@ -106,7 +112,7 @@ impl Triangle {
             let step = C64::from(1.0) / share;
             vector = next.unscale(length);
             value += step;
-            if step.norm() <= LAST_STEP * value.norm() {
+            if step.norm() <= (LAST_STEP * value.norm()).max(round_off) {
                 return Some((value, vector));
             }
         }
@@ -255,14 +261,15 @@ mod tests {
         for (upwards, turns) in [(5e6, true), (4e6, false)] {
             let analysis = Analysis::full(&rotor(upwards)).unwrap();
             assert_eq!(analysis.turns(), turns);
-            let (before, _) = analysis.followed(900.0).unwrap();
-            let (all, triangle) = analysis.followed(920.0).unwrap();
+            let before = analysis.oscillations(900.0).unwrap();
+            let (spectrum, triangle) = analysis.spectrum(920.0).unwrap();
+            let all = spectrum.oscillations;
             let (triangle, whole) = (triangle.unwrap(), analysis.dynamics(920.0));
             for (k, value) in before.iter().take(8).enumerate() {
                 let vector = analysis.vector(*value, 900.0, k).unwrap();
-                let (wanted, shape) = whole.follow(*value, &vector).unwrap();
+                let (wanted, shape) = whole.follow(*value, &vector, 0.0).unwrap();
                 let (found, own) =
-                    (triangle.follow(*value, &triangle.enter(&[&vector]), 0)).unwrap();
+                    (triangle.follow(*value, &triangle.enter(&[&vector]), 0, 0.0)).unwrap();
                 assert!(
                     (found - wanted).norm() < 1e-9 * wanted.norm(),
                     "{found} {wanted}"

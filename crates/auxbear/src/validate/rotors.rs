@@ -311,6 +311,7 @@ fn criticals(
         .map_err(|error| error.to_string())?;
     let ours: Vec<f64> = analysis
         .criticals(&diagram)
+        .map_err(|error| error.to_string())?
         .iter()
         .map(|one| one.speed)
         .collect();

@@ -18,6 +18,7 @@ mod pressure_limits;
 mod resolved;
 mod rotor;
 mod rotor_inputs;
+mod rotor_supports;
 mod schema;
 mod several;
 mod spin_up;

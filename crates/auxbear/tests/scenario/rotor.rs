@@ -63,17 +63,17 @@ fn message(old: &str, new: &str) -> String {
     built.expect_err(new)
 }
 
-fn analysed(text: &str, sets: &[&str]) -> Outcome {
+pub(super) fn analysed(text: &str, sets: &[&str]) -> Outcome {
     let scenario = parsed(text, sets).unwrap();
     run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
 }
 
-fn value(outcome: &Outcome, name: &str) -> Value {
+pub(super) fn value(outcome: &Outcome, name: &str) -> Value {
     let found = outcome.quantities.iter().find(|q| q.name == name);
     found.unwrap_or_else(|| panic!("{name}")).value.clone()
 }
 
-fn number(outcome: &Outcome, name: &str) -> f64 {
+pub(super) fn number(outcome: &Outcome, name: &str) -> f64 {
     match value(outcome, name) {
         Value::Number(number) => number,
         other => panic!("{name}: {other:?}"),

@@ -175,10 +175,11 @@ pub(crate) fn basis(
     model: &LevitationModel,
     full: &Basis,
     matrices: &Matrices,
+    cut: f64,
 ) -> Result<Basis, Box<Problem>> {
     let rotor = &analysis.model.rotor;
     let band = Band::of_speed(analysis.speed);
-    let cut = analysis.cutoff.max(BEYOND * band.to);
+    let cut = cut.max(BEYOND * band.to);
     let mut kept = rotor.kept();
     let nodes = model
         .magnets

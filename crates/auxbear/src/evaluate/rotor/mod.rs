@@ -10,7 +10,7 @@ pub(crate) mod quantities;
 pub(crate) mod warnings;
 
 pub(crate) use crate::evaluate::rotor::asked::Asked;
-use crate::evaluate::rotor::asked::{Found, sense};
+use crate::evaluate::rotor::asked::{Found, Motion, sense};
 use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
 use crate::scenario::Scenario;
 use std::time::Instant;
@@ -123,8 +123,8 @@ fn history(asked: &Asked, found: &Found) -> Vec<Column> {
             column(|mode| sense(mode.whirl)),
         );
     }
-    for (label, node) in asked.watched() {
-        let at = asked.rotor().displacement(node);
+    for watched in asked.watched() {
+        let (name, motion) = (&watched.name, watched.motion);
         let of = |value: &dyn Fn(&rotor::Response) -> f64| -> Vec<f64> {
             let all = found.responses.iter();
             all.map(|one| one.as_ref().map_or(f64::NAN, value))
@@ -133,18 +133,31 @@ fn history(asked: &Asked, found: &Found) -> Vec<Column> {
         if found.responses.is_empty() {
             continue;
         }
+        let (what, label) = name.split_once('.').unwrap_or_default();
+        let meaning = match what {
+            "force" => {
+                format!("force of {label} on what it holds under unbalance: half the longer axis")
+            }
+            "relative" => format!(
+                "response to unbalance of the shaft in its housing at {label}: half the longer axis of the orbit"
+            ),
+            _ => format!("response to unbalance at {label}: half the longer axis of the orbit"),
+        };
+        let amplitude = of(&|response| motion.amplitude(response));
         add(
-            format!("response.{label}.amplitude"),
-            "m",
-            format!("response to unbalance at {label}: half the longer axis of the orbit"),
-            of(&|response| response.amplitude(at)),
+            format!("{name}.amplitude"),
+            motion.unit(),
+            meaning,
+            amplitude,
         );
-        add(
-            format!("response.{label}.lag"),
-            "rad",
-            format!("how far x at {label} is behind the mark that phases count from"),
-            of(&|response| response.lag(at)),
-        );
+        if let Motion::Of(at) = motion {
+            add(
+                format!("{name}.lag"),
+                "rad",
+                format!("how far x at {label} is behind the mark that phases count from"),
+                of(&|response| response.lag(at)),
+            );
+        }
     }
     columns
 }

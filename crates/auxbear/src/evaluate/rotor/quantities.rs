@@ -1,11 +1,11 @@
 //! The named results of the analysis of a rotor.
 
-use crate::evaluate::rotor::asked::{Asked, Found, sense, word};
-use crate::evaluate::rotor::{levitated, warnings::grows};
+use crate::evaluate::rotor::asked::{Asked, Found, sense, support_label};
+use crate::evaluate::rotor::levitated;
 use crate::result::drawing::{self, GIVEN};
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
-use rotor::{C64, Critical, Mode, Place, Whirl};
+use rotor::{C64, Critical, Mode, Whirl};
 
 /// All named results, in the order of the report.
 pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
@@ -126,6 +126,13 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
             );
         }
     }
+    let operated =
+        |(from, to): &(f64, f64)| *from <= analysis.operating_to && *to >= analysis.operating_from;
+    if found.growing.is_some() || found.unstable.iter().any(operated) {
+        verdict = Some("fail");
+    } else if verdict != Some("fail") && !found.unlisted.is_empty() {
+        verdict = Some("undecided");
+    }
     let text = match (analysis.separation_margin, verdict) {
         (None, _) => Value::None {
             why: "analysis.separation_margin is not given".to_string(),
@@ -133,7 +140,12 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
         (Some(_), verdict) => Value::Text(verdict.unwrap_or("pass").to_string()),
     };
     list.push("separation_verdict", "", text, &SEPARATION);
-    list.number("first_unstable_speed", "rad/s", unstable(found), &STABILITY);
+    list.number(
+        "first_unstable_speed",
+        "rad/s",
+        first_unstable(asked, found),
+        &STABILITY,
+    );
 }
 
 /// The verdict on one critical speed. One at which the mode grows has no margin: nothing but time limits it. What whirls backward is not excited by unbalance where x and y are alike.
@@ -152,28 +164,14 @@ fn judged(one: &Critical, separation: f64, asked: &Asked, margin: f64) -> &'stat
     }
 }
 
-/// The lowest speed from which a mode grows, between two speeds of the diagram on a straight line.
-fn unstable(found: &Found) -> Result<f64, String> {
-    let speeds = &found.diagram.speeds;
-    let mut first: Option<f64> = None;
-    for branch in &found.diagram.branches {
-        for (at, mode) in branch.modes.iter().enumerate() {
-            let Some(mode) = mode.as_ref().filter(|mode| grows(mode)) else {
-                continue;
-            };
-            let before = at.checked_sub(1).and_then(|k| branch.modes[k].as_ref());
-            let speed = match before.map(|before| before.eigenvalue.re) {
-                Some(before) if before < 0.0 => {
-                    let share = before / (before - mode.eigenvalue.re);
-                    speeds[at - 1] + share * (speeds[at] - speeds[at - 1])
-                }
-                _ => speeds[at],
-            };
-            first = Some(first.map_or(speed, |known| known.min(speed)));
-            break;
-        }
-    }
-    first.ok_or_else(|| "no mode grows up to analysis.speed_to".to_string())
+/// The lowest speed at which a motion grows.
+fn first_unstable(asked: &Asked, found: &Found) -> Result<f64, String> {
+    let rated = found.growing.map(|_| asked.analysis.speed.abs());
+    let first = found.unstable.first().map(|(from, _)| *from);
+    let none = || "no motion grows up to analysis.speed_to".to_string();
+    (first.into_iter().chain(rated))
+        .reduce(f64::min)
+        .ok_or_else(none)
 }
 
 /// The larger of both senses of a mode, turned so that its largest displacement is real.
@@ -253,29 +251,30 @@ fn modes(list: &mut List, asked: &Asked, found: &Found) {
 }
 
 fn responses(list: &mut List, asked: &Asked, found: &Found) {
-    for (k, (label, node)) in asked.watched().into_iter().enumerate() {
-        let at = asked.rotor().displacement(node);
+    let rated = (found.deflections.iter()).find(|one| one.speed == asked.analysis.speed);
+    for (k, watched) in asked.watched().into_iter().enumerate() {
+        let (begin, motion) = (watched.name, watched.motion);
         let peak = found.peaks.get(k).and_then(Option::as_ref);
-        let none = || "no [[rotor.unbalance]] is given".to_string();
-        let begin = format!("response.{label}");
-        let amplitude = peak.map(|one| one.amplitude(at)).ok_or_else(none);
-        let amplitude = match peak.and_then(|one| undamped(found, one.speed)) {
-            Some(speed) => Err(format!(
-                "at {speed:.2} rad/s a mode has no damping: the response has no bound"
-            )),
-            None => amplitude,
+        let none = || match found.responses.is_empty() {
+            true => "no [[rotor.unbalance]] is given".to_string(),
+            false => "a motion grows there: there is no steady response".to_string(),
         };
-        list.number(
-            &format!("{begin}.peak_amplitude"),
-            "m",
-            amplitude,
-            &RESPONSE,
-        );
+        let amplitude = |one: Option<&rotor::Response>| match one {
+            Some(one) => match undamped(found, one.speed) {
+                Some(speed) => Err(format!(
+                    "at {speed:.2} rad/s a mode has no damping: the response has no bound"
+                )),
+                None => Ok(motion.amplitude(one)),
+            },
+            None => Err(none()),
+        };
+        let unit = motion.unit();
+        let name = format!("{begin}.peak_amplitude");
+        list.number(&name, unit, amplitude(peak), &RESPONSE);
         let speed = peak.map(|one| one.speed).ok_or_else(none);
         list.number(&format!("{begin}.peak_speed"), "rad/s", speed, &RESPONSE);
-        let rated = found.deflections.first();
-        let value = rated.map(|one| one.amplitude(at)).ok_or_else(none);
-        list.number(&format!("{begin}.rated_amplitude"), "m", value, &RESPONSE);
+        let name = format!("{begin}.rated_amplitude");
+        list.number(&name, unit, amplitude(rated), &RESPONSE);
     }
     for (number, response) in (1..).zip(&found.deflections) {
         let begin = format!("deflection_{number}");
@@ -314,7 +313,11 @@ fn undamped(found: &Found, peak: f64) -> Option<f64> {
 }
 
 fn sag(list: &mut List, asked: &Asked, found: &Found) {
-    let none = || "the rotor has no support".to_string();
+    let none = || match found.pulled_over {
+        true => "a motion on the supports and seals is pulled over: there is no position at rest"
+            .to_string(),
+        false => "the rotor has no support".to_string(),
+    };
     let nodes = asked.rotor().nodes.len();
     let down = asked.analysis.weight();
     let along = |z: C64| match down.norm() {
@@ -341,13 +344,9 @@ fn sag(list: &mut List, asked: &Asked, found: &Found) {
         if support.seal {
             continue;
         }
-        let kind = match support.at {
-            Place::Node(_) => "support",
-            Place::Housing(_) => "housing",
-        };
         // against gravity: what it carries; below zero it holds down
         let load = found.sag.as_ref().map(|sag| -along(sag.loads[index]));
-        let label = format!("load.{}", word(kind, name));
+        let label = format!("load.{}", support_label(name, support));
         list.number(&label, "N", load.ok_or_else(none), &SAG);
     }
 }
@@ -422,8 +421,8 @@ const SEPARATION: Origin = Origin {
     valid: "backward ones get no verdict where every support treats all directions alike: unbalance does not drive them",
 };
 const STABILITY: Origin = Origin {
-    law: "Re λ = 0 between two speeds of the diagram, on a straight line",
-    source: "crates/rotor/src/modes.rs",
+    law: "the lowest speed at which an eigenvalue, whirling or not, has Re λ above round-off; between two speeds of the diagram to 1e-9",
+    source: "crates/rotor/src/campbell.rs",
     valid: "linear supports and seals",
 };
 const RESPONSE: Origin = Origin {
@@ -444,5 +443,5 @@ const MAP: Origin = Origin {
 const REDUCTION: Origin = Origin {
     law: "free modes up to analysis.cutoff, residual flexibility at supports, seals, unbalances and of gyroscopic moments",
     source: "crates/rotor/src/basis.rs; Rubin 1975 (from memory)",
-    valid: "eigenvalues against all coordinates at the highest speed; receptances of the free rotor at rest",
+    valid: "modes shown and eigenvalues at the highest speed against all coordinates; receptances of the free rotor at rest",
 };

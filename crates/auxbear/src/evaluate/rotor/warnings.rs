@@ -3,6 +3,7 @@
 use crate::evaluate::rotor::asked::{Asked, Found};
 use crate::evaluate::rotor::levitated;
 use crate::result::outcome::{Warning, warning};
+use crate::simulate::drop::shaft_results::against_spin;
 use units::number_text;
 
 /// Error of eigenvalues in the reduced coordinates from which a warning is given.
@@ -32,23 +33,49 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             ));
         }
     }
-    let growing = found.modes.iter().find(|mode| grows(mode));
-    if let Some(mode) = growing {
+    if let Some(value) = found.growing {
+        let (frequency, ratio) = (value.im.abs(), -value.re / value.norm());
+        let text = match frequency > 0.01 * value.norm() {
+            true => format!(
+                "At the rated speed the mode of {frequency:.1} rad/s grows: its damping ratio is {ratio:.2e}. The rotor whirls until \
+                 something that is not modelled here limits it."
+            ),
+            false => format!(
+                "At the rated speed the rotor is pulled over: a motion grows with {:.6} 1/s and does not whirl. Negative stiffness \
+                 exceeds that of shaft and supports, and the rotor has no position at rest.",
+                value.re
+            ),
+        };
+        out.push(warning("AB2021", text));
+    } else if found.pulled_over {
         out.push(warning(
-            "AB2021",
+            "AB2042",
+            "At rest the rotor is pulled over: negative stiffness exceeds that of shaft and supports, and gyroscopic moments alone hold it at \
+             the rated speed. Sag and support loads do not exist."
+                .to_string(),
+        ));
+    }
+    if !found.unlisted.is_empty() {
+        let speeds: Vec<String> = found
+            .unlisted
+            .iter()
+            .map(|own| format!("{own:.2}"))
+            .collect();
+        out.push(warning(
+            "AB2040",
             format!(
-                "At the rated speed the mode of {:.1} rad/s grows: its damping ratio is {:.2e}. The rotor whirls until something \
-                 that is not modelled here limits it.",
-                mode.frequency(),
-                mode.damping_ratio()
+                "The response has a narrow peak at {} rad/s, and no critical speed is listed within its half width: the list may lack one. A \
+                 verdict on the separation that is not \"fail\" is undecided.",
+                speeds.join(", ")
             ),
         ));
     }
+    out.extend(against_spin(&analysis.model, analysis.speed));
     if let Some(error) = found.reduction_error.filter(|error| *error > REDUCTION) {
         out.push(warning(
             "AB2022",
             format!(
-                "In the {} coordinates kept, eigenvalues are wrong by up to {error:.1e} at the highest speed. A higher \
+                "In the {} coordinates kept, eigenvalues are wrong by up to {error:.1e}. A higher \
                  analysis.cutoff keeps more.",
                 asked.within.basis.len()
             ),
@@ -72,9 +99,4 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
         ));
     }
     out
-}
-
-/// Whether a mode grows by more than round-off.
-pub(crate) fn grows(mode: &rotor::Mode) -> bool {
-    mode.damping_ratio() < -1e-9
 }

@@ -258,7 +258,7 @@ function rotorVerdict(run) {
     { class: "tiles" },
     stateTile(run),
     tile("First critical speed", isNumber(first.value) ? engineeringText(first.value, "rad/s", 5) : "–", [isNumber(first.value) ? `${numberText(first.value, 5)} rad/s` : first.why]),
-    tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict === "fail") : null),
+    tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict !== "pass") : null),
     tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows)),
     typeof quantityOf(run, "levitation.zone").value === "string" ? tile("Largest sensitivity", numberText(numberOf(run, "levitation.largest_sensitivity"), 3), [`zone ${quantityOf(run, "levitation.zone").value}, slowest eigenvalue ${numberText(numberOf(run, "levitation.slowest_eigenvalue"), 3)} 1/s`]) : null,
     tile("First free bending mode", isNumber(bending) ? `${numberText(bending, 5)} rad/s` : "–", ["of the free rotor at rest"]),

@@ -41,6 +41,8 @@ pub struct RotorAnalysis {
     pub modes: ModeCount,
     /// Modes of the free rotor up to this frequency are kept, rad/s.
     pub cutoff: f64,
+    /// Whether the file gives that frequency; else more are kept where the modes shown need them.
+    pub cutoff_given: bool,
     /// Longest element of what does not say it itself, m.
     pub longest_element: f64,
     /// Gravity across the shaft, m/s².
@@ -96,6 +98,7 @@ impl RotorAnalysis {
                 (most, false) => ModeCount::AtMost(most),
             },
             cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
+            cutoff_given: values.is_own("analysis.cutoff"),
             longest_element: build::longest_element(&model, values),
             model,
             gravity: analysis.number("gravity"),
@@ -158,12 +161,26 @@ impl RotorAnalysis {
         rotor::C64::from_polar(self.gravity, self.gravity_angle)
     }
 
-    /// The speeds looked at, rad/s.
+    /// The speeds looked at, rad/s: evenly apart, and those at which a table of a support or seal has a row.
     pub fn speeds(&self) -> Vec<f64> {
         let last = (self.speed_count - 1) as f64;
         let span = self.speed_to - self.speed_from;
-        (0..self.speed_count)
-            .map(|k| self.speed_from + span * k as f64 / last)
-            .collect()
+        let even = (0..self.speed_count).map(|k| self.speed_from + span * k as f64 / last);
+        let tables = self
+            .model
+            .rotor
+            .supports
+            .iter()
+            .map(|own| &own.coefficients);
+        let rows = tables
+            .filter(|own| own.range().is_some())
+            .flat_map(|own| own.rows());
+        let within = |speed: &f64| self.speed_from < *speed && *speed < self.speed_to;
+        let mut all: Vec<f64> = even
+            .chain(rows.map(|(speed, _)| *speed).filter(within))
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|a, b| *a - *b <= 1e-9 * *a);
+        all
     }
 }

@@ -3,7 +3,7 @@
 use crate::result::drawing;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Column, Value, Warning, warning};
-use crate::scenario::{AuxiliaryBearing, Shaft};
+use crate::scenario::{AuxiliaryBearing, RotorModel, Shaft};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::drop::context::Context;
@@ -220,6 +220,30 @@ pub(crate) fn stiff(context: &Context) -> Option<Warning> {
                 slope(hard),
                 hard.mount.stiffness,
                 units::number_text(given.cutoff)
+            ),
+        )
+    })
+}
+
+/// Supports and seals whose coefficients drive whirl of one sense, as xy differs from yx, about a rotor that turns backward.
+pub(crate) fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
+    let crosses = |own: &rotor::Support| {
+        let rows = own.coefficients.rows().iter();
+        let mut all = rows.flat_map(|(_, block)| [block.stiffness, block.damping]);
+        all.any(|m| m[0][1] != m[1][0])
+    };
+    let all = model.supports.iter().zip(&model.rotor.supports);
+    let names = all
+        .filter(|(_, own)| crosses(own))
+        .map(|(name, _)| name.as_str());
+    let names: Vec<&str> = names.collect();
+    (speed < 0.0 && !names.is_empty()).then(|| {
+        warning(
+            "AB2041",
+            format!(
+                "The rotor turns backward, and {} keep the signs of their xy and yx coefficients, which of a real seal change with the \
+                 spin: as given they drive whirl against it. Change their signs, or let the rotor turn forward.",
+                names.join(", ")
             ),
         )
     })

@@ -177,6 +177,8 @@ pub(crate) fn of(
             .iter()
             .flat_map(|own| own.warnings.clone()),
     );
+    let shaft = drop.shaft.as_ref();
+    list.extend(shaft.and_then(|own| shaft_results::against_spin(&own.model, drop.rotor.speed)));
     let known = context.machine.tangents();
     let stepping = method::stepping(drop, context.built, known);
     list.extend(asked(context).warnings(stepping.steps));
