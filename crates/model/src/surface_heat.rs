@@ -303,6 +303,55 @@ mod tests {
     use std::f64::consts::PI;
 
     #[test]
+    fn surfaces_that_rub_for_long_are_as_hot_as_their_layers_pass_the_heat_on() {
+        use physics::heat_conduction::STEEL_HEAT;
+        let depths = [5e-3, 3.2e-3];
+        let surfaces = Surfaces {
+            layers: depths.map(|depth| Layer::new(STEEL_HEAT, depth)),
+            length: 12e-3,
+            modulus: 113e9,
+        };
+        let (bore, clearance, power) = (12.5e-3, 0.25e-3, 180.0);
+        let motions = Motions {
+            offset: Vec2::new(0.0, -clearance),
+            velocity: Vec2::zero(),
+            spins: [1200.0, 5.0],
+        };
+        let mut heat = SurfaceHeat::new();
+        let mut before = [0.0; 2];
+        for k in 1..=10_000 {
+            let times = [k - 1, k].map(|k| 1e-3 * f64::from(k));
+            let seen = Seen {
+                times,
+                forces: [80.0; 2],
+                slips: [15.0; 2],
+                heats: times.map(|time| power * time),
+                friction: 0.15,
+                cores: Some([0.0; 2]),
+            };
+            if k == 9_001 {
+                before = heat.taken();
+                heat.surfaces = [Peak::NONE; 2];
+            }
+            assert!(heat.watch(&surfaces, bore, &seen));
+            heat.take(&surfaces, [bore, clearance], &seen, &motions);
+        }
+        // cores held: the mean of a layer is P L/(2kA) above its core, the surface P L/(3kA) above the mean; after five times C/G and more
+        let radii = [bore - clearance, bore];
+        for body in 0..2 {
+            let taken = heat.taken()[body] - before[body];
+            let area = TAU * radii[body] * surfaces.length;
+            let right = taken * depths[body] / (STEEL_HEAT.conductivity * area) * (0.5 + 1.0 / 3.0);
+            let surface = heat.surfaces[body].value;
+            assert!((surface / right - 1.0).abs() < 0.01, "{surface} {right}");
+        }
+        // every joule is one body's, and the distance slid under the force is the heat over the coefficient
+        let all = heat.taken().iter().sum::<f64>();
+        assert!((all / (10.0 * power) - 1.0).abs() < 1e-10);
+        assert!((heat.rubbed / (80.0 * 15.0 * 10.0) - 1.0).abs() < 1e-10);
+    }
+
+    #[test]
     fn a_track_is_the_range_of_angles_at_which_a_body_was_touched() {
         let range = |spins: [f64; 2], place: &dyn Fn(f64) -> f64| {
             let mut heat = SurfaceHeat::new();
