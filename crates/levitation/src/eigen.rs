@@ -6,13 +6,14 @@ use nalgebra::{ComplexField, DMatrix, DVector, Schur};
 /// Steps of the QR iteration before it is given up; it needs some three for each eigenvalue.
 const STEPS_PER_VALUE: usize = 60;
 
-/// Tolerances of the iteration in units of round-off, one after another where it does not end: the last is 1e-12 of an eigenvalue.
-const COARSER: [f64; 3] = [1.0, 64.0, 4096.0];
-
 /// Eigenvalues of a real matrix.
 pub(crate) fn real(matrix: DMatrix<f64>) -> Result<Vec<C64>, Refused> {
-    let values = schur(matrix)?.complex_eigenvalues();
-    Ok(values.iter().copied().collect())
+    match schur(matrix.clone()) {
+        Ok(form) => Ok(form.complex_eigenvalues().iter().copied().collect()),
+        // the double shift of a real matrix may cycle where eigenvalues agree up to round-off; single shifts do not
+        Err(Refused::NoEigenvalues) => complex(matrix.map(C64::from)),
+        Err(other) => Err(other),
+    }
 }
 
 /// Eigenvalues of a complex matrix.
@@ -29,19 +30,7 @@ fn schur<T: ComplexField<RealField = f64>>(
     }
     balance(&mut matrix);
     let steps = STEPS_PER_VALUE * matrix.nrows();
-    // rounding may keep an entry above the tolerance, and steps may cycle: the transpose has the same eigenvalues
-    for share in COARSER {
-        for turned in [false, true] {
-            let form = match turned {
-                true => matrix.transpose(),
-                false => matrix.clone(),
-            };
-            if let Some(found) = Schur::try_new(form, share * f64::EPSILON, steps) {
-                return Ok(found);
-            }
-        }
-    }
-    Err(Refused::NoEigenvalues)
+    Schur::try_new(matrix, f64::EPSILON, steps).ok_or(Refused::NoEigenvalues)
 }
 
 /// Scales state by state with powers of two until rows and columns are of one size; eigenvalues stay. Returns the scales:
