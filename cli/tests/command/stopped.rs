@@ -120,7 +120,7 @@ fn a_full_disk_keeps_what_could_be_written_and_says_so() {
 
     // The same for each larger file in turn: the history, then the page.
     for (kept, blocks, file) in [
-        ("run.incomplete", 120, "history.parquet"),
+        ("run.incomplete", 150, "history.parquet"),
         ("run.incomplete-2", 400, "report.html"),
     ] {
         let script = script.replace("-f 4", &format!("-f {blocks}"));

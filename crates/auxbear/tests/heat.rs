@@ -40,7 +40,7 @@ fn a_bearing_runs_away_where_the_full_jacobian_says_so() {
     for (clearance, largest, from) in [
         ("12.9", -0.0106, None),
         ("12.7", -0.0062, None),
-        ("12.5", 0.318, Some(352.0)),
+        ("12.5", 0.32, Some(352.0)),
         ("12.0", 0.317, Some(167.0)),
     ] {
         let set = format!("bearing.operating_diametral_clearance={clearance} um");
@@ -50,7 +50,7 @@ fn a_bearing_runs_away_where_the_full_jacobian_says_so() {
         let closed = || (0..times.len()).filter(|k| open[*k] < 0.0);
         let most = closed().map(|k| rates[k]).fold(f64::MIN, f64::max);
         // the reference looks at every sixth row, each its own solution
-        let within = 0.03 * largest.abs();
+        let within = 0.03 * f64::abs(largest);
         assert!((most - largest).abs() < within, "{clearance}: {most}");
         let first = closed().find(|k| rates[*k] > 0.0).map(|k| times[k]);
         match (first, from) {

@@ -8,29 +8,40 @@ const STEPS_PER_VALUE: usize = 60;
 
 /// Eigenvalues of a real matrix.
 pub(crate) fn real(matrix: DMatrix<f64>) -> Result<Vec<C64>, Refused> {
-    match schur(matrix.clone()) {
-        Ok(form) => Ok(form.complex_eigenvalues().iter().copied().collect()),
-        // the double shift of a real matrix may cycle where eigenvalues agree up to round-off; single shifts do not
-        Err(Refused::NoEigenvalues) => complex(matrix.map(C64::from)),
-        Err(other) => Err(other),
-    }
+    let (form, shift) = schur(matrix)?;
+    Ok((form.complex_eigenvalues().iter())
+        .map(|value| value - shift)
+        .collect())
 }
 
 /// Eigenvalues of a complex matrix.
 pub(crate) fn complex(matrix: DMatrix<C64>) -> Result<Vec<C64>, Refused> {
-    let values = schur(matrix)?.eigenvalues().ok_or(Refused::NoEigenvalues)?;
-    Ok(values.iter().copied().collect())
+    let (form, shift) = schur(matrix)?;
+    let values = form.eigenvalues().ok_or(Refused::NoEigenvalues)?;
+    Ok(values.iter().map(|value| value - shift).collect())
 }
 
+/// The triangular form, and what was added to its eigenvalues.
+///
+/// The iteration ends where an entry is small beside its neighbours on the diagonal; between two that are nearly zero round-off of the whole
+/// matrix may stay above that for ever. A shift by the size of the matrix then asks for no more than its round-off.
 fn schur<T: ComplexField<RealField = f64>>(
     mut matrix: DMatrix<T>,
-) -> Result<Schur<T, nalgebra::Dyn>, Refused> {
+) -> Result<(Schur<T, nalgebra::Dyn>, f64), Refused> {
     if matrix.iter().any(|value| !value.is_finite()) {
         return Err(Refused::NotFinite);
     }
     balance(&mut matrix);
     let steps = STEPS_PER_VALUE * matrix.nrows();
-    Schur::try_new(matrix, f64::EPSILON, steps).ok_or(Refused::NoEigenvalues)
+    if let Some(found) = Schur::try_new(matrix.clone(), f64::EPSILON, steps) {
+        return Ok((found, 0.0));
+    }
+    let shift = matrix.norm();
+    for index in 0..matrix.nrows() {
+        matrix[(index, index)] += T::from_real(shift);
+    }
+    let found = Schur::try_new(matrix, f64::EPSILON, steps).ok_or(Refused::NoEigenvalues)?;
+    Ok((found, shift))
 }
 
 /// Scales state by state with powers of two until rows and columns are of one size; eigenvalues stay. Returns the scales:

@@ -26,10 +26,11 @@
 //! Source: derived; book/src/theory/heat.md. Range: a body is one temperature only after about 0.1 s; before that the surfaces
 //! tell more.
 
+mod growth;
+
 use crate::bearing;
 use crate::bearing::lubricant_state::FILM_KINDS;
 use crate::heats::{HEATS, OWN_HEATS};
-use crate::system::sampling::Peak;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::Viscosity;
@@ -43,13 +44,14 @@ use thermal::oil_range::{self, BeyondData};
 use thermal::steady_speed::SteadySpeed;
 use thermal::warm_bearing::{BearingLoad, WarmBearings};
 
+pub use growth::Growth;
+
 /// A number per node.
 pub type OfNodes = [f64; NODES.len()];
 
 /// Span of heat that the network takes at once, s.
 const SPAN: f64 = 10e-3;
-/// Time between two looks at how a disturbance grows, s.
-const LOOKS: f64 = 50e-3;
+
 /// Ice point, K.
 const ICE_POINT: f64 = 273.15;
 /// Constants of a bearing that warms.
@@ -112,53 +114,6 @@ pub struct Warmth {
     spin: Option<f64>,
     taken: [f64; 2],
     impulse: f64,
-}
-
-/// How fast a disturbance of the temperatures grows at the speed of an instant and under the weight, while the balls are preloaded.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Growth {
-    /// The largest rate, 1/s; none where the balls never were preloaded.
-    pub largest: Option<Peak>,
-    /// From when on they run away, the rate there, and the temperatures, °C.
-    pub runs_away: Option<(Peak, OfNodes)>,
-    /// When it did so no longer, s.
-    pub calm: Option<f64>,
-    /// Instants and rates, where they are kept.
-    pub course: Vec<(f64, f64)>,
-    next: f64,
-}
-
-impl Growth {
-    fn look(
-        &mut self,
-        machine: impl FnOnce() -> Option<f64>,
-        (time, nodes): (f64, OfNodes),
-        keep: bool,
-    ) {
-        if time < self.next {
-            return;
-        }
-        self.next = time + LOOKS;
-        let Some(rate) = machine() else { return };
-        let now = Peak { value: rate, time };
-        self.largest.get_or_insert(now).raise(rate, time);
-        if rate > 0.0 && self.runs_away.is_none() {
-            self.runs_away = Some((now, nodes));
-        }
-        self.calm = match rate > 0.0 {
-            true => None,
-            false => self.calm.or(self.runs_away.is_some().then_some(time)),
-        };
-        if keep {
-            self.course.push((time, rate));
-        }
-    }
-    /// The rate at an instant, 1/s; not a number before the balls were preloaded.
-    pub fn at(&self, time: f64) -> f64 {
-        let past = self.course.partition_point(|(known, _)| *known <= time);
-        past.checked_sub(1)
-            .map_or(f64::NAN, |last| self.course[last].1)
-    }
 }
 
 /// What must be taken from the nodes of a bearing to hold them at their limits.
@@ -606,37 +561,4 @@ impl Warmth {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use physics::heat_conduction::SILICON_NITRIDE_HEAT;
-    use thermal::bearing_network::HOUSING;
-
-    #[test]
-    fn shares_add_to_one_and_every_heat_has_a_place() {
-        for ball in [STEEL_HEAT, SILICON_NITRIDE_HEAT] {
-            for row in shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING) {
-                assert_eq!(row.iter().sum::<f64>(), 1.0);
-                assert!(row.iter().all(|share| (0.0..=1.0).contains(share)));
-            }
-        }
-        assert!(place("steady_moment") < HEATS && place("rotor_race_friction") < HEATS);
-        // steel on steel half and half; a ring takes 0.58 beside a ceramic ball
-        let of = |ball| shares(ball, STEEL_HEAT, OUTER_RACE, HOUSING)[place("inner_ball_slip")];
-        assert_eq!(of(STEEL_HEAT)[INNER_RACE], 0.5);
-        assert!((of(SILICON_NITRIDE_HEAT)[INNER_RACE] - 0.58).abs() < 0.005);
-        // sliding at both races: a ring's part of its contact is 0.58 beside silicon nitride
-        assert_eq!(sliding(STEEL_HEAT)[BALLS], 0.5);
-        let hybrid = sliding(SILICON_NITRIDE_HEAT);
-        for (node, share) in [(INNER_RACE, 0.29), (BALLS, 0.42), (OUTER_RACE, 0.29)] {
-            assert!((hybrid[node] - share).abs() < 0.005, "{hybrid:?}");
-        }
-        // of a polyamide cage's friction the cage takes 5 %
-        let polyamide = ThermalMaterial {
-            conductivity: 0.25,
-            density: 1140.0,
-            specific_heat: 1700.0,
-        };
-        let pocket = shares(STEEL_HEAT, polyamide, OUTER_RACE, HOUSING)[place("pocket_friction")];
-        assert!((pocket[CAGE] - 0.05).abs() < 0.006, "{}", pocket[CAGE]);
-    }
-}
+mod tests;

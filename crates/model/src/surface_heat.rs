@@ -9,7 +9,8 @@
 //! between the smallest and the largest angle on that body where the patch has been, up to its circumference.
 //!
 //! Each layer exchanges heat with the metal behind it, k A/(L/2) from its mean: the rotor's with its core, the race's with its ring, to the
-//! mean of which the heat of an arc goes along the ring as well. Their temperatures are those of the bearing's network. Without a
+//! mean of which the heat of an arc goes along the ring as well. It holds what it is above that metal, so heat between the bodies themselves goes by
+//! the network's contact alone; rises that are reported add the temperatures of the network. Without a
 //! network the ring is alone and keeps what it gets, and the rotor's layer has an insulated back.
 //!
 //! Spans of heat are as long as a step at the touch and then a share of the time since: short where the flash grows, never
@@ -193,13 +194,17 @@ impl SurfaceHeat {
         if half_width > 0.0 {
             let shared = touch.advance(&surfaces.layers, &mut self.states, &halves);
             let middle = 0.5 * (from + end);
-            self.contact.raise(shared.contact, middle);
+            let behind = seen.cores.unwrap_or_default();
+            let surfaces = [0, 1].map(|body: usize| shared.surfaces[body] + behind[body]);
+            // on the warmer of both bodies
+            let contact = shared.contact + behind[0].max(behind[1]);
+            self.contact.raise(contact, middle);
             self.rise = match seen.forces[1] > 0.0 {
-                true => shared.contact,
-                false => 0.5 * (shared.surfaces[0] + shared.surfaces[1]),
+                true => contact,
+                false => 0.5 * (surfaces[0] + surfaces[1]),
             };
-            self.of_touch = self.of_touch.max(shared.contact);
-            for (peak, rise) in self.surfaces.iter_mut().zip(shared.surfaces) {
+            self.of_touch = self.of_touch.max(contact);
+            for (peak, rise) in self.surfaces.iter_mut().zip(surfaces) {
                 peak.raise(rise, middle);
             }
         }
@@ -265,12 +270,13 @@ impl SurfaceHeat {
         let [track, arc] = self.tracks;
         let taken = self.taken()[1];
         let [on_rotor, on_race] = &mut self.states;
-        if let Some([core, _]) = cores {
-            rotor.exchange(on_rotor, track, (1.0 / rotor.to_core(track), core), span);
+        // a layer holds what it is above the metal behind it: between the bodies themselves the network conducts
+        if cores.is_some() {
+            rotor.exchange(on_rotor, track, (1.0 / rotor.to_core(track), 0.0), span);
         }
         let along = race.along_ring(arc, bore, surfaces.length);
         let ring = match cores {
-            Some([_, ring]) => (along + 1.0 / race.to_core(arc), ring),
+            Some(_) => (along + 1.0 / race.to_core(arc), 0.0),
             None => {
                 let whole = TAU * bore * surfaces.length;
                 (along, taken / race.capacity(whole))

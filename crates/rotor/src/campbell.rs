@@ -6,7 +6,7 @@
 //! one of the eigenvalues of that speed, and no two branches may take the same; else the nearest that is left is taken.
 //! A mode that comes into the range from above is followed back from the highest speed.
 
-use crate::modes::{Analysis, Mode};
+use crate::modes::{Analysis, Mode, RIGID_BELOW};
 use crate::triangle::Triangle;
 use crate::{C64, RotorError};
 use nalgebra::DVector;
@@ -362,8 +362,8 @@ impl Analysis {
         }
         // a mode that ceases to oscillate leaves the count without a critical speed
         let ceases = |z: &C64| {
-            let share = z.im.abs() / (self.least_oscillation() * z.norm());
-            z.im.abs() >= middle && (0.5..2.0).contains(&share)
+            let least = (self.least_oscillation() * z.norm()).max(RIGID_BELOW);
+            z.im.abs() >= middle && (0.5..2.0).contains(&(z.im.abs() / least))
         };
         if lacking(found) > 0 && !self.eigenvalues(middle)?.iter().any(ceases) {
             return Err(RotorError::CriticalMissing(middle));

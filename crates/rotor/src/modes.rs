@@ -103,7 +103,7 @@ const OSCILLATION: f64 = 0.01;
 /// The same where controllers hold the rotor: pairs of integrators and filters hardly oscillate.
 const OSCILLATION_OF_FILTERS: f64 = 0.1;
 /// Below this, rad/s, it is a rigid motion.
-const RIGID_BELOW: f64 = 0.01;
+pub(crate) const RIGID_BELOW: f64 = 0.01;
 /// Difference of the shares of both senses below which a whirl is planar.
 const PLANAR: f64 = 1e-3;
 

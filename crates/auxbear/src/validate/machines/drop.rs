@@ -285,7 +285,7 @@ mod tests {
     use serde_json::json;
 
     /// First contact of one end as a point of its static load, F = F(0) e² + k_s e² w, e = exp(-t/τ), over the way that it falls at τ = 0:
-    /// 1.5 % for tilt, unbalance and bending. A current that decays alone (F(0) e) comes 9 % later.
+    /// 3 % for tilt, unbalance and bending. A current that decays alone (F(0) e) comes 9 and 13 % later.
     #[test]
     fn magnets_fade_from_the_currents_at_the_release() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -303,7 +303,7 @@ mod tests {
             file["mean"] = json!({ "b2_t_on_1": first });
             let found = of_drop(&file);
             assert_eq!(found.len(), 1, "{found:?}");
-            assert!(found[0].deviation.unwrap() < 0.015, "{found:?}");
+            assert!(found[0].deviation.unwrap() < 0.03, "{found:?}");
         }
         file["start"]["control_current_A"] = Value::Null;
         let without = of_drop(&file);

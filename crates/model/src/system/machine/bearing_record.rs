@@ -3,6 +3,8 @@
 //! Contacts begin, end and peak on dense output, not on the steps; largest forces between steps where they may peak there. Only
 //! the list of contacts may grow during a run.
 
+mod contact;
+
 use super::RotorMachine;
 use super::travel::Travel;
 use crate::auxiliary_bearing::BearingAt;
@@ -23,20 +25,7 @@ use solve::watch::{maximum, root};
 use std::f64::consts::PI;
 use thermal::bearing_network::INNER_RACE;
 
-/// One contact of rotor and inner race.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
-    /// Begin, s.
-    pub start: f64,
-    /// End, s; none while it lasts.
-    pub end: Option<f64>,
-    /// Largest normal force, N.
-    pub peak_force: f64,
-    /// Its instant, s.
-    pub peak_time: f64,
-    /// Largest temperature rise of the patch, K; 0 where surfaces are not followed.
-    pub peak_rise: f64,
-}
+pub use contact::Contact;
 
 /// Everything kept of one auxiliary bearing.
 #[derive(Clone, Debug)]
