@@ -182,7 +182,7 @@ impl<R: Real> Lubricant<R> {
     }
 }
 
-/// The kinds of heat that warm the films: those of [`film_heat`].
+/// The kinds of heat that warm the films: those of `film_heat`.
 pub const FILM_KINDS: [&str; 4] = [
     "inner_ball_slip",
     "outer_ball_slip",
