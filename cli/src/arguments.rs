@@ -1,5 +1,6 @@
 //! The command line as types; its texts are what `--help` prints.
 
+use auxbear::scenario::KINDS;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -9,7 +10,7 @@ use std::path::PathBuf;
 #[command(
     name = "auxbear",
     version,
-    after_help = "Start with `auxbear new drop my_drop.toml` (or spin_up, torque, rig, signals, identify, rotor), then `auxbear run my_drop.toml`.\n\
+    after_help = "Start with `auxbear new drop my_drop.toml` (or another kind, see `auxbear help new`), then `auxbear run my_drop.toml`.\n\
                   Exit status: 0 done, 1 the run failed, 2 the input is wrong, 130 interrupted."
 )]
 pub struct Arguments {
@@ -29,7 +30,7 @@ pub enum Command {
     Signals(Measured),
     /// Find what measured tests show of a bearing: friction, loss, slip, and which explanation they support
     Identify(Measured),
-    /// Analyse a bent rotor, also that of a machine: modes, critical speeds, response to unbalance; write a run directory
+    /// Analyse a flexible rotor, also that of a machine: modes, critical speeds, response to unbalance; write a run directory
     Rotor(Measured),
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),
@@ -43,14 +44,14 @@ pub enum Command {
     },
     /// Write a commented starting file
     New {
-        /// What to describe: drop, spin_up, torque, signals, rig, identify, rotor or study
+        #[arg(help = format!("What to describe: {}", KINDS.join(", ")))]
         kind: String,
         /// File to write; printed if none is given, or for -
         path: Option<PathBuf>,
     },
     /// Print the JSON Schema of a kind of file, by which editors complete and check it
     Schema {
-        /// Kind of file: drop, spin_up, torque, signals, rig, identify or rotor
+        #[arg(help = format!("Kind of file: {}", KINDS.join(", ")))]
         kind: String,
     },
     /// Draw the HTML report of one run again, or of several side by side
@@ -166,7 +167,7 @@ pub struct Service {
 
 #[derive(Debug, Args)]
 pub struct Import {
-    /// Rotor saved by ROSS 2 (TOML or JSON), or a table of sections (CSV) with units in its header
+    /// Rotor saved by ROSS 2 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header
     pub file: PathBuf,
     /// File to write [printed if none is given]
     #[arg(long, value_name = "FILE")]

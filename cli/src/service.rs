@@ -7,6 +7,9 @@ use auxbear::problem::{Code, Problem};
 use auxbear::report::service::{Mode, Occasion, service};
 use std::path::PathBuf;
 
+/// Services until 1 % of machines fail beyond which fatigue decides nothing.
+const DECISIVE: f64 = 1000.0;
+
 /// Prints what many drops do to the bearings together.
 pub fn perform(wish: &Service) -> Result<(), Box<Problem>> {
     let occasions: Vec<Occasion> = wish
@@ -19,12 +22,15 @@ pub fn perform(wish: &Service) -> Result<(), Box<Problem>> {
     rows.extend(found.modes.iter().map(row));
     console::print(&console::table(&rows))?;
     if let (Some(survival), Some(services)) = (found.survival, found.services) {
-        let failed = 100.0 * (1.0 - survival);
-        console::print(&format!(
-            "{} % of machines have lost a bearing by rolling fatigue after it; 1, 10 and 50 % after {} such services.\n",
-            four_digits(failed),
-            services.map(four_digits).join(", ")
-        ))?;
+        let text = match services[0] > DECISIVE {
+            true => "Rolling fatigue is not decisive: see its share of L10.\n".to_string(),
+            false => format!(
+                "{} % of machines have lost a bearing by rolling fatigue after it; 1, 10 and 50 % after {} such services.\n",
+                four_digits(100.0 * (1.0 - survival)),
+                services.map(four_digits).join(", ")
+            ),
+        };
+        console::print(&text)?;
     }
     console::report(
         "What ends auxiliary bearings is seldom fatigue: cage, smearing, spalls that grow from dents and the life of the lubricant have no law here.",

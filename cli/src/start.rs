@@ -3,7 +3,7 @@
 use crate::console;
 use auxbear::problem::{Code, Problem, did_you_mean};
 use auxbear::report::directory::{failed, misplaced};
-use auxbear::scenario::{SystemName, template};
+use auxbear::scenario::{KINDS, template};
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
@@ -35,17 +35,12 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
 
 /// What is wrong with a kind of file that a command does not have.
 pub fn unknown(command: &str, kind: &str) -> Box<Problem> {
-    let systems = || SystemName::ALL.iter().map(|system| system.word());
-    let built = || systems().chain(["study"]);
-    let needed = format!(
-        "a kind is needed: {}",
-        built().collect::<Vec<_>>().join(", ")
-    );
+    let needed = format!("a kind is needed: {}", KINDS.join(", "));
     Box::new(if PLANNED.contains(&kind) {
         let found = format!("\"{kind}\", which is planned but not built yet");
         Problem::new(Code::NotBuilt, command, found, needed)
     } else {
         Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed)
-            .with_hint(did_you_mean(kind, built()))
+            .with_hint(did_you_mean(kind, KINDS.iter().copied()))
     })
 }

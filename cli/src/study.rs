@@ -137,15 +137,21 @@ impl Pace {
             return;
         }
         *last = Instant::now();
-        let rate = (members - self.there) / self.begin.elapsed().as_secs_f64();
-        let left = (self.all as f64 - members) / rate;
-        let left = if left.is_finite() && left >= 0.0 {
-            readable(left, "s")
-        } else {
-            "unknown time".to_string()
+        let done = members - self.there;
+        let left = match done > 0.0 {
+            true => {
+                let each = self.begin.elapsed().as_secs_f64() / done;
+                let left = (self.all as f64 - members) * each;
+                format!(
+                    ", {} each, {} left",
+                    readable(each, "s"),
+                    readable(left, "s")
+                )
+            }
+            false => String::new(),
         };
         console::report(&format!(
-            "study: {members:.0} of {} members, {rate:.1} members/s, {left} left",
+            "study: {members:.0} of {} members{left}",
             self.all
         ));
     }

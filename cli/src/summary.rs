@@ -3,6 +3,7 @@
 use crate::digits::readable;
 use crate::{console, limits, torque_tables};
 use auxbear::result::outcome::{Outcome, Quantity, Value};
+use std::f64::consts::PI;
 use std::path::Path;
 
 /// The quantities most looked for in a drop; those a run does not have say why in the report.
@@ -309,6 +310,17 @@ fn value(quantity: &Quantity) -> String {
         // a temperature, not a rise
         Value::Number(kelvin) if quantity.name.ends_with("_temperature") => {
             format!("{:.1} °C", kelvin - ICE_POINT)
+        }
+        Value::Number(speed) if quantity.unit == "rad/s" => {
+            let (factor, unit) = match quantity.name.ends_with("frequency") {
+                true => (0.5 / PI, "Hz"),
+                false => (30.0 / PI, "rpm"),
+            };
+            format!(
+                "{} ({})",
+                readable(*speed, "rad/s"),
+                readable(speed * factor, unit)
+            )
         }
         Value::Number(number) => readable(*number, quantity.unit),
         Value::List(list) => format!("{} values", list.len()),

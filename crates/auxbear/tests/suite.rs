@@ -32,3 +32,4 @@ mod signals_files;
 mod speed_channel;
 mod torque;
 mod validation;
+mod warnings;

@@ -158,6 +158,20 @@ impl Friction<f64> {
     }
 }
 
+/// The departures of several operating points, each quantity once: where it is largest.
+pub fn farthest(departures: impl IntoIterator<Item = Departure>) -> Vec<Departure> {
+    let mut list: Vec<Departure> = Vec::new();
+    for departure in departures {
+        let mut known = list.iter_mut();
+        match known.find(|known| known.quantity == departure.quantity) {
+            Some(known) if known.value.abs() >= departure.value.abs() => {}
+            Some(known) => *known = departure,
+            None => list.push(departure),
+        }
+    }
+    list
+}
+
 fn palmgren_load(law: &Palmgren<f64>, static_load: f64) -> Option<Departure> {
     outside(Departure {
         quantity: "load",

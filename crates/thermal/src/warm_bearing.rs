@@ -97,19 +97,29 @@ impl WarmBearings {
         each.map(|moment| self.count * self.ratio * moment)
     }
 
-    /// M0 and M1 of one bearing at the speed of its inner race, N m.
-    pub fn of_one(&self, speed: f64, temperatures: &[f64]) -> [f64; 2] {
-        let moment = Palmgren {
+    /// The law of one bearing with the viscosity that its lubricant has.
+    pub fn law_at(&self, temperatures: &[f64]) -> Palmgren<f64> {
+        Palmgren {
             viscosity: self.oil.held(temperatures[self.lubricant] + ICE_POINT),
             ..self.moment
-        };
-        let radial = match &self.load {
+        }
+    }
+
+    /// The radial load that the law of one bearing counts, N, at the speed of its inner race.
+    pub fn radial_load(&self, speed: f64, temperatures: &[f64]) -> f64 {
+        match &self.load {
             BearingLoad::Radial(load) => *load,
             BearingLoad::Closing { .. } => 0.0,
             BearingLoad::Zone { unpreloaded, zone } => {
                 zone.pressing(zone.clearance_at(temperatures, speed), *unpreloaded)
             }
-        };
+        }
+    }
+
+    /// M0 and M1 of one bearing at the speed of its inner race, N m.
+    pub fn of_one(&self, speed: f64, temperatures: &[f64]) -> [f64; 2] {
+        let moment = self.law_at(temperatures);
+        let radial = self.radial_load(speed, temperatures);
         let parts = moment.parts(speed, radial);
         let closing = match (&self.load, self.closing(speed, temperatures)) {
             (

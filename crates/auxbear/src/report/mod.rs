@@ -18,6 +18,7 @@ pub mod export;
 mod history;
 pub mod page;
 mod page_summary;
+mod per_bearing;
 pub mod picture;
 pub mod service;
 pub mod study;

@@ -1,6 +1,8 @@
 //! One static picture of a drop: orbit, contact force and speeds as a self-contained SVG.
 
-use super::page::PageRun;
+use super::page::{PageRun, escape_text};
+use super::per_bearing::per_bearing;
+use serde_json::Value;
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -14,17 +16,25 @@ const CAGE: &str = "#2f8f5b";
 /// Rows further than this from an instant, in seconds, are too coarse to mark it on the orbit.
 const COARSE_ROWS: f64 = 0.5e-3;
 
-/// The picture of one run, 1200 × 420 pixels: the orbit of the rotor centre relative to the inner race in its clearance
-/// circle, the contact force, and the speeds of rotor, inner race and cage. What the run lacks is said in its place.
+/// The picture of one run, 1200 × 420 pixels for each auxiliary bearing: the orbit of the rotor centre relative to the inner race
+/// in its clearance circle, the contact force, and the speeds of rotor, inner race and cage. What the run lacks is said in its
+/// place.
 pub fn orbit_svg(run: &PageRun) -> String {
+    let bearings = per_bearing(run);
+    let height = HEIGHT * bearings.len() as f64;
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" \
          font-family=\"system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif\" font-size=\"12\" fill=\"{INK}\">\n\
-         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#ffffff\"/>\n"
+         <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
     );
-    draw_orbit(&mut svg, run);
-    draw_force(&mut svg, run);
-    draw_speeds(&mut svg, run);
+    for (k, bearing) in bearings.iter().enumerate() {
+        let _ = writeln!(svg, "<g transform=\"translate(0 {})\">", HEIGHT * k as f64);
+        text(&mut svg, 62.0, 14.0, "start", &escape_text(&bearing.name));
+        draw_orbit(&mut svg, bearing);
+        draw_force(&mut svg, bearing);
+        draw_speeds(&mut svg, bearing);
+        svg.push_str("</g>\n");
+    }
     svg.push_str("</svg>\n");
     svg
 }
@@ -212,7 +222,7 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
 
 /// Whether a run is one of a system that has this picture: a drop, or one that does not say.
 pub(super) fn shows(run: &PageRun) -> bool {
-    let summary: Option<serde_json::Value> = serde_json::from_str(&run.summary_json).ok();
+    let summary: Option<Value> = serde_json::from_str(&run.summary_json).ok();
     let system = summary.as_ref().and_then(|summary| summary.get("system"));
     system
         .and_then(|system| system.as_str())
@@ -221,7 +231,7 @@ pub(super) fn shows(run: &PageRun) -> bool {
 
 /// Instant of the largest contact force, from the contacts of the summary.
 fn peak_contact(run: &PageRun) -> Option<f64> {
-    let summary: serde_json::Value = serde_json::from_str(&run.summary_json).ok()?;
+    let summary: Value = serde_json::from_str(&run.summary_json).ok()?;
     let contacts = summary.get("contacts")?.as_array()?;
     let known = contacts.iter().filter_map(|contact| {
         let force = contact.get("peak_force_N")?.as_f64()?;
@@ -501,6 +511,25 @@ mod tests {
         }
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(svg.len() < 200_000, "{} bytes", svg.len());
+    }
+
+    #[test]
+    fn each_bearing_of_a_machine_has_its_own_panels() {
+        let mut machine = run();
+        for column in &mut machine.columns {
+            if !["time", "rotor.speed"].contains(&column.name.as_str()) {
+                column.name = format!("drive_end.{}", column.name);
+            }
+        }
+        machine.summary_json = "{\"auxiliary_bearings\": [{\"name\": \"drive_end\", \"clearance_radius_m\": 0.00025}, {\"name\": \
+             \"other_end\"}]}"
+            .to_string();
+        let svg = orbit_svg(&machine);
+        for words in ["height=\"840\"", "drive_end", "other_end", "clearance"] {
+            assert!(svg.contains(words), "{words}");
+        }
+        assert_eq!(svg.matches("Rotor centre relative").count(), 1);
+        assert_eq!(svg.matches("not in this run").count(), 3);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::{Bearing, BearingType, Moment, Provenance, RatedBearing, Scenario};
 use physics::friction::Friction;
+use physics::friction_range::Departure;
 use std::f64::consts::PI;
 
 /// Unit of the drag variable in a message: the order of the diagram's values for low levels.
@@ -65,6 +66,19 @@ pub(crate) fn bath(law: &Moment, rated: &RatedBearing) -> Option<Warning> {
                 .drag_moment
         ),
     ))
+}
+
+/// A friction law outside its range.
+///
+/// - `which`: of which law, and when, before the verb
+pub(crate) fn law_range(which: &str, departures: &[Departure]) -> Vec<Warning> {
+    let told = departures.iter().map(|departure| {
+        warning(
+            "AB1018",
+            format!("The law of the friction moment{which} has left its range: {departure}."),
+        )
+    });
+    told.collect()
 }
 
 /// Names what is assumed.

@@ -26,8 +26,7 @@ use units::{Dimension, Unit};
 
 /// The warning of runs that qualify no machine, and what is said instead of a verdict.
 const NO_QUALIFICATION: &str = "AB1095";
-const WITHHELD: &str =
-    "no verdict of a vertical shaft: what carries its weight is not in this run (AB1095)";
+const WITHHELD: &str = "no verdict where weight acts along the shaft: that motion and its force are not in this run (AB1095)";
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -138,7 +137,7 @@ pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
             None => ("", vec![None], "this run has no such result".to_string()),
         };
         let judged = judge(limit, unit, &values, &why);
-        match no_qualification {
+        match no_qualification && judged.verdict != Verdict::Fail {
             true => Judged {
                 verdict: Verdict::Undecided,
                 why: WITHHELD.to_string(),

@@ -3,10 +3,13 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::{Warning, warning};
 use crate::run::{Built, Machine};
-use crate::scenario::{AuxiliaryBearing, Bearing};
+use crate::scenario::{AuxiliaryBearing, Bearing, Drop};
 use crate::simulate::bearing::warnings::preload_left;
 use crate::simulate::rig::warnings::preload_of_rig;
 use crate::simulate::spin_up::warnings::preload_of_spin_up;
+
+/// Product of eccentricity and speed of drive shafts of cars, G 16, m/s.
+const LARGEST_GRADE: f64 = 16e-3;
 
 impl Machine<'_> {
     /// What the user should know before the run.
@@ -29,7 +32,10 @@ impl Machine<'_> {
                     list.extend(preload_left(&part.name, bearing, ("weight", load), None));
                     list
                 };
-                parts.flat_map(of_part).collect()
+                unbalance_grade(drop)
+                    .into_iter()
+                    .chain(parts.flat_map(of_part))
+                    .collect()
             }
             Built::SpinUp(spin_up, _) => {
                 let load = spin_up.radial_load.largest_until(spin_up.run.duration);
@@ -56,6 +62,30 @@ impl Machine<'_> {
             Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
         }
     }
+}
+
+/// An unbalance that no rotor on magnets is left with.
+fn unbalance_grade(drop: &Drop) -> Option<Warning> {
+    let eccentricity = match &drop.shaft {
+        Some(shaft) => {
+            let planes = shaft.model.rotor.unbalance.iter();
+            planes.map(|plane| plane.amount.abs()).sum::<f64>() / drop.rotor.mass
+        }
+        None => drop.rotor.unbalance_eccentricity.abs(),
+    };
+    let grade = eccentricity * drop.rotor.speed.abs();
+    (grade > LARGEST_GRADE).then(|| {
+        warning(
+            "AB1094",
+            format!(
+                "The unbalance is implausible: {:.3e} m of eccentricity (all planes in one direction) at {:.0} rad/s are a balance quality \
+                 grade G {:.0} (ISO 21940-11, mm/s); turbomachines have G 1 to G 6.3. A lost blade would be one.",
+                eccentricity,
+                drop.rotor.speed.abs(),
+                grade * 1e3
+            ),
+        )
+    })
 }
 
 /// Load and speed beyond what a bearing stands.

@@ -291,6 +291,12 @@ impl Key {
         }
     }
 
+    /// Whether it is the frequency of a mode, which people also give in Hz.
+    pub(crate) fn is_frequency(&self) -> bool {
+        let name = self.path.rsplit('.').next().unwrap_or(self.path);
+        name.contains("frequency") || name == "cutoff"
+    }
+
     /// Writes a value as TOML: in quotes where the kind is a text.
     pub fn literal(&self, text: &str) -> String {
         match self.kind {

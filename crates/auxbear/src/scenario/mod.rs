@@ -58,6 +58,7 @@ pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, RunOut};
+pub(crate) use drop::axial_share;
 pub use drop::{
     AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor,
     Shaft, Spin,
@@ -87,7 +88,7 @@ pub use signals::{
 pub use spin_up::{Course, Drive, SpeedCourse, SpinUp};
 pub use study_file::{STUDY_FORMAT, StudyFile};
 pub use study_inputs::StudyInput;
-pub use system::SystemName;
+pub use system::{KINDS, SystemName};
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
 pub use torque::{ComparedLaw, Torque};

@@ -44,10 +44,49 @@ pub(crate) fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
             .strip_prefix(pattern)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
     };
-    TABLE
-        .iter()
+    let own = match system {
+        SystemName::Machine => MACHINE,
+        _ => &[],
+    };
+    own.iter()
+        .chain(TABLE)
         .find(|absent| absent.paths.split_whitespace().any(&asks))
 }
+
+/// What a machine lacks, or has under another name.
+const MACHINE: &[Absent] = &[
+    Absent {
+        paths: "relevitation drop.relevitate drop.relevitation levitation.recovery levitation.relevitation levitation.on_at \
+                levitation.power_restored_at levitation.failure levitation.fault levitation.noise levitation.magnet.power_lost_at \
+                *.fails_at *.lost_axis *.fault *.noise",
+        what: "faults of single magnets, axes, amplifiers and sensors, noise, and levitation that comes back are not described: all magnets lose \
+               their power at one time",
+        point: 2,
+        instead: "That time is levitation.power_lost_at, and the currents decay by levitation.decay_time or the amplifiers",
+    },
+    Absent {
+        paths: "base foundation seismic shock rotor.force rotor.impulse rotor.initial_displacement rotor.initial_velocity rotor.lost_mass \
+                rotor.blade_loss *.lost_at",
+        what: "weight and unbalance are the only loads: motion of the base, forces from outside, and masses that are lost on the way are not \
+               described",
+        point: 2,
+        instead: "An unbalance that is there from the start is [[rotor.unbalance]]",
+    },
+    Absent {
+        paths: "*.tilt *.misalignment",
+        what: "a contact lies in the plane of its node: tilt within the landing sleeve is not described",
+        point: 2,
+        instead: "contact.misalignment_x and misalignment_y shift a bearing against the line of levitation",
+    },
+    Absent {
+        paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.arrangement bearing.duplex bearing.set bearing.count \
+                bearing.number bearing.number_of_bearings bearing.number_of_rows rotor.planes",
+        what: "a pair, set or several rows are not described as one bearing",
+        point: 10,
+        instead: "Each row is an [[auxiliary_bearing]] of its own: two of them at one node, or at nodes a bearing's width apart, with \
+                  the ball_count of one row and half of the place's mount.stiffness, mount.damping and mount.moving_mass each",
+    },
+];
 
 const TABLE: &[Absent] = &[
     Absent {
@@ -85,9 +124,9 @@ const TABLE: &[Absent] = &[
     Absent {
         paths: "life wear fatigue *.life *.wear *.l10 *.drops \
                 *.number_of_drops *.landings",
-        what: "life and the number of drops are not described",
+        what: "a run is one drop of a fresh bearing: life, earlier drops and their number are no input",
         point: 11,
-        instead: "Wear of the landing surfaces is contact.surface.wear_coefficient",
+        instead: "Life, dents and the drops until bearings fail are results of a drop (life_share, indentation_index), auxbear service adds up many drops, and wear of the landing surfaces needs contact.surface.wear_coefficient",
     },
     Absent {
         paths: "controller magnet magnets amb magnetic_bearing levitation.controller levitation.control \
@@ -201,6 +240,17 @@ mod tests {
             "levitation.kpa",
         ] {
             assert!(of(path, SystemName::Drop).is_none(), "{path}");
+        }
+        for (path, words) in [
+            ("levitation.relevitation", "comes back"),
+            ("levitation.sensor.1.noise", "noise"),
+            ("base.acceleration", "motion of the base"),
+            ("contact.tilt", "landing sleeve"),
+            ("bearing.arrangement", "one node"),
+        ] {
+            let absent = of(path, SystemName::Machine).expect(path);
+            let text = format!("{} {}", absent.what, absent.instead);
+            assert!(text.contains(words), "{path}: {text}");
         }
     }
 }

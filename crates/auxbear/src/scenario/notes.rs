@@ -4,6 +4,7 @@
 use crate::catalogue::designation::{self, Designation};
 use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::lubricant::{DRAWN_ON, drawn_on};
+use crate::scenario::drop::axial_share;
 use crate::scenario::heat::Network;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
@@ -60,17 +61,22 @@ const GYRATION: [f64; 2] = [0.5, 20.0];
 const RATING: [f64; 2] = [5.0, 25.0];
 /// Stiffness of a solid seat: Young's modulus of steel times the width of a bearing of 24 mm, N/m.
 const STIFFEST_MOUNT: f64 = 5e9;
+/// Share of critical damping that a rotor's material and fits give a mode at its speed.
+const LARGEST_ROTOR_DAMPING: f64 = 0.05;
+/// What damps a mount besides its damper.
+const DAMPING_PARTS: [&str; 3] = [
+    "mount.branch_stiffness",
+    "mount.ring_stiffness",
+    "mount.film_radius",
+];
 /// Sag of a mount under the weight of the rotor, m.
 const LARGEST_SAG: f64 = 1e-3;
-/// Gravity in the plane of the bearing below which the weight stands on the shaft, m/s²: a tenth of what acts along a shaft 6° from
-/// the vertical.
-const LEAST_GRAVITY: f64 = 1.0;
 
 impl Values {
     /// Everything worth a note.
     pub(crate) fn notes(&self) -> Vec<Note> {
         let mut list = Vec::new();
-        list.extend(self.vertical());
+        list.extend(self.inclined());
         list.extend(self.another_bearing());
         list.extend(self.left_out());
         list.extend(self.implausible());
@@ -107,14 +113,18 @@ impl Values {
         })
     }
 
-    /// A shaft whose weight no radial bearing carries.
-    fn vertical(&self) -> Option<Note> {
+    /// A shaft whose weight the radial bearings carry in part, or not at all.
+    fn inclined(&self) -> Option<Note> {
         let gravity = self.number("gravity.acceleration")?;
-        (self.system().falls() && gravity < LEAST_GRAVITY).then(|| Note {
+        let share = axial_share(gravity);
+        (self.system().falls() && share > 0.0).then(|| Note {
             code: "AB1095",
             text: format!(
-                "A vertical shaft, or nearly so ({gravity} m/s^2 across it): what carries the weight, the axial drop onto the thrust faces, is not \
-                 described, nor the friction of the loaded balls. Radial forces of such a run are no qualification of the machine."
+                "The shaft stands {:.1} deg from the horizontal ({gravity} m/s^2 across it): {:.3} of g acts along it. What carries that, the axial \
+                 drop onto the thrust faces, is not described, nor the friction of the loaded balls. Radial forces of such a run are no \
+                 qualification of the machine.",
+                share.asin().to_degrees(),
+                share,
             ),
         })
     }
@@ -241,6 +251,27 @@ impl Values {
                     ),
                 );
             }
+        }
+        for path in ["rotor.damping_of_stiffness", "rotor.damping_rotating"] {
+            let share = self.number(path).zip(self.number("rotor.speed"));
+            let share = share.map_or(0.0, |(time, speed)| 0.5 * time * speed.abs());
+            if share > LARGEST_ROTOR_DAMPING {
+                doubt(
+                    path,
+                    format!(
+                        "it damps a mode at the speed of the rotor with {:.0} % of critical (half the product of both), and shafts have 0.1 to 2 %",
+                        1e2 * share
+                    ),
+                );
+            }
+        }
+        if self.number("mount.damping") == Some(0.0)
+            && DAMPING_PARTS.iter().all(|part| !self.is_own(part))
+        {
+            doubt(
+                "mount.damping",
+                "nothing damps the mount, so the rotor bounces on it for as long as the run lasts; even a solid seat damps".to_string(),
+            );
         }
         let rating = self
             .number("bearing.static_load_rating")

@@ -232,6 +232,14 @@ impl Values {
             }
             _ => (key.dimension() == Some(quantity.dimension), key.needed()),
         };
+        // of a mode people say Hz, of a rotor that may be its drive's
+        let cycles = quantity.dimension == Dimension::FREQUENCY
+            && text.ends_with("Hz")
+            && key.dimension() == Some(Dimension::ANGULAR_SPEED);
+        if cycles && key.is_frequency() {
+            let value = 2.0 * std::f64::consts::PI * quantity.value_si;
+            return Ok((Value::Number(value), text.to_string()));
+        }
         if fits {
             return Ok((Value::Number(quantity.value_si), text.to_string()));
         }

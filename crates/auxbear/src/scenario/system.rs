@@ -1,5 +1,19 @@
 //! Names of the systems, and groups of them that share keys.
 
+/// Kinds of files: the words of all systems, in their order, and of a study.
+pub const KINDS: &[&str] = &[
+    "drop",
+    "spin_up",
+    "torque",
+    "signals",
+    "rig",
+    "identify",
+    "rotor",
+    "machine",
+    "coast_down",
+    "study",
+];
+
 /// Name of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemName {
@@ -37,17 +51,7 @@ impl SystemName {
         SystemName::CoastDown,
     ];
     /// Their words, in the same order.
-    pub(crate) const WORDS: &'static [&'static str] = &[
-        "drop",
-        "spin_up",
-        "torque",
-        "signals",
-        "rig",
-        "identify",
-        "rotor",
-        "machine",
-        "coast_down",
-    ];
+    pub(crate) const WORDS: &'static [&'static str] = KINDS.split_last().expect("systems").1;
     /// Words of systems that are planned, so that asking for one is no spelling mistake.
     pub(crate) const PLANNED: &'static [&'static str] = &["mount"];
 

@@ -152,6 +152,19 @@ impl<R: Real> MountReaction<R> {
     }
 }
 
+/// What the parts of a mount do; zero of what it lacks.
+#[derive(Clone, Copy, Debug)]
+pub struct PartsAt<R> {
+    /// Force of the friction ring on the outer race, N.
+    pub ring: Vec2<R>,
+    /// Force of the squeeze film on the outer race, N.
+    pub film: Vec2<R>,
+    /// Force of the hard stop on the outer race, N.
+    pub stop: Vec2<R>,
+    /// Displacement, m, and velocity, m/s, of the housing.
+    pub housing: [Vec2<R>; 2],
+}
+
 /// A mount with all its parts over `R`.
 #[derive(Clone, Debug)]
 pub struct WholeMount<R: Real> {
@@ -258,6 +271,25 @@ impl<R: Real> WholeMount<R> {
         MountReaction {
             force: force + self.preload,
             heats,
+        }
+    }
+
+    /// What its parts do at a motion of the outer race.
+    pub fn parts(&self, (position, velocity): (Vec2<R>, Vec2<R>), state: &[R]) -> PartsAt<R> {
+        let (ring_at, housing_at) = places(self.branches.len(), self.ring.is_some());
+        let (mut s, mut v) = (position, velocity);
+        let mut housing = [Vec2::zero(); 2];
+        if self.housing.is_some() {
+            housing = [pair(state, housing_at), pair(state, housing_at + 2)];
+            (s, v) = (s - housing[0], v - housing[1]);
+        }
+        let zero = Vec2::zero();
+        let ring = |ring: &FrictionRing<R>| ring.react(v, pair(state, ring_at)).0;
+        PartsAt {
+            ring: self.ring.as_ref().map_or(zero, ring),
+            film: self.film.as_ref().map_or(zero, |film| film.force(s, v)),
+            stop: self.stop.as_ref().map_or(zero, |stop| stop.react(s, v).0),
+            housing,
         }
     }
 

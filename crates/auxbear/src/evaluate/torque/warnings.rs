@@ -1,12 +1,12 @@
 //! What the user should know before trusting the moments of a bearing.
 
 use crate::evaluate::torque::asked::{Asked, law_of};
-use crate::result::assumptions::{assumptions, bath, constants};
+use crate::result::assumptions::{assumptions, bath, constants, law_range};
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
 use crate::scenario::{BearingType, DRAWN_ON, Moment, Scenario, drawn_on};
 use physics::friction::Friction;
-use physics::friction_range::{Departure, OperatingPoint};
+use physics::friction_range::{OperatingPoint, farthest};
 
 /// All warnings, the gravest first.
 pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
@@ -95,29 +95,13 @@ pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
 /// Where a law is left between the least and the largest speed and load: each quantity once.
 fn departures(asked: &Asked, law: &Friction<f64>, which: &str) -> Vec<Warning> {
     let torque = asked.torque;
-    let mut found: Vec<Departure> = Vec::new();
-    for &radial_load in &torque.loads {
-        for speed in [torque.speed_to, torque.speed, torque.speed_from] {
-            let at = OperatingPoint {
-                speed,
-                radial_load,
-                axial_load: torque.moment.axial_load(),
-            };
-            for departure in law.departures(&at) {
-                let known = |other: &&mut Departure| other.quantity == departure.quantity;
-                match found.iter_mut().find(known) {
-                    Some(other) if other.value.abs() >= departure.value.abs() => {}
-                    Some(other) => *other = departure,
-                    None => found.push(departure),
-                }
-            }
-        }
-    }
-    let texts = found.iter().map(|departure| {
-        warning(
-            "AB1018",
-            format!("The law of the friction moment{which} has left its range: {departure}."),
-        )
+    let speeds = [torque.speed_to, torque.speed, torque.speed_from];
+    let points = torque.loads.iter().flat_map(|&radial_load| {
+        speeds.map(|speed| OperatingPoint {
+            speed,
+            radial_load,
+            axial_load: torque.moment.axial_load(),
+        })
     });
-    texts.collect()
+    law_range(which, &farthest(points.flat_map(|at| law.departures(&at))))
 }

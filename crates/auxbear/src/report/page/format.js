@@ -120,9 +120,16 @@ function speedText(value, digits = 4) {
   return isNumber(value) ? `${numberText((value * 30) / Math.PI, digits)} rpm (${numberText(value, digits)} rad/s)` : "–";
 }
 
+// The frequency of a mode in both of its units.
+function frequencyText(value, digits = 5) {
+  return isNumber(value) ? `${numberText(value / (2 * Math.PI), digits)} Hz (${numberText(value, digits)} rad/s)` : "–";
+}
+
 // The value of an input as people say it: without float noise, speeds in rpm and rad/s, angles in degrees.
 function inputText(value) {
   const text = plainInput(value);
+  const [, size, own] = /^([+-]?[\d.]+(?:[eE][+-]?\d+)?) (.+)$/.exec(text) || [];
+  if (own && Math.abs(Number(size)) < 0.01) return engineeringText(Number(size), own, 6);
   const match = /^([+-]?[\d.]+(?:[eE][+-]?\d+)?) (rpm|rad\/s|rad)$/.exec(text);
   if (!match) return text;
   const [number, unit] = [Number(match[1]), match[2]];

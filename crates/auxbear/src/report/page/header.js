@@ -184,7 +184,7 @@ function distanceTile(run) {
 // What bearing and laws are made for: the warning of each, and its words.
 const RANGES = [
   ["AB1015", "above the limiting speed"],
-  ["AB2314", "above the limiting speed in the run-out"],
+  ["AB2314", "above the limiting speed while coasting down"],
   ["AB1096", "load beyond the axial preload"],
   ["AB1002", "Hertz pressure above its limit"],
   ["AB1070", "pressure between balls above its limit"],
@@ -194,6 +194,7 @@ const RANGES = [
   ["AB1031", "traction law of the lubricant out of its range"],
   ["AB1035", "film temperatures beyond their law"],
   ["AB1004", "contact damping out of its range"],
+  ["AB1097", "hard stop of the mount hit"],
   ["AB1001", "rotor bends: taken as rigid"],
   ["AB2031", "too few modes for impacts"],
 ];

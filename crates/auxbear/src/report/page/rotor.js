@@ -100,11 +100,11 @@ function shapeFigures(run, runs) {
   const free = numbered(run, "free_mode", ".shape");
   const pictures = modes.map((number) => {
     const sense = quantityOf(run, `mode_${number}.whirl`).value;
-    const words = `${numberText(numberOf(run, `mode_${number}.frequency`), 5)} rad/s, ${sense}, ζ ${percentText(numberOf(run, `mode_${number}.damping_ratio`), 3)}`;
+    const words = `${frequencyText(numberOf(run, `mode_${number}.frequency`))}, ${sense}, ζ ${percentText(numberOf(run, `mode_${number}.damping_ratio`), 3)}`;
     return figure(shareOfRun(run, runs, `Mode ${number}: ${words}`), null, rotorPicture(run, [{ values: listAt(run, `mode_${number}.shape`), colour: SENSE_COLOURS[sense] || INK, dash: senseDash(sense) }]));
   });
   const frequencies = listAt(run, "free_bending_frequencies");
-  const bending = free.slice(0, 4).map((number, index) => ({ values: listAt(run, `free_mode_${number}.shape`), colour: LINE_COLOURS[index % LINE_COLOURS.length], label: `${numberText(frequencies[number - 1], 5)} rad/s` }));
+  const bending = free.slice(0, 4).map((number, index) => ({ values: listAt(run, `free_mode_${number}.shape`), colour: LINE_COLOURS[index % LINE_COLOURS.length], label: frequencyText(frequencies[number - 1]) }));
   return [
     bending.length ? figure(shareOfRun(run, runs, "First bending modes of the free rotor at rest"), "Without supports, seals and damping.", rotorPicture(run, bending)) : null,
     element("h3", {}, shareOfRun(run, runs, `Modes at ${speedText(numberOf(run, "rated_speed"))}`)),
@@ -221,7 +221,7 @@ function nyquistCurves(run, at) {
 
 function levitationFigures(run, runs) {
   const [re, im, damping] = ["real_parts", "imaginary_parts", "damping_ratios"].map((part) => listAt(run, `levitation.pole_${part}`));
-  const poles = re.map((value, k) => [`${numberText(value, 6)} 1/s`, `${numberText(im[k], 6)} rad/s`, Math.abs(im[k]) > 0.02 * Math.hypot(value, im[k]) ? (im[k] > 0 ? "with positive spin" : "against positive spin") : "–", percentText(damping[k], 3)]);
+  const poles = re.map((value, k) => [`${numberText(value, 6)} 1/s`, frequencyText(im[k]), Math.abs(im[k]) > 0.02 * Math.hypot(value, im[k]) ? (im[k] > 0 ? "with positive spin" : "against positive spin") : "–", percentText(damping[k], 3)]);
   const rows = magnetAxes(run).map(({ label, begin }) => {
     const at = (name) => numberOf(run, `${begin}.${name}`);
     const stiffness = at("static_stiffness");
@@ -261,7 +261,7 @@ function rotorVerdict(run) {
     tile("Separation", typeof verdict === "string" ? verdict : "–", [typeof verdict === "string" ? "critical speeds against analysis.separation_margin" : quantityOf(run, "separation_verdict").why], typeof verdict === "string" ? verdictState(run, verdict !== "pass") : null),
     tile("Stability", isNumber(unstable.value) ? engineeringText(unstable.value, "rad/s", 5) : "stable", [isNumber(unstable.value) ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows)),
     typeof quantityOf(run, "levitation.zone").value === "string" ? tile("Largest sensitivity", numberText(numberOf(run, "levitation.largest_sensitivity"), 3), [`zone ${quantityOf(run, "levitation.zone").value}, slowest eigenvalue ${numberText(numberOf(run, "levitation.slowest_eigenvalue"), 3)} 1/s`]) : null,
-    tile("First free bending mode", isNumber(bending) ? `${numberText(bending, 5)} rad/s` : "–", ["of the free rotor at rest"]),
+    tile("First free bending mode", isNumber(bending) ? `${numberText(bending / (2 * Math.PI), 5)} Hz` : "–", [isNumber(bending) ? `${numberText(bending, 5)} rad/s, of the free rotor at rest` : "of the free rotor at rest"]),
     tile("Largest sag", engineeringText(numberOf(run, "largest_sag"), "m", 4), ["under its weight"]),
     tile("Error of the reduction", numberOf(run, "reduction_error") === null ? "none" : numberText(numberOf(run, "reduction_error"), 2), [numberOf(run, "reduction_error") === null ? "all coordinates are kept" : "of eigenvalues at the highest speed"]),
   );

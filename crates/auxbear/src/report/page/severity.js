@@ -79,14 +79,28 @@ const LIFE = [
   ...[["one_percent", "1 %"], ["ten_percent", "10 %"], ["half", "half"]].map(([name, words]) => [`runs_until_${name}_fail`, `Run-outs until ${words} of bearings have failed`]),
 ];
 
+// Repetitions beyond which fatigue decides nothing: makers allow some dozen drops at most.
+const MANY_REPETITIONS = 1000;
+const REPETITIONS = /^(drops|runs)_until_/;
+
+// The rows of a run: where 1 % fail after very many repetitions, one that says so.
+function lifeRows(run) {
+  const known = LIFE.filter(([name]) => run.quantities[name]);
+  const counts = known.filter(([name]) => REPETITIONS.test(name));
+  const first = counts.map(([name]) => run.quantities[name].value).find(isNumber);
+  if (!(first > MANY_REPETITIONS)) return known;
+  const share = numberOf(run, "life_share_with_lubricant") ?? numberOf(run, "life_share");
+  return [...known.filter((entry) => !counts.includes(entry)), ["drops_until_ten_percent_fail", "Drops until bearings fail", `fatigue is not decisive (life share ${numberText(share, 2)})`]];
+}
+
 function lifeSection(runs) {
   const several = runs.length > 1;
   const repeated = runs.some((run) => LIFE.some(([name]) => quantityOf(run, name).spread));
   const heads = [...(several ? ["Run"] : []), "Rolling fatigue", "Of this run", ...(repeated ? ["5 to 95 % of repeated runs"] : [])];
   const known = ({ value, why }) => (isNumber(value) ? element("strong", {}, numberText(value, 3)) : element("span", { class: "absent" }, "not known: " + why));
   const between = ({ spread }) => (spread ? `${numberText(spread.q05, 3)} to ${numberText(spread.q95, 3)} (${spread.members} runs)` : "–");
-  const row = (run, [name, words]) => element("tr", {}, several ? element("td", {}, run.short) : null, element("td", { class: "name" }, words, element("code", {}, name)), element("td", {}, known(run.quantities[name])), repeated ? element("td", {}, between(run.quantities[name])) : null);
-  const rows = runs.flatMap((run) => LIFE.filter(([name]) => run.quantities[name]).map((entry) => row(run, entry)));
+  const row = (run, [name, words, said]) => element("tr", {}, several ? element("td", {}, run.short) : null, element("td", { class: "name" }, words, said ? null : element("code", {}, name)), element("td", {}, said || known(run.quantities[name])), repeated ? element("td", {}, said ? "–" : between(run.quantities[name])) : null);
+  const rows = runs.flatMap((run) => lifeRows(run).map((entry) => row(run, entry)));
   const lead = element("p", { class: "lead" }, "Rolling fatigue rarely decides a drop: dents, cage, lubricant, wear, smearing and heat end auxiliary bearings first. 1, 10 and 50\u00a0% are the scatter of single bearings under equal drops (Weibull, slope 10/9)" + (repeated ? "; how drops differ stands apart from it" : "") + ". One bearing; a drop that goes on until standstill counts with its run-out. The factor of the lubricant is taken where it is known. An order, never a promise.");
   return section("life", "Life by rolling fatigue", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
 }

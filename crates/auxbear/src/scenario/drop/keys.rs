@@ -275,7 +275,7 @@ pub(crate) const KEYS: &[Key] = &[
         "gravity.acceleration",
         Kind::Quantity("m/s^2"),
         "9.81 m/s^2",
-        "Acceleration of gravity in the plane of the bearing. With a vertical shaft none is left of it, and the axial drop is not described: such a run warns.",
+        "Acceleration of gravity in the plane of the bearing. Of an inclined shaft less is left of it, of a vertical one nothing, and the axial drop is not described: such a run warns.",
     )
     .not_negative()
     .default("9.81 m/s^2", "usual rounded value near sea level"),

@@ -110,6 +110,19 @@ pub struct Gravity {
     pub direction: f64,
 }
 
+/// Standard gravity, m/s².
+const STANDARD_GRAVITY: f64 = 9.80665;
+/// Gravity at the place on Earth where it is weakest, m/s² (Huascarán, 9.764).
+const WEAKEST_GRAVITY: f64 = 9.76;
+
+/// The share of g that acts along a shaft of which a gravity, m/s², acts across; 0 where that may be all of it.
+pub(crate) fn axial_share(across: f64) -> f64 {
+    match across < WEAKEST_GRAVITY {
+        true => (1.0 - (across / STANDARD_GRAVITY).powi(2)).sqrt(),
+        false => 0.0,
+    }
+}
+
 /// The magnetic bearing at one plane while it is on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Levitation {

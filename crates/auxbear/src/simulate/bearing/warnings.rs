@@ -1,6 +1,6 @@
 //! Warnings that several systems give.
 
-use crate::result::assumptions::{assumptions, constants};
+use crate::result::assumptions::{self, assumptions, constants};
 use crate::result::outcome::{Quantity, Value, Warning, warning};
 use crate::scenario::{BallMaterial, Bearing, BearingType, Fidelity, Moment, Scenario, Separation};
 use crate::simulate::bearing::pressure::Pressures;
@@ -123,7 +123,7 @@ pub(crate) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
     ))
 }
 
-/// A friction law outside its range.
+/// A friction law outside its range at a speed and a radial load.
 pub(crate) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning> {
     let at = OperatingPoint {
         speed,
@@ -131,14 +131,7 @@ pub(crate) fn law_range(bearing: &Bearing, speed: f64, load: f64) -> Vec<Warning
         axial_load: bearing.moment.axial_load(),
     };
     let law = bearing.moment.law(&bearing.rated());
-    let departures = law.map(|law| law.departures(&at)).unwrap_or_default();
-    let texts = departures.iter().map(|departure| {
-        warning(
-            "AB1018",
-            format!("The law of the friction moment has left its range: {departure}."),
-        )
-    });
-    texts.collect()
+    assumptions::law_range("", &law.map_or(Vec::new(), |law| law.departures(&at)))
 }
 
 /// What the constants of a friction law take for granted of this bearing.

@@ -1,5 +1,6 @@
 //! What the user should know before trusting a run-out, the gravest first.
 
+use crate::result::assumptions;
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::{DRAWN_ON, drawn_on};
 use crate::simulate::bearing::severity::wide_line;
@@ -7,6 +8,8 @@ use crate::simulate::coast_down::build::{ICE_POINT, Part};
 use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::sampling::Peak;
+use physics::friction::Friction;
+use physics::friction_range::{OperatingPoint, farthest};
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{LUBRICANT, NODES};
 use thermal::oil_range::{self, BeyondData};
@@ -15,6 +18,13 @@ use thermal::passage::Passage;
 /// Of a run-out by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
     let mut list = of_course(ran);
+    for (k, part) in ran.parts() {
+        list.extend(
+            law_range(ran, k)
+                .into_iter()
+                .map(|found| named(&part.name, found)),
+        );
+    }
     list.push(only_rolling());
     list
 }
@@ -327,6 +337,22 @@ fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
             until.map_or_else(|| "the whole run".to_string(), |(time, _)| words(time))
         ),
     ))
+}
+
+/// The friction law outside its range, at the temperatures and loads of the run.
+fn law_range(ran: &Ran, k: usize) -> Vec<Warning> {
+    let losses = &ran.built.parts[k].losses;
+    let departures = ran.free.rows.iter().flat_map(|row| {
+        let speed = row.bearings[k].speed;
+        let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
+        let law = Friction::Palmgren(losses.law_at(temperatures));
+        law.departures(&OperatingPoint {
+            speed,
+            radial_load: losses.radial_load(speed, temperatures),
+            axial_load: 0.0,
+        })
+    });
+    assumptions::law_range("", &farthest(departures))
 }
 
 /// Pressure from which on gas brakes a rotor, Pa: a thousandth of the atmosphere.

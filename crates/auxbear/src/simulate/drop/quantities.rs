@@ -4,10 +4,11 @@ use crate::catalogue::geometry::digits;
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::StaticLoad;
+use crate::scenario::axial_share;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::{magnets, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, mount, shaft_results, surfaces};
 use model::system::energy::Content;
 use model::system::layout::of_part;
 use std::f64::consts::PI;
@@ -34,6 +35,8 @@ pub(crate) fn name(context: &Context) -> Vec<Quantity> {
     shaft_results::name(context, &mut list);
     let release = context.release_time().ok_or_else(magnets::kept);
     list.number("release_time", "s", release, &RELEASE);
+    let axial = axial_share(context.drop.gravity.acceleration);
+    list.number("axial_gravity_share", "1", Ok(axial), &AXIAL_SHARE);
     magnets::name(context, &mut list);
     let spin = context.machine.layout().rotor.spin();
     list.number("rotor_final_speed", "rad/s", Ok(state[spin]), &SPEED);
@@ -184,6 +187,8 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     let force = record.largest_mount_force.value;
     list.number("peak_mount_force", "N", Ok(force), &MOUNT_FORCE);
 
+    mount::name(record, &context.given(k).mount, list);
+
     // displacements and whirl
     list.number(
         "max_rotor_race_displacement",
@@ -329,6 +334,11 @@ const RELEASE: Origin = Origin {
     source: "levitation.power_lost_at; 0 where the run begins with the release",
     valid: "column time, contacts and instants in messages count from the start of the run, what is called after the release from here",
 };
+const AXIAL_SHARE: Origin = Origin {
+    law: "sqrt(1 - (g/g0)^2), g = gravity.acceleration across the shaft, g0 = 9.80665 m/s^2",
+    source: "geometry; 0 from 9.76 m/s^2 on, the weakest gravity on Earth",
+    valid: "shafts that stand; motion along the shaft is not in the run",
+};
 const FIRST_CONTACT: Origin = Origin {
     law: "gap d = |C - c_i| - c0 closes, after the release; gravity and the levitated orbit's speed then",
     source: EVENT,
@@ -367,7 +377,7 @@ const DISPLACEMENT: Origin = Origin {
 const MOUNT_DISPLACEMENT: Origin = Origin {
     law: "largest |c_o|, at the steps and, near the record, on dense output between them",
     source: EQUATIONS,
-    valid: "linear mount; below a tenth of the bearing's size",
+    valid: "below a tenth of the bearing's size",
 };
 const ROTOR_DISPLACEMENT: Origin = Origin {
     law: "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
@@ -405,9 +415,9 @@ const SAFETY: Origin = Origin {
     valid: "assumes that a short peak dents as a load at rest, and the usual share of the most loaded ball: peak_hertz_pressure says what that ball carries",
 };
 const MOUNT_FORCE: Origin = Origin {
-    law: "largest |k (c_o - c_0) + c v_o|, at the steps and near the largest ball load between them; the weight of the bearing is in it",
-    source: "crates/model/src/mount.rs",
-    valid: "linear mount; force of the outer race on its housing",
+    law: "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
+    source: mount::SOURCE,
+    valid: "force of the outer race on its housing",
 };
 const PER_AREA: Origin = Origin {
     law: "rotor_race_friction_energy/(π D b), bore D, contact.width b",

@@ -185,8 +185,8 @@ pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
         warning(
             "AB2031",
             format!(
-                "rotor.cutoff = {:.4e} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or \
-                 the first bending mode, {needed:.4e} rad/s, is the least; compare with twice that.",
+                "rotor.cutoff = {:.0} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or \
+                 the first bending mode, {needed:.0} rad/s, is the least; compare with twice that.",
                 given.cutoff
             ),
         )

@@ -11,7 +11,7 @@ use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::drop::{magnets, method, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, method, mount, shaft_results, surfaces};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -113,6 +113,9 @@ pub(crate) fn of(
     }));
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
+        list.extend(judged(contexts, |member| {
+            mount::stopped(member, k).into_iter().collect()
+        }));
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));
         list.extend(judged(contexts, |member| {
             member.bearing(k).hot_skid().into_iter().collect()
@@ -197,6 +200,9 @@ pub(crate) fn of(
         let given = context.given(k).bearing.as_ref();
         let mut list = given.map_or(Vec::new(), |bearing| shared::films(&run, bearing));
         list.extend(shared::film_rise(&run));
+        list.extend(given.map_or(Vec::new(), |bearing| {
+            shared::law_range(bearing, run.fastest(), context.drop.weight(k))
+        }));
         let mut list = of_rows(contexts, list);
         list.extend(judged(machines, |member| {
             skids(member, k).into_iter().collect()

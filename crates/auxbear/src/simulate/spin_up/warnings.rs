@@ -3,12 +3,13 @@
 use crate::result::assumptions::speed_rating;
 use crate::result::outcome::warning;
 use crate::result::outcome::{Quantity, Warning};
-use crate::scenario::{Bearing, Scenario};
+use crate::scenario::{Bearing, Moment, Scenario};
 use crate::simulate::bearing::warm;
 use crate::simulate::bearing::warnings as shared;
 use crate::simulate::spin_up::context::{Context, asked};
 use crate::simulate::spin_up::quantities::rolling_start_to_end;
 use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
+use physics::palmgren::FADING_SPEED;
 
 /// A radial load beyond what the axial preload holds. Where the inner race is held no load reaches the balls.
 pub(crate) fn preload_of_spin_up(bearing: &Bearing, load: f64) -> Option<Warning> {
@@ -16,6 +17,22 @@ pub(crate) fn preload_of_spin_up(bearing: &Bearing, load: f64) -> Option<Warning
         return None;
     }
     shared::preload_left("", bearing, ("radial load", load), None)
+}
+
+/// Speed from which on friction acts in full, rad/s.
+const TURNS: f64 = 10.0 * FADING_SPEED;
+
+/// A race that does not come to the speed at which its friction acts in full.
+fn creeps(bearing: &Bearing, speed: f64) -> Option<Warning> {
+    (bearing.moment != Moment::None && speed > 0.0 && speed < TURNS).then(|| {
+        warning(
+            "AB1098",
+            format!(
+                "The inner race creeps with {speed:.2e} rad/s at most. The friction law fades below {TURNS} rad/s, so what drives the race \
+                 is less than the moment that it needs: a real bearing stands still under it."
+            ),
+        )
+    })
 }
 
 /// All warnings of a run, the gravest first.
@@ -28,6 +45,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     };
     let speed = largest(&|row| row.state[INNER + 5]);
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
+    list.extend(creeps(bearing, speed));
     list.extend(shared::skids(context.built.steady.as_ref()));
     if let Some(followed) = context.warming.map(|warming| warming.followed()) {
         list.extend(

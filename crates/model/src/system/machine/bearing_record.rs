@@ -4,6 +4,7 @@
 //! the list of contacts may grow during a run.
 
 mod contact;
+mod mount;
 
 use super::RotorMachine;
 use super::travel::Travel;
@@ -26,6 +27,7 @@ use std::f64::consts::PI;
 use thermal::bearing_network::INNER_RACE;
 
 pub use contact::Contact;
+pub use mount::MountPeaks;
 
 /// Everything kept of one auxiliary bearing.
 #[derive(Clone, Debug)]
@@ -52,6 +54,8 @@ pub struct BearingRecord {
     pub rotor_displacement: Peak,
     /// Largest displacement of the outer race, m.
     pub mount_displacement: Peak,
+    /// What the parts of its mount besides spring and damper have done; none without such parts.
+    pub mount_parts: Option<MountPeaks>,
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
     pub whirl_turns: f64,
     /// Way of the rotor's geometric centre against that of the inner race.
@@ -153,6 +157,7 @@ impl BearingRecord {
             rotor_race_displacement: Peak::NONE,
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
+            mount_parts: (part.mount_parts.any()).then_some(MountPeaks::NONE),
             whirl_turns: 0.0,
             travel: Travel::default(),
             impulse: 0.0,
@@ -379,31 +384,6 @@ impl BearingRecord {
                 for (record, value) in self.forces().into_iter().zip(values) {
                     record.raise(value, time);
                 }
-            }
-        }
-    }
-
-    pub(super) fn mount_of(&mut self, step: &mut Step<RotorMachine>) {
-        let outer = self.at.outer;
-        let end = |k: usize| step.end_state(outer + k);
-        let square = end(0) * end(0) + end(1) * end(1);
-        let record = self.mount_displacement.value;
-        if square < (NEAR_RECORD * record).powi(2) {
-            return;
-        }
-        let start = |k: usize| step.start_state(outer + k);
-        let outward = (
-            start(0) * start(2) + start(1) * start(3),
-            end(0) * end(2) + end(1) * end(3),
-        );
-        self.mount_displacement.raise(square.sqrt(), step.end);
-        if outward.0 > 0.0 && outward.1 < 0.0 {
-            for i in 1..8 {
-                let theta = f64::from(i) / 8.0;
-                let time = step.time(theta);
-                let state = step.leading_state(theta, outer + 2);
-                self.mount_displacement
-                    .raise(state[outer].hypot(state[outer + 1]), time);
             }
         }
     }

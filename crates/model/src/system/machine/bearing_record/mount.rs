@@ -1,0 +1,107 @@
+//! What is kept of the mount of an auxiliary bearing.
+
+use super::{BearingRecord, NEAR_RECORD};
+use crate::auxiliary_bearing::BearingAt;
+use crate::mount::WholeMount;
+use crate::system::machine::RotorMachine;
+use crate::system::sampling::Peak;
+use number::Vec2;
+use solve::Step;
+
+/// Largest values of the parts of a mount.
+#[derive(Clone, Copy, Debug)]
+pub struct MountPeaks {
+    /// Force of the friction ring, N.
+    pub ring: Peak,
+    /// Force of the squeeze film, N.
+    pub film: Peak,
+    /// Force of the hard stop, N.
+    pub stop: Peak,
+    /// Displacement of the housing, m.
+    pub housing_displacement: Peak,
+    /// Speed of the housing, m/s.
+    pub housing_speed: Peak,
+    /// When the stop is hit first, s: at the end of the step in which that is so.
+    pub first_stop: Option<f64>,
+}
+
+impl MountPeaks {
+    /// Nothing yet.
+    pub const NONE: MountPeaks = MountPeaks {
+        ring: Peak::NONE,
+        film: Peak::NONE,
+        stop: Peak::NONE,
+        housing_displacement: Peak::NONE,
+        housing_speed: Peak::NONE,
+        first_stop: None,
+    };
+
+    /// Takes what is larger at an instant, and says whether something comes near to its record.
+    fn raise(&mut self, mount: &WholeMount<f64>, at: &BearingAt, state: &[f64], time: f64) -> bool {
+        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
+        let motion = (pair(at.outer), pair(at.outer + 2));
+        let parts = mount.parts(motion, &state[at.of_mount()]);
+        let [displacement, speed] = parts.housing;
+        let records = [
+            (&mut self.ring, parts.ring),
+            (&mut self.film, parts.film),
+            (&mut self.stop, parts.stop),
+            (&mut self.housing_displacement, displacement),
+            (&mut self.housing_speed, speed),
+        ];
+        let mut near = false;
+        for (record, vector) in records {
+            let size = vector.length_squared().sqrt();
+            near |= size > NEAR_RECORD * record.value && size > 0.0;
+            record.raise(size, time);
+        }
+        if self.stop.value > 0.0 {
+            self.first_stop.get_or_insert(time);
+        }
+        near
+    }
+}
+
+impl BearingRecord {
+    pub(in super::super) fn mount_of(&mut self, step: &mut Step<RotorMachine>) {
+        self.mount_parts_of(step);
+        let outer = self.at.outer;
+        let end = |k: usize| step.end_state(outer + k);
+        let square = end(0) * end(0) + end(1) * end(1);
+        let record = self.mount_displacement.value;
+        if square < (NEAR_RECORD * record).powi(2) {
+            return;
+        }
+        let start = |k: usize| step.start_state(outer + k);
+        let outward = (
+            start(0) * start(2) + start(1) * start(3),
+            end(0) * end(2) + end(1) * end(3),
+        );
+        self.mount_displacement.raise(square.sqrt(), step.end);
+        if outward.0 > 0.0 && outward.1 < 0.0 {
+            for i in 1..8 {
+                let theta = f64::from(i) / 8.0;
+                let time = step.time(theta);
+                let state = step.leading_state(theta, outer + 2);
+                self.mount_displacement
+                    .raise(state[outer].hypot(state[outer + 1]), time);
+            }
+        }
+    }
+
+    /// The parts of the mount at the end of a step, and between where one of them comes near to its record.
+    fn mount_parts_of(&mut self, step: &mut Step<RotorMachine>) {
+        let Some(peaks) = &mut self.mount_parts else {
+            return;
+        };
+        let machine = step.machine;
+        let mount = &machine.one.bearings[self.bearing].mount;
+        let end = step.end;
+        if peaks.raise(mount, &self.at, step.state(1.0), end) {
+            for theta in [0.25, 0.5, 0.75] {
+                let time = step.time(theta);
+                peaks.raise(mount, &self.at, step.state(theta), time);
+            }
+        }
+    }
+}
