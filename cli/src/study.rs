@@ -10,7 +10,7 @@ use auxbear::report::study::{Directory, Done, chosen};
 use auxbear::run::Options;
 use auxbear::scenario::StudyFile;
 use auxbear::study::Study;
-use auxbear::study::answer::Answer;
+use auxbear::study::answer::{Answer, Sensitivity};
 use auxbear::study::selection::Candidate;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -85,6 +85,8 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
         ));
     }
     match done.complete {
+        // no member has results
+        true if done.failed == done.answer.members => Ok(Exit::Failed),
         true => Ok(Exit::Done),
         false => {
             let members = done.answer.members;
@@ -234,30 +236,103 @@ fn text(path: &Path, study: &Study, done: &Done) -> String {
         text.push_str(&format!("limits:\n{}", console::table(&limits)));
     }
     text.push_str(&ranking(study, answer));
+    text.push_str(&spreads(study, answer));
+    text.push_str(&sensitivities(study, answer));
+    text
+}
+
+/// The results that are shown with their spread; of a sweep its levels were chosen, and a mean says nothing.
+fn spreads(study: &Study, answer: &Answer) -> String {
     let shown = study.shown();
     let mut rows = vec![["  result", "mean", "deviation", "5 %", "95 %"].map(str::to_string)];
-    for (name, unit, spread) in answer
+    let found = answer
         .spreads
         .iter()
-        .filter(|spread| shown.contains(&spread.0))
-    {
+        .filter(|(name, ..)| shown.contains(name));
+    for (name, unit, spread) in found.filter(|_| study.file.kind != "sweep") {
         let Some(spread) = spread else { continue };
         let number = |value: f64| readable(value, unit);
-        let name = format!("  {}", name.replace(['_', '.'], " "));
+        let of = match spread.members < answer.members {
+            true => format!(" (of the {} that have it)", spread.members),
+            false => String::new(),
+        };
         rows.push([
-            name,
+            format!("  {}{of}", name.replace(['_', '.'], " ")),
             number(spread.mean),
             number(spread.standard_deviation),
             number(spread.quantiles[0]),
             number(spread.quantiles[2]),
         ]);
     }
-    if rows.len() > 1 {
-        let of = match study.file.kind {
-            "widened" => " of the wider distributions, which are not those of the machine",
-            _ => "",
+    let of = match study.file.kind {
+        "widened" => " of the wider distributions, which are not those of the machine",
+        _ => "",
+    };
+    match rows.len() {
+        1 => String::new(),
+        _ => format!("results{of}:\n{}", console::table(&rows)),
+    }
+}
+
+/// What each result owes to each input.
+fn sensitivities(study: &Study, answer: &Answer) -> String {
+    let inputs = || {
+        study
+            .file
+            .inputs
+            .iter()
+            .map(|input| input.vary.path.clone())
+    };
+    let banded = |value: f64, [low, high]: [f64; 2]| format!("{value:.3} ({low:.3} to {high:.3})");
+    let mut text = String::new();
+    for (name, unit, found) in &answer.sensitivity {
+        let name = name.replace(['_', '.'], " ");
+        let (head, rows): (String, Vec<[String; 3]>) = match found {
+            Sensitivity::Sweep(given, ranges) => {
+                let given = given.map_or("not known".to_string(), |value| readable(value, unit));
+                let rows = inputs().zip(ranges).filter_map(|(path, range)| {
+                    let [low, high] = (*range)?;
+                    Some([path, readable(low, unit), readable(high, unit)])
+                });
+                (
+                    format!("{name}, {given} as given; least and most over each input alone"),
+                    rows.collect(),
+                )
+            }
+            Sensitivity::Effects(effects) => {
+                let rows = inputs().zip(effects).filter_map(|(path, effect)| {
+                    let effect = effect.as_ref()?;
+                    Some([
+                        path,
+                        readable(effect.mean_size, unit),
+                        readable(effect.deviation, unit),
+                    ])
+                });
+                (
+                    format!("{name}: mean size and deviation of the effects of each input"),
+                    rows.collect(),
+                )
+            }
+            Sensitivity::Indices(indices) => {
+                let rows = inputs().zip(indices).map(|(path, index)| {
+                    let [first, total] = [&index.first, &index.total];
+                    [
+                        path,
+                        banded(first.value, first.band),
+                        banded(total.value, total.band),
+                    ]
+                });
+                (
+                    format!("{name}: Sobol indices, first order and total (95 % bands)"),
+                    rows.collect(),
+                )
+            }
         };
-        text.push_str(&format!("results{of}:\n{}", console::table(&rows)));
+        let rows: Vec<[String; 3]> = rows
+            .into_iter()
+            .map(|[path, a, b]| [format!("  {path}"), a, b])
+            .collect();
+        text.push_str(&format!("{head}:\n{}", console::table(&rows)));
     }
     text
 }

@@ -6,6 +6,7 @@ use crate::repository::{Outcome, Repository};
 use crate::shipped::{build_in, call, summary_in};
 use serde_json::Value;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Builds the command as the tests do, which saves a build, then runs it on every file of `scenarios/`.
 pub fn check(repository: &Repository) -> Outcome {
@@ -18,7 +19,7 @@ pub fn check(repository: &Repository) -> Outcome {
         return Outcome::new("", vec![format!("{}: {error}", folder.display())]);
     }
     let mut findings = Vec::new();
-    let files = in_order(repository);
+    let files: Vec<&str> = repository.below("scenarios/", "").collect();
     for file in &files {
         let copied = folder.join(file);
         let done = copied.parent().map(std::fs::create_dir_all);
@@ -29,30 +30,25 @@ pub fn check(repository: &Repository) -> Outcome {
             findings.push(format!("{file}: {error}"));
         }
     }
-    for file in files.iter().filter(|file| file.ends_with(".toml")) {
-        let name = Path::new(file).file_stem().unwrap_or_default();
-        let out = folder.join("runs").join(name);
-        let out = out.to_string_lossy();
-        let is_study = (repository.text(file)).is_some_and(|text| text.contains("auxbear.study/"));
-        if !is_study {
-            findings.extend(call(&folder, &program, &["check", file]));
-        }
-        let command = if is_study { "study" } else { "run" };
-        let run = [command, file, "--quiet", "--out", &out];
-        let found = call(&folder, &program, &run);
-        let early = ENDS_EARLY.iter().find(|(early, _)| early == file);
-        if early.is_none() {
-            findings.extend(found);
-        }
-        let summary = std::fs::read_to_string(Path::new(&*out).join("summary.json"));
-        let faults = summary.map_or_else(
-            |error| vec![format!("no summary: {error}")],
-            |text| faults_of(&text, early.map(|(_, end)| *end)),
-        );
-        let differences = summary_in(Path::new(&*out))
-            .map(|summary| golden::differences(repository, &name.to_string_lossy(), &summary));
-        let faults = faults.into_iter().chain(differences.unwrap_or_default());
-        findings.extend(faults.map(|fault| format!("{file}: {fault}")));
+    let (first, after): (Vec<&str>, Vec<&str>) = (files.iter().copied())
+        .filter(|file| file.ends_with(".toml"))
+        .partition(|file| !reads_others(repository, file));
+    for group in [first, after] {
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut found = Vec::new();
+            while let Some(file) = group.get(next.fetch_add(1, Ordering::Relaxed)) {
+                found.extend(run(repository, &folder, &program, file));
+            }
+            found
+        };
+        std::thread::scope(|scope| {
+            let workers = [(); AT_ONCE].map(|()| scope.spawn(work));
+            for worker in workers {
+                let found = worker.join();
+                findings.extend(found.unwrap_or_else(|_| vec!["a worker panicked".to_owned()]));
+            }
+        });
     }
     let opened = pages::faults(&folder, &program);
     let pages = match &opened {
@@ -71,15 +67,40 @@ pub fn check(repository: &Repository) -> Outcome {
     Outcome::new(seen, findings)
 }
 
-/// Everything in `scenarios/`; what reads the run directories of others comes last.
-fn in_order(repository: &Repository) -> Vec<&str> {
-    let mut files: Vec<&str> = repository.below("scenarios/", "").collect();
-    let reads_others = |file: &&str| {
-        let text = repository.text(file);
-        text.is_some_and(|text| text.contains("\"../runs/"))
-    };
-    files.sort_by_key(reads_others);
-    files
+/// Scenarios that run at the same time: most of them use one core.
+const AT_ONCE: usize = 2;
+
+/// Checks and runs a scenario, and compares what it writes.
+fn run(repository: &Repository, folder: &Path, program: &Path, file: &str) -> Vec<String> {
+    let mut findings = Vec::new();
+    let name = Path::new(file).file_stem().unwrap_or_default();
+    let out = folder.join("runs").join(name);
+    let is_study = (repository.text(file)).is_some_and(|text| text.contains("auxbear.study/"));
+    if !is_study {
+        findings.extend(call(folder, program, &["check", file]));
+    }
+    let command = if is_study { "study" } else { "run" };
+    let run = [command, file, "--quiet", "--out", &out.to_string_lossy()];
+    let found = call(folder, program, &run);
+    let early = ENDS_EARLY.iter().find(|(early, _)| *early == file);
+    if early.is_none() {
+        findings.extend(found);
+    }
+    let summary = std::fs::read_to_string(out.join("summary.json"));
+    let faults = summary.map_or_else(
+        |error| vec![format!("no summary: {error}")],
+        |text| faults_of(&text, early.map(|(_, end)| *end)),
+    );
+    let differences = summary_in(&out)
+        .map(|summary| golden::differences(repository, &name.to_string_lossy(), &summary));
+    let faults = faults.into_iter().chain(differences.unwrap_or_default());
+    findings.extend(faults.map(|fault| format!("{file}: {fault}")));
+    findings
+}
+
+/// Whether a scenario reads the run directories of others.
+fn reads_others(repository: &Repository, file: &str) -> bool {
+    (repository.text(file)).is_some_and(|text| text.contains("\"../runs/"))
 }
 
 /// Largest share of the energy turned over that the ledger of a shipped scenario may miss.

@@ -30,6 +30,7 @@ mod signals;
 mod signals_analysis;
 mod signals_files;
 mod speed_channel;
+mod studies;
 mod torque;
 mod validation;
 mod warnings;

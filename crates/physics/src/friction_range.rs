@@ -159,6 +159,9 @@ impl Friction<f64> {
 }
 
 /// The departures of several operating points, each quantity once: where it is largest.
+///
+/// Source: as [`Friction::departures`].
+/// Valid: always.
 pub fn farthest(departures: impl IntoIterator<Item = Departure>) -> Vec<Departure> {
     let mut list: Vec<Departure> = Vec::new();
     for departure in departures {

@@ -1,5 +1,5 @@
 //! What measurements hold: one folder a system.
 
-mod heed;
+pub(crate) mod heed;
 pub mod identify;
 pub mod signals;

@@ -2,10 +2,12 @@
 //!
 //! Unit and meaning of a column stand in its Arrow field metadata (`schema.field(i).metadata` in pyarrow) and once more
 //! as JSON under the file's key [`COLUMNS`], for readers that know nothing of Arrow. A value that is not a finite number is
-//! written as an empty cell and read back as not-a-number.
+//! written as an empty cell and read back as not-a-number. Pages of the format carry no checksum here: the key [`CHECKSUM`] has the
+//! CRC-32 of names, units, meanings and values of all columns and of what stands under other keys, and a reader compares it.
 
 use super::page::PageColumn;
 use crate::result::outcome::Column;
+use flate2::Crc;
 use measure::file::parquet::arrow_schema::{self, Field};
 use measure::file::parquet::{COLUMNS, Parquet};
 use measure::recording::{Content, FileError, Recording};
@@ -14,6 +16,7 @@ use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use serde::Serialize;
@@ -22,6 +25,8 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Key of the checksum, eight hexadecimal digits.
+const CHECKSUM: &str = "auxbear.crc32";
 /// Rows of a row group: a reader holds one of them at a time.
 const GROUP_ROWS: usize = 1 << 17;
 
@@ -135,12 +140,17 @@ fn properties(columns: &[View], more: Vec<KeyValue>) -> Result<WriterProperties,
         .collect();
     let about =
         serde_json::to_string(&about).map_err(|error| ParquetError::External(Box::new(error)))?;
+    let mut sum = Checksum::default();
+    for column in columns {
+        sum.column([column.name, column.unit, column.meaning], column.values);
+    }
     let mut keys = vec![
         KeyValue::new(
             arrow_schema::KEY.to_string(),
             arrow_schema::encoded(&fields),
         ),
         KeyValue::new(COLUMNS.to_string(), about),
+        KeyValue::new(CHECKSUM.to_string(), sum.text(&more)),
     ];
     keys.extend(more);
     Ok(WriterProperties::builder()
@@ -154,8 +164,70 @@ fn properties(columns: &[View], more: Vec<KeyValue>) -> Result<WriterProperties,
         .build())
 }
 
-/// Reads the columns of numbers; columns of another type are left out. A damaged one is an error.
+/// The checksum of a file on its way.
+#[derive(Default)]
+struct Checksum(Crc);
+
+impl Checksum {
+    fn texts(&mut self, texts: &[&str]) {
+        for text in texts {
+            self.0.update(text.as_bytes());
+            self.0.update(&[0]);
+        }
+    }
+
+    fn column(&mut self, texts: [&str; 3], values: &[f64]) {
+        self.texts(&texts);
+        for value in values {
+            let value = if value.is_finite() { *value } else { f64::NAN };
+            self.0.update(&value.to_bits().to_le_bytes());
+        }
+    }
+
+    fn text(mut self, more: &[KeyValue]) -> String {
+        for key in more {
+            self.texts(&[&key.key, key.value.as_deref().unwrap_or_default()]);
+        }
+        format!("{:08x}", self.0.sum())
+    }
+}
+
+/// Reads a file that this program wrote: its columns, if its checksum is right.
 pub(super) fn read(file: File, path: &Path) -> Result<Vec<PageColumn>, FileError> {
+    let wrong = |found: &str| {
+        let needed = "a file as auxbear writes it is needed";
+        FileError::new(path, "the checksum", found, needed)
+    };
+    let about = file.try_clone().map_err(ParquetError::from);
+    let about = about.and_then(SerializedFileReader::new);
+    let about = about.map_err(|error| wrong(&format!("cannot be read ({error})")))?;
+    let mut keys = about
+        .metadata()
+        .file_metadata()
+        .key_value_metadata()
+        .cloned()
+        .unwrap_or_default();
+    let given = keys
+        .iter()
+        .find(|key| key.key == CHECKSUM)
+        .and_then(|key| key.value.clone());
+    let given = given.ok_or_else(|| wrong("is not there"))?;
+    keys.retain(|key| ![arrow_schema::KEY, COLUMNS, CHECKSUM].contains(&key.key.as_str()));
+    let columns = columns_of(file, path)?;
+    let mut sum = Checksum::default();
+    for column in &columns {
+        sum.column(
+            [&column.name, &column.unit, &column.meaning],
+            &column.values,
+        );
+    }
+    match sum.text(&keys) == given {
+        true => Ok(columns),
+        false => Err(wrong("is not that of the values: the file is damaged")),
+    }
+}
+
+fn columns_of(file: File, path: &Path) -> Result<Vec<PageColumn>, FileError> {
     let mut file = Parquet::from_source(file, path)?;
     let channels = file.channels().to_vec();
     let mut columns = Vec::new();
@@ -235,9 +307,10 @@ mod tests {
 
     /// A run directory whose history was damaged on a disk made the report panic.
     #[test]
-    fn a_damaged_history_is_an_error_or_read_and_never_a_panic() {
+    fn a_flipped_bit_of_a_history_is_found() {
         let mut file = tempfile::tempfile().unwrap();
-        write(&file, &[column("time", "s", vec![0.5; 40])]).unwrap();
+        let values = (0..40).map(|k| 1.0 / f64::from(3 + k)).collect();
+        write(&file, &[column("time", "s", values)]).unwrap();
         std::io::Seek::rewind(&mut file).unwrap();
         let mut whole = Vec::new();
         std::io::Read::read_to_end(&mut file, &mut whole).unwrap();
@@ -247,17 +320,25 @@ mod tests {
             std::io::Seek::rewind(&mut file).unwrap();
             read(file, "history.parquet".as_ref())
         };
-        assert_eq!(try_read(&whole).unwrap().len(), 1);
+        let right = try_read(&whole).unwrap();
+        assert_eq!(right.len(), 1);
         for end in [0, 3, whole.len() / 2, whole.len() - 1] {
             assert!(try_read(&whole[..end]).is_err(), "{end}");
         }
+        let mut found = 0;
         for at in 0..whole.len() {
-            for value in [0, 0x7f, 0xff, whole[at] ^ 1] {
+            let bits = (0..8).map(|bit| whole[at] ^ (1 << bit));
+            for value in bits.chain([0, 0x7f, 0xff]) {
                 let mut changed = whole.clone();
                 changed[at] = value;
-                let _ = try_read(&changed);
+                // what stands in the file besides, such as statistics, may change unseen
+                match try_read(&changed) {
+                    Ok(columns) => assert_eq!(columns, right, "byte {at}"),
+                    Err(_) => found += 1,
+                }
             }
         }
+        assert!(found > 3 * whole.len(), "{found} of {}", 11 * whole.len());
     }
 
     #[test]

@@ -25,7 +25,7 @@ use study::share::{
 use units::{Dimension, Unit};
 
 /// The warning of runs that qualify no machine, and what is said instead of a verdict.
-const NO_QUALIFICATION: &str = "AB1095";
+pub(crate) const NO_QUALIFICATION: &str = "AB1095";
 const WITHHELD: &str = "no verdict where weight acts along the shaft: that motion and its force are not in this run (AB1095)";
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
@@ -137,16 +137,24 @@ pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
             None => ("", vec![None], "this run has no such result".to_string()),
         };
         let judged = judge(limit, unit, &values, &why);
-        match no_qualification && judged.verdict != Verdict::Fail {
-            true => Judged {
-                verdict: Verdict::Undecided,
-                why: WITHHELD.to_string(),
-                ..judged
-            },
+        match no_qualification {
+            true => withheld(judged),
             false => judged,
         }
     };
     limits.iter().map(judged).collect()
+}
+
+/// A verdict of runs that qualify no machine: what is broken stays so.
+pub(crate) fn withheld(judged: Judged) -> Judged {
+    match judged.verdict {
+        Verdict::Fail => judged,
+        Verdict::Pass | Verdict::Undecided => Judged {
+            verdict: Verdict::Undecided,
+            why: WITHHELD.to_string(),
+            ..judged
+        },
+    }
 }
 
 /// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while
@@ -203,6 +211,7 @@ pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &st
                 Some(value) => (Verdict::Fail, reason(*value)),
             }
         }
+        (0, _) => (Verdict::Undecided, why.to_string()),
         (_, share) if share >= 1.0 => of_all(members, hold, open, why),
         (_, share) => of_share(share, members, hold, open, why),
     };

@@ -344,6 +344,11 @@ impl Stop {
     pub fn complete(&self) -> bool {
         ["finished", "still turning"].contains(&self.reason)
     }
+
+    /// True where the user ended it.
+    pub fn interrupted(&self) -> bool {
+        self.reason == "interrupted"
+    }
 }
 
 /// Work of a run, all members together.

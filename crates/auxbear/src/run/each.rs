@@ -1,9 +1,9 @@
 //! Many single runs of scenarios that differ.
 
-use crate::options::Options;
+use crate::options::{Options, bounded};
 use crate::problem::Problem;
 use crate::result::outcome::{Single, Stop};
-use crate::run::build;
+use crate::run::{build, known};
 use crate::scenario::{Scenario, System};
 use crate::simulate::drop::each::{self, One};
 use rayon::prelude::*;
@@ -25,7 +25,11 @@ fn not_built(problem: &Problem) -> Single {
 /// why. The numbers of one depend on its scenario alone.
 pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Single> {
     let all = || of_pool(scenarios, options);
-    let pool = (options.threads).map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build());
+    let pool = (options.threads).map(|n| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(bounded(n))
+            .build()
+    });
     match pool {
         Some(Ok(pool)) => pool.install(all),
         // the machine refuses more threads: the shared pool gives the same numbers
@@ -73,7 +77,9 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
         progress: &progress,
         ..*options
     };
-    for (place, single) in places.into_iter().zip(each::run(&drops, &plan)) {
+    let singles = each::run(&drops, &plan).into_iter().zip(&drops);
+    for (place, (mut single, one)) in places.into_iter().zip(singles) {
+        single.warnings = known::with_those_before(one.scenario, &one.drop, single.warnings);
         list[place] = Some(single);
     }
     list.into_iter().flatten().collect()

@@ -8,14 +8,15 @@
 mod before;
 mod cutoff;
 mod each;
+mod known;
 
 use crate::analyse::{identify, signals};
 use crate::evaluate::{rotor, torque};
-pub use crate::options::Options;
+pub use crate::options::{Options, bound_threads};
 use crate::problem::Problem;
 use crate::result::limits;
+use crate::result::outcome::Quantity;
 pub use crate::result::outcome::{self, Outcome};
-use crate::result::outcome::{Quantity, Warning};
 use crate::scenario::{CoastDown, Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{coast_down, drop, rig, spin_up};
 pub use each::each;
@@ -41,7 +42,7 @@ enum Built<'a> {
     Signals(Arc<signals::Asked>),
     Rig(&'a Rig, Box<rig::build::Built>),
     Identify(Box<identify::Asked<'a>>),
-    Rotor(Box<rotor::Asked<'a>>),
+    Rotor(Arc<rotor::Asked>),
     CoastDown(&'a CoastDown, Box<coast_down::build::Built>),
 }
 
@@ -63,7 +64,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
         System::CoastDown(of) => {
             coast_down::build::run_out(of).map(|built| Built::CoastDown(of, Box::new(built)))
         }
-        System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Box::new(asked))),
+        System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Arc::new(asked))),
         System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
@@ -80,24 +81,11 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     Ok(machine)
 }
 
-/// Backward whirl, a rotor that reaches what stands around it, a race or a contact that gets hot.
-const DESTRUCTION: [&str; 6] = ["AB1014", "AB2030", "AB2300", "AB2301", "AB2310", "AB2311"];
-
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
         let mut outcome = self.computed(options);
-        let mut before = self.warnings();
-        before.retain(|warning| {
-            outcome
-                .warnings
-                .iter()
-                .all(|other| other.code != warning.code)
-        });
-        outcome.warnings.splice(0..0, before);
-        // what destroys stands above what is doubtful
-        let destroys = |warning: &Warning| DESTRUCTION.contains(&warning.code);
-        outcome.warnings.sort_by_key(|warning| !destroys(warning));
+        outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
         outcome.limits = limits::of(&self.scenario.limits, &outcome);
         outcome
     }
@@ -109,7 +97,7 @@ impl Machine<'_> {
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
             Built::Identify(asked) => identify::run(self.scenario, asked, options),
-            Built::Rotor(asked) => rotor::run(self.scenario, asked),
+            Built::Rotor(asked) => rotor::run(self.scenario, asked, options),
             Built::CoastDown(of, built) => coast_down::run(self.scenario, of, built, options),
             Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
         }

@@ -350,6 +350,10 @@ pub(crate) fn one(
             let found = format!("{} values", values.len());
             return Err(problem(Code::OutOfRange, found, &needed));
         }
+        if !(values[count - 1] - values[0]).is_finite() {
+            let needed = "a difference that is a number is needed";
+            return Err(problem(Code::OutOfRange, given.text(), needed));
+        }
         Ok(values)
     };
     let distribution = match word.as_str() {
@@ -475,9 +479,9 @@ pub(crate) fn of_part(
     } else {
         let numbers: Option<Vec<(f64, Option<Dimension>)>> = list.iter().map(number).collect();
         let numbers = numbers.ok_or_else(|| problem(Code::UnreadableQuantity))?;
-        let rising = numbers
-            .windows(2)
-            .all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 == pair[1].1);
+        let rising = numbers.windows(2).all(|pair| {
+            (0.0..f64::INFINITY).contains(&(pair[1].0 - pair[0].0)) && pair[0].1 == pair[1].1
+        });
         match (word.as_str(), numbers.as_slice()) {
             ("uniform", [(low, of), (high, _)]) if rising => {
                 (Distribution::Uniform(*low, *high), *of)

@@ -102,17 +102,21 @@ impl Study {
         };
         let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
-            let decisive = self.decisive(table, &limit.quantity);
+            let decisive = self.decisive(table, &limit.quantity, limit.bound);
             let values: Vec<Option<f64>> = some.iter().map(|at| decisive[*at]).collect();
             let unit = unit.map_or("", |known| known.unit);
-            match design {
+            let mut found = match design {
                 Design::Widened(..) => {
                     let members = some.iter().map(|at| table.members[*at]);
                     let weights = members.map(|k| design.weight(self.file.seed, k));
                     rare(limit, unit, &values, &weights.collect::<Vec<_>>())
                 }
                 _ => limit_of(limit, unit, &values, is_sample),
+            };
+            if table.warns(limits::NO_QUALIFICATION) {
+                found.judged = limits::withheld(found.judged);
             }
+            found
         });
         let sensitivity = self.shown().into_iter().filter_map(|name| {
             let unit = named.clone().find(|known| known.name == name)?.unit;
@@ -227,7 +231,9 @@ fn limit_of(
 ) -> StudyLimit {
     let mut judged = limits::judge(limit, unit, values, LACKING);
     let known = values.iter().flatten().count();
-    if !is_sample {
+    if values.is_empty() {
+        judged.why = "no member has run yet".to_string();
+    } else if !is_sample {
         let broken = known - judged.hold;
         judged.verdict = match (broken, values.len() - known) {
             (0, 0) => Verdict::Pass,

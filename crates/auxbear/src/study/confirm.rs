@@ -1,7 +1,7 @@
 //! Members that lie nearest to a limit, run again at design accuracy: both values are kept, and design decides.
 
 use super::Study;
-use super::table::{Column, Table};
+use super::table::{Column, LATE, Table};
 use crate::run::Options;
 
 /// What columns of results at design accuracy begin with.
@@ -27,7 +27,8 @@ impl Study {
     /// Runs members at design accuracy. None where this was interrupted.
     pub fn confirmed(&self, members: &[usize], options: &Options) -> Option<Table> {
         let accuracy = ("run.accuracy".to_string(), "design".to_string());
-        self.run_with(members, &[accuracy], options)
+        let table = self.run_with(members, &[accuracy], options);
+        (table.members.len() == members.len()).then_some(table)
     }
 
     /// Adds the results at design accuracy that limits and ranking ask for, beside those of screening.
@@ -38,32 +39,43 @@ impl Study {
         names.sort_unstable();
         names.dedup();
         for name in names {
-            let Some(column) = confirmed.column(&name) else {
-                continue;
-            };
-            let mut values = vec![f64::NAN; table.members.len()];
-            for (member, value) in confirmed.members.iter().zip(&column.values) {
-                if let Ok(row) = table.members.binary_search(member) {
-                    values[row] = *value;
+            for late in ["", LATE] {
+                let Some(column) = confirmed.column(&format!("{late}{name}")) else {
+                    continue;
+                };
+                let mut values = vec![f64::NAN; table.members.len()];
+                for (member, value) in confirmed.members.iter().zip(&column.values) {
+                    if let Ok(row) = table.members.binary_search(member) {
+                        values[row] = *value;
+                    }
                 }
+                table.columns.push(Column {
+                    name: format!("{CONFIRMED}{late}{name}"),
+                    unit: column.unit.clone(),
+                    meaning: format!("{} at design accuracy", column.meaning),
+                    values,
+                });
             }
-            table.columns.push(Column {
-                name: format!("{CONFIRMED}{name}"),
-                unit: column.unit.clone(),
-                meaning: format!("{name} at design accuracy"),
-                values,
-            });
         }
     }
 
-    /// A result of each member: at design accuracy where that was confirmed.
-    pub(super) fn decisive(&self, table: &Table, name: &str) -> Vec<Option<f64>> {
-        let screening = table.values(name);
-        match table.column(&format!("{CONFIRMED}{name}")) {
-            None => screening,
-            Some(column) => (column.values.iter().zip(screening))
-                .map(|(design, screening)| design.is_finite().then_some(*design).or(screening))
-                .collect(),
-        }
+    /// A result of each member: at design accuracy where that was confirmed. An instant that did not come while a run lasted is infinite
+    /// where that is past a bound: whenever it comes, it is beyond it.
+    pub(super) fn decisive(&self, table: &Table, name: &str, bound: f64) -> Vec<Option<f64>> {
+        let of = |begin: &str| -> Vec<Option<f64>> {
+            let late = table.values(&format!("{begin}{LATE}{name}")).into_iter();
+            let late = late.map(|lasted| (lasted? > bound).then_some(f64::INFINITY));
+            let values = table.values(&format!("{begin}{name}"));
+            values
+                .into_iter()
+                .zip(late)
+                .map(|(value, late)| value.or(late))
+                .collect()
+        };
+        let design = of(CONFIRMED).into_iter();
+        design
+            .zip(of(""))
+            .map(|(design, screening)| design.or(screening))
+            .collect()
     }
 }

@@ -20,11 +20,9 @@ use crate::run::{self, Options};
 use crate::scenario::{Scenario, StudyFile};
 use ::study::design::Coordinate;
 use rayon::prelude::*;
-use std::ops::Range;
-use std::sync::atomic::Ordering;
 use table::{Column, Row, Table};
 
-/// Members of a part, which is kept when all of it is computed.
+/// Members of a part.
 pub const PART: usize = 64;
 
 /// Runs a scenario with each of these lists of changes, paths with their values as an override has them: a row each, results
@@ -43,29 +41,29 @@ pub fn evaluate(
         return Err(problem.clone());
     }
     let numbered = (0..changes.len()).map(|k| (k, Vec::new()));
-    Ok(table_of(&scenarios, numbered, Vec::new(), options))
+    let table = table_of(&scenarios, numbered, Vec::new(), options);
+    Ok((table.members.len() == changes.len()).then_some(table))
 }
 
-/// Runs scenarios; each with its number and its inputs becomes a row.
+/// Runs scenarios; each with its number and its inputs becomes a row, but those that were interrupted.
 fn table_of(
     scenarios: &[Result<Scenario, Box<Problem>>],
     numbered: impl Iterator<Item = (usize, Vec<f64>)>,
     inputs: Vec<Column>,
     options: &Options,
-) -> Option<Table> {
-    let singles = run::each(scenarios, options);
-    if options.interrupt.load(Ordering::Relaxed) {
-        return None;
-    }
-    let rows = numbered.zip(singles).map(|((member, inputs), single)| Row {
+) -> Table {
+    let singles = numbered.zip(run::each(scenarios, options));
+    let ended = singles.filter(|(_, single)| !single.stop.interrupted());
+    let rows = ended.map(|((member, inputs), single)| Row {
         member,
         inputs,
         whole: single.stop.complete(),
+        time: single.stop.time,
         why: (!single.stop.complete()).then_some(single.stop.text),
         results: single.quantities,
         warnings: single.warnings,
     });
-    Some(Table::of(inputs, rows.collect()))
+    Table::of(inputs, rows.collect())
 }
 
 /// A study that is ready to run.
@@ -163,18 +161,13 @@ impl Study {
         self.file.scenario.with(&self.drawn(k).values)
     }
 
-    /// Runs some members. None where this was interrupted.
-    pub fn run(&self, members: Range<usize>, options: &Options) -> Option<Table> {
-        self.run_with(&members.collect::<Vec<_>>(), &[], options)
+    /// Runs some members, with results in the order of a run; where this was interrupted those that had ended.
+    pub fn run(&self, members: &[usize], options: &Options) -> Table {
+        self.run_with(members, &[], options)
     }
 
-    /// Runs some members with values that all of them have besides. None where this was interrupted.
-    fn run_with(
-        &self,
-        members: &[usize],
-        all: &[(String, String)],
-        options: &Options,
-    ) -> Option<Table> {
+    /// Runs some members with values that all of them have besides.
+    fn run_with(&self, members: &[usize], all: &[(String, String)], options: &Options) -> Table {
         let drawn: Vec<Drawn> = members.iter().map(|k| self.drawn(*k)).collect();
         let read = |drawn: &Drawn| {
             let values = drawn.values.iter().chain(all).cloned();
@@ -183,7 +176,14 @@ impl Study {
         let scenarios: Vec<_> = drawn.par_iter().map(read).collect();
         let inputs = drawn.into_iter().map(|drawn| drawn.numbers);
         let numbered = members.iter().copied().zip(inputs);
-        table_of(&scenarios, numbered, self.input_columns(), options)
+        let table = table_of(&scenarios, numbered, self.input_columns(), options);
+        self.in_order(table)
+    }
+
+    /// A table with its results in the order of a run.
+    pub fn in_order(&self, table: Table) -> Table {
+        let names = self.known.iter().map(|known| known.name.as_str());
+        table.ordered(&names.collect::<Vec<_>>())
     }
 
     /// Columns of the inputs, without values.

@@ -68,7 +68,7 @@ impl Study {
             let own = members.filter(|(_, member)| **member / draws == candidate);
             own.map(|(row, _)| row).collect()
         };
-        let ranked = self.decisive(table, name);
+        let ranked = self.decisive(table, name, f64::INFINITY);
         let count = self.members() / draws;
         let all: Vec<Vec<usize>> = (0..count).map(rows).collect();
         let mut found: Vec<Candidate> = (all.iter().enumerate())
@@ -115,7 +115,7 @@ impl Study {
         };
         let limits: Vec<Judged> = (self.file.limits.iter())
             .map(|limit| {
-                let values = of(&self.decisive(table, &limit.quantity));
+                let values = of(&self.decisive(table, &limit.quantity, limit.bound));
                 limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING)
             })
             .collect();

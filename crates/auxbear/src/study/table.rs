@@ -36,11 +36,15 @@ pub(super) struct Row {
     pub member: usize,
     pub inputs: Vec<f64>,
     pub whole: bool,
+    /// How long it lasted, s.
+    pub time: f64,
     pub why: Option<String>,
     pub results: Vec<Quantity>,
     pub warnings: Vec<Warning>,
 }
 
+/// What a column begins with that has the time until which an instant did not come in a run that ended as planned, s.
+pub const LATE: &str = "late.";
 /// What a column begins with that is 1 for members with a warning of that code.
 const WARNING: &str = "warning.";
 
@@ -96,27 +100,17 @@ impl Table {
                     Value::None { .. } => f64::NAN,
                     Value::List(_) | Value::Text(_) => continue,
                 };
-                let known = table
-                    .columns
-                    .iter()
-                    .position(|column| column.name == result.name);
-                let at = known.unwrap_or_else(|| {
-                    table.columns.push(Column {
-                        name: result.name.clone(),
-                        unit: result.unit.to_string(),
-                        meaning: result.law.to_string(),
-                        values: Vec::new(),
-                    });
-                    table.columns.len() - 1
-                });
                 // results of a run that ended early are those of another question
                 let value = if row.whole { value } else { f64::NAN };
-                let before = table.members.len() - 1;
-                table.columns[at].values.resize(before, f64::NAN);
-                table.columns[at].values.push(value);
+                table.set(&result.name, result.unit, result.law, value);
+                if result.awaited && value.is_nan() && row.whole {
+                    let meaning = "the run ended before it came";
+                    table.set(&format!("{LATE}{}", result.name), "s", meaning, row.time);
+                }
             }
             for warning in &row.warnings {
-                table.warn(warning.code);
+                let name = format!("{WARNING}{}", warning.code);
+                table.set(&name, "", explain::title(warning.code), 1.0);
             }
             let count = table.members.len();
             for column in &mut table.columns {
@@ -126,22 +120,37 @@ impl Table {
         table
     }
 
-    /// The last member has a warning.
-    fn warn(&mut self, code: &str) {
-        let name = format!("{WARNING}{code}");
+    /// The last member has a value in a column, which begins with it where there is none yet.
+    fn set(&mut self, name: &str, unit: &str, meaning: &str, value: f64) {
         let known = self.columns.iter().position(|column| column.name == name);
         let at = known.unwrap_or_else(|| {
             self.columns.push(Column {
-                name,
-                unit: String::new(),
-                meaning: explain::title(code).to_string(),
+                name: name.to_string(),
+                unit: unit.to_string(),
+                meaning: meaning.to_string(),
                 values: Vec::new(),
             });
             self.columns.len() - 1
         });
         let values = &mut self.columns[at].values;
         values.resize(self.members.len() - 1, f64::NAN);
-        values.push(1.0);
+        values.push(value);
+    }
+
+    /// Whether some member has a warning.
+    pub fn warns(&self, code: &str) -> bool {
+        self.column(&format!("{WARNING}{code}")).is_some()
+    }
+
+    /// The same with the members in their order.
+    pub fn sorted(mut self) -> Table {
+        let mut order: Vec<usize> = (0..self.members.len()).collect();
+        order.sort_by_key(|row| self.members[*row]);
+        self.members = order.iter().map(|row| self.members[*row]).collect();
+        for column in &mut self.columns {
+            column.values = order.iter().map(|row| column.values[*row]).collect();
+        }
+        self
     }
 
     /// What members warn of, the gravest first.

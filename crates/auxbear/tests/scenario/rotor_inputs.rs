@@ -170,3 +170,44 @@ fn a_machine_without_auxiliary_bearings_names_their_table() {
         "{told}"
     );
 }
+
+#[test]
+fn a_grade_scales_the_unbalances_of_all_planes_together() {
+    let text = shipped("rotor_overhung.toml");
+    let number = |outcome: &Outcome, name: &str| {
+        let found = outcome.quantities.iter().find(|q| q.name == name);
+        match found.unwrap_or_else(|| panic!("{name}")).value {
+            auxbear::result::outcome::Value::Number(number) => number,
+            ref other => panic!("{name}: {other:?}"),
+        }
+    };
+    let given = parsed(&text, &[]).unwrap();
+    let auxbear::scenario::System::Rotor(rotor) = &given.system else {
+        panic!("it is a rotor");
+    };
+    let sum: f64 = rotor
+        .model
+        .rotor
+        .unbalance
+        .iter()
+        .map(|plane| plane.amount)
+        .sum();
+    let (plain, graded) = (
+        analysed(&given),
+        analysed(&parsed(&text, &["rotor.balance_grade=6.3 mm/s"]).unwrap()),
+    );
+    // Σ|U| Ω/m = G, and a linear response goes with the unbalance
+    let factor = 6.3e-3 * number(&plain, "mass") / (rotor.speed * sum);
+    for name in [
+        "response.wheel.rated_amplitude",
+        "force.wheel_end.rated_amplitude",
+    ] {
+        let ratio = number(&graded, name) / number(&plain, name);
+        assert!(
+            (ratio / factor - 1.0).abs() < 1e-9,
+            "{name}: {ratio} {factor}"
+        );
+    }
+    let told = parsed(SHORT, &["rotor.balance_grade=6.3 mm/s"]).unwrap_err();
+    assert!(told.contains("[[rotor.unbalance]]"), "{told}");
+}

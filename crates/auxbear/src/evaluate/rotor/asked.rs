@@ -23,8 +23,8 @@ const MAPPED: usize = 5;
 const DEFLECTIONS: usize = 4;
 
 /// A rotor with what its analyses need.
-pub(crate) struct Asked<'a> {
-    pub(crate) analysis: &'a RotorAnalysis,
+pub(crate) struct Asked {
+    pub(crate) analysis: RotorAnalysis,
     /// All modes of the free rotor.
     pub(crate) full: Basis,
     pub(crate) matrices: Matrices,
@@ -69,9 +69,9 @@ pub(crate) struct Found {
     pub(crate) receptance_error: Option<f64>,
 }
 
-impl<'a> Asked<'a> {
+impl Asked {
     /// Everything wrong with what is asked is told here.
-    pub(crate) fn of(analysis: &'a RotorAnalysis) -> Result<Self, Box<Problem>> {
+    pub(crate) fn of(analysis: &RotorAnalysis) -> Result<Self, Box<Problem>> {
         let rotor = &analysis.model.rotor;
         let matrices = Matrices::new(rotor);
         let full = Basis::full(rotor, &matrices).map_err(|error| no_answer(error, "rotor"))?;
@@ -122,7 +122,7 @@ impl<'a> Asked<'a> {
             return Err(Box::new(problem.on_key("rotor.support")));
         }
         let this = Self {
-            analysis,
+            analysis: analysis.clone(),
             full,
             matrices,
             within,
@@ -253,7 +253,7 @@ impl<'a> Asked<'a> {
     }
 
     fn find(&self) -> Result<Found, RotorError> {
-        let (asked, rotor) = (self.analysis, self.rotor());
+        let (asked, rotor) = (&self.analysis, self.rotor());
         let followed = asked.frequency_to.max(asked.speed_to);
         let diagram = self.within.campbell(&asked.speeds(), followed)?;
         let criticals = self.within.criticals(&diagram)?;
@@ -487,6 +487,11 @@ impl Curve<'_> {
         for k in 1..self.speeds.len().saturating_sub(1) {
             let [before, here, after] = [k - 1, k, k + 1].map(|at| self.of(&self.responses[at]));
             if before < 0.0 || after < 0.0 || here <= before || here < after {
+                continue;
+            }
+            // speeds lie within half a width of each critical speed: one between the neighbours is that of the peak
+            let near = self.speeds[k - 1]..=self.speeds[k + 1];
+            if criticals.iter().any(|one| near.contains(&one.speed)) {
                 continue;
             }
             let Some(peak) = self.peak(k) else { continue };

@@ -9,15 +9,30 @@ pub(crate) mod levitated;
 pub(crate) mod quantities;
 pub(crate) mod warnings;
 
+use crate::analyse::heed::{INTERRUPTED, heed};
 pub(crate) use crate::evaluate::rotor::asked::Asked;
 use crate::evaluate::rotor::asked::{Found, Motion, sense};
+use crate::options::Options;
 use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
 use crate::scenario::Scenario;
+use rotor::RotorError;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Computes everything and names it.
-pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
-    let found = asked.found();
+pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
+    let own = Arc::clone(asked);
+    // an eigenproblem knows of no interrupt: its thread is left
+    let waited = heed(options.interrupt, move || {
+        own.found();
+        Ok(())
+    });
+    let interrupted = waited.is_err_and(|why| why == INTERRUPTED);
+    let nothing = Err(RotorError::NotConverged);
+    let found = match interrupted {
+        true => &nothing,
+        false => asked.found(),
+    };
     // limits have asked for it before this run
     let clock = Instant::now();
     let (history, quantities, stop) = match found {
@@ -28,6 +43,15 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
                 reason: "finished",
                 time: 0.0,
                 text: "Everything asked for was computed.".to_string(),
+            },
+        ),
+        Err(_) if interrupted => (
+            Vec::new(),
+            Vec::new(),
+            Stop {
+                reason: INTERRUPTED,
+                time: 0.0,
+                text: "Interrupted before the analysis had an answer.".to_string(),
             },
         ),
         Err(error) => (
@@ -56,7 +80,8 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         stop,
         work: Work {
             members: 1,
-            seconds: asked.seconds() + clock.elapsed().as_secs_f64(),
+            seconds: if interrupted { 0.0 } else { asked.seconds() }
+                + clock.elapsed().as_secs_f64(),
             ..Work::default()
         },
         members: Members::default(),

@@ -19,7 +19,7 @@ pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
     reduction(&mut list, asked, found);
     drawing::name(&mut list, &asked.analysis.model);
     if let Some(levitated) = &asked.levitated {
-        levitated::name(&mut list, asked.analysis, levitated);
+        levitated::name(&mut list, &asked.analysis, levitated);
     }
     list.0
 }
@@ -62,7 +62,7 @@ pub(crate) fn whirl_word(whirl: Whirl) -> &'static str {
 }
 
 fn criticals(list: &mut List, asked: &Asked, found: &Found) {
-    let analysis = asked.analysis;
+    let analysis = &asked.analysis;
     let all = &found.criticals;
     let none = "no mode whirls once a turn up to analysis.speed_to".to_string();
     let first = all.iter().find(|one| one.mode.whirl != Whirl::Backward);

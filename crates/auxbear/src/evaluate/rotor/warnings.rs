@@ -10,7 +10,7 @@ use units::number_text;
 const REDUCTION: f64 = 1e-5;
 
 pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
-    let analysis = asked.analysis;
+    let analysis = &asked.analysis;
     let mut out: Vec<Warning> = (asked.levitated.iter())
         .flat_map(|own| levitated::warned(analysis, own))
         .collect();

@@ -1,8 +1,9 @@
 //! A study directory: `study.toml`, `scenario.toml`, `members/NNNN.parquet`, then `members.csv`, `summary.json`, `report.html`.
 //!
-//! Each part of the members is a file that gets its name when it is whole, so whatever ends the program, the next call goes on
-//! where files are missing. The directory is locked while a process works on it.
+//! Each part of the members is a file that gets its name when it is written, and a part of an interrupted call has those members that had
+//! ended: whatever ends the program, the next call computes the members that are missing. The directory is locked while a process works on it.
 
+mod bars;
 mod cells;
 mod page;
 mod parallel;
@@ -13,6 +14,7 @@ mod summary;
 pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
+use crate::options::bounded;
 use crate::problem::{Code, Problem};
 use crate::run::Options;
 use crate::scenario::StudyFile;
@@ -112,8 +114,13 @@ impl Directory {
             text_file(&known, &headed(&study.file))?;
         }
         let parts = part_count(&study);
-        let there = (0..parts).filter(|part| part_path(path, *part).exists());
-        let there = there.map(|part| members_of(&study, part).len()).sum();
+        let there = (0..parts)
+            .map(|part| part_path(path, part))
+            .filter(|part| part.exists());
+        let there: Vec<usize> = there
+            .map(|part| part::count(&part))
+            .collect::<Result<_, _>>()?;
+        let there = there.into_iter().sum();
         Ok(Directory {
             path: path.to_path_buf(),
             study,
@@ -132,53 +139,74 @@ impl Directory {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Done, Box<Problem>> {
         let open = self.open_parts()?;
-        let threads = options.threads.unwrap_or_else(rayon::current_num_threads);
+        let threads = options
+            .threads
+            .map_or_else(rayon::current_num_threads, bounded);
         let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
-        let mut done = self.study.members()
-            - open
-                .iter()
-                .map(|part| members_of(&self.study, *part).len())
-                .sum::<usize>();
+        let mut done = self.there;
         for parts in open.chunks(at_once) {
-            let count: usize = parts
-                .iter()
-                .map(|part| members_of(&self.study, *part).len())
-                .sum();
+            let mut kept: Vec<Table> = (parts.iter())
+                .map(|part| self.part_there(*part))
+                .collect::<Result<_, _>>()?;
+            let lacking: Vec<usize> = (parts.iter().zip(&kept))
+                .flat_map(|(part, kept)| {
+                    members_of(&self.study, *part).filter(|member| !kept.members.contains(member))
+                })
+                .collect();
             let plan = Options {
-                progress: &|fraction| progress(done as f64 + fraction * count as f64),
+                progress: &|fraction| progress(done as f64 + fraction * lacking.len() as f64),
                 ..*options
             };
-            for tables in self.computed(parts, &plan).into_iter().flatten() {
-                let (part, table) = tables;
-                let place = part_path(&self.path, part);
-                aside(&place, |file| {
+            // of an interrupted run those that had ended
+            let fresh = self.study.run(&lacking, &plan);
+            for (part, kept) in parts.iter().zip(&mut kept) {
+                let members = members_of(&self.study, *part);
+                let of_part = |member: &usize| members.contains(member);
+                let begin = fresh.members.iter().position(of_part).unwrap_or(0);
+                let count = fresh
+                    .members
+                    .iter()
+                    .filter(|member| of_part(member))
+                    .count();
+                if count == 0 {
+                    continue;
+                }
+                kept.append(fresh.part(begin..begin + count));
+                let table = self.study.in_order(std::mem::take(kept).sorted());
+                aside(&part_path(&self.path, *part), |file| {
                     part::write(file, &table).map_err(super::directory::io_error)
                 })?;
             }
+            done += fresh.members.len();
             if options.interrupt.load(Ordering::Relaxed) {
                 break;
             }
-            done += count;
             progress(done as f64);
         }
         self.finish(options)
     }
 
-    /// Parts that are not there. One that the design has grown beyond is computed anew, with the same numbers.
+    /// Parts of which members are not there.
     ///
     /// # Errors
     /// Parts that cannot be read.
     pub fn open_parts(&self) -> Result<Vec<usize>, Box<Problem>> {
         let mut open: Vec<usize> = Vec::new();
         for part in 0..part_count(&self.study) {
-            let wanted = members_of(&self.study, part);
-            let place = part_path(&self.path, part);
-            let whole = place.exists() && part::count(&place)? == wanted.len();
-            if !whole {
+            if self.part_there(part)?.members.len() < members_of(&self.study, part).len() {
                 open.push(part);
             }
         }
         Ok(open)
+    }
+
+    /// The members of a part that are there.
+    fn part_there(&self, part: usize) -> Result<Table, Box<Problem>> {
+        let place = part_path(&self.path, part);
+        match place.exists() {
+            true => part::read(&place, &self.study, &members_of(&self.study, part)),
+            false => Ok(Table::default()),
+        }
     }
 
     /// Takes a part as [`part`] computed it elsewhere.
@@ -188,16 +216,14 @@ impl Directory {
     pub fn put(&self, part: usize, bytes: &[u8]) -> Result<(), Box<Problem>> {
         let place = part_path(&self.path, part);
         aside(&place, |mut file| file.write_all(bytes))?;
-        let found = part::read(&place, &self.study);
         let wanted = members_of(&self.study, part);
-        let fits = |table: &Table| table.members.iter().copied().eq(wanted);
-        match found {
-            Ok(table) if fits(&table) => Ok(()),
+        match part::read(&place, &self.study, &wanted) {
+            Ok(table) if table.members.len() == wanted.len() => Ok(()),
             other => {
                 let _ = fs::remove_file(&place);
                 Err(match other {
                     Err(problem) => problem,
-                    Ok(_) => part::damaged(&place, "other members than those of this part"),
+                    Ok(_) => part::damaged(&place, "a part without some of its members"),
                 })
             }
         }
@@ -223,7 +249,9 @@ impl Directory {
             return Ok(());
         }
         let place = confirmed_path(&self.path);
-        if place.exists() && part::read(&place, &self.study)?.members == near {
+        if place.exists()
+            && part::read(&place, &self.study, &(0..self.study.members()))?.members == near
+        {
             return Ok(());
         }
         let quiet = Options {
@@ -236,30 +264,6 @@ impl Directory {
                 part::write(file, &table).map_err(super::directory::io_error)
             }),
         }
-    }
-
-    /// Some parts, computed together where they follow each other. None where this was interrupted.
-    fn computed(&self, parts: &[usize], options: &Options) -> Option<Vec<(usize, Table)>> {
-        let follow = parts.windows(2).all(|pair| pair[0] + 1 == pair[1]);
-        let members = |part: usize| members_of(&self.study, part);
-        if !follow {
-            let each = |part: &usize| {
-                let table = self.study.run(members(*part), options)?;
-                let all = 0..table.members.len();
-                Some((*part, table.part(all)))
-            };
-            return parts.iter().map(each).collect();
-        }
-        let (first, last) = (*parts.first()?, *parts.last()?);
-        let all = self
-            .study
-            .run(members(first).start..members(last).end, options)?;
-        let begin = members(first).start;
-        let cut = |part: usize| {
-            let range = members(part);
-            (part, all.part(range.start - begin..range.end - begin))
-        };
-        Some(parts.iter().copied().map(cut).collect())
     }
 
     /// Reads all parts and writes what they say.
@@ -292,8 +296,11 @@ pub fn part(
     part: usize,
     options: &Options,
 ) -> Option<Result<Vec<u8>, Box<Problem>>> {
-    let table = study.run(members_of(study, part), options)?;
-    let table = table.part(0..table.members.len());
+    let members: Vec<usize> = members_of(study, part).collect();
+    let table = study.run(&members, options);
+    if table.members.len() < members.len() {
+        return None;
+    }
     let mut bytes = Vec::new();
     let written = part::write(&mut bytes, &table).map(|()| bytes);
     Some(written.map_err(|error| part::damaged(Path::new(MEMBERS), error.to_string())))
@@ -314,7 +321,10 @@ fn table_of(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
     let mut table = screened(path, study)?;
     let confirmed = confirmed_path(path);
     if confirmed.exists() {
-        study.with_confirmed(&mut table, &part::read(&confirmed, study)?);
+        study.with_confirmed(
+            &mut table,
+            &part::read(&confirmed, study, &(0..study.members()))?,
+        );
     }
     Ok(table)
 }
@@ -325,13 +335,10 @@ fn screened(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
     for part in 0..part_count(study) {
         let place = part_path(path, part);
         if place.exists() {
-            table.append(part::read(&place, study)?);
+            table.append(part::read(&place, study, &members_of(study, part))?);
         }
     }
-    let names: Vec<&str> = (study.known.iter())
-        .map(|known| known.name.as_str())
-        .collect();
-    Ok(table.ordered(&names))
+    Ok(study.in_order(table))
 }
 
 /// The study as it stood in its directory, with the blocks that were added; refused where it is another.

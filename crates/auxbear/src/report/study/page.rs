@@ -1,5 +1,6 @@
 //! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
 
+use super::bars::{Bars, WIDTH, bars, picture, room};
 use super::cells::{amount, rows, scaled, short};
 use super::{parallel, ranking};
 use crate::report::page::{STYLE, escape_text as plain};
@@ -204,6 +205,16 @@ fn spreads(study: &Study, answer: &Answer) -> String {
         "smallest",
         "largest",
     ];
+    // levels of a sweep were chosen: a mean of them says nothing
+    let shown_cells: &[usize] = match study.file.design {
+        Design::Sweep(_) => &[0, 1, 7, 8],
+        _ => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+    };
+    let head: Vec<&str> = shown_cells.iter().map(|at| head[*at]).collect();
+    let row = |spread: &_| {
+        let cells: Vec<String> = row(spread)?;
+        Some(shown_cells.iter().map(|at| cells[*at].clone()).collect())
+    };
     let of = |own: bool| -> Vec<Vec<String>> {
         answer
             .spreads
@@ -277,17 +288,7 @@ fn figure(svg: &str) -> String {
     format!("<figure>{svg}</figure>\n")
 }
 
-const WIDTH: f64 = 620.0;
 const HEIGHT: f64 = 300.0;
-
-fn picture(height: f64, draw: impl FnOnce(&mut String)) -> String {
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" font-size=\"12\" fill=\"#22303c\">\n"
-    );
-    draw(&mut svg);
-    svg.push_str("</svg>");
-    svg
-}
 
 fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
     Panel {
@@ -297,21 +298,6 @@ fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
         height: HEIGHT - 84.0,
         x,
         y,
-    }
-}
-
-/// Range of values with room on both sides.
-fn room(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values
-        .filter(|v| v.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
-    let size = low.abs().max(high.abs());
-    match high - low {
-        width if width > 1e-9 * size => (low - 0.04 * width, high + 0.04 * width),
-        _ if size > 0.0 && size.is_finite() => (low - 0.05 * size, high + 0.05 * size),
-        _ => (-1.0, 1.0),
     }
 }
 
@@ -499,7 +485,7 @@ fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
         Sensitivity::Indices(indices) => {
             let rows: Vec<Bars> = (paths.iter().zip(indices))
                 .map(|(path, index)| Bars {
-                    name: path,
+                    name: format!("{path} {:.2}, {:.2}", index.first.value, index.total.value),
                     bars: vec![
                         (0.0, index.first.value, Some(index.first.band), DOT),
                         (0.0, index.total.value, Some(index.total.band), TOTAL),
@@ -508,7 +494,7 @@ fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
                 .collect();
             bars(
                 &rows,
-                "Sobol indices with 95 % bands: blue first order, orange total",
+                "Sobol indices, 95 % bands: first order blue, total orange",
                 "share of the variance",
             )
         }
@@ -517,7 +503,7 @@ fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
             let rows: Vec<Bars> = (paths.iter().zip(ranges))
                 .filter_map(|(path, range)| {
                     range.map(|[low, high]| Bars {
-                        name: path,
+                        name: path.to_string(),
                         bars: vec![(factor * low, factor * high, None, DOT)],
                     })
                 })
@@ -532,68 +518,4 @@ fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
             bars(&rows, &title, &label)
         }
     }
-}
-
-/// Bars of one input: from, to, band, colour.
-struct Bars<'a> {
-    name: &'a str,
-    bars: Vec<(f64, f64, Option<[f64; 2]>, &'static str)>,
-}
-
-fn bars(rows: &[Bars], title: &str, label: &str) -> String {
-    let ends = rows.iter().flat_map(|row| {
-        row.bars.iter().flat_map(|(from, to, band, _)| {
-            [*from, *to]
-                .into_iter()
-                .chain(band.iter().flatten().copied())
-        })
-    });
-    let row_height = 34.0;
-    let height = 96.0 + row_height * rows.len() as f64;
-    let axes = Panel {
-        left: 230.0,
-        top: 32.0,
-        width: WIDTH - 250.0,
-        height: height - 84.0,
-        x: room(ends),
-        y: (0.0, 1e9),
-    };
-    picture(height, |svg| {
-        let (top, bottom) = (axes.top, axes.top + axes.height);
-        // ticks of the values alone: the rows have names
-        let mut own = String::new();
-        axes.axes(&mut own, title, label, "");
-        svg.push_str(
-            &own.lines()
-                .filter(|line| !line.contains("text-anchor=\"end\""))
-                .map(|line| format!("{line}\n"))
-                .collect::<String>(),
-        );
-        for (k, row) in rows.iter().enumerate() {
-            let y = top + (bottom - top) * (k as f64 + 0.5) / rows.len() as f64;
-            text(svg, axes.left - 8.0, y + 4.0, "end", &plain(row.name));
-            let thick = 18.0 / row.bars.len() as f64;
-            for (at, (from, to, band, colour)) in row.bars.iter().enumerate() {
-                let (a, b) = (axes.place(*from, 0.0).0, axes.place(*to, 0.0).0);
-                let y = y - 9.0 + thick * at as f64;
-                let _ = writeln!(
-                    svg,
-                    "<rect x=\"{:.1}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{colour}\" fill-opacity=\"0.6\"/>",
-                    a.min(b),
-                    (b - a).abs().max(1.0),
-                    thick - 1.0
-                );
-                if let Some([low, high]) = band {
-                    let middle = y + thick / 2.0 - 0.5;
-                    line(
-                        svg,
-                        (axes.place(*low, 0.0).0, middle),
-                        (axes.place(*high, 0.0).0, middle),
-                        "#22303c",
-                        "stroke-width=\"1.2\"",
-                    );
-                }
-            }
-        }
-    })
 }

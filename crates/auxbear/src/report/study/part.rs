@@ -12,6 +12,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
+use std::ops::Range;
 use std::path::Path;
 
 /// The key of the file under which the reasons of failed members stand, as JSON.
@@ -50,8 +51,8 @@ fn opened(path: &Path) -> Result<SerializedFileReader<File>, Box<Problem>> {
     SerializedFileReader::new(file).map_err(|error| damaged(path, error.to_string()))
 }
 
-/// Reads a part back.
-pub(super) fn read(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
+/// Reads a part back, which has members of a range alone, rising.
+pub(super) fn read(path: &Path, study: &Study, own: &Range<usize>) -> Result<Table, Box<Problem>> {
     let about = opened(path)?;
     let keys = about.metadata().file_metadata().key_value_metadata();
     let reasons = keys.and_then(|keys| keys.iter().find(|key| key.key == FAILED));
@@ -81,6 +82,10 @@ pub(super) fn read(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
         .eq(wanted.iter().map(|column| &column.name))
     {
         return Err(damaged(path, "other inputs than those of this study"));
+    }
+    let rise = table.members.windows(2).all(|pair| pair[0] < pair[1]);
+    if !rise || !table.members.iter().all(|member| own.contains(member)) {
+        return Err(damaged(path, "other members than those of this part"));
     }
     Ok(table)
 }

@@ -272,6 +272,15 @@ pub(crate) const KEYS: &[Key] = &[
     .default("0 s", "a shaft of one piece has little; a built-up one must be judged")
     .only(SHAFT),
     Key::new(
+        "rotor.balance_grade",
+        Kind::Quantity("m/s"),
+        "2.5 mm/s",
+        "Balance quality grade G of ISO 21940-11: all amounts of [[rotor.unbalance]] are scaled by one factor until their sum times rotor.speed over the mass of the rotor is this.",
+    )
+    .positive()
+    .optional("the amounts of [[rotor.unbalance]] count as they are")
+    .only(SHAFT),
+    Key::new(
         "gravity.acceleration",
         Kind::Quantity("m/s^2"),
         "9.81 m/s^2",

@@ -2,6 +2,7 @@
 
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::key::quoted;
+use crate::scenario::rotor::grade;
 use crate::scenario::rotor::levitation::{self, LevitationModel};
 use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts::Part;
@@ -138,6 +139,7 @@ pub(crate) fn model(parts: &[Part], values: &Values) -> Built<RotorModel> {
             phase: part.needed("phase"),
         });
     }
+    grade::scale(&mut rotor, values)?;
     let nodes = places.names.iter();
     let nodes = nodes.filter_map(|(name, at)| Some((name.clone(), mesh.node(*at)?)));
     let disk_sizes = of("disk");

@@ -1,6 +1,7 @@
 //! A bent rotor with what carries it, and what is asked of it.
 
 pub(crate) mod build;
+mod grade;
 pub(crate) mod keys;
 pub(crate) mod levitation;
 pub(crate) mod part_keys;

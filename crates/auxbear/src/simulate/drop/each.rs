@@ -19,8 +19,8 @@ use std::sync::{Arc, Mutex};
 
 /// A drop that is ready to run.
 pub(crate) struct One<'a> {
-    scenario: &'a Scenario,
-    drop: Drop,
+    pub scenario: &'a Scenario,
+    pub drop: Drop,
     built: Built,
     machine: Arc<RotorMachine>,
     stepping: Stepping,

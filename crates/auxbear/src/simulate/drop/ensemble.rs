@@ -3,6 +3,7 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
+use crate::options::bounded;
 use crate::simulate::drop::feedback::{Following, Now, Warmed};
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
@@ -110,13 +111,15 @@ fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
         progress: plan.progress,
     };
     let chunk = |members: &[Member]| side_by_side(members, plan, &report);
-    let threads = plan.threads.unwrap_or_else(rayon::current_num_threads);
+    let threads = plan
+        .threads
+        .map_or_else(rayon::current_num_threads, bounded);
     let together = together(members.len(), Level::detect().lanes(), threads);
     let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
     match plan.threads {
         _ if members.len() <= together => chunk(members),
         None => all(),
-        Some(threads) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+        Some(_) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
             Ok(pool) => pool.install(all),
             // the machine refuses more threads: the shared pool gives the same numbers
             Err(_) => all(),

@@ -13,6 +13,7 @@ mod magnets_in_time;
 pub(crate) mod members;
 pub(crate) mod method;
 mod mount;
+mod mount_results;
 pub(crate) mod orders;
 pub(crate) mod quantities;
 mod returns;

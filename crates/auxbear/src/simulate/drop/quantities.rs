@@ -8,7 +8,7 @@ use crate::scenario::axial_share;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::bearing::warm;
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::{magnets, mount, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, mount_results, shaft_results, surfaces};
 use model::system::energy::Content;
 use model::system::layout::of_part;
 use std::f64::consts::PI;
@@ -187,7 +187,7 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     let force = record.largest_mount_force.value;
     list.number("peak_mount_force", "N", Ok(force), &MOUNT_FORCE);
 
-    mount::name(record, &context.given(k).mount, list);
+    mount_results::name(record, &context.given(k).mount, list);
 
     // displacements and whirl
     list.number(
@@ -416,7 +416,7 @@ const SAFETY: Origin = Origin {
 };
 const MOUNT_FORCE: Origin = Origin {
     law: "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
-    source: mount::SOURCE,
+    source: mount_results::SOURCE,
     valid: "force of the outer race on its housing",
 };
 const PER_AREA: Origin = Origin {

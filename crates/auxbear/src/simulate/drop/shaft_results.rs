@@ -249,39 +249,6 @@ pub(crate) fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
     })
 }
 
-/// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
-pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
-    let given = context.drop.shaft.as_ref()?;
-    let z = given.model.rotor.nodes[given.places[k].node];
-    let side = |at: f64| {
-        let there = (given.model.pieces.iter()).map(|piece| &piece.layer);
-        let there = there.filter(|layer| layer.from < at && at < layer.to);
-        let outer = there.map(|layer| {
-            let share = (at - layer.from) / (layer.to - layer.from);
-            layer.start.outer + (layer.end.outer - layer.start.outer) * share
-        });
-        outer.fold(0.0, f64::max)
-    };
-    let sides = [z - BESIDE, z + BESIDE].map(side);
-    let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
-    let shaft = shaft.fold(f64::INFINITY, f64::min);
-    let bore = context.given(k).contact.bore_diameter;
-    (shaft.is_finite() && shaft > bore).then(|| {
-        warning(
-            "AB2033",
-            format!(
-                "The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and \
-                 friction acts at the radius of the bore.",
-                1e3 * shaft,
-                1e3 * bore
-            ),
-        )
-    })
-}
-
-/// Beside a node, m.
-const BESIDE: f64 = 1e-6;
-
 /// A mode of the levitated rotor near the speed at which it is released, with its amplification.
 pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
     let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);

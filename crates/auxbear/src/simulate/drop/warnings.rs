@@ -11,7 +11,7 @@ use crate::simulate::bearing::warnings as shared;
 use crate::simulate::drop::context::Context;
 use crate::simulate::drop::quantities::residuals;
 use crate::simulate::drop::run_out::After;
-use crate::simulate::drop::{magnets, method, mount, shaft_results, surfaces};
+use crate::simulate::drop::{magnets, method, mount_results, shaft_results, surfaces};
 use crate::simulate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 
@@ -114,7 +114,7 @@ pub(crate) fn of(
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
         list.extend(judged(contexts, |member| {
-            mount::stopped(member, k).into_iter().collect()
+            mount_results::stopped(member, k).into_iter().collect()
         }));
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));
         list.extend(judged(contexts, |member| {
@@ -167,9 +167,6 @@ pub(crate) fn of(
         let graded =
             |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
         residual.and_then(graded).into_iter().collect()
-    }));
-    list.extend(each(&|k| {
-        shaft_results::thick(context, k).into_iter().collect()
     }));
     list.extend(shaft_results::few_modes(context));
     list.extend(shaft_results::stiff(context));

@@ -319,14 +319,34 @@ fn a_run_with_limits_tells_its_whole_time() {
     let System::Rotor(analysis) = &scenario.system else {
         panic!("a rotor");
     };
-    let asked = Asked::of(analysis).unwrap();
+    let asked = std::sync::Arc::new(Asked::of(analysis).unwrap());
+    let never = std::sync::atomic::AtomicBool::new(false);
     let clock = std::time::Instant::now();
     assert!(asked.found().is_ok());
     let before = clock.elapsed().as_secs_f64();
-    let told = super::super::run(&scenario, &asked).work.seconds;
+    let told = super::super::run(
+        &scenario,
+        &asked,
+        &crate::options::Options::unwatched(&never),
+    )
+    .work
+    .seconds;
     let whole = clock.elapsed().as_secs_f64();
     assert!(
         told > 0.9 * before && told <= whole,
         "{before} {told} {whole}"
     );
+}
+
+#[test]
+fn an_interrupted_analysis_is_left_at_once() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let asked = std::sync::Arc::new(Asked::of(analysis).unwrap());
+    let interrupt = std::sync::atomic::AtomicBool::new(true);
+    let options = crate::options::Options::unwatched(&interrupt);
+    let outcome = super::super::run(&scenario, &asked, &options);
+    assert!(outcome.stop.interrupted() && outcome.quantities.is_empty());
 }

@@ -1,0 +1,172 @@
+//! Studies that are interrupted, late or damaged: nothing is lost, nothing is judged that is not there.
+
+use auxbear::report::study::{Directory, Done};
+use auxbear::result::outcome::Verdict;
+use auxbear::run::Options;
+use auxbear::scenario::{StudyFile, template};
+use auxbear::study::Study;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use tempfile::TempDir;
+
+const STUDY: &str = r#"format = "auxbear.study/1"
+scenario = "drop.toml"
+set = ["run.duration=8 ms", "run.accuracy=screening"]
+seed = 3
+[design]
+kind = "monte carlo"
+members = 130
+[[input]]
+path = "contact.friction_coefficient"
+lognormal = 0.2
+[[limit]]
+quantity = "first_impact_force"
+most = "1 N"
+[question]
+results = ["first_impact_force", "inner_race_time_to_50_percent"]
+"#;
+
+fn folder(study: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("study.toml"), study).unwrap();
+    fs::write(folder.path().join("drop.toml"), template("drop").unwrap()).unwrap();
+    folder
+}
+
+fn directory(folder: &Path, out: &str) -> Directory {
+    let study = Study::new(StudyFile::read(&folder.join("study.toml")).unwrap()).unwrap();
+    Directory::open(&folder.join(out), study, 0).unwrap()
+}
+
+/// Runs it until a share of its members is there.
+fn until(folder: &Path, out: &str, share: f64) -> Done {
+    let interrupt = AtomicBool::new(share == 0.0);
+    let stop = |there: f64| {
+        if there >= share * 130.0 {
+            interrupt.store(true, Ordering::Relaxed);
+        }
+    };
+    let options = Options {
+        threads: Some(1),
+        interrupt: &interrupt,
+        progress: &|_| {},
+    };
+    directory(folder, out).run(&options, &stop).unwrap()
+}
+
+fn whole(folder: &Path, out: &str) -> Done {
+    until(folder, out, f64::INFINITY)
+}
+
+fn table(folder: &Path, out: &str) -> String {
+    fs::read_to_string(folder.join(out).join("members.csv")).unwrap()
+}
+
+#[test]
+fn what_had_ended_when_a_study_is_interrupted_is_kept() {
+    let folder = folder(STUDY);
+    let path = folder.path();
+    let none = until(path, "none", 0.0);
+    assert_eq!(none.answer.members, 0);
+    // without a member nothing passes and nothing fails
+    assert_eq!(none.answer.limits[0].judged.verdict, Verdict::Undecided);
+
+    whole(path, "straight");
+    let mut there = 0;
+    for share in [0.2, 0.6] {
+        let some = until(path, "cut", share);
+        assert!(
+            there < some.answer.members && some.answer.members < 130,
+            "{share}: {}",
+            some.answer.members
+        );
+        there = some.answer.members;
+        assert!(!some.complete);
+        assert_eq!(directory(path, "cut").there, there);
+    }
+    assert!(there % 64 != 0, "a block is kept in part");
+    assert!(whole(path, "cut").complete);
+    assert_eq!(table(path, "cut"), table(path, "straight"));
+    let parts = |out: &str| fs::read(path.join(out).join("members/0001.parquet")).unwrap();
+    assert!(parts("cut") == parts("straight"));
+}
+
+#[test]
+fn an_instant_that_does_not_come_is_judged_as_in_a_single_run() {
+    let limit = "quantity = \"inner_race_time_to_50_percent\"";
+    for (bound, verdict) in [("5 ms", Verdict::Fail), ("50 ms", Verdict::Undecided)] {
+        let text = STUDY.replace(
+            "quantity = \"first_impact_force\"\nmost = \"1 N\"",
+            &format!("{limit}\nmost = \"{bound}\""),
+        );
+        let folder = folder(&text.replace("members = 130", "members = 4"));
+        let done = whole(folder.path(), "out");
+        let judged = &done.answer.limits[0].judged;
+        assert_eq!(judged.verdict, verdict, "{bound}: {}", judged.why);
+    }
+}
+
+#[test]
+fn damaged_and_foreign_parts_are_found() {
+    let folder = folder(STUDY);
+    let path = folder.path();
+    whole(path, "out");
+    let part = |number: usize| path.join(format!("out/members/{number:04}.parquet"));
+    let refused = || {
+        let told =
+            directory(path, "out").run(&Options::unwatched(&AtomicBool::new(false)), &|_| {});
+        told.err()
+            .map(|problem| problem.to_string())
+            .unwrap_or_default()
+    };
+    let first = fs::read(part(0)).unwrap();
+    let second = fs::read(part(1)).unwrap();
+    fs::write(part(1), &first).unwrap();
+    assert!(
+        refused().contains("other members than those of this part"),
+        "{}",
+        refused()
+    );
+    for at in (4..second.len()).step_by(second.len() / 40) {
+        let mut flipped = second.clone();
+        flipped[at] ^= 1;
+        fs::write(part(1), &flipped).unwrap();
+        let told = match Directory::open(
+            &path.join("out"),
+            Study::new(StudyFile::read(&path.join("study.toml")).unwrap()).unwrap(),
+            0,
+        ) {
+            Ok(open) => open
+                .run(&Options::unwatched(&AtomicBool::new(false)), &|_| {})
+                .err()
+                .map(|problem| problem.to_string()),
+            Err(problem) => Some(problem.to_string()),
+        };
+        match told {
+            Some(told) => assert!(told.contains("AB2205"), "byte {at}: {told}"),
+            // what stands in the file besides the values
+            None => {
+                fs::write(part(1), &second).unwrap();
+                let flipped_table = table(path, "out");
+                whole(path, "out");
+                assert_eq!(flipped_table, table(path, "out"), "byte {at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sweep_of_an_inclined_shaft_has_no_verdict() {
+    let text = STUDY
+        .replace(
+            "run.duration=8 ms",
+            "run.duration=8 ms\", \"gravity.acceleration=9 m/s^2",
+        )
+        .replace("members = 130", "members = 4");
+    let text = text.replace("most = \"1 N\"", "most = \"1 MN\"");
+    let folder = folder(&text);
+    let judged = whole(folder.path(), "out").answer.limits[0].judged.clone();
+    assert_eq!(judged.verdict, Verdict::Undecided);
+    assert!(judged.why.contains("AB1095"), "{}", judged.why);
+}
