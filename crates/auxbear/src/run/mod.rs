@@ -128,6 +128,11 @@ impl Machine<'_> {
                 once.repeat.count = 1;
                 self.dropped(&once, built, &[], &options)
             }
+            // what it finds has names of its own, and is kept for the run
+            Built::Rotor(asked) => {
+                let never = AtomicBool::new(false);
+                rotor::run(self.scenario, asked, &Options::unwatched(&never))
+            }
             _ => self.computed(&options),
         };
         outcome.quantities

@@ -128,6 +128,15 @@ pub enum System {
     CoastDown(Box<CoastDown>),
 }
 
+/// Speeds with which inner races turn.
+const SPEEDS_OF_BEARINGS: [&str; 5] = [
+    "rotor.speed",
+    "drive.rotor_speed",
+    "drive.final_speed",
+    "rig.speed",
+    "torque.speed_to",
+];
+
 impl System {
     /// Its name.
     pub fn name(&self) -> SystemName {
@@ -152,6 +161,12 @@ impl System {
         file: &str,
     ) -> Result<System, Box<Problem>> {
         let values = &all[0];
+        for own in all {
+            for path in SPEEDS_OF_BEARINGS {
+                let pitch = own.number("bearing.pitch_diameter").unwrap_or_default();
+                own.holds_together(path, own.number(path).unwrap_or_default(), 0.5 * pitch)?;
+            }
+        }
         let context = checks::Context { values, file };
         let system = match document.system {
             SystemName::Drop => {

@@ -87,7 +87,38 @@ pub(crate) struct Values {
     pub(crate) without_effect: Vec<&'static str>,
 }
 
+/// Surface speed that no rotor reaches, m/s.
+const FASTEST_SURFACE: f64 = 2000.0;
+
 impl Values {
+    /// Refuses a speed at which a radius, m, would move faster than any rotor holds together.
+    pub(crate) fn holds_together(
+        &self,
+        path: &str,
+        speed: f64,
+        radius: f64,
+    ) -> Result<(), Box<Problem>> {
+        let surface = speed.abs() * radius;
+        if surface <= FASTEST_SURFACE {
+            return Ok(());
+        }
+        let found = format!(
+            "{}, at which a radius of {} mm moves with {surface:.1e} m/s",
+            self.text(path).unwrap_or_default(),
+            units::number_text((1e6 * radius).round() * 1e-3)
+        );
+        let needed = format!(
+            "at most {FASTEST_SURFACE} m/s is possible: steel bursts below 600 m/s, composites below 1500 m/s"
+        );
+        Err(Box::new(self.problem(
+            Code::OutOfRange,
+            path,
+            self.place(path),
+            found,
+            needed,
+        )))
+    }
+
     pub(crate) fn problem(
         &self,
         code: Code,

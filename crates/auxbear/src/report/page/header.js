@@ -197,6 +197,7 @@ const RANGES = [
   ["AB1097", "hard stop of the mount hit"],
   ["AB1001", "rotor bends: taken as rigid"],
   ["AB2031", "too few modes for impacts"],
+  ["AB2033", "shaft thicker than the bore"],
 ];
 
 function rangeTile(run) {

@@ -109,9 +109,6 @@ impl Shaft {
             .map(|own| node(own, &model))
             .collect::<Result<Vec<_>, _>>()?;
         lands(all, &nodes, &model)?;
-        for (own, node) in all.iter().zip(&nodes) {
-            goes_through(own, *node, &model)?;
-        }
         let shares = shares(&model, &nodes);
         let places = (all.iter().zip(&nodes).zip(shares))
             .map(|((own, node), share)| BearingPlace {
@@ -138,46 +135,6 @@ impl Shaft {
     /// Mass, centre and inertia of the rotor.
     pub fn properties(&self) -> Properties {
         properties(&self.model.rotor)
-    }
-}
-
-/// Beside a node, m.
-const BESIDE: f64 = 1e-6;
-
-/// The shaft must go through the bore of an auxiliary bearing; at a step the thinner side counts.
-fn goes_through(values: &Values, node: usize, model: &RotorModel) -> Result<(), Box<Problem>> {
-    const PATH: &str = "contact.bore_diameter";
-    let z = model.rotor.nodes[node];
-    let side = |at: f64| {
-        let layers = model.pieces.iter().map(|piece| &piece.layer);
-        let there = layers.filter(|layer| layer.from < at && at < layer.to);
-        let outer = there.map(|layer| {
-            let share = (at - layer.from) / (layer.to - layer.from);
-            layer.start.outer + (layer.end.outer - layer.start.outer) * share
-        });
-        outer.fold(0.0, f64::max)
-    };
-    let sides = [z - BESIDE, z + BESIDE].map(side);
-    let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
-    let shaft = shaft.fold(f64::INFINITY, f64::min);
-    match values.number(PATH) {
-        Some(bore) if shaft.is_finite() && shaft > bore => {
-            let found = format!(
-                "{} around a shaft that is {:.1} mm thick there",
-                values.text(PATH).unwrap_or_default(),
-                1e3 * shaft
-            );
-            let needed = "a bore that the shaft goes through is needed".to_string();
-            let place = values.place(PATH);
-            Err(Box::new(values.problem(
-                Code::Conflict,
-                PATH,
-                place,
-                found,
-                needed,
-            )))
-        }
-        _ => Ok(()),
     }
 }
 

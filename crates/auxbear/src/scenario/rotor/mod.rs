@@ -137,6 +137,13 @@ impl RotorAnalysis {
                 "one is needed: speed_to in [analysis], or --set analysis.speed_to=\"18000 rpm\"",
             );
         }
+        let outer = |piece: &DrawnPiece| piece.layer.start.outer.max(piece.layer.end.outer);
+        let radius = 0.5 * self.model.pieces.iter().map(outer).fold(0.0, f64::max);
+        let path = match values.text(SPEED_TO) {
+            Some(_) => SPEED_TO,
+            None => "rotor.speed",
+        };
+        values.holds_together(path, self.speed_to, radius)?;
         if self.speed_to <= self.speed_from {
             let found = text(SPEED_TO, self.speed_to, "rad/s");
             return refuse(SPEED_TO, found, "more than analysis.speed_from is needed");

@@ -345,3 +345,36 @@ const BASIS: Origin = Origin {
     source: "Rubin 1975 (from memory), crates/rotor/src/basis.rs",
     valid: "a higher rotor.cutoff shows what is left out",
 };
+
+/// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
+pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
+    let given = context.drop.shaft.as_ref()?;
+    let z = given.model.rotor.nodes[given.places[k].node];
+    let side = |at: f64| {
+        let there = (given.model.pieces.iter()).map(|piece| &piece.layer);
+        let there = there.filter(|layer| layer.from < at && at < layer.to);
+        let outer = there.map(|layer| {
+            let share = (at - layer.from) / (layer.to - layer.from);
+            layer.start.outer + (layer.end.outer - layer.start.outer) * share
+        });
+        outer.fold(0.0, f64::max)
+    };
+    let sides = [z - BESIDE, z + BESIDE].map(side);
+    let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
+    let shaft = shaft.fold(f64::INFINITY, f64::min);
+    let bore = context.given(k).contact.bore_diameter;
+    (shaft.is_finite() && shaft > bore).then(|| {
+        warning(
+            "AB2033",
+            format!(
+                "The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and \
+                 friction acts at the radius of the bore.",
+                1e3 * shaft,
+                1e3 * bore
+            ),
+        )
+    })
+}
+
+/// Beside a node, m.
+const BESIDE: f64 = 1e-6;

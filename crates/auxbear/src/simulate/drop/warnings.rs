@@ -168,6 +168,9 @@ pub(crate) fn of(
             |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
         residual.and_then(graded).into_iter().collect()
     }));
+    list.extend(each(&|k| {
+        shaft_results::thick(context, k).into_iter().collect()
+    }));
     list.extend(shaft_results::few_modes(context));
     list.extend(shaft_results::stiff(context));
     list.extend(
