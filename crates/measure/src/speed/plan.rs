@@ -1,6 +1,6 @@
 //! From pulses, or from samples of a speed, to the nodes of a track: noises, densities, knots.
 
-use super::matrix::{Memory, N};
+use super::matrix::{Memory, N, Vector};
 use super::node::{Belief, Fresh, Node, Sight, moving};
 use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
@@ -226,20 +226,20 @@ impl Knots {
     /// an even acceleration jumps by its mean, one that rises or falls evenly has the jerk of twice the mean over the length.
     /// It does not follow the density: a clutch whose torque rises evenly is as quiet between its knots as it is loud at
     /// them.
-    fn added(&self, knot: Knot) -> [f64; 4] {
+    fn added(&self, knot: Knot) -> [f64; N] {
         let length = self.lock - self.engage;
         let acceleration = self.change / length;
         let jerk = (STEEPEST * acceleration / length).powi(2);
         match knot {
-            Knot::Soft => [0.0; 4],
-            Knot::Kink => [0.0, 0.0, 0.0, jerk],
-            Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk],
+            Knot::Soft => [0.0; N],
+            Knot::Kink => [0.0, 0.0, 0.0, jerk, 0.0],
+            Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk, 0.0],
         }
     }
 
     /// The same for the engagement: a start that is less steady than the whole change may reach the mean acceleration before the
     /// first mark.
-    fn started(&self) -> [f64; 4] {
+    fn started(&self) -> [f64; N] {
         let mut added = self.added(self.start);
         if let Some(head) = &self.head
             && self.start != Knot::Soft
@@ -316,10 +316,11 @@ impl Plan {
 
     fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
-        let mut joints: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
+        let mut joints: Vec<(f64, Option<[f64; N]>)> = Vec::new();
         let first = passages[0];
+        let mut before = first;
         let mut start = match data.channel {
-            true => shown(first.value, data.pitch),
+            true => shown(data, passages, &self.noise.memory),
             false => moving(first.value, first.speed, data.pitch),
         };
         let clock = self.noise.memory.spread * self.noise.memory.spread;
@@ -366,13 +367,14 @@ impl Plan {
                         Sight::mark(passage.value, self.noise.variance(passage), passage.speed)
                     }
                 }),
-                added: None,
-                fresh: (passed > 0).then_some(Fresh {
+                added: (passed > 0 && data.channel).then(|| unseen(&before, passage, data.pitch)),
+                fresh: (passed > 0 && !data.channel).then_some(Fresh {
                     angle: passage.value,
                     speed: passage.speed,
                     pitch: data.pitch,
                 }),
             });
+            before = *passage;
         }
         (nodes, start)
     }
@@ -442,15 +444,34 @@ fn forward_only(pass: &Pass, variance: f64) -> f64 {
         .ln()
 }
 
+/// What may differ between a motion of which hardly anything is known and the speed that is shown, as parts of the largest speed.
+const OPEN: Vector = [0.0, 0.3, 0.1, 0.03, 0.3];
+
+/// Variance added where a channel shows nothing between two passages: the motion behind does not follow from that before, and the
+/// angle between by the mean of both speeds, off by the half of their difference.
+fn unseen(before: &Passage, behind: &Passage, largest: f64) -> [f64; N] {
+    let mut added = OPEN.map(|part| (part * largest).powi(2));
+    added[0] = (0.5 * (behind.time - before.time) * (behind.speed - before.speed)).powi(2);
+    added
+}
+
 /// Belief before the first sample of a speed: no angle is counted yet, and of the motion hardly more is known than what it
-/// shows.
-fn shown(value: f64, largest: f64) -> Belief {
+/// shows. Its middle is the straight line through the first passages: what is far from it would be known by large differences only.
+fn shown(data: &Data, passages: &[Passage], memory: &Memory) -> Belief {
+    const LINE: usize = 8;
+    let (first, largest) = (passages[0], data.pitch);
+    let last = passages[passages.len().min(LINE) - 1];
+    let joined = last.time > first.time && !data.fresh.iter().any(|time| *time <= last.time);
+    let slope = match joined {
+        true => (last.value - first.value) / (last.time - first.time),
+        false => 0.0,
+    };
     let mut covariance = [[0.0; N]; N];
-    for (state, spread) in [(1, 0.3), (2, 0.1), (3, 0.03), (4, 0.3)] {
-        covariance[state][state] = (spread * largest).powi(2);
+    for (state, part) in OPEN.iter().enumerate() {
+        covariance[state][state] = (part * largest).powi(2);
     }
     Belief {
-        mean: [0.0, value, 0.0, 0.0, value],
+        mean: [0.0, first.value + memory.late() * slope, slope, 0.0, first.value],
         covariance,
     }
 }
