@@ -38,7 +38,14 @@ impl Bridge {
     pub fn between(from: f64, to: f64, motion: impl Fn(f64) -> Motion) -> Bridge {
         let (positions, pulse, deviation, sure) = (0, 0, 0.0, true);
         Bridge {
-            gap: Gap { from, to, pulse, positions, deviation, sure },
+            gap: Gap {
+                from,
+                to,
+                pulse,
+                positions,
+                deviation,
+                sure,
+            },
             begin: motion(from),
             end: motion(to),
             pitch: 0.0,

@@ -320,7 +320,7 @@ impl Plan {
         let first = passages[0];
         let mut before = first;
         let mut start = match data.channel {
-            true => shown(data, passages, &self.noise.memory),
+            true => shown(data, passages, &self.noise),
             false => moving(first.value, first.speed, data.pitch),
         };
         let clock = self.noise.memory.spread * self.noise.memory.spread;
@@ -342,7 +342,8 @@ impl Plan {
         let density = |time: f64| self.density(time).max(data.unsteady_at(time));
         let mut joints = joints.into_iter().peekable();
         let mut gaps = data.fresh.partition_point(|&time| time <= first.time);
-        for passage in &passages[self.at_rest(data, passages)..] {
+        let from = self.at_rest(data, passages);
+        for (k, passage) in passages.iter().enumerate().skip(from) {
             let passed = data.fresh[gaps..].partition_point(|&time| time <= passage.time);
             gaps += passed;
             while let Some((time, added)) = joints.next_if(|joint| joint.0 <= passage.time) {
@@ -367,7 +368,10 @@ impl Plan {
                         Sight::mark(passage.value, self.noise.variance(passage), passage.speed)
                     }
                 }),
-                added: (passed > 0 && data.channel).then(|| unseen(&before, passage, data.pitch)),
+                added: (passed > 0 && data.channel).then(|| {
+                    let guess = Guess::of(data, &passages[k..], &self.noise);
+                    unseen(&before, passage, &guess, data.pitch)
+                }),
                 fresh: (passed > 0 && !data.channel).then_some(Fresh {
                     angle: passage.value,
                     speed: passage.speed,
@@ -446,32 +450,76 @@ fn forward_only(pass: &Pass, variance: f64) -> f64 {
 
 /// What may differ between a motion of which hardly anything is known and the speed that is shown, as parts of the largest speed.
 const OPEN: Vector = [0.0, 0.3, 0.1, 0.03, 0.3];
+/// Passages from which a start is guessed.
+const LINE: usize = 8;
+/// How far a motion may be from that guess, over what the passages differ by.
+const BEYOND: f64 = 30.0;
+
+/// The straight line through the first passages, and how far speed and acceleration may be from it.
+struct Guess {
+    slope: f64,
+    wide: f64,
+    late: f64,
+}
+
+impl Guess {
+    fn of(data: &Data, passages: &[Passage], noise: &Noise) -> Guess {
+        let all = &passages[..passages.len().min(LINE)];
+        let joined = all.iter().skip(1).take_while(|p| !data.is_fresh(p.time));
+        let all = &all[..1 + joined.count()];
+        let (first, last) = (all[0], all[all.len() - 1]);
+        let late = noise.memory.late();
+        let slope = match last.time > first.time {
+            true => (last.value - first.value) / (last.time - first.time),
+            false => 0.0,
+        };
+        let off = |pair: &[Passage]| {
+            (pair[1].value - pair[0].value - slope * (pair[1].time - pair[0].time)).abs()
+        };
+        let scatter = all.windows(2).map(off).fold(0.0, f64::max);
+        let seen = scatter + slope.abs() * (1.0 + late) + 3.0 * noise.variance(&first).sqrt();
+        Guess {
+            slope,
+            wide: match all.len() {
+                LINE => BEYOND * seen,
+                _ => f64::INFINITY,
+            },
+            late,
+        }
+    }
+
+    /// Variance of a motion about the guess.
+    fn open(&self, largest: f64, beside: f64) -> [f64; N] {
+        OPEN.map(|part| (part * largest).min(self.wide + BEYOND * beside).powi(2))
+    }
+}
 
 /// Variance added where a channel shows nothing between two passages: the motion behind does not follow from that before, and the
 /// angle between by the mean of both speeds, off by the half of their difference.
-fn unseen(before: &Passage, behind: &Passage, largest: f64) -> [f64; N] {
-    let mut added = OPEN.map(|part| (part * largest).powi(2));
-    added[0] = (0.5 * (behind.time - before.time) * (behind.speed - before.speed)).powi(2);
+fn unseen(before: &Passage, behind: &Passage, guess: &Guess, largest: f64) -> [f64; N] {
+    let change = (behind.speed - before.speed).abs();
+    let mut added = guess.open(largest, change);
+    added[0] = (0.5 * (behind.time - before.time) * change).powi(2);
     added
 }
 
 /// Belief before the first sample of a speed: no angle is counted yet, and of the motion hardly more is known than what it
-/// shows. Its middle is the straight line through the first passages: what is far from it would be known by large differences only.
-fn shown(data: &Data, passages: &[Passage], memory: &Memory) -> Belief {
-    const LINE: usize = 8;
-    let (first, largest) = (passages[0], data.pitch);
-    let last = passages[passages.len().min(LINE) - 1];
-    let joined = last.time > first.time && !data.fresh.iter().any(|time| *time <= last.time);
-    let slope = match joined {
-        true => (last.value - first.value) / (last.time - first.time),
-        false => 0.0,
-    };
+/// shows. It is no wider than needed: what is far from its middle would be known by differences of large numbers.
+fn shown(data: &Data, passages: &[Passage], noise: &Noise) -> Belief {
+    let guess = Guess::of(data, passages, noise);
+    let value = passages[0].value;
     let mut covariance = [[0.0; N]; N];
-    for (state, part) in OPEN.iter().enumerate() {
-        covariance[state][state] = (part * largest).powi(2);
+    for (state, variance) in guess.open(data.pitch, 0.0).into_iter().enumerate() {
+        covariance[state][state] = variance;
     }
     Belief {
-        mean: [0.0, first.value + memory.late() * slope, slope, 0.0, first.value],
+        mean: [
+            0.0,
+            value + guess.late * guess.slope,
+            guess.slope,
+            0.0,
+            value,
+        ],
         covariance,
     }
 }

@@ -15,9 +15,7 @@
 //! Source: Fraser and Potter, The optimum linear smoother as a combination of two optimum linear filters, 1969 (from memory).
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
-use super::matrix::{
-    Matrix, Memory, N, Vector, advance, carry, drift, gathered, plus,
-};
+use super::matrix::{Matrix, Memory, N, Vector, advance, carry, drift, gathered, plus};
 use super::node::{Belief, Node, Sight};
 use crate::state_space::{applied, dot, identity, product, symmetric, transposed};
 
@@ -184,7 +182,10 @@ impl Later {
             return;
         }
         let root = transposed(&root(&gathered(dt, density, memory), 0.0));
-        for column in root.iter().filter(|column| column.iter().any(|x| *x != 0.0)) {
+        for column in root
+            .iter()
+            .filter(|column| column.iter().any(|x| *x != 0.0))
+        {
             self.disturb(column);
         }
         let back = transposed(&drift(dt, memory));
