@@ -151,8 +151,8 @@ fn each_mistake_has_its_message() {
         "the unknown unit \"mPa\"; did you mean \"MPa\"?"
     );
     assert_eq!(
-        message("3 RPM"),
-        "the unknown unit \"RPM\"; did you mean \"rpm\"?"
+        message("3 Rpm"),
+        "the unknown unit \"Rpm\"; did you mean \"RPM\"?"
     );
     assert_eq!(message("3 furlongs"), "the unknown unit \"furlongs\"");
     assert_eq!(

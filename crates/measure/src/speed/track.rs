@@ -7,12 +7,13 @@
 //! pulse  z = angle + speed e + noise of variance r;   channel  z = e + noise, or speed + noise where the instrument has no lag
 //! knot   variance added to any state at an instant: what it is after follows less, or not at all, from what it was before
 //! ```
-//! Forward: a Kalman filter, P = L Lᵀ. Backward: what all that follows says of the state, as information Y about its deviation from
-//! the filtered mean, with the right side r. Both together, with no difference of large numbers however little was known before:
-//! P' = L (1 + Lᵀ Y L)⁻¹ Lᵀ, x' = x + P' r. No singular matrix is inverted, so that a start from rest with exactly known speed, and
-//! intervals of any length, do no harm.
+//! Forward: a Kalman filter, P = L Lᵀ. Backward: the adjoint recursion of Bryson and Frazier for the mean, x' = x - P g, and the
+//! information Y that all which follows holds of the state, for the covariance: P' = L (1 + Lᵀ Y L)⁻¹ Lᵀ, in which no large
+//! numbers nearly cancel however little was known before. No singular matrix is inverted, so that a start from rest with exactly
+//! known speed, and intervals of any length, do no harm.
 //!
-//! Source: Fraser and Potter, The optimum linear smoother as a combination of two optimum linear filters, 1969 (from memory).
+//! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X; Fraser and Potter, The optimum linear
+//! smoother as a combination of two optimum linear filters, 1969 (both from memory).
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
 use super::matrix::{Matrix, Memory, N, Vector, advance, carry, drift, gathered, plus};
@@ -131,23 +132,21 @@ pub(super) fn forward(
     }
 }
 
-/// What is seen after an instant says of the state x there: likelihood exp(rᵀ (x - x̂) - (x - x̂)ᵀ Y (x - x̂)/2), with the filtered
-/// mean x̂.
+/// What is seen after an instant says of the state there.
 #[derive(Clone, Copy, Debug, Default)]
 struct Later {
-    /// r.
-    right: Vector,
-    /// Y.
+    /// Gradient of its misfit at the filtered mean.
+    gradient: Vector,
+    /// Information, the inverse of a covariance.
     known: Matrix,
 }
 
 impl Later {
-    /// Takes in what is seen at the instant; x̂ is the mean before it from here on.
+    /// Takes in what is seen at the instant.
     fn see(&mut self, seen: &Sight, update: &Update) {
-        let innovation = update.pull / update.stiffness;
-        let moved = applied(&self.known, &update.gain);
+        let along = dot(&update.gain, &self.gradient) + update.pull;
         for i in 0..N {
-            self.right[i] += innovation * (moved[i] + seen.row[i] / seen.variance);
+            self.gradient[i] -= seen.row[i] * along;
             for j in 0..N {
                 self.known[i][j] += seen.row[i] * seen.row[j] / seen.variance;
             }
@@ -158,10 +157,8 @@ impl Later {
     fn disturb(&mut self, column: &Vector) {
         let spread = applied(&self.known, column);
         let gain = spread.map(|x| x / (1.0 + dot(column, &spread)));
-        let along = dot(column, &self.right);
         let mut kept = identity::<N>();
         for i in 0..N {
-            self.right[i] -= gain[i] * along;
             for j in 0..N {
                 kept[i][j] -= gain[i] * column[j];
             }
@@ -181,7 +178,7 @@ impl Later {
         if dt <= 0.0 {
             return;
         }
-        let root = transposed(&root(&gathered(dt, density, memory), 0.0));
+        let root = transposed(&root(&gathered(dt, density, memory)));
         for column in root
             .iter()
             .filter(|column| column.iter().any(|x| *x != 0.0))
@@ -189,14 +186,14 @@ impl Later {
             self.disturb(column);
         }
         let back = transposed(&drift(dt, memory));
-        self.right = applied(&back, &self.right);
+        self.gradient = applied(&back, &self.gradient);
         self.known = product(&back, &product(&self.known, &transposed(&back)));
         symmetric(&mut self.known);
     }
 
     /// Belief from all that is seen, from what the filter makes of the earlier part.
     fn joined(&self, belief: &Belief) -> Belief {
-        let root = root(&belief.covariance, 0.0);
+        let root = root(&belief.covariance);
         let mut sum = product(&transposed(&root), &product(&self.known, &root));
         for (i, row) in sum.iter_mut().enumerate() {
             row[i] += 1.0;
@@ -206,24 +203,23 @@ impl Later {
         let both = product(&root, &inverse);
         let mut covariance = product(&both, &transposed(&both));
         symmetric(&mut covariance);
-        let shift = applied(&covariance, &self.right);
+        let shift = applied(&belief.covariance, &self.gradient);
         Belief {
-            mean: std::array::from_fn(|i| belief.mean[i] + shift[i]),
+            mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
             covariance,
         }
     }
 }
 
-/// Lower triangular root of a covariance, `p = l lᵀ`; a direction that rounding leaves no variance has none. `least`: what the square
-/// of a diagonal entry cannot be below.
-fn root(p: &Matrix, least: f64) -> Matrix {
+/// Lower triangular root of a covariance, `p = l lᵀ`; a direction that rounding leaves no variance has none.
+fn root(p: &Matrix) -> Matrix {
     let mut l = [[0.0; N]; N];
     for j in 0..N {
         let left = p[j][j] - dot(&l[j], &l[j]);
-        if left.max(least) <= f64::EPSILON * p[j][j] && least == 0.0 {
+        if left <= f64::EPSILON * p[j][j] {
             continue;
         }
-        l[j][j] = left.max(least).sqrt();
+        l[j][j] = left.sqrt();
         for i in j + 1..N {
             l[i][j] = (p[i][j] - dot(&l[i], &l[j])) / l[j][j];
         }
@@ -231,15 +227,39 @@ fn root(p: &Matrix, least: f64) -> Matrix {
     l
 }
 
-/// Transposed inverse of the root of a matrix that is at least the unit matrix: `m⁻¹ = i iᵀ`.
+/// Root of the inverse of a matrix that is at least the unit matrix: `m⁻¹ = i iᵀ`. The largest are taken out first, so that they do
+/// not round what is small.
 fn inverted(m: &Matrix) -> Matrix {
-    let l = root(m, 1.0);
-    let mut inverse = [[0.0; N]; N];
-    // Columns of l⁻¹, kept as rows.
+    let mut left = *m;
+    let mut order: [usize; N] = std::array::from_fn(|i| i);
+    // `left` after the steps: below its diagonal, the lower root of the matrix in its new order.
     for k in 0..N {
-        for i in k..N {
-            let unit = f64::from(u8::from(i == k));
-            inverse[k][i] = (unit - dot(&l[i], &inverse[k])) / l[i][i];
+        let largest = (k..N).max_by(|&i, &j| left[i][i].total_cmp(&left[j][j]));
+        let largest = largest.unwrap_or(k);
+        left.swap(k, largest);
+        order.swap(k, largest);
+        for row in &mut left[k..] {
+            row.swap(k, largest);
+        }
+        // Rows that are done keep their columns: what is swapped of them lies above the diagonal.
+        let pivot = left[k][k].max(1.0).sqrt();
+        left[k][k] = pivot;
+        for i in k + 1..N {
+            left[i][k] /= pivot;
+        }
+        for i in k + 1..N {
+            for j in k + 1..N {
+                left[i][j] -= left[i][k] * left[j][k];
+            }
+        }
+    }
+    let mut inverse = [[0.0; N]; N];
+    for column in 0..N {
+        let mut x = [0.0; N];
+        for i in column..N {
+            let sum: f64 = (column..i).map(|j| left[i][j] * x[j]).sum();
+            x[i] = (f64::from(u8::from(i == column)) - sum) / left[i][i];
+            inverse[order[column]][i] = x[i];
         }
     }
     inverse
@@ -301,7 +321,7 @@ impl Track {
                 .iter()
                 .all(|b| b.mean.iter().all(|x| x.is_finite()) && sound(&b.covariance))
             && (self.later.iter())
-                .all(|later| later.right.iter().all(|x| x.is_finite()) && sound(&later.known))
+                .all(|later| later.gradient.iter().all(|x| x.is_finite()) && sound(&later.known))
     }
 
     /// Filtered belief carried to an instant, and what all that follows says of the state there.

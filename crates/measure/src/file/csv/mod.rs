@@ -28,7 +28,7 @@ use std::path::Path;
 use super::clock::{self, Spacing};
 use super::request::{refuse_number, refuse_text};
 use super::source::Source;
-use crate::recording::{Channel, Clock, Content, FileError, Instant, Note, Property, Recording};
+use crate::recording::{Channel, Content, FileError, Instant, Note, Property, Recording};
 use cell::{Cell, cells};
 use faults::{Faults, Lost, Rounding, count};
 use layout::{Kind, Layout};
