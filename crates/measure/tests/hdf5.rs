@@ -204,3 +204,14 @@ fn a_user_block_is_no_cut() {
     let length = whole.len();
     assert!(shown(whole[..length - 1].to_vec()));
 }
+
+#[test]
+fn arrays_of_structures_are_left_out_with_the_way_out() {
+    let file = open("references.mat");
+    let told = |name: &str| {
+        let notes = file.notes().iter();
+        let mut own = notes.filter(|note| note.channel.as_deref() == Some(name));
+        own.any(|note| note.text.contains("-v7") && note.text.contains("S(1).speed"))
+    };
+    assert!(told("S/speed") && told("S/time"), "{:?}", file.notes());
+}

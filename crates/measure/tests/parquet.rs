@@ -222,3 +222,53 @@ fn a_page_that_contradicts_its_checksum_is_not_read() {
     };
     assert!(file.notes().iter().any(reported), "{:?}", file.notes());
 }
+
+/// A table as pandas writes it with a DatetimeIndex: the index is a column of instants behind the others.
+fn with_index(times: &[i64], speeds: &[f64]) -> Vec<u8> {
+    use parquet::data_type::{DoubleType, Int64Type};
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::parser::parse_message_type;
+    let schema = "message schema { REQUIRED DOUBLE speed; REQUIRED INT64 __index_level_0__ (TIMESTAMP(NANOS,false)); }";
+    let schema = Arc::new(parse_message_type(schema).unwrap());
+    let mut bytes = Vec::new();
+    let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::default()).unwrap();
+    let mut group = file.next_row_group().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    column
+        .typed::<DoubleType>()
+        .write_batch(speeds, None, None)
+        .unwrap();
+    column.close().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    column
+        .typed::<Int64Type>()
+        .write_batch(times, None, None)
+        .unwrap();
+    column.close().unwrap();
+    group.close().unwrap();
+    file.close().unwrap();
+    bytes
+}
+
+#[test]
+fn the_index_of_pandas_is_the_clock() {
+    let start = 1_700_000_000_500_000_000i64;
+    let speeds = ramps(300);
+    let even: Vec<i64> = (0..300).map(|k| start + 10_000_000 * k).collect();
+    let gap: Vec<i64> = (0..300)
+        .map(|k| start + 10_000_000 * (k + if k < 150 { 0 } else { 200 }))
+        .collect();
+    let read = |times: &[i64]| {
+        let bytes = with_index(times, &speeds);
+        let file = Parquet::from_source(Cursor::new(bytes), "x".as_ref()).unwrap();
+        let clock = file.channels()[channel(&file, "speed")].clock.clone();
+        (clock, channel(&file, "__index_level_0__"))
+    };
+    let uniform = Clock::Uniform {
+        first: 0.5,
+        interval: 0.01,
+    };
+    assert_eq!(read(&even).0, uniform);
+    let (clock, index) = read(&gap);
+    assert_eq!(clock, Clock::Channel(index));
+}

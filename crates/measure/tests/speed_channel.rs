@@ -2,7 +2,7 @@
 //! estimator's.
 
 use crate::synthetic::wheel::{Random, Truth, spin_up};
-use measure::speed::{Channel, Instrument, Shown, SpeedSettings, smooth_channel};
+use measure::speed::{Channel, Instrument, Shown, SpeedSettings, Transient, smooth_channel};
 use std::f64::consts::TAU;
 
 const SEEDS: u64 = 40;
@@ -248,4 +248,123 @@ fn a_shaft_comes_to_rest_and_a_dead_channel_is_refused() {
         instrument: Instrument::default(),
     };
     assert!(smooth_channel(&channel, &SpeedSettings::default()).is_err());
+}
+
+/// A speed without noise is known to what its digits leave, whatever its clock counts from.
+///
+/// The instrument's lag is taken out: of what shows Ω, the shaft turns at Ω + τ Ω̇.
+#[test]
+fn a_speed_without_noise_keeps_its_acceleration_on_any_clock() {
+    let lag = 1.0 / (TAU * 100.0);
+    type Law = fn(f64) -> f64;
+    let decays: [Law; 3] = [
+        |t| 120.0 * (-t / 20.0).exp(),
+        |t| -6.0 * (-t / 20.0).exp(),
+        |t| 0.3 * (-t / 20.0).exp(),
+    ];
+    let falls: [Law; 3] = [|t| 120.0 - 6.0 * t, |_| -6.0, |_| 0.0];
+    for (law, most) in [(decays, 6e-4), (falls, 1e-4)] {
+        for digits in [2, 4, 12] {
+            for first in [0.0, 33_011.0, 1_764_214_163.0] {
+                let rounded = |k: usize| {
+                    let scale = 10f64.powi(digits);
+                    (law[0](k as f64 / 500.0) * scale).round() / scale
+                };
+                let values: Vec<f64> = (0..1000).map(rounded).collect();
+                let channel = Channel {
+                    first,
+                    interval: 0.002,
+                    values: &values,
+                    instrument: Instrument {
+                        bandwidth: Some(100.0),
+                        ..Instrument::default()
+                    },
+                };
+                let settings = SpeedSettings {
+                    transient: Transient::None,
+                    ..SpeedSettings::default()
+                };
+                let shown = smooth_channel(&channel, &settings).unwrap();
+                for k in 0..=400 {
+                    let time = f64::from(k) * 0.004995;
+                    let motion = shown.speed.at(first + time);
+                    let truth = [
+                        law[0](time) + lag * law[1](time),
+                        law[1](time) + lag * law[2](time),
+                    ];
+                    let off = [motion.speed - truth[0], motion.acceleration - truth[1]];
+                    let deviations =
+                        [motion.covariance[1][1], motion.covariance[2][2]].map(f64::sqrt);
+                    let place = format!(
+                        "{digits} digits from {first} s at {time} s: {off:?} {deviations:?}"
+                    );
+                    // Rounding is no noise: with two digits it is the same over many values.
+                    let wide = if digits == 2 { 8.0 } else { 4.5 };
+                    // A time of 1.8e9 s is known to 2e-7 s.
+                    assert!(off[0].abs() < wide * deviations[0] + 3e-6, "{place}");
+                    assert!(off[1].abs() < wide * deviations[1] + 1e-6, "{place}");
+                    if digits > 2 {
+                        assert!(deviations[1] < most && deviations[0] < 1e-4, "{place}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Behind a gap the motion begins anew: a step of the speed in it is no acceleration, and between there are no peaks.
+#[test]
+fn nothing_is_derived_across_a_gap() {
+    let speed = |t: f64| {
+        if t < 1.2 {
+            150.0 - 10.0 * t
+        } else {
+            90.0 - 30.0 * (t - 1.2)
+        }
+    };
+    let mut r = Random::new(7);
+    let values: Vec<f64> = (0..3000)
+        .map(|k| match f64::from(k) / 1000.0 {
+            time if (1.0..1.5).contains(&time) => f64::NAN,
+            time => speed(time) + 0.05 * r.normal(),
+        })
+        .collect();
+    let channel = Channel {
+        first: 0.0,
+        interval: 1e-3,
+        values: &values,
+        instrument: Instrument::default(),
+    };
+    let settings = SpeedSettings {
+        transient: Transient::None,
+        ..SpeedSettings::default()
+    };
+    let shown = smooth_channel(&channel, &settings).unwrap();
+    let gaps: Vec<(f64, f64)> = shown.speed.gaps().map(|gap| (gap.from, gap.to)).collect();
+    assert_eq!(gaps.len(), 1);
+    assert!(
+        (gaps[0].0 - 0.999).abs() < 1e-9 && (gaps[0].1 - 1.5).abs() < 1e-9,
+        "{gaps:?}"
+    );
+    assert!(
+        shown
+            .speed
+            .notes
+            .iter()
+            .any(|note| note.contains("no value comes between"))
+    );
+    for (time, slope) in [(0.3, -10.0), (0.95, -10.0), (1.55, -30.0), (2.5, -30.0)] {
+        let motion = shown.speed.at(time);
+        let off = (motion.acceleration - slope).abs();
+        assert!(
+            off < 3.5 * motion.covariance[2][2].sqrt() + 0.02 && off < 2.0,
+            "{time}: {motion:?}"
+        );
+    }
+    // Within, the band holds the jump from 138 to 90 rad/s.
+    let motion = shown.speed.at(1.19);
+    assert!(
+        (motion.speed - speed(1.19)).abs() < 2.0 * motion.covariance[1][1].sqrt(),
+        "{motion:?}"
+    );
 }

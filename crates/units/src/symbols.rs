@@ -44,7 +44,10 @@ const fn celsius(text: &'static str) -> Symbol {
     }
 }
 
-/// Every symbol that is understood. The US units follow the international yard and pound of 1959:
+/// 1 lbf · 1 in in 1e-17 N m: a torque, whose pound is one of force.
+const INCH_POUND: f64 = 44_482_216_152_605.0 * 254.0;
+
+/// Every symbol that is understood; one with a stroke or a dash stands alone. The US units follow the international yard and pound of 1959:
 /// 1 in = 25.4 mm and 1 lbm = 0.45359237 kg exactly, 1 lbf = 1 lbm · 9.80665 m/s² (NIST SP 811, appendix B).
 pub(crate) const SYMBOLS: &[Symbol] = &[
     decimal("%", Dimension::NONE, -2),
@@ -58,6 +61,8 @@ pub(crate) const SYMBOLS: &[Symbol] = &[
     decimal("μm", Dimension::LENGTH, -6),
     decimal("nm", Dimension::LENGTH, -9),
     ratio("in", Dimension::LENGTH, -4, 254.0, 1.0),
+    ratio("inch", Dimension::LENGTH, -4, 254.0, 1.0),
+    ratio("mil", Dimension::LENGTH, -7, 254.0, 1.0),
     ratio("ft", Dimension::LENGTH, -4, 3048.0, 1.0),
     decimal("t", Dimension::MASS, 3),
     decimal("kg", Dimension::MASS, 0),
@@ -81,7 +86,12 @@ pub(crate) const SYMBOLS: &[Symbol] = &[
     ratio("°", Dimension::ANGLE, 0, PI, 180.0),
     ratio("rev", Dimension::ANGLE, 0, 2.0 * PI, 1.0),
     ratio("rpm", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
+    ratio("RPM", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
+    ratio("r/min", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
+    ratio("U/min", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
     ratio("krpm", Dimension::ANGULAR_SPEED, 3, PI, 30.0),
+    ratio("rps", Dimension::ANGULAR_SPEED, 0, 2.0 * PI, 1.0),
+    ratio("r/s", Dimension::ANGULAR_SPEED, 0, 2.0 * PI, 1.0),
     decimal("Hz", Dimension::FREQUENCY, 0),
     decimal("kHz", Dimension::FREQUENCY, 3),
     decimal("MHz", Dimension::FREQUENCY, 6),
@@ -102,6 +112,7 @@ pub(crate) const SYMBOLS: &[Symbol] = &[
     decimal("kN", Dimension::FORCE, 3),
     decimal("MN", Dimension::FORCE, 6),
     ratio("lbf", Dimension::FORCE, -13, 44_482_216_152_605.0, 1.0),
+    ratio("ozf", Dimension::FORCE, -13, 44_482_216_152_605.0, 16.0),
     decimal("Pa", Dimension::PRESSURE, 0),
     decimal("mPa", Dimension::PRESSURE, -3), // before a second alone
     decimal("kPa", Dimension::PRESSURE, 3),
@@ -134,6 +145,17 @@ pub(crate) const SYMBOLS: &[Symbol] = &[
     decimal("Nm", Dimension::TORQUE, 0),
     decimal("mNm", Dimension::TORQUE, -3),
     decimal("Nmm", Dimension::TORQUE, -3),
+    decimal("Ncm", Dimension::TORQUE, -2),
+    decimal("kNm", Dimension::TORQUE, 3),
+    ratio("in-lb", Dimension::TORQUE, -17, INCH_POUND, 1.0),
+    ratio("in-lbf", Dimension::TORQUE, -17, INCH_POUND, 1.0),
+    ratio("lb-in", Dimension::TORQUE, -17, INCH_POUND, 1.0),
+    ratio("lbf-in", Dimension::TORQUE, -17, INCH_POUND, 1.0),
+    ratio("in-oz", Dimension::TORQUE, -17, INCH_POUND, 16.0),
+    ratio("oz-in", Dimension::TORQUE, -17, INCH_POUND, 16.0),
+    ratio("ozf-in", Dimension::TORQUE, -17, INCH_POUND, 16.0),
+    ratio("ft-lb", Dimension::TORQUE, -17, 12.0 * INCH_POUND, 1.0),
+    ratio("lbf-ft", Dimension::TORQUE, -17, 12.0 * INCH_POUND, 1.0),
     decimal("W", Dimension::POWER, 0),
     decimal("mW", Dimension::POWER, -3),
     decimal("kW", Dimension::POWER, 3),

@@ -11,7 +11,7 @@ use crate::dimension::Dimension;
 use crate::error::ParseError;
 use crate::near::nearest_names;
 use crate::rational::Rational;
-use crate::symbols::{SYMBOLS, find};
+use crate::symbols::{SYMBOLS, Symbol, find};
 
 /// Longest unit text that is read; real ones are far shorter.
 const LONGEST: usize = 120;
@@ -39,6 +39,16 @@ impl Unit {
         offset: 0.0,
     };
 
+    fn of(symbol: &Symbol) -> Unit {
+        Unit {
+            dimension: symbol.dimension,
+            ten: i64::from(symbol.ten),
+            numerator: symbol.numerator,
+            denominator: symbol.denominator,
+            offset: symbol.offset,
+        }
+    }
+
     /// Reads a unit such as `N/m^(10/9)`, `kg m²` or `W/(m K)`.
     pub fn parse(text: &str) -> Result<Unit, ParseError> {
         let text = text.trim();
@@ -49,6 +59,9 @@ impl Unit {
             return Err(ParseError::TrailingText {
                 text: format!("{}…", text.chars().take(20).collect::<String>()),
             });
+        }
+        if let Some(alone) = find(text).filter(|symbol| symbol.text.contains(['/', '-'])) {
+            return Ok(Unit::of(alone));
         }
         let mut reader = Reader {
             whole: text,
@@ -247,13 +260,7 @@ impl<'a> Reader<'a> {
                 .map(|name| name.to_string()),
         })?;
         self.rest = rest;
-        Ok(Unit {
-            dimension: known.dimension,
-            ten: i64::from(known.ten),
-            numerator: known.numerator,
-            denominator: known.denominator,
-            offset: known.offset,
-        })
+        Ok(Unit::of(known))
     }
 
     fn exponent(&mut self) -> Result<Option<Rational>, ParseError> {

@@ -151,8 +151,8 @@ fn each_mistake_has_its_message() {
         "the unknown unit \"mPa\"; did you mean \"MPa\"?"
     );
     assert_eq!(
-        message("3 RPM"),
-        "the unknown unit \"RPM\"; did you mean \"rpm\"?"
+        message("3 Rpm"),
+        "the unknown unit \"Rpm\"; did you mean \"RPM\"?"
     );
     assert_eq!(message("3 furlongs"), "the unknown unit \"furlongs\"");
     assert_eq!(
@@ -280,4 +280,34 @@ proptest! {
     fn no_unit_like_text_panics(text in "[-+.0-9eE]{0,6} ?[mNs/()^*. 0-9%°²⁻]{0,12}") {
         let _ = parse_quantity(&text);
     }
+}
+
+/// 1 in = 25.4 mm, 1 lbf = 4.4482216152605 N; a turn is 2π rad.
+#[test]
+fn units_of_workshops_are_read() {
+    let turn = 2.0 * std::f64::consts::PI;
+    for (text, value) in [
+        ("1 inch", 0.0254),
+        ("1 mil", 25.4e-6),
+        ("60 r/min", turn),
+        ("60 U/min", turn),
+        ("60 RPM", turn),
+        ("1 rps", turn),
+        ("1 r/s", turn),
+        ("100 Ncm", 1.0),
+        ("1 kNm", 1000.0),
+        ("1 in-lb", 0.112_984_829_027_616_7),
+        ("1 lbf-in", 0.112_984_829_027_616_7),
+        ("1 lbf in", 0.112_984_829_027_616_7),
+        ("16 oz-in", 0.112_984_829_027_616_7),
+        ("1 ozf in", 0.007_061_551_814_226_044),
+        ("1 ft-lb", 1.355_817_948_331_400_4),
+    ] {
+        let read = si(text);
+        assert!(
+            (read / value - 1.0).abs() < 4.0 * f64::EPSILON,
+            "{text}: {read} {value}"
+        );
+    }
+    assert!(parse_quantity("1 in-kg").is_err());
 }

@@ -243,9 +243,18 @@ impl Values {
         if fits {
             return Ok((Value::Number(quantity.value_si), text.to_string()));
         }
-        let hint = (quantity.dimension == Dimension::FREQUENCY
-            && key.dimension() == Some(Dimension::ANGULAR_SPEED))
-        .then(|| {
+        let turns = quantity.dimension == Dimension::FREQUENCY
+            && key.dimension() == Some(Dimension::ANGULAR_SPEED);
+        // Rotational speeds are given in 1/min, as frequencies are not.
+        if turns
+            && ["1/min", "min^-1", "min⁻¹"]
+                .iter()
+                .any(|unit| text.ends_with(unit))
+        {
+            let speed = quantity.value_si * std::f64::consts::TAU;
+            return Ok((Value::Number(speed), text.to_string()));
+        }
+        let hint = turns.then(|| {
             let speed = quantity.value_si * 2.0 * std::f64::consts::PI;
             format!(
                 "That frequency in cycles per second is \"{speed:.6} rad/s\" as an angular speed"

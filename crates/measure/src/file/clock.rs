@@ -30,6 +30,7 @@ const TIME_NAMES: &[&str] = &[
 /// Names of a sampling rate in 1/s.
 const RATE_NAMES: &[&str] = &[
     "fs",
+    "sr",
     "f_s",
     "f_sample",
     "sampling rate",
@@ -58,7 +59,11 @@ const INTERVAL_NAMES: &[&str] = &[
     "sample period",
     "sample time",
     "wf_increment",
+    "increment",
 ];
+
+/// Names of the time of the first value, s, beside a sampling interval.
+const FIRST_NAMES: &[&str] = &["start", "x0", "t0", "wf_start_offset"];
 
 /// The last part of a name, in lower case.
 fn plain(name: &str) -> String {
@@ -91,7 +96,9 @@ pub(crate) fn interval_of(name: &str, value: f64) -> Option<f64> {
 /// Seconds in one unit of time; none where the unit is not one of time.
 pub(crate) fn seconds_in(unit: &str) -> Option<f64> {
     match unit.trim() {
-        "sec" | "secs" | "second" | "seconds" | "Sekunden" => return Some(1.0),
+        "sec" | "secs" | "second" | "seconds" | "Second" | "Seconds" | "Sekunden" => {
+            return Some(1.0);
+        }
         "msec" | "millisecond" | "milliseconds" => return Some(1e-3),
         "usec" | "microsecond" | "microseconds" => return Some(1e-6),
         "nsec" | "nanosecond" | "nanoseconds" => return Some(1e-9),
@@ -236,8 +243,8 @@ fn stated_by<'a>(properties: &'a [Property], channel: &Channel) -> Option<(f64, 
 /// Clocks for the channels of a file that have none: from a channel of times in the same group or one around it, or
 /// else from a property such as `fs`; with what is to be noted.
 ///
-/// `rounding`: for each channel how its values are rounded, as a part of them; none for a channel whose values are
-/// not to be looked at.
+/// `rounding`: for each channel how its values are rounded, as a part of them, of instants in s; none for a channel whose values
+/// are not to be looked at.
 pub(crate) fn clocks(
     file: &mut dyn Recording,
     rounding: &[Option<f64>],
@@ -248,14 +255,26 @@ pub(crate) fn clocks(
         .iter()
         .map(|channel| channel.clock == Clock::Unknown)
         .collect();
-    for (time, channel) in channels.iter().enumerate() {
-        let is_time = is_time_name(&channel.name) && channel.content == Content::Number;
-        if !is_time || !open[time] || channel.count == 0 {
+    // Times by their name, then the index of a table of pandas, then other instants.
+    let rank = |channel: &Channel| match channel.content {
+        Content::Text => None,
+        _ if is_time_name(&channel.name) => Some(0),
+        Content::Time if channel.name.starts_with("__index_level_") => Some(1),
+        Content::Time => Some(2),
+        Content::Number => None,
+    };
+    let mut times: Vec<usize> = (0..channels.len())
+        .filter(|&k| rank(&channels[k]).is_some())
+        .collect();
+    times.sort_by_key(|&k| rank(&channels[k]));
+    for (time, channel) in times.into_iter().map(|k| (k, &channels[k])) {
+        if !open[time] || channel.count == 0 {
             continue;
         }
         let mut clock = Clock::Channel(time);
         if let Some(&Some(rounding)) = rounding.get(time) {
-            let spacing = spacing(file, time, channel.count, rounding);
+            let absolute = channel.content == Content::Time;
+            let spacing = spacing(file, time, channel.count, (rounding, absolute));
             notes.extend(spacing.notes(&channel.name));
             clock = spacing.clock(time, &channel.unit);
         }
@@ -281,7 +300,13 @@ pub(crate) fn clocks(
         .filter(|(index, _)| open[*index])
     {
         if let Some((interval, origin)) = stated_by(properties, channel) {
-            let first = 0.0;
+            let first = properties.iter().find_map(|property| match property.value {
+                Value::Number(first) if FIRST_NAMES.contains(&plain(&property.name).as_str()) => {
+                    Some(first).filter(|_| group_of(&property.name) == group_of(origin))
+                }
+                _ => None,
+            });
+            let first = first.filter(|first| first.is_finite()).unwrap_or(0.0);
             clocks.push((index, Clock::Uniform { first, interval }));
             match origins.iter_mut().find(|(known, _)| *known == origin) {
                 Some((_, count)) => *count += 1,
@@ -296,8 +321,13 @@ pub(crate) fn clocks(
     (clocks, notes)
 }
 
-/// The spacing of the times of a channel.
-fn spacing(file: &mut dyn Recording, time: usize, count: u64, rounding: f64) -> Spacing {
+/// The spacing of the times of a channel; their rounding is absolute, or a part of them.
+fn spacing(
+    file: &mut dyn Recording,
+    time: usize,
+    count: u64,
+    (rounding, absolute): (f64, bool),
+) -> Spacing {
     let mut spacing = Spacing::new();
     let mut values = vec![0.0; 1 << 14];
     let mut at = 0;
@@ -306,7 +336,14 @@ fn spacing(file: &mut dyn Recording, time: usize, count: u64, rounding: f64) -> 
             break;
         };
         for &value in &values[..read] {
-            spacing.add(value, rounding * value.abs());
+            spacing.add(
+                value,
+                if absolute {
+                    rounding
+                } else {
+                    rounding * value.abs()
+                },
+            );
         }
         at += read as u64;
     }

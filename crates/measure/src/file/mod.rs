@@ -9,7 +9,7 @@
 //! | [`draft`] | a file that carries its name only once it is whole |
 //! | [`tdms`] | TDMS of National Instruments: reader and writer |
 //! | [`csv`] | text in columns: reader and writer |
-//! | [`mat5`] | MATLAB up to 7.2: reader |
+//! | [`mat5`] | MATLAB up to 7.2, and level 4: reader |
 //! | [`hdf5`] | HDF5 and MATLAB 7.3: reader |
 //! | [`parquet`] | Apache Parquet: reader and writer |
 //! | [`uff`] | the universal file format, sets 58 and 58b: reader |
@@ -48,7 +48,7 @@ pub enum Format {
     Uff,
     /// Text in columns.
     Csv,
-    /// MATLAB's format of version 5, up to 7.2.
+    /// MATLAB's format of version 5, up to 7.2, or of level 4.
     Mat5,
     /// HDF5, which MATLAB's format of version 7.3 is too.
     Hdf5,
@@ -65,7 +65,7 @@ impl Format {
             Format::Tdms => "TDMS",
             Format::Uff => "UFF 58",
             Format::Csv => "CSV",
-            Format::Mat5 => "MAT 5",
+            Format::Mat5 => "MAT 4 or 5",
             Format::Hdf5 => "HDF5 or MAT 7.3",
             Format::Parquet => "Parquet",
             Format::Wav => "WAV",

@@ -34,6 +34,24 @@ impl Bridge {
         pulses.gaps.iter().map(of).collect()
     }
 
+    /// That between two values of a speed channel: the angle between is that of the cubic.
+    pub fn between(from: f64, to: f64, motion: impl Fn(f64) -> Motion) -> Bridge {
+        let (positions, pulse, deviation, sure) = (0, 0, 0.0, true);
+        Bridge {
+            gap: Gap {
+                from,
+                to,
+                pulse,
+                positions,
+                deviation,
+                sure,
+            },
+            begin: motion(from),
+            end: motion(to),
+            pitch: 0.0,
+        }
+    }
+
     pub fn holds(&self, time: f64) -> bool {
         time > self.gap.from && time < self.gap.to
     }

@@ -11,10 +11,6 @@ pub(super) fn plus(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
 }
 
-pub(super) fn minus(a: &Matrix, b: &Matrix) -> Matrix {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] - b[i][j]))
-}
-
 /// The fifth state: of pulses the part of the error of the instants that has a memory, of a speed channel what its instrument
 /// shows.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +48,11 @@ impl Memory {
             Some(_) => [0.0, 0.0, 0.0, 0.0, 1.0],
             None => [0.0, 1.0, 0.0, 0.0, 0.0],
         }
+    }
+
+    /// Time by which an instrument shows a steady change late.
+    pub fn late(&self) -> f64 {
+        self.usual.map_or(0.0, |_| self.rate.recip())
     }
 
     /// What the fifth state takes over a time from those above it; nothing where it is an error of the instants.
@@ -220,47 +221,4 @@ pub(super) fn advance(x: &mut Vector, p: &mut Matrix, dt: f64, density: f64, mem
     }
     symmetric(&mut b);
     *p = b;
-}
-
-/// A gradient and a curvature taken back over a time: `fᵀ g`, `fᵀ c f`.
-#[inline]
-pub(super) fn taken_back(g: &mut Vector, c: &mut Matrix, dt: f64, memory: &Memory) {
-    let (h, s) = (0.5 * dt * dt, dt * dt * dt / 6.0);
-    let kept = (-dt * memory.rate).exp();
-    let lag = memory.lag(dt).map(|lag| lag.of);
-    let last = g[4];
-    *g = [
-        g[0],
-        dt * g[0] + g[1],
-        h * g[0] + dt * g[1] + g[2],
-        s * g[0] + h * g[1] + dt * g[2] + g[3],
-        kept * g[4],
-    ];
-    for (k, of) in lag.into_iter().flatten().enumerate() {
-        g[k + 1] += of * last;
-    }
-    let mut a = [[0.0; N]; N];
-    for j in 0..N {
-        a[0][j] = c[0][j];
-        a[1][j] = dt * c[0][j] + c[1][j];
-        a[2][j] = h * c[0][j] + dt * c[1][j] + c[2][j];
-        a[3][j] = s * c[0][j] + h * c[1][j] + dt * c[2][j] + c[3][j];
-        a[4][j] = kept * c[4][j];
-        for (k, of) in lag.into_iter().flatten().enumerate() {
-            a[k + 1][j] += of * c[4][j];
-        }
-    }
-    for i in 0..N {
-        c[i] = [
-            a[i][0],
-            dt * a[i][0] + a[i][1],
-            h * a[i][0] + dt * a[i][1] + a[i][2],
-            s * a[i][0] + h * a[i][1] + dt * a[i][2] + a[i][3],
-            kept * a[i][4],
-        ];
-        for (k, of) in lag.into_iter().flatten().enumerate() {
-            c[i][k + 1] += of * a[i][4];
-        }
-    }
-    symmetric(c);
 }

@@ -42,7 +42,7 @@ pub(super) struct Node {
     /// Where something is seen.
     pub pulse: Option<Sight>,
     /// Variance added to each state, before the pulse.
-    pub added: Option<[f64; 4]>,
+    pub added: Option<[f64; N]>,
     /// A motion that begins anew, before the pulse: it does not follow from what was before.
     pub fresh: Option<Fresh>,
 }

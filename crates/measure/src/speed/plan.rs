@@ -1,6 +1,6 @@
 //! From pulses, or from samples of a speed, to the nodes of a track: noises, densities, knots.
 
-use super::matrix::{Memory, N};
+use super::matrix::{Memory, N, Vector};
 use super::node::{Belief, Fresh, Node, Sight, moving};
 use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
@@ -226,20 +226,20 @@ impl Knots {
     /// an even acceleration jumps by its mean, one that rises or falls evenly has the jerk of twice the mean over the length.
     /// It does not follow the density: a clutch whose torque rises evenly is as quiet between its knots as it is loud at
     /// them.
-    fn added(&self, knot: Knot) -> [f64; 4] {
+    fn added(&self, knot: Knot) -> [f64; N] {
         let length = self.lock - self.engage;
         let acceleration = self.change / length;
         let jerk = (STEEPEST * acceleration / length).powi(2);
         match knot {
-            Knot::Soft => [0.0; 4],
-            Knot::Kink => [0.0, 0.0, 0.0, jerk],
-            Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk],
+            Knot::Soft => [0.0; N],
+            Knot::Kink => [0.0, 0.0, 0.0, jerk, 0.0],
+            Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk, 0.0],
         }
     }
 
     /// The same for the engagement: a start that is less steady than the whole change may reach the mean acceleration before the
     /// first mark.
-    fn started(&self) -> [f64; 4] {
+    fn started(&self) -> [f64; N] {
         let mut added = self.added(self.start);
         if let Some(head) = &self.head
             && self.start != Knot::Soft
@@ -316,10 +316,11 @@ impl Plan {
 
     fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
-        let mut joints: Vec<(f64, Option<[f64; 4]>)> = Vec::new();
+        let mut joints: Vec<(f64, Option<[f64; N]>)> = Vec::new();
         let first = passages[0];
+        let mut before = first;
         let mut start = match data.channel {
-            true => shown(first.value, data.pitch),
+            true => shown(data, passages, &self.noise),
             false => moving(first.value, first.speed, data.pitch),
         };
         let clock = self.noise.memory.spread * self.noise.memory.spread;
@@ -341,7 +342,8 @@ impl Plan {
         let density = |time: f64| self.density(time).max(data.unsteady_at(time));
         let mut joints = joints.into_iter().peekable();
         let mut gaps = data.fresh.partition_point(|&time| time <= first.time);
-        for passage in &passages[self.at_rest(data, passages)..] {
+        let from = self.at_rest(data, passages);
+        for (k, passage) in passages.iter().enumerate().skip(from) {
             let passed = data.fresh[gaps..].partition_point(|&time| time <= passage.time);
             gaps += passed;
             while let Some((time, added)) = joints.next_if(|joint| joint.0 <= passage.time) {
@@ -366,13 +368,17 @@ impl Plan {
                         Sight::mark(passage.value, self.noise.variance(passage), passage.speed)
                     }
                 }),
-                added: None,
-                fresh: (passed > 0).then_some(Fresh {
+                added: (passed > 0 && data.channel).then(|| {
+                    let guess = Guess::of(data, &passages[k..], &self.noise);
+                    unseen(&before, passage, &guess, data.pitch)
+                }),
+                fresh: (passed > 0 && !data.channel).then_some(Fresh {
                     angle: passage.value,
                     speed: passage.speed,
                     pitch: data.pitch,
                 }),
             });
+            before = *passage;
         }
         (nodes, start)
     }
@@ -442,15 +448,78 @@ fn forward_only(pass: &Pass, variance: f64) -> f64 {
         .ln()
 }
 
+/// What may differ between a motion of which hardly anything is known and the speed that is shown, as parts of the largest speed.
+const OPEN: Vector = [0.0, 0.3, 0.1, 0.03, 0.3];
+/// Passages from which a start is guessed.
+const LINE: usize = 8;
+/// How far a motion may be from that guess, over what the passages differ by.
+const BEYOND: f64 = 30.0;
+
+/// The straight line through the first passages, and how far speed and acceleration may be from it.
+struct Guess {
+    slope: f64,
+    wide: f64,
+    late: f64,
+}
+
+impl Guess {
+    fn of(data: &Data, passages: &[Passage], noise: &Noise) -> Guess {
+        let all = &passages[..passages.len().min(LINE)];
+        let joined = all.iter().skip(1).take_while(|p| !data.is_fresh(p.time));
+        let all = &all[..1 + joined.count()];
+        let (first, last) = (all[0], all[all.len() - 1]);
+        let late = noise.memory.late();
+        let slope = match last.time > first.time {
+            true => (last.value - first.value) / (last.time - first.time),
+            false => 0.0,
+        };
+        let off = |pair: &[Passage]| {
+            (pair[1].value - pair[0].value - slope * (pair[1].time - pair[0].time)).abs()
+        };
+        let scatter = all.windows(2).map(off).fold(0.0, f64::max);
+        let seen = scatter + slope.abs() * (1.0 + late) + 3.0 * noise.variance(&first).sqrt();
+        Guess {
+            slope,
+            wide: match all.len() {
+                LINE => BEYOND * seen,
+                _ => f64::INFINITY,
+            },
+            late,
+        }
+    }
+
+    /// Variance of a motion about the guess.
+    fn open(&self, largest: f64, beside: f64) -> [f64; N] {
+        OPEN.map(|part| (part * largest).min(self.wide + BEYOND * beside).powi(2))
+    }
+}
+
+/// Variance added where a channel shows nothing between two passages: the motion behind does not follow from that before, and the
+/// angle between by the mean of both speeds, off by the half of their difference.
+fn unseen(before: &Passage, behind: &Passage, guess: &Guess, largest: f64) -> [f64; N] {
+    let change = (behind.speed - before.speed).abs();
+    let mut added = guess.open(largest, change);
+    added[0] = (0.5 * (behind.time - before.time) * change).powi(2);
+    added
+}
+
 /// Belief before the first sample of a speed: no angle is counted yet, and of the motion hardly more is known than what it
-/// shows.
-fn shown(value: f64, largest: f64) -> Belief {
+/// shows. It is no wider than needed: what is far from its middle would be known by differences of large numbers.
+fn shown(data: &Data, passages: &[Passage], noise: &Noise) -> Belief {
+    let guess = Guess::of(data, passages, noise);
+    let value = passages[0].value;
     let mut covariance = [[0.0; N]; N];
-    for (state, spread) in [(1, 0.3), (2, 0.1), (3, 0.03), (4, 0.3)] {
-        covariance[state][state] = (spread * largest).powi(2);
+    for (state, variance) in guess.open(data.pitch, 0.0).into_iter().enumerate() {
+        covariance[state][state] = variance;
     }
     Belief {
-        mean: [0.0, value, 0.0, 0.0, value],
+        mean: [
+            0.0,
+            value + guess.late * guess.slope,
+            guess.slope,
+            0.0,
+            value,
+        ],
         covariance,
     }
 }

@@ -7,17 +7,18 @@
 //! pulse  z = angle + speed e + noise of variance r;   channel  z = e + noise, or speed + noise where the instrument has no lag
 //! knot   variance added to any state at an instant: what it is after follows less, or not at all, from what it was before
 //! ```
-//! Forward: a Kalman filter. Backward: the adjoint recursion of Bryson and Frazier, which inverts no matrix, so that a
-//! start from rest with exactly known speed, and intervals of any length, do no harm.
+//! Forward: a Kalman filter, P = L Lᵀ. Backward: the adjoint recursion of Bryson and Frazier for the mean, x' = x - P g, and the
+//! information Y that all which follows holds of the state, for the covariance: P' = L (1 + Lᵀ Y L)⁻¹ Lᵀ, in which no large
+//! numbers nearly cancel however little was known before. No singular matrix is inverted, so that a start from rest with exactly
+//! known speed, and intervals of any length, do no harm.
 //!
-//! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X (from memory).
+//! Source: Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapter X; Fraser and Potter, The optimum linear
+//! smoother as a combination of two optimum linear filters, 1969 (both from memory).
 #![allow(clippy::needless_range_loop)] // rows and columns by number read like the formula
 
-use super::matrix::{
-    Matrix, Memory, N, Vector, advance, carry, drift, gathered, minus, plus, taken_back,
-};
-use super::node::{Belief, Node};
-use crate::state_space::{applied, product, seen_back, transposed};
+use super::matrix::{Matrix, Memory, N, Vector, advance, carry, drift, gathered, plus};
+use super::node::{Belief, Node, Sight};
+use crate::state_space::{applied, dot, identity, product, symmetric, transposed};
 
 /// A filtered and smoothed record.
 #[derive(Clone, Debug)]
@@ -27,9 +28,8 @@ pub(super) struct Track {
     start: Belief,
     /// After each node.
     filtered: Vec<Belief>,
-    /// Adjoint just before each node: gradient and curvature of the misfit of all that follows.
-    gradient: Vec<Vector>,
-    curvature: Vec<Matrix>,
+    /// What each node and all behind it say of the state just before it.
+    later: Vec<Later>,
     /// Density after the last node.
     density: f64,
     memory: Memory,
@@ -132,8 +132,138 @@ pub(super) fn forward(
     }
 }
 
-/// Nodes behind one at which nearly nothing is known, after which numbers are sound.
-const OPENING: usize = 4;
+/// What is seen after an instant says of the state there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Later {
+    /// Gradient of its misfit at the filtered mean.
+    gradient: Vector,
+    /// Information, the inverse of a covariance.
+    known: Matrix,
+}
+
+impl Later {
+    /// Takes in what is seen at the instant.
+    fn see(&mut self, seen: &Sight, update: &Update) {
+        let along = dot(&update.gain, &self.gradient) + update.pull;
+        for i in 0..N {
+            self.gradient[i] -= seen.row[i] * along;
+            for j in 0..N {
+                self.known[i][j] += seen.row[i] * seen.row[j] / seen.variance;
+            }
+        }
+    }
+
+    /// To before a disturbance `column · w` with w of variance 1.
+    fn disturb(&mut self, column: &Vector) {
+        let spread = applied(&self.known, column);
+        let gain = spread.map(|x| x / (1.0 + dot(column, &spread)));
+        let mut kept = identity::<N>();
+        for i in 0..N {
+            for j in 0..N {
+                kept[i][j] -= gain[i] * column[j];
+            }
+        }
+        // As a sum of squares: what is left may be much less than what was known.
+        self.known = product(&kept, &product(&self.known, &transposed(&kept)));
+        for i in 0..N {
+            for j in 0..N {
+                self.known[i][j] += gain[i] * gain[j];
+            }
+        }
+        symmetric(&mut self.known);
+    }
+
+    /// To an earlier instant.
+    fn take_back(&mut self, dt: f64, density: f64, memory: &Memory) {
+        if dt <= 0.0 {
+            return;
+        }
+        let root = transposed(&root(&gathered(dt, density, memory)));
+        for column in root
+            .iter()
+            .filter(|column| column.iter().any(|x| *x != 0.0))
+        {
+            self.disturb(column);
+        }
+        let back = transposed(&drift(dt, memory));
+        self.gradient = applied(&back, &self.gradient);
+        self.known = product(&back, &product(&self.known, &transposed(&back)));
+        symmetric(&mut self.known);
+    }
+
+    /// Belief from all that is seen, from what the filter makes of the earlier part.
+    fn joined(&self, belief: &Belief) -> Belief {
+        let root = root(&belief.covariance);
+        let mut sum = product(&transposed(&root), &product(&self.known, &root));
+        for (i, row) in sum.iter_mut().enumerate() {
+            row[i] += 1.0;
+        }
+        symmetric(&mut sum);
+        let inverse = inverted(&sum);
+        let both = product(&root, &inverse);
+        let mut covariance = product(&both, &transposed(&both));
+        symmetric(&mut covariance);
+        let shift = applied(&belief.covariance, &self.gradient);
+        Belief {
+            mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
+            covariance,
+        }
+    }
+}
+
+/// Lower triangular root of a covariance, `p = l lᵀ`; a direction that rounding leaves no variance has none.
+fn root(p: &Matrix) -> Matrix {
+    let mut l = [[0.0; N]; N];
+    for j in 0..N {
+        let left = p[j][j] - dot(&l[j], &l[j]);
+        if left <= f64::EPSILON * p[j][j] {
+            continue;
+        }
+        l[j][j] = left.sqrt();
+        for i in j + 1..N {
+            l[i][j] = (p[i][j] - dot(&l[i], &l[j])) / l[j][j];
+        }
+    }
+    l
+}
+
+/// Root of the inverse of a matrix that is at least the unit matrix: `m⁻¹ = i iᵀ`. The largest are taken out first, so that they do
+/// not round what is small.
+fn inverted(m: &Matrix) -> Matrix {
+    let mut left = *m;
+    let mut order: [usize; N] = std::array::from_fn(|i| i);
+    // `left` after the steps: below its diagonal, the lower root of the matrix in its new order.
+    for k in 0..N {
+        let largest = (k..N).max_by(|&i, &j| left[i][i].total_cmp(&left[j][j]));
+        let largest = largest.unwrap_or(k);
+        left.swap(k, largest);
+        order.swap(k, largest);
+        for row in &mut left[k..] {
+            row.swap(k, largest);
+        }
+        // Rows that are done keep their columns: what is swapped of them lies above the diagonal.
+        let pivot = left[k][k].max(1.0).sqrt();
+        left[k][k] = pivot;
+        for i in k + 1..N {
+            left[i][k] /= pivot;
+        }
+        for i in k + 1..N {
+            for j in k + 1..N {
+                left[i][j] -= left[i][k] * left[j][k];
+            }
+        }
+    }
+    let mut inverse = [[0.0; N]; N];
+    for column in 0..N {
+        let mut x = [0.0; N];
+        for i in column..N {
+            let sum: f64 = (column..i).map(|j| left[i][j] * x[j]).sum();
+            x[i] = (f64::from(u8::from(i == column)) - sum) / left[i][i];
+            inverse[order[column]][i] = x[i];
+        }
+    }
+    inverse
+}
 
 impl Track {
     pub fn new(nodes: Vec<Node>, start: Belief, density: f64, memory: Memory) -> Track {
@@ -143,25 +273,23 @@ impl Track {
             filtered.push(*belief);
             updates.push(*update);
         });
-        let mut gradient = vec![[0.0; N]; nodes.len()];
-        let mut curvature = vec![[[0.0; N]; N]; nodes.len()];
-        let (mut g, mut c) = ([0.0; N], [[0.0; N]; N]);
-        for k in (0..nodes.len()).rev() {
-            if let Some(pulse) = &nodes[k].pulse {
-                let Update {
-                    gain,
-                    pull,
-                    stiffness,
-                } = updates[k];
-                seen_back(&mut g, &mut c, &pulse.row, &gain, (pull, stiffness));
+        let mut later = vec![Later::default(); nodes.len()];
+        let mut now = Later::default();
+        for (k, node) in nodes.iter().enumerate().rev() {
+            if let Some(pulse) = &node.pulse {
+                now.see(pulse, &updates[k]);
             }
-            if nodes[k].fresh.is_some() {
-                (g, c) = ([0.0; N], [[0.0; N]; N]);
+            if node.fresh.is_some() {
+                now = Later::default();
             }
-            gradient[k] = g;
-            curvature[k] = c;
+            for (state, variance) in node.added.iter().flatten().enumerate() {
+                let mut column = [0.0; N];
+                column[state] = variance.sqrt();
+                now.disturb(&column);
+            }
+            later[k] = now;
             if k > 0 {
-                taken_back(&mut g, &mut c, nodes[k].time - nodes[k - 1].time, &memory);
+                now.take_back(node.time - nodes[k - 1].time, node.density, &memory);
             }
         }
         let times = nodes.iter().map(|node| node.time).collect();
@@ -170,8 +298,7 @@ impl Track {
             times,
             start,
             filtered,
-            gradient,
-            curvature,
+            later,
             density,
             memory,
         }
@@ -193,37 +320,28 @@ impl Track {
                 .filtered
                 .iter()
                 .all(|b| b.mean.iter().all(|x| x.is_finite()) && sound(&b.covariance))
-            && self.gradient.iter().flatten().all(|x| x.is_finite())
-            && self.curvature.iter().all(sound)
+            && (self.later.iter())
+                .all(|later| later.gradient.iter().all(|x| x.is_finite()) && sound(&later.known))
     }
 
-    /// Filtered belief carried to an instant, and the adjoint there.
-    fn around(&self, time: f64) -> (Belief, Vector, Matrix) {
+    /// Filtered belief carried to an instant, and what all that follows says of the state there.
+    fn around(&self, time: f64) -> (Belief, Later) {
         let next = self.times.partition_point(|&t| t <= time);
         let Some(last) = next.checked_sub(1) else {
-            return (self.start, [0.0; N], [[0.0; N]; N]);
+            return (self.start, Later::default());
         };
         let dt = time - self.nodes[last].time;
-        let density = self
-            .nodes
-            .get(next)
-            .map_or(self.density, |node| node.density);
+        let node = self.nodes.get(next);
+        let density = node.map_or(self.density, |node| node.density);
         let mut belief = self.filtered[last];
-        advance(
-            &mut belief.mean,
-            &mut belief.covariance,
-            dt,
-            density,
-            &self.memory,
-        );
-        match self.nodes.get(next) {
-            None => (belief, [0.0; N], [[0.0; N]; N]),
-            Some(node) => {
-                let (mut g, mut c) = (self.gradient[next], self.curvature[next]);
-                taken_back(&mut g, &mut c, node.time - time, &self.memory);
-                (belief, g, c)
-            }
-        }
+        let Belief { mean, covariance } = &mut belief;
+        advance(mean, covariance, dt, density, &self.memory);
+        let later = node.map_or_else(Later::default, |node| {
+            let mut later = self.later[next];
+            later.take_back(node.time - time, density, &self.memory);
+            later
+        });
+        (belief, later)
     }
 
     /// Belief at an instant from all pulses.
@@ -272,40 +390,10 @@ impl Track {
         })
     }
 
-    /// The instant by which some pulses have passed since nearly nothing was known, where an instant lies before it.
-    fn settled(&self, time: f64) -> Option<f64> {
-        let now = self.times.partition_point(|&t| t <= time).checked_sub(1)?;
-        let open = |k: usize| self.nodes[k].fresh.is_some() || (k == 0 && !self.rests());
-        let begin = (now.saturating_sub(OPENING)..=now)
-            .rev()
-            .find(|&k| open(k))?;
-        let settled = self.nodes[(begin + OPENING).min(self.nodes.len() - 1)].time;
-        (time < settled).then_some(settled)
-    }
-
     /// Belief at an instant not before the first node.
-    ///
-    /// Among the first pulses what was open and what they show nearly cancel: there the motion is no better known than behind them.
     fn within(&self, time: f64) -> Belief {
-        let mut belief = self.smoothed(time);
-        if let Some(settled) = self.settled(time) {
-            let behind = self.smoothed(settled).covariance;
-            for (i, row) in belief.covariance.iter_mut().enumerate() {
-                row[i] = row[i].max(behind[i][i]);
-            }
-        }
-        belief
-    }
-
-    fn smoothed(&self, time: f64) -> Belief {
-        let (belief, gradient, curvature) = self.around(time);
-        let p = &belief.covariance;
-        let shift = applied(p, &gradient);
-        let shrink = product(p, &product(&curvature, p));
-        Belief {
-            mean: std::array::from_fn(|i| belief.mean[i] - shift[i]),
-            covariance: minus(p, &shrink),
-        }
+        let (belief, later) = self.around(time);
+        later.joined(&belief)
     }
 }
 
@@ -333,7 +421,6 @@ pub(super) fn mixed(parts: impl Iterator<Item = (f64, Belief)> + Clone) -> Belie
 
 #[cfg(test)]
 mod tests {
-    use super::super::node::Sight;
     use super::*;
     use nalgebra::{DMatrix, DVector};
 

@@ -487,9 +487,10 @@ fn plain_values_are_scaled_and_unknown_scales_are_reported() {
         &segment(META | NEW | RAW, &meta(false, &objects), &raw),
     );
     assert_eq!(all(&mut file, 0), [11.0, 21.0]);
-    assert_eq!(all(&mut file, 1), [1.0, 2.0]);
-    assert_eq!(all(&mut file, 2), [30.0, 50.0]);
-    assert_eq!(all(&mut file, 3), [1.0 - 11.0, 2.0 - 21.0]);
+    // Counts of a thermocouple are no temperature: they are no channel.
+    assert_eq!(all(&mut file, 1), [30.0, 50.0]);
+    assert_eq!(all(&mut file, 2), [1.0 - 11.0, 2.0 - 21.0]);
+    assert_eq!(file.channels().len(), 3);
     assert_eq!(file.notes().len(), 1);
     assert_eq!(file.notes()[0].channel.as_deref(), Some("g/other"));
     assert!(file.notes()[0].text.contains("Thermocouple"));

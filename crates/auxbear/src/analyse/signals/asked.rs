@@ -4,7 +4,8 @@ use crate::analyse::signals::read::{self, Listed, Series, Source, Stamps};
 use crate::analyse::signals::spectrum;
 use crate::problem::{Code, Problem};
 use crate::scenario::{
-    BuiltIn, CageKind, PickupKind, Scenario, SensorSource, Signals, System, UNNAMED, Windage,
+    BuiltIn, CageKind, PickupFlank, PickupKind, Scenario, SensorSource, Signals, System, UNNAMED,
+    Windage,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -42,8 +43,8 @@ impl Asked {
                     PickupKind::Analog { .. } => {
                         Signal::Sampled(source.passings(key, &speed.channel)?)
                     }
-                    PickupKind::Edges { .. } => {
-                        Signal::Stamped(source.stamps(key, &speed.channel)?)
+                    PickupKind::Edges { flank, .. } => {
+                        Signal::Stamped(source.stamps(key, &speed.channel, flank)?)
                     }
                     PickupKind::Speed { scale, .. } => {
                         Signal::Sampled(source.speeds(key, &speed.channel, scale)?)
@@ -84,7 +85,9 @@ impl Asked {
             Some(cage) => {
                 let key = "signals.cage.channel";
                 Some(match cage.kind {
-                    CageKind::Edges => Signal::Stamped(source.stamps(key, &cage.channel)?),
+                    CageKind::Edges => {
+                        Signal::Stamped(source.stamps(key, &cage.channel, PickupFlank::Rising)?)
+                    }
                     _ => Signal::Sampled(source.passings(key, &cage.channel)?),
                 })
             }

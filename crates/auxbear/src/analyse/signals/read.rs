@@ -1,6 +1,10 @@
 //! The channels that are asked for, read from a measurement file and brought to one clock in s.
 
 mod clock;
+mod stamps;
+
+use clock::Timing;
+pub use stamps::Stamps;
 
 use crate::analyse::signals::unit::{no_signal, si_factor, speed_factor, unit_of};
 use crate::problem::{Code, Problem, did_you_mean};
@@ -58,15 +62,6 @@ impl Series {
     }
 }
 
-/// Instants in a channel, s, in order.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stamps {
-    /// The instants.
-    pub times: Vec<f64>,
-    /// Values of the channel that were none.
-    pub missing: usize,
-}
-
 /// What the file says of one of its channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Listed {
@@ -91,6 +86,8 @@ pub struct Source<'a> {
     interval_taken: bool,
     /// A channel whose own clock has another interval than the scenario, and that, s.
     contradicted: Option<(String, f64)>,
+    /// What was done with channels of uneven times.
+    evened: Vec<String>,
 }
 
 impl<'a> Source<'a> {
@@ -109,6 +106,7 @@ impl<'a> Source<'a> {
             name,
             interval_taken: false,
             contradicted: None,
+            evened: Vec::new(),
         })
     }
 
@@ -131,12 +129,11 @@ impl<'a> Source<'a> {
     /// What was wrong with the file as far as it was read.
     pub fn notes(&self) -> Vec<String> {
         let notes = self.recording.notes().iter();
-        notes
-            .map(|note| match &note.channel {
-                Some(channel) => format!("{}, channel {channel}: {}", self.name, note.text),
-                None => format!("{}: {}", self.name, note.text),
-            })
-            .collect()
+        let notes = notes.map(|note| match &note.channel {
+            Some(channel) => format!("{}, channel {channel}: {}", self.name, note.text),
+            None => format!("{}: {}", self.name, note.text),
+        });
+        notes.chain(self.evened.iter().cloned()).collect()
     }
 
     fn problem(
@@ -161,11 +158,18 @@ impl<'a> Source<'a> {
                 second + 1,
                 channels.len()
             );
-            let needed =
-                "a name that only one channel has is needed: rename the others in the file";
+            let needed = format!(
+                "which of them is needed: \"{name}#1\" is the first, \"{name}#2\" the second"
+            );
             return Err(self.problem(Code::UnknownChannel, key, found, needed));
         }
-        let exact = alike().next();
+        let exact = alike().next().or_else(|| {
+            let (name, place) = name.rsplit_once('#')?;
+            let place = place.parse::<usize>().ok()?.checked_sub(1)?;
+            (0..channels.len())
+                .filter(|k| channels[*k].name == name)
+                .nth(place)
+        });
         // a name without its group, where only one channel has it
         let mut ends = channels.iter().enumerate().filter(|(_, channel)| {
             let end = channel.name.strip_suffix(name);
@@ -267,13 +271,31 @@ impl<'a> Source<'a> {
         name: &str,
         whole: bool,
     ) -> Result<Series, Box<Problem>> {
+        self.sampled(key, name, whole, false)
+    }
+
+    /// The same; where `rising`, of a channel whose times only rise, brought to equal times.
+    fn sampled(
+        &mut self,
+        key: &'static str,
+        name: &str,
+        whole: bool,
+        rising: bool,
+    ) -> Result<Series, Box<Problem>> {
         let (index, channel) = self.channel(key, name)?;
-        let (first, interval) = match (&channel.clock, self.signals.sample_interval) {
-            (Clock::Uniform { first, interval }, _) => (*first, *interval),
-            (Clock::Channel(clock), _) => self.even_clock(key, name, *clock)?,
+        let offset = self.offset(index, &channel);
+        let part = match whole {
+            true => (None, None),
+            false => (self.signals.from, self.signals.to),
+        };
+        let timing = match (&channel.clock, self.signals.sample_interval) {
+            (Clock::Uniform { first, interval }, _) => {
+                Timing::even(first + offset, *interval, channel.count, part)
+            }
+            (Clock::Channel(clock), _) => self.timing(key, &channel, *clock, offset, part)?,
             (Clock::Unknown, Some(interval)) => {
                 self.interval_taken = true;
-                (0.0, interval)
+                Timing::even(offset, interval, channel.count, part)
             }
             (Clock::Unknown, None) => {
                 return Err(self.problem(
@@ -284,23 +306,18 @@ impl<'a> Source<'a> {
                 ));
             }
         };
+        let interval = timing.interval;
         if let Some(told) = self.signals.sample_interval
             && (interval / told - 1.0).abs() > ROUNDED
         {
             self.contradicted
                 .get_or_insert((channel.name.clone(), interval));
         }
-        let first = first + self.offset(index, &channel);
-        let (begin, end) = if whole {
-            (0, channel.count)
-        } else {
-            self.part(first, interval, channel.count)
-        };
-        let count = end.saturating_sub(begin);
+        let count = timing.end.saturating_sub(timing.begin);
         if count == 0 {
+            let (first, last) = timing.range;
             let found = format!(
-                "channel \"{name}\", which has no value there: it runs from {first:.6} s to {:.6} s",
-                first + channel.count.saturating_sub(1) as f64 * interval
+                "channel \"{name}\", which has no value there: it runs from {first:.6} s to {last:.6} s"
             );
             return Err(self.problem(
                 Code::ChannelClock,
@@ -316,16 +333,26 @@ impl<'a> Source<'a> {
             );
             return Err(self.problem(Code::TooManyRows, key, found, needed));
         }
-        let values = self.read(key, index, begin, count as usize)?;
+        let values = self.read(key, index, timing.begin, count as usize)?;
         let converter = self.converter(&channel.name, interval);
-        Ok(Series {
+        let series = Series {
             converter,
             name: channel.name,
             unit: channel.unit,
-            first: first + begin as f64 * interval,
+            first: timing.first,
             interval,
             values,
-        })
+        };
+        match timing.uneven {
+            None => Ok(series),
+            Some(_) if rising => self.evened(key, series, timing),
+            Some(found) => Err(self.problem(
+                Code::ChannelClock,
+                key,
+                found,
+                "values at equal times are needed; signals.from and signals.to leave out a gap; instants of marks are read with kind = \"edges\"",
+            )),
+        }
     }
 
     /// The converter of a channel, where one is told.
@@ -413,7 +440,7 @@ impl<'a> Source<'a> {
         name: &str,
         scale: Option<f64>,
     ) -> Result<Series, Box<Problem>> {
-        let mut series = self.series(key, name, false)?;
+        let mut series = self.sampled(key, name, false, true)?;
         let named = || format!("channel \"{}\" in \"{}\"", series.name, series.unit.trim());
         let factor = match (speed_factor(&series.unit), scale) {
             (Some(own), Some(scale)) if (own / scale - 1.0).abs() > 1e-9 => {
@@ -441,52 +468,6 @@ impl<'a> Source<'a> {
         };
         series.scale(factor);
         Ok(series)
-    }
-
-    /// The instants in a channel, within the part that is looked at.
-    pub fn stamps(&mut self, key: &'static str, name: &str) -> Result<Stamps, Box<Problem>> {
-        let (index, channel) = self.channel(key, name)?;
-        if channel.count > MOST_VALUES {
-            let found = format!("channel \"{name}\" with {} values", channel.count);
-            let needed = format!("at most {MOST_VALUES} instants are taken");
-            return Err(self.problem(Code::TooManyRows, key, found, needed));
-        }
-        let seconds = match channel.content {
-            Content::Time => 1.0,
-            _ => self.seconds(key, &channel)?,
-        };
-        // A counter takes its stamps when they come.
-        let offset = self.start(&channel);
-        let read = self.read(key, index, 0, channel.count as usize)?;
-        let known: Vec<f64> = read
-            .iter()
-            .filter(|v| v.is_finite())
-            .map(|v| v * seconds + offset)
-            .collect();
-        if let Some(at) = known.windows(2).position(|pair| pair[1] <= pair[0]) {
-            return Err(self.backwards(key, name, at + 1, known[at], known[at + 1]));
-        }
-        let inside = |t: &f64| {
-            self.signals.from.is_none_or(|from| *t >= from)
-                && self.signals.to.is_none_or(|to| *t <= to)
-        };
-        Ok(Stamps {
-            missing: read.len() - known.len(),
-            times: known.iter().copied().filter(inside).collect(),
-        })
-    }
-
-    /// First index and the one behind the last of the values that are looked at.
-    fn part(&self, first: f64, interval: f64, count: u64) -> (u64, u64) {
-        // a cast of a float is cut at the ends of the integer
-        let place = |time: f64| ((time - first) / interval).ceil().max(0.0) as u64;
-        let begin = self.signals.from.map_or(0, place).min(count);
-        let end = self
-            .signals
-            .to
-            .map_or(count, |to| place(to).saturating_add(1))
-            .min(count);
-        (begin, end)
     }
 
     fn read(

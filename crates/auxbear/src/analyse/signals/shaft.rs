@@ -388,7 +388,12 @@ fn passages(
                 ..EdgeSettings::default()
             },
         ),
-        (Signal::Stamped(stamps), PickupKind::Edges { stamp_deviation }) => Edges::stamped(
+        (
+            Signal::Stamped(stamps),
+            PickupKind::Edges {
+                stamp_deviation, ..
+            },
+        ) => Edges::stamped(
             stamps.times.clone(),
             stamp_deviation,
             around(stamps, watched),

@@ -10,11 +10,6 @@ pub fn si_factor(text: &str, si: &str) -> Option<f64> {
 /// A unit as files write it, where it has the dimension of that SI unit.
 pub fn unit_of(text: &str, si: &str) -> Option<Unit> {
     const SPELLINGS: &[(&str, &str)] = &[
-        ("Nm", "N m"),
-        ("Nmm", "N mm"),
-        ("Ncm", "N cm"),
-        ("mNm", "mN m"),
-        ("kNm", "kN m"),
         ("sec", "s"),
         ("m/s2", "m/s^2"),
         ("m/s²", "m/s^2"),
@@ -35,7 +30,7 @@ pub fn unit_of(text: &str, si: &str) -> Option<Unit> {
 /// The size in rad/s of a unit of turning as files write it: of a speed, or of turns in a time.
 pub fn speed_factor(text: &str) -> Option<f64> {
     const PER_MINUTE: &[&str] = &[
-        "rpm", "1/min", "U/min", "r/min", "rev/min", "min-1", "min^-1", "upm",
+        "rpm", "1/min", "U/min", "r/min", "rev/min", "min-1", "min^-1", "min⁻¹", "upm",
     ];
     let plain = text.trim();
     if PER_MINUTE

@@ -40,11 +40,6 @@ pub(crate) const SECTIONS: &[Section] = &[
     },
 ];
 
-const SAMPLED: Condition = Condition {
-    path: "signals.speed.kind",
-    values: &["analog"],
-    reason: "",
-};
 const MARKED: Condition = Condition {
     path: "signals.speed.kind",
     values: &["analog", "edges"],
@@ -130,7 +125,7 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.speed.channel",
         Kind::Text,
         "tacho",
-        "Name of the channel as in the file; with its group where the file has groups, as in \"group/tacho\".",
+        "Name of the channel as in the file; with its group where the file has groups, as in \"group/tacho\"; \"tacho#2\" is the second one of a name.",
     )
     .optional("no speed is computed"),
     Key::new(
@@ -161,9 +156,9 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.speed.flank",
         Kind::Word(PickupFlank::WORDS),
         "rising",
-        "Which flank of a pulse marks the passage; centre is the middle between both.",
+        "Which flank of a pulse marks the passage; centre is the middle between both. With kind = \"edges\" it counts for a line of 0 and 1 with times.",
     )
-    .when(&[SAMPLED])
+    .when(&[MARKED])
     .default("rising", "one flank has one error of the pickup, two have two"),
     Key::new(
         "signals.speed.stamp_deviation",

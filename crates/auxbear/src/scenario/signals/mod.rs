@@ -131,6 +131,8 @@ pub enum PickupKind {
     Edges {
         /// Their standard deviation, s.
         stamp_deviation: f64,
+        /// Of a line of 0 and 1, the flank that marks the passage.
+        flank: PickupFlank,
     },
     /// A speed that an instrument shows.
     Speed {
@@ -284,6 +286,7 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
         kind: match speed.choice("kind") {
             SpeedOutput::Edges => PickupKind::Edges {
                 stamp_deviation: speed.number("stamp_deviation"),
+                flank: speed.choice("flank"),
             },
             SpeedOutput::Analog => PickupKind::Analog {
                 flank: speed.choice("flank"),

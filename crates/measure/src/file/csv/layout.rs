@@ -1,6 +1,7 @@
 //! How a table is laid out, found from its first lines.
 
 use super::cell::{self, Between, Cell, cells};
+use super::heads;
 use super::lines::text;
 use super::moment;
 use crate::file::clock;
@@ -20,6 +21,10 @@ pub(super) struct Column {
     pub name: String,
     pub unit: String,
     pub kind: Kind,
+    /// Whether a head says that it holds times.
+    pub time: bool,
+    /// First time and interval, s, that a head states of the column by itself.
+    pub steps: Option<(f64, f64)>,
 }
 
 /// How a table is laid out.
@@ -35,6 +40,10 @@ pub(super) struct Layout {
     pub properties: Vec<Property>,
     /// Whether the columns have names of the file.
     pub named: bool,
+    /// Cells before the first column that belong to a head beside the table.
+    pub skip: usize,
+    /// Whether the file is one of LabVIEW, which may have heads between rows of values.
+    pub labview: bool,
 }
 
 /// What may stand between cells, and whether a comma stands before decimals, the most usual first.
@@ -54,7 +63,7 @@ const FORMS: [(Between, bool); 9] = [
 const OTHER_UNITS: &[&str] = &[
     "-", "V", "mV", "µV", "uV", "kV", "A", "mA", "dB", "Ohm", "Ω", "C", "F", "µm/m", "um/m", "g",
     "counts", "LSB", "EU", "U/min", "1/min", "min-1", "min^-1", "m/s2", "mV/V", "lx", "digit",
-    "µε",
+    "µε", "Volt", "Volts", "Ampere", "Amp",
 ];
 
 /// Whether a line is a remark.
@@ -103,6 +112,23 @@ struct Fit {
 impl Layout {
     /// Finds the layout from the first lines; none where no line holds values.
     pub fn of(lines: &[Vec<u8>]) -> Option<Layout> {
+        if let Some(layout) = heads::labview(lines) {
+            return Some(layout);
+        }
+        let beside = heads::beside(lines);
+        let mut layout = match &beside {
+            Some(beside) => Layout::plain(&beside.lines)?,
+            None => Layout::plain(lines)?,
+        };
+        if let Some(beside) = beside {
+            layout.skip = beside.skip;
+            layout.properties.extend(beside.properties);
+        }
+        heads::take_units(&mut layout);
+        Some(layout)
+    }
+
+    fn plain(lines: &[Vec<u8>]) -> Option<Layout> {
         let mut best: Option<(Fit, (u64, bool, usize))> = None;
         for form in FORMS {
             let Some(fit) = fit(lines, form) else {
@@ -139,6 +165,8 @@ impl Layout {
                 name,
                 unit,
                 kind: fit.kinds[k],
+                time: false,
+                steps: None,
             }
         });
         Some(Layout {
@@ -148,6 +176,8 @@ impl Layout {
             first: fit.first,
             properties: properties(&lines[..from], fit.form),
             named: !names.is_empty(),
+            skip: 0,
+            labview: false,
         })
     }
 }
@@ -300,7 +330,7 @@ fn name_and_unit(head: &str) -> (String, String) {
 }
 
 /// What the lines above a table state: `name: value`, `name = value`, or two cells.
-fn properties(lines: &[Vec<u8>], form: (Between, bool)) -> Vec<Property> {
+pub(super) fn properties(lines: &[Vec<u8>], form: (Between, bool)) -> Vec<Property> {
     let mut found = Vec::new();
     for line in lines {
         let line = without_remark(line);
@@ -317,22 +347,27 @@ fn properties(lines: &[Vec<u8>], form: (Between, bool)) -> Vec<Property> {
         let Some((name, value)) = pair else {
             continue;
         };
-        let (name, unit) = name_and_unit(name.trim().trim_end_matches([':', '=']));
-        let value = value.trim().trim_matches('"');
-        if name.is_empty() || value.is_empty() {
-            continue;
-        }
-        let value = match cell::read(value.as_bytes(), form.1) {
-            Cell::Number(number) if unit.is_empty() => Value::Number(number),
-            Cell::Number(number) => match known_scale(&unit) {
-                Some(scale) => Value::Number(number * scale),
-                None => Value::Text(format!("{value} {unit}")),
-            },
-            _ => Value::Text(value.to_string()),
-        };
-        found.push(Property { name, value });
+        found.extend(property(name, value, form.1));
     }
     found
+}
+
+/// What a name and a value above a table state; `comma`: whether it stands before decimals.
+pub(super) fn property(name: &str, value: &str, comma: bool) -> Option<Property> {
+    let (name, unit) = name_and_unit(name.trim().trim_end_matches([':', '=']));
+    let value = value.trim().trim_matches('"');
+    if name.is_empty() || value.is_empty() {
+        return None;
+    }
+    let value = match cell::read(value.as_bytes(), comma) {
+        Cell::Number(number) if unit.is_empty() => Value::Number(number),
+        Cell::Number(number) => match known_scale(&unit) {
+            Some(scale) => Value::Number(number * scale),
+            None => Value::Text(format!("{value} {unit}")),
+        },
+        _ => Value::Text(value.to_string()),
+    };
+    Some(Property { name, value })
 }
 
 /// What a number of a rate or an interval is to be multiplied by for 1/s or s.

@@ -13,7 +13,9 @@
 //! line end, whose last number may be a part of one.
 
 mod cell;
+mod clocks;
 mod faults;
+mod heads;
 mod layout;
 mod lines;
 mod moment;
@@ -26,7 +28,7 @@ use std::path::Path;
 use super::clock::{self, Spacing};
 use super::request::{refuse_number, refuse_text};
 use super::source::Source;
-use crate::recording::{Channel, Clock, Content, FileError, Instant, Note, Property, Recording};
+use crate::recording::{Channel, Content, FileError, Instant, Note, Property, Recording};
 use cell::{Cell, cells};
 use faults::{Faults, Lost, Rounding, count};
 use layout::{Kind, Layout};
@@ -44,6 +46,11 @@ const BLOCK_ROWS: usize = 4096;
 
 /// Values that are kept.
 const KEPT_VALUES: usize = 1 << 22;
+
+/// Before the first time of a day.
+const NO_DAY: (f64, f64) = (f64::NEG_INFINITY, 0.0);
+/// A time of the day that is so much earlier than the one before is of the next day, s.
+const NEXT_DAY: f64 = 43_200.0;
 
 /// Most columns that are read.
 const MOST_COLUMNS: usize = 1 << 16;
@@ -71,6 +78,8 @@ struct Block {
     line: u64,
     /// Index of its first row of values.
     row: u64,
+    /// Last time of the day before it, s, and how many midnights came.
+    day: (f64, f64),
 }
 
 /// A table that is open for reading.
@@ -83,6 +92,11 @@ pub struct Csv<S> {
     blocks: Vec<Block>,
     rows: u64,
     rows_of_block: usize,
+    /// The column of times, and the last time of a day with the midnights before it.
+    time: Option<usize>,
+    day: (f64, f64),
+    /// Heads that stand between rows of values.
+    heads: u64,
     properties: Vec<Property>,
     notes: Vec<Note>,
     /// Values of blocks, row by row, the one used last at the end.
@@ -148,6 +162,7 @@ impl<S: Read + Seek> Csv<S> {
             at: places[layout.first],
             line: layout.first as u64 + 1,
             row: 0,
+            day: NO_DAY,
         };
         let mut file = Csv {
             source,
@@ -157,6 +172,9 @@ impl<S: Read + Seek> Csv<S> {
             blocks: Vec::new(),
             rows: 0,
             rows_of_block: (BLOCK_VALUES / width).clamp(1, BLOCK_ROWS),
+            time: None,
+            day: NO_DAY,
+            heads: 0,
             properties: layout.properties.clone(),
             notes: Vec::new(),
             kept: Vec::new(),
@@ -181,6 +199,7 @@ impl<S: Read + Seek> Csv<S> {
     /// Reads the whole table once: where its blocks start, what is wrong with it, and its clock.
     fn index(&mut self, first: Block) -> Result<(), FileError> {
         let time = self.time();
+        self.time = time;
         let (mut lines, mut line) = (Lines::new(self.letters, first.at), Vec::new());
         let mut number = first.line;
         let mut cut = None;
@@ -191,7 +210,7 @@ impl<S: Read + Seek> Csv<S> {
         let mut back_line = 0;
         let (mut values, mut row) = (Vec::new(), Vec::new());
         loop {
-            let at = lines.at();
+            let (at, day) = (lines.at(), self.day);
             if !lines.next(&mut self.source, &mut line)? {
                 break;
             }
@@ -203,6 +222,7 @@ impl<S: Read + Seek> Csv<S> {
                         at,
                         line: number,
                         row: self.rows,
+                        day,
                     });
                 }
                 if let Some(time) = time {
@@ -256,7 +276,7 @@ impl<S: Read + Seek> Csv<S> {
             // Loggers write at least milliseconds, or whole seconds.
             let mut slack = 1.0;
             cells(line, self.layout.between, |column, cell| {
-                if column == time {
+                if column == time + self.layout.skip {
                     let point = cell.iter().rposition(|&b| b == b'.' || b == b',');
                     let last = cell.iter().rposition(|&b| b == b':').unwrap_or(0);
                     let decimals = point
@@ -269,7 +289,7 @@ impl<S: Read + Seek> Csv<S> {
         }
         let mut slack = 0.0;
         cells(line, self.layout.between, |column, cell| {
-            if column == time {
+            if column == time + self.layout.skip {
                 slack = rounding.of(cell, self.layout.comma, value);
             }
         });
@@ -287,16 +307,20 @@ impl<S: Read + Seek> Csv<S> {
         if line.trim_ascii().is_empty() || layout::is_remark(line) {
             return false;
         }
-        let width = self.channels.len();
+        if self.layout.labview && heads::is_head(line, &self.layout) {
+            self.heads += u64::from(report.is_some() && heads::is_end(line));
+            return false;
+        }
+        let (width, skip) = (self.channels.len(), self.layout.skip);
         row.resize(width, f64::NAN);
         let (mut values, mut texts) = (0, 0);
         // Columns of what is no value are noted only when the line turns out to be one of values.
         let mut wrong: Vec<(usize, Option<&[u8]>)> = Vec::new();
         let (comma, columns, starts) = (self.layout.comma, &self.layout.columns, &mut self.starts);
         let found = cells(line, self.layout.between, |column, cell| {
-            if column >= width {
+            let Some(column) = column.checked_sub(skip).filter(|column| *column < width) else {
                 return;
-            }
+            };
             match columns[column].kind {
                 Kind::Text => {}
                 Kind::Number => match cell::read(cell, comma) {
@@ -333,13 +357,22 @@ impl<S: Read + Seek> Csv<S> {
             }
             return false;
         }
+        if let Some(time) = self.time.filter(|&time| {
+            columns[time].kind == Kind::Moment && starts[time].is_none() && row[time].is_finite()
+        }) {
+            const DAY: f64 = 86_400.0;
+            let (last, days) = self.day;
+            let days = days + f64::from(u8::from(row[time] + DAY * days < last - NEXT_DAY));
+            row[time] += DAY * days;
+            self.day = (row[time], days);
+        }
         if let Some((faults, lost, number)) = report {
             for (column, text) in wrong {
                 faults[column].add(text, number);
             }
-            if found < width {
+            if found < width + skip {
                 count(&mut lost.short, number);
-            } else if found > width && cells_after(line, self.layout.between, width) {
+            } else if cells_after(line, self.layout.between, width + skip) {
                 count(&mut lost.long, number);
             }
         }
@@ -391,66 +424,19 @@ impl<S: Read + Seek> Csv<S> {
         }
     }
 
-    fn set_clock(&mut self, time: Option<usize>, spacing: &Spacing, back_line: u64) {
-        let Some(time) = time else {
-            let (clocks, notes) = clock::clocks(self, &[]);
-            for (channel, clock) in clocks {
-                self.channels[channel].clock = clock;
-            }
-            self.notes.extend(notes);
-            return;
-        };
-        let name = self.channels[time].name.clone();
-        let mut note = |text: String| {
-            self.notes.push(Note {
-                channel: Some(name.clone()),
-                text,
-            });
-        };
-        let is_moment = self.layout.columns[time].kind == Kind::Moment;
-        let unit = if is_moment {
-            "s"
-        } else {
-            &self.channels[time].unit
-        };
-        if let Some((_, times)) = spacing.back {
-            note(format!(
-                "{times} times are not after the one before, the first in line {back_line}"
-            ));
-        }
-        if clock::seconds_in(unit).is_none() {
-            note("is a time by its name, but its unit is not stated".to_string());
-        }
-        let clock = spacing.clock(time, unit);
-        let start = self.starts[time];
-        for channel in &mut self.channels {
-            channel.clock = clock.clone();
-            channel.start = start;
-        }
-        for (channel, start) in self.channels.iter_mut().zip(&self.starts) {
-            if channel.content == Content::Time {
-                channel.unit = "s".to_string();
-                channel.start = *start;
-            }
-        }
-        if let Clock::Uniform { .. } = clock {
-            return;
-        }
-        if spacing.missing > 0 {
-            self.notes.push(Note {
-                channel: Some(name),
-                text: format!("{} times are not numbers", spacing.missing),
-            });
-        }
-    }
-
     /// The values of a block, row by row.
     fn block(&mut self, block: usize) -> Result<&[f64], FileError> {
         if let Some(known) = self.kept.iter().position(|(known, _)| *known == block) {
             let entry = self.kept.remove(known);
             self.kept.push(entry);
         } else {
-            let Block { at, row: first, .. } = self.blocks[block];
+            let Block {
+                at,
+                row: first,
+                day,
+                ..
+            } = self.blocks[block];
+            self.day = day;
             let rows = (self.rows - first).min(self.rows_of_block as u64) as usize;
             let (mut lines, mut line, mut row) =
                 (Lines::new(self.letters, at), Vec::new(), Vec::new());
@@ -547,7 +533,7 @@ impl<S: Read + Seek> Recording for Csv<S> {
             if at >= first {
                 let mut own = String::new();
                 cells(&line, self.layout.between, |column, cell| {
-                    if column == channel {
+                    if column == channel + self.layout.skip {
                         own = text(cell);
                     }
                 });

@@ -241,6 +241,13 @@ impl Found {
         if matlab && is_empty {
             return self.note(&name, "is empty".to_string());
         }
+        if matlab && attributes.iter().any(|a| a.name == "MATLAB_object_decode") {
+            let class = class.unwrap_or_default();
+            let text = format!(
+                "is an object of the class {class}, of which no format is published; it is left out: save its numbers as a matrix, its text as char"
+            );
+            return self.note(&name, text);
+        }
         let dataset = match storage.dataset(messages) {
             Ok(dataset) => dataset,
             Err(Unreadable::Form(why)) => {
@@ -263,7 +270,13 @@ impl Found {
                 Kind::Text | Kind::LongText => "texts",
                 _ => "compounds without numbers",
             };
-            return self.note(&name, format!("holds {what}; it is left out"));
+            let way_out = match matlab && *what == *"references" {
+                true => {
+                    ": an array of structures is read from a file saved with -v7, or as variables of its own, as x = S(1).speed"
+                }
+                false => "",
+            };
+            return self.note(&name, format!("holds {what}; it is left out{way_out}"));
         }
         let wide: Vec<usize> = (0..dataset.sizes.len())
             .filter(|&direction| dataset.sizes[direction] != 1)

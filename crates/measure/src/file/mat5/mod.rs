@@ -1,14 +1,15 @@
-//! MATLAB's format of version 5, which its versions 5 to 7.2 write: reader.
+//! MATLAB's format of version 5, which its versions 5 to 7.2 write, and that of level 4: reader.
 //!
 //! A vector is a channel; a matrix is a channel for every column, or for every row where rows are longer. Complex
 //! values are two channels, `name/real` and `name/imaginary`. Fields of a structure and cells are `name/field` and
 //! `name/1`, of an array of structures `name(2)/field`. Single numbers and texts become properties. The format knows no
 //! unit, and no clock but a vector named `t` or `time` and numbers such as `fs` or `dt`.
 //!
-//! Left out, with a note: sparse matrices, objects, functions, and arrays of more than two directions.
+//! Level 4 holds matrices alone. Left out, with a note: sparse matrices, objects, functions, and arrays of more than two directions.
 //!
 //! Source: MathWorks, MAT-File Format, R2019b (from memory).
 
+mod level4;
 mod stream;
 mod survey;
 mod values;
@@ -19,7 +20,7 @@ use std::path::Path;
 
 use super::clock;
 use super::request::{refuse_number, refuse_text};
-use super::source::Source;
+use super::source::{HEAD, Source};
 use crate::recording::{Channel, FileError, Note, Property, Recording};
 use stream::Stream;
 use values::{Stored, Values};
@@ -30,10 +31,11 @@ const PLACES: usize = 64;
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 18;
 
-/// Whether a file that starts with these bytes is MAT of version 5.
+/// Whether a file that starts with these bytes is MAT of version 5 or level 4.
 pub fn is_mat5(head: &[u8]) -> bool {
     let mark = head.get(124..128);
     matches!(mark, Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']))
+        || level4::big_endian(head).is_some()
 }
 
 /// A MAT file that is open for reading.
@@ -65,19 +67,22 @@ impl<S: Read + Seek> Mat5<S> {
     /// An error where the file does not start as one of version 5.
     pub fn from_source(source: S, path: &Path) -> Result<Mat5<S>, FileError> {
         let mut source = Source::new(source, path)?;
-        let mut head = [0; 128];
-        let there = source.read_at(0, &mut head)?;
-        if !is_mat5(&head[..there]) {
+        let head = source.bytes(0, source.length().min(HEAD as u64))?;
+        if !is_mat5(&head) {
             let needed = "save it with MATLAB's version 5 or 7.3";
             return Err(FileError::new(
                 path,
                 "",
-                "is no MAT file of version 5",
+                "is no MAT file of version 5 or level 4",
                 needed,
             ));
         }
-        let big_endian = &head[126..128] == b"MI";
-        let found = survey::survey(&mut source, big_endian)?;
+        let level4 = level4::big_endian(&head);
+        let big_endian = level4.unwrap_or_else(|| head.get(126..128) == Some(b"MI"));
+        let found = match level4 {
+            Some(_) => level4::survey(&mut source, big_endian)?,
+            None => survey::survey(&mut source, big_endian)?,
+        };
         let rounding: Vec<Option<f64>> = (found.values.iter())
             .map(|values| {
                 let single = values.stored == Stored::F32;

@@ -398,48 +398,20 @@ impl<S: Read + Seek> Walk<'_, S> {
             let text = format!("{count} values are stated, {there} are there");
             self.found.note(name, text);
         }
-        let wide: Vec<u64> = sizes.iter().copied().filter(|&size| size != 1).collect();
-        let (rows, columns, by_rows) = match wide[..] {
-            [] => {
-                sound!(self.single(name, &element, stored, logical)?);
-                return Ok(Some(element));
-            }
-            [rows] => (rows, 1, false),
-            [rows, columns] if rows >= columns => (rows, columns, false),
-            [rows, columns] => (columns, rows, true),
-            _ => {
-                let text = "has more than two directions; it is left out";
-                self.found.note(name, text.to_string());
-                return Ok(Some(element));
-            }
-        };
-        if columns > MOST_COLUMNS {
-            let text = format!("has {columns} columns; it is left out");
-            self.found.note(name, text);
+        if sizes.iter().all(|&size| size == 1) {
+            sound!(self.single(name, &element, stored, logical)?);
             return Ok(Some(element));
         }
-        for column in 0..columns {
-            let (first, step) = if by_rows {
-                (column, columns)
-            } else {
-                (column * rows, 1)
-            };
-            let whole = there.saturating_sub(first).div_ceil(step).min(rows);
-            let name = match columns {
-                1 => name.to_string(),
-                _ => format!("{name}[{}]", column + 1),
-            };
-            self.found.channels.push(Channel::new(name, whole));
-            self.found.values.push(Values {
-                start: self.start,
-                end: self.end,
-                packed: self.packed,
-                at: element.at,
-                stored,
-                first,
-                step,
-            });
-        }
+        let values = Values {
+            start: self.start,
+            end: self.end,
+            packed: self.packed,
+            at: element.at,
+            stored,
+            first: 0,
+            step: 1,
+        };
+        self.found.matrix(name, sizes, there, &values);
         Ok(Some(element))
     }
 
@@ -472,7 +444,43 @@ impl<S: Read + Seek> Walk<'_, S> {
 }
 
 impl Found {
-    fn note(&mut self, name: &str, text: String) {
+    /// Channels of an array of numbers, of which `there` are in the file from `values` on: its columns, or its rows where they are
+    /// longer.
+    pub(super) fn matrix(&mut self, name: &str, sizes: &[u64], there: u64, values: &Values) {
+        let wide: Vec<u64> = sizes.iter().copied().filter(|&size| size != 1).collect();
+        let (rows, columns, by_rows) = match wide[..] {
+            [] => (1, 1, false),
+            [rows] => (rows, 1, false),
+            [rows, columns] if rows >= columns => (rows, columns, false),
+            [rows, columns] => (columns, rows, true),
+            _ => {
+                let text = "has more than two directions; it is left out";
+                return self.note(name, text.to_string());
+            }
+        };
+        if columns > MOST_COLUMNS {
+            return self.note(name, format!("has {columns} columns; it is left out"));
+        }
+        for column in 0..columns {
+            let (first, step) = match by_rows {
+                true => (column, columns),
+                false => (column * rows, 1),
+            };
+            let whole = there.saturating_sub(first).div_ceil(step).min(rows);
+            let name = match columns {
+                1 => name.to_string(),
+                _ => format!("{name}[{}]", column + 1),
+            };
+            self.channels.push(Channel::new(name, whole));
+            self.values.push(Values {
+                first,
+                step,
+                ..values.clone()
+            });
+        }
+    }
+
+    pub(super) fn note(&mut self, name: &str, text: String) {
         self.notes.push(Note {
             channel: (!name.is_empty()).then(|| name.to_string()),
             text,

@@ -318,7 +318,14 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
         let rounding: Vec<Option<f64>> = self
             .channels
             .iter()
-            .map(|channel| (channel.count <= most).then_some(0.0))
+            .zip(&self.columns)
+            .map(|(channel, column)| {
+                let rounding = match column.kind {
+                    Kind::Instant { per_second } => 1.0 / per_second,
+                    _ => 0.0,
+                };
+                (channel.count <= most).then_some(rounding)
+            })
             .collect();
         let (clocks, notes) = clock::clocks(self, &rounding);
         for (channel, clock) in clocks {

@@ -149,13 +149,16 @@ impl<S: Read + Seek> Tdms<S> {
         if let Some(wrong) = wrong {
             self.index.note(Some(name.clone()), wrong);
         }
-        let scaling = self.scaling(number).unwrap_or_else(|why| {
-            self.index.note(
-                Some(name.clone()),
-                format!("its scaling is not applied: {why}"),
-            );
-            None
-        });
+        let scaling = match self.scaling(number) {
+            Ok(scaling) => scaling,
+            Err(why) => {
+                let text = format!(
+                    "its scaling cannot be applied: {why}; it is left out, as the counts of its device are not what was measured"
+                );
+                self.index.note(Some(name), text);
+                return Ok(());
+            }
+        };
         let coded = |part: &Part| part.scale != PLAIN && !matches!(part.kind, Kind::Bit(_));
         if scaling.is_none()
             && self
@@ -163,7 +166,8 @@ impl<S: Read + Seek> Tdms<S> {
                 .pieces(number)
                 .any(|piece| piece.parts.iter().any(coded))
         {
-            let text = "its values are the codes of the device: the file states no scaling that is applied";
+            channel.unit.clear();
+            let text = "its values are the codes of the device, without a unit: the file states no scaling that is applied";
             self.index.note(Some(name.clone()), text);
         }
         let complex = self.index.objects[number as usize].complex;
@@ -183,7 +187,10 @@ impl<S: Read + Seek> Tdms<S> {
         }
         if complex {
             let scaled = match origin.scaling.take() {
-                Some(_) => "; their scaling is not applied",
+                Some(_) => {
+                    channel.unit.clear();
+                    "; their scaling is not applied, and they have no unit"
+                }
                 None => "",
             };
             self.index.note(

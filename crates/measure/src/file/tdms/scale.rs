@@ -53,7 +53,7 @@ type Lookup<'a> = dyn Fn(&str) -> Option<&'a Value> + 'a;
 impl Scaling {
     /// The scales of the properties; none where there are none.
     ///
-    /// An error says why they cannot be applied, or must not as the values are scaled already.
+    /// None too where the file says that its values are scaled. An error says why they cannot be applied.
     pub fn of(property: &Lookup) -> Result<Option<Scaling>, String> {
         let Some(count) = number(property, "NI_Number_Of_Scales").filter(|&count| count >= 1.0)
         else {
@@ -61,7 +61,7 @@ impl Scaling {
         };
         if matches!(property("NI_Scaling_Status"), Some(Value::Text(status)) if status != "unscaled")
         {
-            return Err("the file says that the values are scaled".to_owned());
+            return Ok(None);
         }
         if count > f64::from(MOST) {
             return Err(format!("{count} scales"));
@@ -110,7 +110,12 @@ impl Scaling {
         let need =
             |name: &str| get(name).ok_or_else(|| format!("scale {scale} ({kind}) lacks {name}"));
         let list = |name: &str| -> Result<Vec<f64>, String> {
-            let count = need(&format!("{name}_Size"))?;
+            let count = match get(&format!("{name}_Size")) {
+                // Older writers state no size of a polynomial: it has four coefficients, as npTDMS takes it.
+                None if kind == "Polynomial" => 4.0,
+                None => need(&format!("{name}_Size"))?,
+                Some(count) => count,
+            };
             if !(0.0..=f64::from(MOST_NUMBERS)).contains(&count) {
                 return Err(format!("scale {scale} ({kind}) has {count} {name}"));
             }
@@ -292,6 +297,23 @@ mod tests {
             ("NI_Scale[0]_Linear_Slope", n(2.0)),
             ("NI_Scale[0]_Linear_Y_Intercept", n(1.0)),
         ];
-        assert!(scaled(&properties, 3.0).is_err_and(|why| why.contains("are scaled")));
+        assert_eq!(scaled(&properties, 3.0), Ok(None));
+    }
+
+    #[test]
+    fn a_polynomial_without_a_size_has_four_coefficients() {
+        let n = Value::Number;
+        let mut properties = vec![
+            ("NI_Number_Of_Scales", n(1.0)),
+            ("NI_Scale[0]_Scale_Type", text("Polynomial")),
+            ("NI_Scale[0]_Polynomial_Coefficients[0]", n(1.5)),
+            ("NI_Scale[0]_Polynomial_Coefficients[1]", n(0.01)),
+            ("NI_Scale[0]_Polynomial_Coefficients[2]", n(0.0)),
+            ("NI_Scale[0]_Polynomial_Coefficients[3]", n(1e-9)),
+        ];
+        // 1.5 + 0.01·1000 + 1e-9·1e9 = 12.5.
+        assert_eq!(scaled(&properties, 1e3), Ok(Some(12.5)));
+        properties.pop();
+        assert!(scaled(&properties, 1e3).is_err());
     }
 }

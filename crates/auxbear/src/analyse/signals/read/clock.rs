@@ -1,8 +1,8 @@
 //! The clock of a channel: from its file, or from a column of times.
 
-use crate::analyse::signals::read::{MOST_VALUES, Source, si_factor};
+use crate::analyse::signals::read::{MOST_VALUES, Series, Source, si_factor};
 use crate::problem::{Code, Problem};
-use measure::recording::{Channel, Content};
+use measure::recording::{Channel, Clock, Content};
 
 /// Usual intervals in a step from which on values are missing.
 const LONG_GAP: f64 = 1.8;
@@ -80,14 +80,35 @@ impl Source<'_> {
         })
     }
 
-    /// First time and interval of a clock that is a channel, s.
-    pub(crate) fn even_clock(
+    /// Times of the values of a channel as its clock gives them, s; none where it has none.
+    pub(super) fn times_of(
         &mut self,
         key: &'static str,
-        name: &str,
+        channel: &Channel,
+        count: usize,
+    ) -> Result<Option<Vec<f64>>, Box<Problem>> {
+        Ok(match channel.clock {
+            Clock::Uniform { first, interval } => {
+                Some((0..count).map(|k| first + k as f64 * interval).collect())
+            }
+            Clock::Channel(clock) => {
+                let seconds = self.clock(key, channel, clock)?.1;
+                let times = self.read(key, clock, 0, count)?;
+                Some(times.iter().map(|time| time * seconds).collect())
+            }
+            Clock::Unknown => None,
+        })
+    }
+
+    /// The channel that is the clock of another one, and the seconds of its unit.
+    fn clock(
+        &self,
+        key: &str,
+        channel: &Channel,
         clock: usize,
-    ) -> Result<(f64, f64), Box<Problem>> {
+    ) -> Result<(Channel, f64), Box<Problem>> {
         let Some(times) = self.recording.channels().get(clock).cloned() else {
+            let name = &channel.name;
             let found = format!("channel \"{name}\", whose clock the file does not hold");
             return Err(self.problem(Code::ChannelClock, key, found, "a whole file is needed"));
         };
@@ -95,7 +116,21 @@ impl Source<'_> {
             Content::Time => 1.0,
             _ => self.seconds(key, &times)?,
         };
-        let count = times.count.min(MOST_VALUES) as usize;
+        Ok((times, seconds))
+    }
+
+    /// When the values of a channel come whose clock is another channel, in the part that is looked at.
+    pub(super) fn timing(
+        &mut self,
+        key: &'static str,
+        channel: &Channel,
+        clock: usize,
+        offset: f64,
+        (from, to): (Option<f64>, Option<f64>),
+    ) -> Result<Timing, Box<Problem>> {
+        let name = &channel.name;
+        let (times, seconds) = self.clock(key, channel, clock)?;
+        let count = times.count.min(MOST_VALUES);
         if count < 2 {
             let found = format!(
                 "channel \"{name}\", whose clock \"{}\" has {count} values",
@@ -103,17 +138,55 @@ impl Source<'_> {
             );
             return Err(self.problem(Code::ChannelClock, key, found, "two at least are needed"));
         }
-        let ends = |values: &[f64]| values.first().copied();
-        let first = ends(&self.read(key, clock, 0, 1)?).unwrap_or(f64::NAN) * seconds;
-        let last = ends(&self.read(key, clock, count as u64 - 1, 1)?).unwrap_or(f64::NAN) * seconds;
-        let interval = (last - first) / (count - 1) as f64;
+        let at = |own: &mut Self, index: u64| -> Result<f64, Box<Problem>> {
+            let value = own.read(key, clock, index, 1)?;
+            Ok(value.first().copied().unwrap_or(f64::NAN) * seconds + offset)
+        };
+        // The times rise, or what is found here is refused below.
+        let place = |own: &mut Self, until: &dyn Fn(f64) -> bool| {
+            let (mut low, mut high) = (0, count);
+            while low < high {
+                let middle = low + (high - low) / 2;
+                match until(at(own, middle)?) {
+                    true => high = middle,
+                    false => low = middle + 1,
+                }
+            }
+            Ok::<u64, Box<Problem>>(low)
+        };
+        let slack = |time: f64| 1e-12 * time.abs();
+        let begin = match from {
+            Some(from) => place(self, &|time| time >= from - slack(from))?,
+            None => 0,
+        };
+        let end = match to {
+            Some(to) => place(self, &|time| time > to + slack(to))?,
+            None => count,
+        };
+        let range = (at(self, 0)?, at(self, count - 1)?);
+        let mut timing = Timing {
+            begin,
+            end,
+            first: range.0,
+            interval: (range.1 - range.0) / (count - 1) as f64,
+            range,
+            uneven: None,
+            clock,
+            seconds,
+            offset,
+        };
+        if end < begin + 2 {
+            return Ok(timing);
+        }
+        let (first, last) = (at(self, begin)?, at(self, end - 1)?);
+        let interval = (last - first) / (end - begin - 1) as f64;
         let mut before = f64::NEG_INFINITY;
         let mut worst: Option<(usize, f64)> = None;
         let (mut gap, mut steps) = ((0.0, 0.0), Vec::new());
-        for begin in (0..count).step_by(PIECE) {
-            let piece = self.read(key, clock, begin as u64, PIECE.min(count - begin))?;
+        for start in (begin..end).step_by(PIECE) {
+            let piece = self.read(key, clock, start, PIECE.min((end - start) as usize))?;
             for (k, value) in piece.iter().enumerate() {
-                let (at, time) = (begin + k, value * seconds);
+                let (at, time) = (start as usize + k, value * seconds + offset);
                 if !time.is_finite() {
                     let found = format!(
                         "channel \"{}\", the clock of \"{name}\": value {at} is no number",
@@ -138,16 +211,20 @@ impl Source<'_> {
                     }
                 }
                 before = time;
-                let away = ((time - first) / interval - at as f64).abs();
+                let away = ((time - first) / interval - (at as f64 - begin as f64)).abs();
                 if away > UNEVEN && worst.is_none_or(|(_, most)| away > most) {
                     worst = Some((at, away));
                 }
             }
         }
-        if let Some((at, away)) = worst {
-            steps.sort_by(f64::total_cmp);
-            let usual = steps.get(steps.len() / 2).copied().unwrap_or(interval);
-            let found = match gap.1 > LONG_GAP * usual {
+        (timing.first, timing.interval) = (first, interval);
+        steps.sort_by(f64::total_cmp);
+        let usual = steps.get(steps.len() / 2).copied().unwrap_or(interval);
+        if worst.is_some() {
+            timing.interval = usual;
+        }
+        timing.uneven = worst.map(|(at, away)| {
+            match gap.1 > LONG_GAP * usual {
                 true => format!(
                     "a gap of {:.6} s behind {:.6} s in channel \"{name}\", whose values otherwise come every {usual:.6} s",
                     gap.1, gap.0
@@ -155,10 +232,115 @@ impl Source<'_> {
                 false => format!(
                     "channel \"{name}\", whose values are not at equal times: value {at} is {away:.2} intervals off"
                 ),
-            };
-            let needed = "values at equal times are needed; instants of marks are read with kind = \"edges\"";
-            return Err(self.problem(Code::ChannelClock, key, found, needed));
+            }
+        });
+        Ok(timing)
+    }
+
+    /// The values of a channel of rising times at equal ones, on straight lines between neighbours; none in a gap.
+    pub(super) fn evened(
+        &mut self,
+        key: &'static str,
+        mut series: Series,
+        timing: Timing,
+    ) -> Result<Series, Box<Problem>> {
+        let read = self.read(key, timing.clock, timing.begin, series.values.len())?;
+        let times: Vec<f64> = read
+            .iter()
+            .map(|t| t * timing.seconds + timing.offset)
+            .collect();
+        let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
+        let mut sorted: Vec<f64> = steps().collect();
+        sorted.sort_by(f64::total_cmp);
+        let longest = LONG_GAP * sorted.get(sorted.len() * 9 / 10).copied().unwrap_or(0.0);
+        let usual: Vec<f64> = steps().filter(|step| *step <= longest).collect();
+        let interval = usual.iter().sum::<f64>() / usual.len().max(1) as f64;
+        let (first, last) = (times[0], times[times.len() - 1]);
+        let count = ((last - first) / interval * (1.0 + f64::EPSILON)).floor() + 1.0;
+        if !(1.0..=MOST_VALUES as f64).contains(&count) {
+            let found = format!(
+                "channel \"{}\" over {} s with a value every {interval:.3e} s",
+                series.name,
+                last - first
+            );
+            let needed = "signals.from and signals.to must leave a part of it without long gaps";
+            return Err(self.problem(Code::TooManyRows, key, found, needed));
         }
-        Ok((first, interval))
+        let mut before = 0;
+        let values = (0..count as usize).map(|k| {
+            let time = first + k as f64 * interval;
+            while before + 2 < times.len() && times[before + 1] <= time {
+                before += 1;
+            }
+            let step = times[before + 1] - times[before];
+            let part = ((time - times[before]) / step).clamp(0.0, 1.0);
+            let (a, b) = (series.values[before], series.values[before + 1]);
+            match step <= longest || part * step < 1e-6 * interval {
+                true => a + part * (b - a),
+                false => f64::NAN,
+            }
+        });
+        series.values = values.collect();
+        (series.first, series.interval) = (first, interval);
+        let gaps = (times.windows(2)).filter(|pair| pair[1] - pair[0] > longest);
+        let told: Vec<String> = gaps
+            .map(|pair| format!("{:.6} to {:.6} s", pair[0], pair[1]))
+            .collect();
+        let left = match told.len() {
+            0 => String::new(),
+            1..=3 => format!("; nothing is known in the gaps {}", told.join(", ")),
+            more => format!("; nothing is known in {more} gaps, the first {}", told[0]),
+        };
+        self.evened.push(format!(
+            "{}, channel {}: its values come at uneven times, every {interval:.6} s on average; they are brought to equal times on straight lines between neighbours{left}",
+            self.name, series.name
+        ));
+        Ok(series)
+    }
+}
+
+/// When the values of a channel come.
+pub(super) struct Timing {
+    /// Index of the first value that is looked at, and of the one behind the last.
+    pub begin: u64,
+    pub end: u64,
+    /// Time of the first one, and the interval, s.
+    pub first: f64,
+    pub interval: f64,
+    /// First and last time of the channel, s.
+    pub range: (f64, f64),
+    /// What is uneven of them, where something is.
+    pub uneven: Option<String>,
+    /// The channel of the times, the seconds of its unit, and what is added.
+    clock: usize,
+    seconds: f64,
+    offset: f64,
+}
+
+impl Timing {
+    /// Equal times, within a part.
+    pub fn even(
+        first: f64,
+        interval: f64,
+        count: u64,
+        (from, to): (Option<f64>, Option<f64>),
+    ) -> Timing {
+        // a cast of a float is cut at the ends of the integer
+        let place = |time: f64| ((time - first) / interval).ceil().max(0.0) as u64;
+        let begin = from.map_or(0, place).min(count);
+        let end = to
+            .map_or(count, |to| place(to).saturating_add(1))
+            .min(count);
+        Timing {
+            begin,
+            end,
+            first: first + begin as f64 * interval,
+            interval,
+            range: (first, first + count.saturating_sub(1) as f64 * interval),
+            uneven: None,
+            clock: 0,
+            seconds: 1.0,
+            offset: 0.0,
+        }
     }
 }
