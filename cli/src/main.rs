@@ -37,7 +37,6 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     measured_quietly();
     full_files_are_errors();
-    auxbear::run::bound_threads();
     let performed = match Arguments::try_parse() {
         Ok(arguments) => perform(&arguments.command),
         Err(told) if told.use_stderr() => told.exit(),

@@ -31,14 +31,3 @@ pub(crate) fn bounded(threads: usize) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     threads.min(THREADS_A_CORE * cores)
 }
-
-/// Bounds the threads of all runs where the environment asks for more; to be called before the first run.
-pub fn bound_threads() {
-    let asked = std::env::var("RAYON_NUM_THREADS").ok();
-    let asked = asked.and_then(|text| text.parse::<usize>().ok());
-    if let Some(asked) = asked.filter(|asked| bounded(*asked) < *asked) {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(bounded(asked));
-        // a pool that is there already stays
-        let _ = pool.build_global();
-    }
-}

@@ -12,7 +12,7 @@ mod known;
 
 use crate::analyse::{identify, signals};
 use crate::evaluate::{rotor, torque};
-pub use crate::options::{Options, bound_threads};
+pub use crate::options::Options;
 use crate::problem::Problem;
 use crate::result::limits;
 use crate::result::outcome::Quantity;

@@ -488,7 +488,7 @@ mod tests {
     #[test]
     fn the_smoother_finds_the_conditional_normal_law() {
         let mut nodes = marks();
-        nodes[3].added = Some([0.0, 0.0, 0.5, 0.5]);
+        nodes[3].added = Some([0.0, 0.0, 0.5, 0.5, 0.0]);
         let track = Track::new(nodes.clone(), start(0.5), 0.05, MEMORY);
         let unseen = |time: f64| {
             let (mut belief, mut now) = (start(0.5), nodes[0].time);

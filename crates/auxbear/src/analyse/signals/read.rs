@@ -2,9 +2,10 @@
 
 mod clock;
 mod stamps;
+mod timing;
 
-use clock::Timing;
 pub use stamps::Stamps;
+use timing::Timing;
 
 use crate::analyse::signals::unit::{no_signal, si_factor, speed_factor, unit_of};
 use crate::problem::{Code, Problem, did_you_mean};

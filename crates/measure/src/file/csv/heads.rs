@@ -9,6 +9,26 @@ use crate::recording::{Property, Value};
 /// The line behind a head of LabVIEW.
 const END: &[u8] = b"***End_of_Header***";
 
+impl Layout {
+    /// Finds the layout from the first lines; none where no line holds values.
+    pub fn of(lines: &[Vec<u8>]) -> Option<Layout> {
+        if let Some(layout) = labview(lines) {
+            return Some(layout);
+        }
+        let beside = beside(lines);
+        let mut layout = match &beside {
+            Some(beside) => Layout::plain(&beside.lines)?,
+            None => Layout::plain(lines)?,
+        };
+        if let Some(beside) = beside {
+            layout.skip = beside.skip;
+            layout.properties.extend(beside.properties);
+        }
+        take_units(&mut layout);
+        Some(layout)
+    }
+}
+
 fn row(line: &[u8], between: Between) -> Vec<String> {
     let mut row = Vec::new();
     cells(line, between, |_, cell| row.push(text(cell)));

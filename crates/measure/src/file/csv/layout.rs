@@ -1,7 +1,6 @@
 //! How a table is laid out, found from its first lines.
 
 use super::cell::{self, Between, Cell, cells};
-use super::heads;
 use super::lines::text;
 use super::moment;
 use crate::file::clock;
@@ -110,25 +109,8 @@ struct Fit {
 }
 
 impl Layout {
-    /// Finds the layout from the first lines; none where no line holds values.
-    pub fn of(lines: &[Vec<u8>]) -> Option<Layout> {
-        if let Some(layout) = heads::labview(lines) {
-            return Some(layout);
-        }
-        let beside = heads::beside(lines);
-        let mut layout = match &beside {
-            Some(beside) => Layout::plain(&beside.lines)?,
-            None => Layout::plain(lines)?,
-        };
-        if let Some(beside) = beside {
-            layout.skip = beside.skip;
-            layout.properties.extend(beside.properties);
-        }
-        heads::take_units(&mut layout);
-        Some(layout)
-    }
-
-    fn plain(lines: &[Vec<u8>]) -> Option<Layout> {
+    /// The layout of a table whose head has no form of its own.
+    pub fn plain(lines: &[Vec<u8>]) -> Option<Layout> {
         let mut best: Option<(Fit, (u64, bool, usize))> = None;
         for form in FORMS {
             let Some(fit) = fit(lines, form) else {

@@ -24,6 +24,14 @@ pub(super) enum Kind {
 }
 
 impl Kind {
+    /// What its times are rounded to, s.
+    pub(super) fn rounding(&self) -> f64 {
+        match self {
+            Kind::Instant { per_second } => 1.0 / per_second,
+            _ => 0.0,
+        }
+    }
+
     /// What a column holds; or why it is left out.
     pub fn of(column: &ColumnDescriptor) -> Result<Kind, &'static str> {
         if column.max_rep_level() > 0 {

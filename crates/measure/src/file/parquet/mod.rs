@@ -319,13 +319,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             .channels
             .iter()
             .zip(&self.columns)
-            .map(|(channel, column)| {
-                let rounding = match column.kind {
-                    Kind::Instant { per_second } => 1.0 / per_second,
-                    _ => 0.0,
-                };
-                (channel.count <= most).then_some(rounding)
-            })
+            .map(|(channel, column)| (channel.count <= most).then(|| column.kind.rounding()))
             .collect();
         let (clocks, notes) = clock::clocks(self, &rounding);
         for (channel, clock) in clocks {
