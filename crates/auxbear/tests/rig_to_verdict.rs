@@ -341,7 +341,7 @@ fn row(
         // without a grease state: the same rig, its loss as the laboratory has it
         let (scenario, own) = match grease {
             true => (*test, bearing.to_vec()),
-            false => ("rig_loss", [&[peak.as_str()], bearing].concat()),
+            false => ("rig_loss_3", [&[peak.as_str()], bearing].concat()),
         };
         let scenario = shipped(scenario, &with(&own));
         let outcome = simulated(&scenario);
