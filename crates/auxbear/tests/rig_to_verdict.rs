@@ -333,8 +333,10 @@ fn row(
 ) -> Row {
     let folder = tempfile::tempdir().expect("a folder");
     let logger = format!("rig.logger.seed={seed}");
-    let with = |more: &[&str]| [&[logger.as_str()], rig, more].concat();
-    into_runs(folder.path(), "rig_coast_down", &with(&[]));
+    fn with<'a>(logger: &'a str, rig: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+        [&[logger], rig, more].concat()
+    }
+    into_runs(folder.path(), "rig_coast_down", &with(&logger, rig, &[]));
     let names = ["rig_test_1", "rig_test_2", "rig_test_3"];
     for (test, peak) in names.iter().zip([1300, 7200, 11_500]) {
         let peak = format!("rig.peak_acceleration={peak} rad/s^2");
@@ -343,7 +345,7 @@ fn row(
             true => (*test, bearing.to_vec()),
             false => ("rig_loss_3", [&[peak.as_str()], bearing].concat()),
         };
-        let scenario = shipped(scenario, &with(&own));
+        let scenario = shipped(scenario, &with(&logger, rig, &own));
         let outcome = simulated(&scenario);
         let place = folder.path().join("runs").join(test);
         directory::write(&place, &scenario, &outcome).expect("it is written");

@@ -1,7 +1,7 @@
 //! Whether a reading can be the torque of a bearing: its sign by the power, its size by Palmgren's law.
 //!
 //! ```text
-//!   P = ∫(t_O + J_O Ω̇) Ω dt > 0           at steady speed a bearing brakes
+//!   ∫t_O sgn Ω dt > 0                       at steady speed a bearing brakes; J_O Ω̇ is 1 % of it, and has the reading's unit
 //!   M_min/30 < M < 30 M_max                 M of Palmgren's law with f0 from 0.7 to 12, and M1 of 0 to 0.003 F d_m
 //! ```
 
@@ -41,7 +41,7 @@ pub fn reading(test: &Measurement, set: &RollingSet<f64>, viscosity: Option<f64>
         let (speed, rate) = (test.speed[k], test.acceleration[k]);
         if speed.abs() >= least && rate.abs() <= slow.slow_acceleration {
             time += weight;
-            moment += weight * speed.signum() * (test.torque[k] + set.outer_inertia() * rate);
+            moment += weight * speed.signum() * test.torque[k];
             low += weight * law(few, speed.abs());
             high += weight * law(much, speed.abs());
         }
