@@ -312,6 +312,20 @@ fn oil_that_warms_is_told_from_slip_and_grease() {
     }
 }
 
+/// A shipped test without its loss of accelerated balls, which balls that may slide do not have.
+fn without_loss(folder: &Path, name: &str, sets: &[&str]) -> Scenario {
+    let text = std::fs::read_to_string(scenarios().join(format!("{name}.toml")));
+    let text = text.expect("it is shipped");
+    let (before, after) = text
+        .split_once("[bearing.acceleration_loss]")
+        .expect("a loss");
+    let (_, after) = after.split_once("[run]").expect("a duration");
+    let path = folder.join(format!("{name}.toml"));
+    std::fs::write(&path, format!("{before}[run]{after}")).expect("a folder to write to");
+    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+    Scenario::read(&path, &sets, &BuiltIn).expect("it is right")
+}
+
 /// What was found of one laboratory whose truth is known.
 struct Row {
     explanation: f64,
@@ -345,7 +359,11 @@ fn row(
             true => (*test, bearing.to_vec()),
             false => ("rig_loss_3", [&[peak.as_str()], bearing].concat()),
         };
-        let scenario = shipped(scenario, &with(&logger, rig, &own));
+        let sets = with(&logger, rig, &own);
+        let scenario = match own.contains(&"bearing.fidelity=planar") {
+            true => without_loss(folder.path(), scenario, &sets),
+            false => shipped(scenario, &sets),
+        };
         let outcome = simulated(&scenario);
         let place = folder.path().join("runs").join(test);
         directory::write(&place, &scenario, &outcome).expect("it is written");
@@ -397,7 +415,6 @@ fn the_truth_of_four_laboratories_is_found() {
     row("shipped", GREASE, 1, (&[], &[]), true);
     row("quiet arm", GREASE, 1, (&quiet, &[]), true);
     let skid = [
-        "bearing.acceleration_loss.per_acceleration=0 N s^2/rad",
         "bearing.fidelity=planar",
         "bearing.operating_diametral_clearance=-0.8 um",
     ];

@@ -34,7 +34,7 @@ pub(crate) fn effective_number<'a>(stretches: impl Iterator<Item = &'a [f64]> + 
             .map(|list| dot(&list[..list.len() - lag], &list[lag..]));
         let correlation = products.sum::<f64>() / square;
         // also not a number, of residuals that are all 0
-        if !(correlation > 0.0) {
+        if correlation.is_nan() || correlation <= 0.0 {
             break;
         }
         sum += correlation;

@@ -387,6 +387,7 @@ fn a_rest_that_may_be_none_is_none() {
     .expect("inverts");
     assert_eq!(found.torque, none.torque);
     assert_eq!(found.zero, none.zero);
+    assert!(found.notes.iter().any(|n| n.contains("no rest before")));
 }
 
 #[test]

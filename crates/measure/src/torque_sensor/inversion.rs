@@ -263,6 +263,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         *v += (input.scale_deviation * state.0[TORQUE]).powi(2);
     }
     let noise = hyper[0].exp() * spread;
+    if engagement.is_none() {
+        notes.push("no rest before the test: a jump of the torque is smeared".into());
+    }
     doubts(input, &likely, colour, &mut notes);
     for (v, state) in variance.iter_mut().zip(&base.states) {
         *v = v.max(state.1[TORQUE]);

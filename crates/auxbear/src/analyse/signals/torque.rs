@@ -420,9 +420,7 @@ fn inverted(
         ));
     }
     if !input.rests_at_first() {
-        notes.push(format!(
-            "no rest before the test: the zero of the reading {of_zero}, and a jump of the torque is smeared"
-        ));
+        notes.push(format!("the zero of the reading {of_zero}"));
     }
     let mut torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
