@@ -312,6 +312,156 @@ fn oil_that_warms_is_told_from_slip_and_grease() {
     }
 }
 
+/// A shipped test without its loss of accelerated balls, which balls that may slide do not have.
+fn without_loss(folder: &Path, name: &str, sets: &[&str]) -> Scenario {
+    let text = std::fs::read_to_string(scenarios().join(format!("{name}.toml")));
+    let text = text.expect("it is shipped");
+    let (before, after) = text
+        .split_once("[bearing.acceleration_loss]")
+        .expect("a loss");
+    let (_, after) = after.split_once("[run]").expect("a duration");
+    let path = folder.join(format!("{name}.toml"));
+    std::fs::write(&path, format!("{before}[run]{after}")).expect("a folder to write to");
+    let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
+    Scenario::read(&path, &sets, &BuiltIn).expect("it is right")
+}
+
+/// What was found of one laboratory whose truth is known.
+struct Row {
+    explanation: f64,
+    form: f64,
+    found: Outcome,
+}
+
+/// A row of the table of truths: three tests and the coast-down by a logger of this seed.
+///
+/// - `name`, `truth`: of the laboratory, of its explanation
+/// - `rig`, `bearing`: of all runs, of the tests
+/// - `grease`: whether the grease of the tests changes
+fn row(
+    name: &str,
+    truth: &str,
+    seed: u64,
+    (rig, bearing): (&[&str], &[&str]),
+    grease: bool,
+) -> Row {
+    let folder = tempfile::tempdir().expect("a folder");
+    let logger = format!("rig.logger.seed={seed}");
+    fn with<'a>(logger: &'a str, rig: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
+        [&[logger], rig, more].concat()
+    }
+    into_runs(folder.path(), "rig_coast_down", &with(&logger, rig, &[]));
+    let names = ["rig_test_1", "rig_test_2", "rig_test_3"];
+    for (test, peak) in names.iter().zip([1300, 7200, 11_500]) {
+        let peak = format!("rig.peak_acceleration={peak} rad/s^2");
+        // without a grease state: the same rig, its loss as the laboratory has it
+        let (scenario, own) = match grease {
+            true => (*test, bearing.to_vec()),
+            false => ("rig_loss_3", [&[peak.as_str()], bearing].concat()),
+        };
+        let sets = with(&logger, rig, &own);
+        let scenario = match own.contains(&"bearing.fidelity=planar") {
+            true => without_loss(folder.path(), scenario, &sets),
+            false => shipped(scenario, &sets),
+        };
+        let outcome = simulated(&scenario);
+        let place = folder.path().join("runs").join(test);
+        directory::write(&place, &scenario, &outcome).expect("it is written");
+    }
+    let found = identified(folder.path(), &names, "");
+    let row = Row {
+        explanation: number(&found, &format!("probability_of_{truth}")),
+        form: number(&found, "probability_of_palmgren_form"),
+        found,
+    };
+    println!(
+        "{name}, seed {seed}: {truth} {:.4} of {:.1} effective data, Palmgren {:.4} of {:.1}",
+        row.explanation,
+        number(&row.found, "explanation_effective_data"),
+        row.form,
+        number(&row.found, "effective_steady_data"),
+    );
+    assert!(row.explanation > 0.05 && row.form > 0.05, "{name} {seed}");
+    // no odds beyond what so many data can say
+    for (list, effective) in [
+        (
+            &["palmgren_form", "skf_form", "spline_form"][..],
+            "effective_steady_data",
+        ),
+        (
+            &["rolling", "isothermal_slip", "sensor_artefact"][..],
+            "explanation_effective_data",
+        ),
+    ] {
+        let least = (-number(&row.found, effective)).exp() / 7.0;
+        for one in list {
+            let probability = number(&row.found, &format!("probability_of_{one}"));
+            assert!(probability >= 0.5 * least, "{one}: {probability:e}");
+        }
+    }
+    row
+}
+
+const GREASE: &str = "rolling_with_a_grease_state";
+
+/// The truth of laboratories that do what the paper's three explanations say is found, and the form of their steady moment.
+#[test]
+fn the_truth_of_four_laboratories_is_found() {
+    let quiet = [
+        "rig.arm.synchronous_amplitude=0 N m",
+        "rig.arm.zero=0 N m",
+        "rig.arm.scale_error=0",
+    ];
+    row("shipped", GREASE, 1, (&[], &[]), true);
+    row("quiet arm", GREASE, 1, (&quiet, &[]), true);
+    let skid = [
+        "bearing.fidelity=planar",
+        "bearing.operating_diametral_clearance=-0.8 um",
+    ];
+    let skid = row("skid", "isothermal_slip", 1, (&[], &skid), false);
+    assert_eq!(
+        value(&skid.found, "explanation"),
+        &Value::Text("isothermal slip".to_string())
+    );
+    let loss = row("loss", "rolling", 1, (&[], &[]), false);
+    assert_eq!(
+        value(&loss.found, "explanation"),
+        &Value::Text("rolling".to_string())
+    );
+    map_holds_the_loss(&loss.found);
+}
+
+#[test]
+#[ignore = "long"]
+fn the_truth_of_five_loggers_is_found() {
+    for seed in 1..=5 {
+        row("shipped", GREASE, seed, (&[], &[]), true);
+    }
+}
+
+/// F over speed and acceleration is that of the scenario, 1e-4 N s²/rad times |Ω̇|, within two deviations nearly everywhere.
+fn map_holds_the_loss(found: &Outcome) {
+    let list = |name: &str| match value(found, name) {
+        Value::List(list) => list.clone(),
+        other => panic!("{name}: {other:?}"),
+    };
+    let [accelerations, friction, deviations, known] =
+        ["accelerations", "friction", "deviations", "known"]
+            .map(|name| list(&format!("loss_map_{name}")));
+    let (mut inside, mut of) = (0, 0);
+    let mut ratios = Vec::new();
+    for k in (0..known.len()).filter(|k| known[*k] > 0.0 && accelerations[*k] > 0.0) {
+        let truth = 1e-4 * accelerations[k];
+        of += 1;
+        inside += u32::from((friction[k] - truth).abs() <= 2.0 * deviations[k]);
+        ratios.push(friction[k] / truth);
+    }
+    ratios.sort_by(f64::total_cmp);
+    let middle = ratios[ratios.len() / 2];
+    println!("map of F: {inside} of {of} within two deviations, median ratio {middle:.3}");
+    assert!(of > 100 && inside >= 9 * of / 10 && (middle - 1.0).abs() < 0.1);
+}
+
 /// The dissipation of a rolling bearing, as estimated from the outer race, beside the heat of the simulation.
 #[test]
 fn the_energy_of_a_spin_up_lies_in_its_band() {

@@ -7,6 +7,9 @@
 //! estimators of `measure` note.
 
 mod finding;
+mod reading;
+
+pub use reading::reading;
 
 use crate::dissipation::spin_up_window;
 use crate::measurement::Measurement;
@@ -62,6 +65,22 @@ impl Default for CheckSettings<'_> {
 /// One doubt.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Doubt {
+    /// A bearing that would drive: the reading has the wrong sign.
+    Reversed {
+        /// Name of the test.
+        test: String,
+        /// Mean torque along the rotation at steady speed, N m.
+        moment: Uncertain,
+    },
+    /// A torque that no bearing of this size has: the reading has the wrong unit.
+    WrongUnit {
+        /// Name of the test.
+        test: String,
+        /// Mean torque along the rotation at steady speed, N m.
+        moment: f64,
+        /// What the law has there from its least to its largest, N m.
+        expected: (f64, f64),
+    },
     /// A test never reaches the speed at which it is to be analysed.
     NeverReaches {
         /// Name of the test.

@@ -25,6 +25,7 @@ mod algebra;
 pub mod coasting;
 pub mod data_checks;
 pub mod dissipation;
+mod evidence;
 pub mod explain;
 pub mod loss;
 pub mod measurement;

@@ -1,6 +1,6 @@
 //! Doubts: each wrong set of tests is named with its numbers, and a sound one raises none.
 
-use crate::made_up::{Random, rolling_spin_up, set, steady};
+use crate::made_up::{Random, coast_down, rolling_spin_up, set, steady};
 use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
 use identify::moment::SteadyMoment;
 use identify::{CageTrace, Measurement};
@@ -352,4 +352,37 @@ fn broken_measurements_are_refused_not_doubted() {
         ..test(1)
     };
     assert!(doubts(&[&still], Some(&curve(1.0)), &set(), &stated()).is_ok());
+}
+
+#[test]
+fn a_reading_of_the_wrong_sign_or_unit_is_named() {
+    use identify::data_checks::reading;
+    let mut random = Random::new(21);
+    let test = coast_down(&mut random, 10.0, 0.01, 0.0);
+    let times = |factor: f64| {
+        let mut other = test.clone();
+        other.zero_deviation *= factor.abs();
+        for list in [&mut other.torque, &mut other.torque_deviation] {
+            list.iter_mut().for_each(|value| *value *= factor);
+        }
+        (other.torque_deviation.iter_mut()).for_each(|value| *value = value.abs());
+        other
+    };
+    for viscosity in [None, Some(100e-6)] {
+        assert_eq!(reading(&test, &set(), viscosity), None);
+        // a bearing that has ten times the friction of its law is a bad one, no wrong unit
+        assert_eq!(reading(&times(10.0), &set(), viscosity), None);
+        let reversed = reading(&times(-1.0), &set(), viscosity).expect("it drives");
+        assert!(matches!(&reversed, Doubt::Reversed { moment, .. } if moment.value < 0.0));
+        assert!(
+            reversed
+                .finding()
+                .contains("signals.torque.scale = \"-1 N mm\"")
+        );
+        for (factor, named) in [(1e3, "factor of 1e3 "), (1e-3, "factor of 1e-3 ")] {
+            let wrong = reading(&times(factor), &set(), viscosity).expect("no such bearing");
+            assert!(wrong.forbids_comparison());
+            assert!(wrong.finding().contains(named), "{}", wrong.finding());
+        }
+    }
 }

@@ -5,10 +5,10 @@ use std::cmp::Ordering;
 /// The result is that of another machine, or what it shows is destruction.
 const GRAVE: &[&str] = &[
     "AB1001", "AB1002", "AB1004", "AB1005", "AB1006", "AB1014", "AB1015", "AB1017", "AB1018",
-    "AB1029", "AB1031", "AB1032", "AB1035", "AB1042", "AB1044", "AB1060", "AB1070", "AB1090",
-    "AB1092", "AB1094", "AB1095", "AB1096", "AB1097", "AB1127", "AB1128", "AB2021", "AB2030",
-    "AB2031", "AB2032", "AB2033", "AB2035", "AB2040", "AB2042", "AB2079", "AB2300", "AB2301",
-    "AB2302", "AB2303", "AB2311", "AB2312", "AB2314", "AB2323", "AB2324",
+    "AB1029", "AB1031", "AB1032", "AB1035", "AB1042", "AB1044", "AB1060", "AB1063", "AB1070",
+    "AB1090", "AB1092", "AB1094", "AB1095", "AB1096", "AB1097", "AB1127", "AB1128", "AB2021",
+    "AB2030", "AB2031", "AB2032", "AB2033", "AB2035", "AB2040", "AB2042", "AB2079", "AB2300",
+    "AB2301", "AB2302", "AB2303", "AB2311", "AB2312", "AB2314", "AB2323", "AB2324",
 ];
 /// What is left out, or to be kept in mind.
 const REMARKS: &[&str] = &[

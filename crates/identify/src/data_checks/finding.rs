@@ -15,6 +15,7 @@ impl Doubt {
     /// called a sensor's fault; and so would one at speeds that the slow tests never reached.
     pub fn forbids_comparison(&self) -> bool {
         match self {
+            Doubt::Reversed { .. } | Doubt::WrongUnit { .. } => true,
             Doubt::OutsideMoment { above, .. } => *above > MOSTLY,
             Doubt::ForeignSteadyMoment { ratio, .. } => *ratio < 1.0 / FOREIGN || *ratio > FOREIGN,
             _ => false,
@@ -32,7 +33,9 @@ impl Doubt {
     /// Name of the test that it is about; none where it is about all.
     pub fn test(&self) -> Option<&str> {
         match self {
-            Doubt::NeverReaches { test, .. }
+            Doubt::Reversed { test, .. }
+            | Doubt::WrongUnit { test, .. }
+            | Doubt::NeverReaches { test, .. }
             | Doubt::OutsideMoment { test, .. }
             | Doubt::ForeignSteadyMoment { test, .. }
             | Doubt::LoadOfSteadyMoment { test, .. }
@@ -49,6 +52,26 @@ impl Doubt {
     /// What is doubted, without the name of the test.
     pub fn finding(&self) -> String {
         match self {
+            Doubt::Reversed { moment, .. } => format!(
+                "at steady speed the torque is {:.4} ± {:.4} N mm along the rotation, by which the bearing would drive the shaft: the sign of the reading is reversed (signals.torque.scale = \"-1 N mm\" for a channel in N mm)",
+                1e3 * moment.value,
+                1e3 * moment.deviation
+            ),
+            Doubt::WrongUnit {
+                moment, expected, ..
+            } => {
+                let middle = (expected.0 * expected.1).sqrt();
+                let (word, bound) = match *moment > middle {
+                    true => ("most", expected.1),
+                    false => ("least", expected.0),
+                };
+                format!(
+                    "at steady speed the torque is {:.4} N mm, where Palmgren's law has {:.4} N mm at {word} for a ball bearing of this size: the unit of the reading is wrong, by a factor of {:.0e} perhaps (signals.torque.scale, or the unit in the head of the file)",
+                    1e3 * moment,
+                    1e3 * bound,
+                    10_f64.powf(3.0 * ((moment / middle).log10() / 3.0).round())
+                )
+            }
             Doubt::NeverReaches {
                 reached, wanted, ..
             } => format!(

@@ -289,7 +289,7 @@ impl Planned<'_> {
     /// Expected information and the entropy that is left, nats.
     fn information(&self, verdict: &Verdict, random: &mut Random) -> Option<(f64, f64)> {
         let one = std::slice::from_ref(&self.test);
-        let observed = Observed::new(one, self.bearing, &self.bearing.settings.discrepancy)?;
+        let observed = Observed::new(one, self.bearing, &self.bearing.settings.discrepancy, 1.0)?;
         let discrepancy = verdict.best().fit.map_or(0.02, |fit| fit.discrepancy);
         let nearest = |a: &f64| (a.ln() - discrepancy.max(1e-6).ln()).abs();
         let amplitude = (0..observed.amplitudes.len()).min_by(|i, j| {
@@ -306,8 +306,6 @@ impl Planned<'_> {
                     let prediction = self.predict(draw.form, &draw.coordinates, random);
                     let mut point =
                         observed.whiten_change(&observed.rolling, &prediction, amplitude);
-                    let scatter = 1.0 + self.bearing.settings.effect_scatter * random.normal();
-                    point.iter_mut().for_each(|x| *x *= scatter);
                     if self.proposal == Proposal::Temperature {
                         point.push(self.warming(&prediction, random));
                     }

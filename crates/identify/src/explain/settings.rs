@@ -15,8 +15,6 @@ pub struct Settings {
     pub least_slip: f64,
     /// Amplitudes of the models' own error over M, equally probable.
     pub discrepancy: Vec<f64>,
-    /// Relative deviation of the size of an effect from test to test.
-    pub effect_scatter: f64,
     /// Relative deviation of the level of M between coast-down and tests, beside its band.
     pub level_deviation: f64,
     /// Relative deviation of the inertia J_O (masses, cage).
@@ -31,10 +29,6 @@ pub struct Settings {
     pub prior_points: u32,
     /// Of these, how many are refined.
     pub starts: usize,
-    /// Draws of each repeat of the integral.
-    pub draws: usize,
-    /// Repeats of the integral.
-    pub repeats: u32,
 }
 
 impl Default for Settings {
@@ -46,7 +40,6 @@ impl Default for Settings {
             least_effect: 0.05,
             least_slip: 0.02,
             discrepancy: vec![0.005, 0.01, 0.02, 0.04, 0.08],
-            effect_scatter: 0.1,
             level_deviation: 0.01,
             inertia_deviation: 0.1,
             lag_deviation: 0.01,
@@ -54,8 +47,6 @@ impl Default for Settings {
             least_settling: 0.03,
             prior_points: 256,
             starts: 3,
-            draws: 120,
-            repeats: 3,
         }
     }
 }
@@ -74,7 +65,6 @@ impl Settings {
                 "discrepancy",
                 !self.discrepancy.is_empty() && self.discrepancy.iter().all(|a| share(*a)),
             ),
-            ("effect_scatter", deviation(self.effect_scatter)),
             ("level_deviation", deviation(self.level_deviation)),
             ("inertia_deviation", deviation(self.inertia_deviation)),
             ("lag_deviation", deviation(self.lag_deviation)),
@@ -85,8 +75,6 @@ impl Settings {
             ),
             ("prior_points", (16..=100_000).contains(&self.prior_points)),
             ("starts", (1..=100).contains(&self.starts)),
-            ("draws", (20..=1_000_000).contains(&self.draws)),
-            ("repeats", (2..=1000).contains(&self.repeats)),
         ]
         .into_iter()
         .find_map(|(name, fine)| (!fine).then_some(name))

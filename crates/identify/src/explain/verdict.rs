@@ -51,8 +51,6 @@ pub struct Assessment {
     pub probability: f64,
     /// ln of its marginal likelihood; of densities of N m and rad/s, so only differences matter.
     pub log_evidence: f64,
-    /// Standard deviation of that number, from repeats.
-    pub log_evidence_deviation: f64,
     /// How well it fits; none where no parameters in its range fulfil its claim.
     pub fit: Option<Fit>,
     /// Form of the explanation that is most probable, e.g. which fault of the sensor.
@@ -81,6 +79,8 @@ pub struct Verdict {
     pub assessments: Vec<Assessment>,
     /// Number of means of torque and of cage speed that were compared.
     pub means: (usize, usize),
+    /// How many independent data these are worth.
+    pub effective_means: f64,
     /// The means of torque that were compared.
     pub torque_means: Vec<TorqueMean>,
 }

@@ -6,8 +6,9 @@ use super::forms::Member;
 use super::found::{FormFit, Moment, Parameter};
 use super::settings::{Form, MomentSettings};
 use crate::algebra::log_sum_exp;
+use crate::evidence::{effective_number, limited, linear, shares};
 use crate::measurement::Measurement;
-use crate::regression::{Posterior, weighed};
+use crate::regression::{Data, Posterior, weighed};
 use crate::steady_curve::{Difference, SteadyCurve, compare};
 use measure::uncertain::Uncertain;
 use nalgebra::DMatrix;
@@ -59,7 +60,42 @@ pub(super) fn difference(up: &SteadyMoment, down: &SteadyMoment) -> Result<Diffe
 /// One member, weighed.
 struct Weighed {
     member: Member,
+    columns: DMatrix<f64>,
+    precisions: Vec<DMatrix<f64>>,
     posterior: Posterior,
+    /// ln of its evidence.
+    log_evidence: f64,
+}
+
+impl Weighed {
+    fn residual(&self, y: &[f64]) -> Vec<f64> {
+        let fitted = &self.columns * &self.posterior.mean;
+        y.iter().zip(&fitted).map(|(y, m)| y - m).collect()
+    }
+}
+
+/// The evidence of all members by the effective number of data, which is that of the most probable one: in two passes from the one
+/// that leaves least.
+fn weigh(weighed: &mut [Weighed], data: &Data) -> f64 {
+    let noises = data.noises();
+    let number = |weighed: &Weighed| {
+        let residual = weighed.residual(&data.y);
+        effective_number(data.stretches.iter().map(|range| &residual[range.clone()]))
+    };
+    let left = |weighed: &Weighed| -weighed.residual(&data.y).iter().map(|r| r * r).sum::<f64>();
+    let largest = |weighed: &[Weighed], of: &dyn Fn(&Weighed) -> f64| {
+        let best = weighed.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
+        best.map_or(1.0, number)
+    };
+    let mut effective = largest(weighed, &left);
+    for _ in 0..2 {
+        let weight = effective / data.y.len() as f64;
+        for one in weighed.iter_mut() {
+            one.log_evidence = linear(&data.y, &one.columns, &one.precisions, &noises, weight);
+        }
+        effective = largest(weighed, &|one| one.log_evidence);
+    }
+    effective
 }
 
 /// The steady moment of these tests, without notes and comparisons.
@@ -72,7 +108,7 @@ pub(super) fn fitted(
     let level = blocks.data.level();
     let load = tests[0].load;
     let members = Member::all(settings, set, load, blocks.range, &blocks.data.x);
-    let weighed: Vec<Weighed> = members
+    let mut weighed: Vec<Weighed> = members
         .into_iter()
         .filter_map(|member| {
             let columns = with_zeros(&member, &blocks, tests.len());
@@ -80,9 +116,16 @@ pub(super) fn fitted(
                 .map(|precision| beside_zeros(precision, tests, level))
                 .collect();
             let posterior = weighed(&blocks.data, &columns, &precisions)?;
-            Some(Weighed { member, posterior })
+            Some(Weighed {
+                member,
+                columns,
+                precisions,
+                posterior,
+                log_evidence: f64::NEG_INFINITY,
+            })
         })
         .collect();
+    let effective = weigh(&mut weighed, &blocks.data);
     let scale = tests
         .iter()
         .map(|test| test.scale_deviation)
@@ -102,7 +145,8 @@ pub(super) fn fitted(
     if forms.is_empty() {
         return Err("no form of the steady moment can be fitted to these tests".into());
     }
-    let odds = shares(&forms.iter().map(|f| f.log_evidence).collect::<Vec<_>>());
+    let logs: Vec<f64> = forms.iter().map(|form| form.log_evidence).collect();
+    let odds = shares(&limited(&logs, effective));
     for (form, probability) in forms.iter_mut().zip(odds) {
         form.probability = probability;
     }
@@ -110,11 +154,10 @@ pub(super) fn fitted(
     let curves: Vec<(f64, &SteadyMoment)> =
         forms.iter().map(|f| (f.probability, &f.curve)).collect();
     let curve = mixed(&curves);
-    let rho = forms[0].noise_correlation;
     Ok(Moment {
         curve,
         data: blocks.data.x.len(),
-        effective_data: blocks.data.x.len() as f64 * (1.0 - rho) / (1.0 + rho),
+        effective_data: effective,
         unequal: None,
         up_against_down: None,
         notes: Vec::new(),
@@ -144,12 +187,6 @@ fn beside_zeros(shapes: DMatrix<f64>, tests: &[&Measurement], level: f64) -> DMa
     precision
 }
 
-/// Probabilities of logarithms of evidence.
-fn shares(logs: &[f64]) -> Vec<f64> {
-    let total = log_sum_exp(logs);
-    logs.iter().map(|log| (log - total).exp()).collect()
-}
-
 fn form_fit(
     form: Form,
     own: &[&Weighed],
@@ -157,13 +194,9 @@ fn form_fit(
     speed: &[f64],
     (load, scale_deviation): (f64, f64),
 ) -> Option<FormFit> {
-    let logs: Vec<f64> = own.iter().map(|w| w.posterior.log_evidence).collect();
+    let logs: Vec<f64> = own.iter().map(|w| w.log_evidence).collect();
     let odds = shares(&logs);
-    let best = *own.iter().max_by(|a, b| {
-        a.posterior
-            .log_evidence
-            .total_cmp(&b.posterior.log_evidence)
-    })?;
+    let best = *(own.iter()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence))?;
     let curves: Vec<(f64, SteadyMoment)> = own
         .iter()
         .zip(&odds)

@@ -73,7 +73,7 @@ impl Data {
     /// The standard deviations of one mean that are tried, from less than what the changes between neighbours show to all there is.
     ///
     /// Third differences let a curve pass; white noise has √20 times its deviation in them, noise that correlates by 0.98 half.
-    fn noises(&self) -> Vec<f64> {
+    pub fn noises(&self) -> Vec<f64> {
         let (mut square, mut count) = (0.0, 0.0);
         for range in &self.stretches {
             for w in self.y[range.clone()].windows(4) {
@@ -97,8 +97,6 @@ const LEAST_WEIGHT: f64 = 1e-6;
 
 /// What the data say of one form.
 pub(crate) struct Posterior {
-    /// Logarithm of the probability density of the data.
-    pub log_evidence: f64,
     pub mean: DVector<f64>,
     pub covariance: DMatrix<f64>,
     /// Part of the covariance that is the prior's alone, A⁻¹PA⁻¹: no repetition of the record would show it.
@@ -226,7 +224,6 @@ pub(crate) fn weighed(
     if !top.is_finite() {
         return None;
     }
-    let tried = (noises.len() * precisions.len()) as f64;
     let weight = |point: &Point| (point.log_weight - top).exp();
     let total: f64 = points.iter().map(weight).sum();
     points.retain(|point| weight(point) > LEAST_WEIGHT * total);
@@ -266,7 +263,6 @@ pub(crate) fn weighed(
     let wide = colour(residual.as_slice(), &data.stretches, correlation);
     let (mean, covariance, prior) = drawn(wide.sqrt())?;
     Some(Posterior {
-        log_evidence: top + (total / tried).ln(),
         mean,
         covariance,
         prior,
@@ -305,45 +301,5 @@ fn colour(residual: &[f64], stretches: &[Range<usize>], correlation: f64) -> f64
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Values about 1000 that scatter by 0.7, as one stretch or as two.
-    fn scattered(stretches: &[Range<usize>]) -> Data {
-        let y: Vec<f64> = (0..100)
-            .map(|k| 1000.0 + (f64::from(k * k) * 12.9898).sin())
-            .collect();
-        Data {
-            x: vec![0.0; y.len()],
-            y,
-            stretches: stretches.to_vec(),
-        }
-    }
-
-    #[test]
-    fn points_of_the_grid_that_are_left_out_do_not_widen_the_band() {
-        let one = DMatrix::from_element(100, 1, 1.0);
-        for stretches in [std::iter::once(0..100).collect(), vec![0..60, 60..100]] {
-            let data = scattered(&stretches);
-            let found = weighed(&data, &one, &[DMatrix::from_element(1, 1, 1e-12)]).unwrap();
-            let mean = data.y.iter().sum::<f64>() / 100.0;
-            let deviation = found.covariance[(0, 0)].sqrt();
-            assert!((found.mean[0] - mean).abs() < 0.05, "{}", found.mean[0]);
-            // 0.7/√100, and up to twice that where some correlation is possible; a part of 1e-5 of 1000² would be 3
-            assert!((0.06..0.15).contains(&deviation), "{deviation}");
-            assert!((found.noise / 0.7 - 1.0).abs() < 0.2 && found.correlation < 0.3);
-        }
-    }
-
-    #[test]
-    fn a_stretch_of_two_means_is_left_out() {
-        let mut data = Data::default();
-        let (x, y) = ([1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0], [2.0; 7]);
-        assert_eq!(data.add(&x[..5], &y[..5], &[1.0; 5], 2), 0);
-        assert_eq!(data.add(&x, &y, &[1.0, 3.0, 1.0, 1.0, 1.0, 1.0, 1.0], 2), 6);
-        assert_eq!(
-            (data.x, data.stretches),
-            (vec![2.5, 6.0, 10.0], std::iter::once(0..3).collect())
-        );
-    }
-}
+#[path = "../../tests/unit/regression.rs"]
+mod tests;

@@ -263,7 +263,10 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         *v += (input.scale_deviation * state.0[TORQUE]).powi(2);
     }
     let noise = hyper[0].exp() * spread;
-    doubts(input, &likely, colour, engagement.is_some(), &mut notes);
+    if engagement.is_none() {
+        notes.push("no rest before the test: a jump of the torque is smeared".into());
+    }
+    doubts(input, &likely, colour, &mut notes);
     for (v, state) in variance.iter_mut().zip(&base.states) {
         *v = v.max(state.1[TORQUE]);
     }
@@ -433,7 +436,7 @@ fn scale_of(reading: &[f64]) -> f64 {
 /// Factor on the bands from which on it is reported.
 const REPORTED: f64 = 1.05;
 
-fn doubts(input: &Inversion, base: &Pass, colour: f64, rests: bool, notes: &mut Vec<String>) {
+fn doubts(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
     let unknown = |part: &[f64]| part.iter().filter(|v| !v.is_finite()).count();
     let clipped = input.clipped.iter().map(|part| {
         let end = (part.first + part.count).min(input.reading.len());
@@ -464,8 +467,5 @@ fn doubts(input: &Inversion, base: &Pass, colour: f64, rests: bool, notes: &mut 
         notes.push(
             "no shaft angle was given: the synchronous disturbance is inside the torque".into(),
         );
-    }
-    if !rests {
-        notes.push("no rest before the test: the zero of the reading is as given, and a jump of the torque is smeared".into());
     }
 }

@@ -101,6 +101,9 @@ fn verdict(list: &mut List, found: &Found) {
         fit.ok_or_else(|| "it fits nowhere in the range of its parameters".to_string())
     });
     list.number("explanation_fit_probability", "1", fit, &FIT);
+    let effective = verdict.map_err(Clone::clone);
+    let effective = effective.map(|verdict| verdict.effective_means);
+    list.number("explanation_effective_data", "", effective, &MEANS);
     let next = found.next.as_ref().map_err(Clone::clone);
     let named = next.map(|candidates| {
         let lines = candidates.iter().take(5).enumerate().map(|(k, candidate)| {
@@ -324,8 +327,8 @@ fn rotor(list: &mut List, found: &Found) {
 }
 
 const VERDICT: Origin = Origin {
-    law: "posterior probability among seven explanations, by marginal likelihood with a correlated discrepancy; decided from identify.explanations.decide_at on",
-    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/explain/mod.rs",
+    law: "posterior probability among seven explanations: ln Z = w ln L(θ*) + ln p(θ*) + (k/2) ln 2π - ½ ln det H, w = N_eff/N; no odds beyond exp(N_eff); decided from identify.explanations.decide_at on",
+    source: "Kass and Raftery 1995 (Laplace's method), crates/identify/src/evidence.rs",
     valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
 };
 const FIT: Origin = Origin {
@@ -333,20 +336,25 @@ const FIT: Origin = Origin {
     source: "crates/identify/src/explain/mod.rs",
     valid: "of the most probable explanation; below 0.1 % none of these fits; near 1 where the bands of the signals are wider than their errors",
 };
+const MEANS: Origin = Origin {
+    law: "N_eff = N/(1 + 2 Σ r_j), r_j autocorrelation of what the most probable explanation leaves of N means",
+    source: "crates/identify/src/evidence.rs",
+    valid: "errors that the tests share (zero, scale, level of M) are taken out before",
+};
 const NEXT: Origin = Origin {
     law: "expected reduction of the entropy over the explanations",
     source: "crates/identify/src/explain/next_test.rs",
     valid: "an approximation: each candidate is predicted by draws of each explanation that is left",
 };
 const EVIDENCE: Origin = Origin {
-    law: "marginal likelihood of each form, the correlation of residuals accounted for",
-    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
+    law: "ln Z = w ln L(θ*) + ln p(θ*) + (k/2) ln 2π - ½ ln det H of each form, w = N_eff/N; no odds beyond exp(N_eff)",
+    source: "Kass and Raftery 1995 (Laplace's method), crates/identify/src/evidence.rs",
     valid: "between the smallest and the largest speed of the slow tests",
 };
 const WORTH: Origin = Origin {
-    law: "n (1-ρ)/(1+ρ) of n means whose errors correlate by ρ from one to the next: as many independent ones give a level as well",
-    source: "crates/identify/src/moment/mod.rs",
-    valid: "2 where ρ is at its limit of 0.98: what is left of the best form changes as slowly as the curve itself",
+    law: "N_eff = N/(1 + 2 Σ r_j), r_j autocorrelation of what the most probable form leaves of N means",
+    source: "crates/identify/src/evidence.rs",
+    valid: "few where what is left of the best form changes as slowly as the curve itself",
 };
 const CURVE: Origin = Origin {
     law: "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",

@@ -39,6 +39,11 @@ pub(crate) fn slip_is_open(conclusion: &Conclusion) -> bool {
     }
 }
 
+/// Whether a conclusion says that the balls roll.
+pub(crate) fn rolls(conclusion: &Conclusion) -> bool {
+    matches!(conclusion, Conclusion::Supported(one) if !slips(*one) && *one != Explanation::Sensor)
+}
+
 pub(crate) fn slips(explanation: Explanation) -> bool {
     matches!(
         explanation,
@@ -69,6 +74,7 @@ mod tests {
             assert_eq!(false_reading(&supported).is_some(), sensor);
             let slip = explanation.name().contains("slip");
             assert_eq!(slip_is_open(&supported), slip, "{}", explanation.name());
+            assert_eq!(rolls(&supported), !slip && !sensor);
         }
         let left = Conclusion::Undecided(Explanation::ALL.to_vec());
         assert_eq!(other_cause(&left), None);

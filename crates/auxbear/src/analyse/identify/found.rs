@@ -2,7 +2,9 @@
 
 use crate::analyse::heed::{INTERRUPTED, heed};
 use crate::analyse::identify::coast_down::{coasted, largest};
-use crate::analyse::identify::consequence::{false_reading, other_cause, slip_is_open, slips};
+use crate::analyse::identify::consequence::{
+    false_reading, other_cause, rolls, slip_is_open, slips,
+};
 use crate::analyse::identify::notes::{Note, grouped, noted};
 use crate::analyse::identify::read::{Asked, Test};
 use crate::analyse::signals;
@@ -10,7 +12,7 @@ use crate::options::Options;
 use crate::result::outcome::Warning;
 use crate::scenario::RotorFriction;
 use identify::coasting::Windage;
-use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
+use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts, reading};
 use identify::dissipation::{Dissipation, dissipation};
 use identify::explain::{
     self, Candidate, Conclusion, PredictionErrors, Priors, Verdict, with_prediction_errors,
@@ -45,8 +47,8 @@ pub(crate) struct TestFound {
     pub slip: Result<CageSlip, String>,
     /// Spin of the balls.
     pub skid: Result<Skid, String>,
-    /// Whether the user states that the balls roll throughout.
-    pub rolling_stated: bool,
+    /// Whether the balls roll throughout, as the user states or the verdict says.
+    pub rolls: bool,
     /// What the verdict names as the cause of t_O - M, where that is not the balls.
     pub other_cause: Option<String>,
     /// Why the reading is not the torque, where the verdict says so: no energy is read from it then.
@@ -81,11 +83,11 @@ impl TestFound {
         }
     }
 
-    /// The best that is known of the energy of its spin-up, J: by the cage signal; else of balls that roll, where that is stated;
-    /// else with the path term as an uncertainty.
+    /// The best that is known of the energy of its spin-up, J: by the cage signal; else of balls that roll, where that is stated or the
+    /// verdict; else with the path term as an uncertainty.
     pub fn best_energy(&self) -> Result<Uncertain, String> {
         let found = self.energy()?;
-        Ok(match (found.exact, self.rolling_stated) {
+        Ok(match (found.exact, self.rolls) {
             (None, true) => found.corrected,
             _ => found.best(),
         })
@@ -175,6 +177,18 @@ impl Found {
                 moment(&steady.iter().collect::<Vec<_>>(), &set, &settings)
             }),
         };
+        // a reading that is not the torque says nothing of the bearing, whatever else follows from it
+        let readings: Vec<Doubt> = (coast_downs.iter())
+            .chain(tests.iter().map(|(test, _)| test))
+            .filter_map(|test| reading(test, &set, wish.viscosity))
+            .collect();
+        let against = |test: &str| {
+            let of = readings.iter().find(|doubt| doubt.test() == Some(test));
+            of.map(Doubt::finding)
+        };
+        if let Some(why) = coast_downs.iter().find_map(|test| against(&test.name)) {
+            moment = Err(why);
+        }
         // Of several windages each is part of the mean: the largest that any leaves open counts, once.
         let windage = largest(windages);
         if let (Ok(moment), Some((windage, scale))) = (&mut moment, &windage) {
@@ -222,9 +236,9 @@ impl Found {
                     dissipation,
                     slip,
                     skid,
-                    rolling_stated: wish.rolling_stated,
+                    rolls: wish.rolling_stated,
                     other_cause: None,
-                    false_reading: None,
+                    false_reading: against(&test.name),
                     measurement: test,
                 }
             })
@@ -235,6 +249,7 @@ impl Found {
             unusable.push(("tests".to_string(), why));
             Vec::new()
         });
+        doubts = readings.iter().cloned().chain(doubts).collect();
         let (verdict, next) = match (&moment, wish.explanations) {
             (_, None) => {
                 let why = || "identify.explanations.compare is false".to_string();
@@ -266,12 +281,15 @@ impl Found {
         };
         let cause = (verdict.as_ref().ok()).and_then(|verdict| other_cause(&verdict.conclusion));
         let conclusion = verdict.as_ref().ok().map(|verdict| &verdict.conclusion);
-        let reading = conclusion.and_then(false_reading);
+        let false_reading = conclusion.and_then(false_reading);
         // without a verdict nothing excludes slip, but a statement that they roll
         let slip_is_open = !wish.rolling_stated && conclusion.is_none_or(slip_is_open);
         for test in &mut tests {
             test.other_cause.clone_from(&cause);
-            test.false_reading.clone_from(&reading);
+            test.rolls |= conclusion.is_some_and(rolls);
+            if test.false_reading.is_none() {
+                test.false_reading.clone_from(&false_reading);
+            }
             if slip_is_open && let Ok(found) = &mut test.dissipation {
                 *found = found.clone().with_any_slip(&set);
             }
@@ -298,8 +316,12 @@ impl Found {
         let mut lines: Vec<Note> = (unusable.iter())
             .map(|(name, why)| Note::of("AB1060", name, &format!("it is not used: {why}")))
             .collect();
+        let code = |doubt: &Doubt| match readings.contains(doubt) {
+            true => "AB1063",
+            false => "AB1061",
+        };
         lines.extend(doubts.iter().map(|doubt| match doubt.test() {
-            Some(test) => Note::of("AB1061", test, &doubt.finding()),
+            Some(test) => Note::of(code(doubt), test, &doubt.finding()),
             None => Note::of_all("AB1061", &doubt.finding()),
         }));
         let unequal = moment.iter().filter_map(|moment| moment.unequal.as_ref());

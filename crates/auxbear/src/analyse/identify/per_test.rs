@@ -178,6 +178,9 @@ fn skid(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
         &named("skid_probability"),
         "1",
         match test.withheld() {
+            None if test.rolls => {
+                Err("the balls roll throughout, as it is stated or the tests support".to_string())
+            }
             Some(why) => Err(format!(
                 "{why}, and a torque that is low for another reason looks like skid"
             )),
@@ -211,7 +214,7 @@ const ROLLING_UP: Origin = Origin {
     valid: "compare it with the fall of the torque: balls that still speed up would need traction and drag to agree this closely",
 };
 const ENERGY: Origin = Origin {
-    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated, else the middle of a range: of balls that roll at the end, or of any slip where the verdict does not exclude it",
+    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated or the verdict, else the middle of a range: of balls that roll at the end, or of any slip where the verdict does not exclude it",
     source: "the source paper, (21), and its correction; crates/identify/src/dissipation.rs",
     valid: "from the engagement until the final speed is reached",
 };

@@ -17,6 +17,7 @@ mod converter;
 mod design;
 pub(crate) mod found;
 mod history;
+mod mains;
 mod read;
 pub(crate) mod shaft;
 mod spectrum;
@@ -46,7 +47,8 @@ const OF_GIVEN_SENSOR: &[&str] = &[
 ];
 
 /// What is assumed of the sensor, where it counts.
-fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
+fn assumed(scenario: &Scenario, asked: &Asked, found: &Found) -> Option<Warning> {
+    found.torque.as_ref()?;
     let sensor = asked.signals.torque.as_ref()?.sensor.as_ref()?;
     let given = matches!(sensor, SensorSource::Given { .. });
     let values = scenario.resolved.values.iter();
@@ -251,7 +253,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
 pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
     let clock = Instant::now();
     let mut found = find(asked, options.interrupt);
-    found.warnings.extend(assumed(scenario, asked));
+    found.warnings.extend(assumed(scenario, asked, &found));
     let history = history::columns(asked, &found);
     let end = history.first().and_then(|time| time.values.last().copied());
     Outcome {

@@ -52,8 +52,9 @@ impl Series {
             *value *= factor;
         }
         if let Some(converter) = &mut self.converter {
-            converter.lowest *= factor;
-            converter.highest *= factor;
+            let ends = [factor * converter.lowest, factor * converter.highest];
+            converter.lowest = ends[0].min(ends[1]);
+            converter.highest = ends[0].max(ends[1]);
         }
     }
 
@@ -506,11 +507,18 @@ impl<'a> Source<'a> {
     ) -> Result<f64, Box<Problem>> {
         let own = si_factor(unit, "N m");
         match (own, scale) {
-            (Some(own), Some(scale)) if (own / scale - 1.0).abs() > 1e-9 => Err(self.problem(
+            // a sensor may be mounted the other way round
+            (Some(own), Some(scale)) if ((own / scale).abs() - 1.0).abs() > 1e-9 => Err(self.problem(
                 Code::ChannelUnit,
                 "signals.torque.scale",
                 format!("channel \"{name}\" in \"{unit}\""),
                 "the unit of the file and this scale contradict each other: leave the scale away, or correct it",
+            )),
+            (None, Some(0.0)) => Err(self.problem(
+                Code::OutOfRange,
+                "signals.torque.scale",
+                format!("channel \"{name}\" times 0"),
+                "a torque of one unit other than 0 is needed; below 0 for a sensor mounted the other way round",
             )),
             (_, Some(scale)) => Ok(scale),
             (Some(own), None) => Ok(own),

@@ -171,10 +171,13 @@ fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<String> {
     };
     let ratio = level(inertial) / level(direct);
     let apart = difference.mean.value.abs() > APART * difference.mean.deviation;
-    (apart && (ratio - 1.0).abs() > BESIDE).then(|| {
-        format!(
+    (apart && (ratio - 1.0).abs() > BESIDE).then(|| match ratio < 0.0 {
+        true => format!(
+            "by the slope of the speed it is {ratio:.2} times the torque of the sensor: the sign of the torque is reversed (signals.torque.scale = \"-1 N mm\" for a channel in N mm)"
+        ),
+        false => format!(
             "by the slope of the speed it is {ratio:.2} times the torque of the sensor: signals.speed.marks_per_revolution (or the unit of a speed), signals.steady.inertia or the scale of the torque is wrong, or more than the bearing brakes the shaft (signals.steady.windage_*)"
-        )
+        ),
     })
 }
 

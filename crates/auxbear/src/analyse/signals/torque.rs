@@ -1,5 +1,6 @@
 //! The torque that a swinging sensor felt, from its reading.
 
+use crate::analyse::signals::mains::hum;
 use crate::analyse::signals::read::Series;
 use crate::analyse::signals::{design, shaft, spectrum};
 use crate::scenario::{Disturbance, SensorSource, TorqueSignal};
@@ -350,17 +351,20 @@ fn inverted(
     // Where nothing is known of the zero, all of the reading may be one.
     let span = (high - low).max(high.abs()).max(low.abs());
     let mut zero = Uncertain::new(0.0, wish.zero_deviation.unwrap_or(span));
-    let rest = match change {
-        Some(change) => {
+    let times: Vec<f64> = (from..to).map(|k| series.time(k)).collect();
+    let settled = (shaft.and_then(shaft::Found::stop)).map(|stop| stop + settling_time(&stated));
+    // what of the reading is of a shaft that rests: before the change, or behind a stop
+    let rests = match (change, settled) {
+        (Some(change), _) => {
             let end = change.engagement.0 - 3.0 * change.engagement.1;
-            let at = (0..reading.len()).filter(|k| series.time(from + k) < end);
-            resting(at.filter_map(|k| reading.get(k)), series.interval)
+            &reading[..times.partition_point(|time| *time < end)]
         }
-        None => shaft.and_then(shaft::Found::stop).and_then(|stop| {
-            let settled = stop + settling_time(&stated);
-            let times: Vec<f64> = (from..to).map(|k| series.time(k)).collect();
-            zero_at_rest(&times, reading, settled)
-        }),
+        (None, Some(settled)) => &reading[times.partition_point(|time| *time < settled)..],
+        (None, None) => &[],
+    };
+    let rest = match (change, settled) {
+        (Some(_), _) => resting(rests.iter(), series.interval),
+        (None, settled) => settled.and_then(|settled| zero_at_rest(&times, reading, settled)),
     };
     if let (Some(rest), Some(stated)) = (rest, wish.zero_deviation)
         && wish.disturbance != Disturbance::RunOut
@@ -377,10 +381,12 @@ fn inverted(
         ));
         zero.deviation = stated.hypot(rest.value);
     }
+    let mut of_zero = "is as given";
     if let (Some(rest), None) = (rest, change)
         && rest.deviation < zero.deviation
     {
         zero = rest;
+        of_zero = "is that of the rest behind it";
     }
     let input = Inversion {
         sensor,
@@ -413,13 +419,23 @@ fn inverted(
             "{why}, and nothing that changes is left of the reading beside it"
         ));
     }
+    if !input.rests_at_first() {
+        notes.push(format!("the zero of the reading {of_zero}"));
+    }
     let mut torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
     doubts.extend(torque.shown_frequency.map(|shown| {
-        let text = format!(
+        let hum = hum(shown, rests, series.interval);
+        let text = match hum {
+            Some(amplitude) => format!(
+                "the reading swings at {shown:.1} Hz, by {:.3} N mm while the shaft rests as well: a hum of the mains, not the ringing of the sensor, which is {:.1} Hz as stated; the torque keeps its mean, its band is wider; look to the shield and the earth of the cable",
+                1e3 * amplitude, sensor.frequency.value
+            ),
+            None => format!(
             "after the engagement the reading rings at {shown:.1} Hz, and {:.1} Hz is stated of the sensor (signals.torque.sensor_frequency): the torque while it rings is that of the one stated; a tap tells which is right (signals.torque.tap_file)",
             sensor.frequency.value
-        );
+            ),
+        };
         ("AB1128", text)
     }));
     if turning.is_none() && wish.disturbance != Disturbance::None {

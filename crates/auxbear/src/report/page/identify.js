@@ -6,7 +6,8 @@ const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip
 // A probability; what is hardly possible is not shown to its last digit.
 function chanceText(probability) {
   if (probability > 0.9999) return "> 99.99 %";
-  return probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, 3);
+  // near 1 as many digits as what is left needs
+  return probability > 0 && probability < 1e-4 ? "< 0.01 %" : percentText(probability, probability > 0.99 ? 4 : 3);
 }
 // 2 % settling of the arm in the source paper, s: the torque before it is what the inversion of the sensor makes of it.
 const SENSOR_SETTLING = 0.1;
@@ -47,7 +48,7 @@ function explanationFigure(run, runs) {
   return [
     figure(
       title,
-      "Probability after the data, by marginal likelihood with a discrepancy term for what the reduced models leave out. Below the limit of decision the answer is undecided.",
+      `Probability after the data, by marginal likelihood of ${numberText(numberOf(run, "explanation_effective_data"), 3)} effective data. Below the limit of decision the answer is undecided.`,
       element("p", {}, element("strong", {}, "Verdict: " + conclusion.value), typeof limits === "string" ? ` (${limits})` : null),
       element("table", { class: "bars" }, element("tbody", {}, rows)),
       typeof parameters === "string" ? element("p", { class: "small" }, "Most probable: " + parameters + fits) : null,

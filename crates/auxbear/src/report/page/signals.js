@@ -57,6 +57,7 @@ function changeFigure(run, runs) {
 }
 
 function shaftSection(runs) {
+  const grey = runs.some((run) => columnOf(run, "shaft.reading")) ? "what the instrument shows" : "pitch over time between two pulses, as raw as pulses are";
   const quiet = { colour: SERIES_COLOURS.quiet, width: 1 };
   const raw = [
     ...lines(runs, "shaft.pulse_speed", 1, { label: "between two pulses [rad/s]", ...quiet }),
@@ -68,16 +69,23 @@ function shaftSection(runs) {
   return section(
     "shaft",
     "Speed and acceleration of the shaft",
-    signalFigure("Speed", `Grey: pitch over time between two pulses, as raw as pulses are, or what an instrument shows. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
+    signalFigure("Speed", `Grey: ${grey}. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
     signalFigure("Acceleration", `Drag over the change to see it closely. ${BAND_WORDS}`, acceleration, { label: "acceleration [rad/s²]", marks, height: 260 }, []),
     runs.map((run) => changeFigure(run, runs)),
   );
 }
 
+// Unit in which torques of this size are read, and how many of it are 1 N m.
+function torqueUnit(runs) {
+  const sizes = runs.flatMap((run) => ["torque.reading", "torque.torque"].flatMap((name) => columnOf(run, name) || [])).filter(isNumber).map(Math.abs);
+  return sizes.reduce((most, size) => Math.max(most, size), 0) < 10 ? ["N mm", 1e3] : ["N m", 1];
+}
+
 function measuredTorqueSection(runs) {
-  const raw = lines(runs, "torque.reading", 1e3, { label: "reading [N mm]", colour: SERIES_COLOURS.quiet, width: 1 });
-  const torque = bandLines(runs, "torque.torque", "torque.deviation", 1e3, { label: "torque [N mm]", colour: SERIES_COLOURS.race, width: 1.5 });
-  const disturbance = bandLines(runs, "torque.disturbance", "torque.disturbance_deviation", 1e3, { label: "amplitude [N mm]", colour: SERIES_COLOURS.rotor, width: 1.25 });
+  const [unit, scale] = torqueUnit(runs);
+  const raw = lines(runs, "torque.reading", scale, { label: `reading [${unit}]`, colour: SERIES_COLOURS.quiet, width: 1 });
+  const torque = bandLines(runs, "torque.torque", "torque.deviation", scale, { label: `torque [${unit}]`, colour: SERIES_COLOURS.race, width: 1.5 });
+  const disturbance = bandLines(runs, "torque.disturbance", "torque.disturbance_deviation", scale, { label: `amplitude [${unit}]`, colour: SERIES_COLOURS.rotor, width: 1.25 });
   return section(
     "measured-torque",
     "Torque",
@@ -85,10 +93,10 @@ function measuredTorqueSection(runs) {
       "The sensor's reading, and the torque that it felt",
       `Grey: the reading with the sensor's swing, its zero and the disturbance once a turn. Coloured: the torque without them. ${BAND_WORDS}`,
       [...raw, ...torque],
-      { label: "torque [N mm]", marks: engagementMarks(runs), height: 310 },
+      { label: `torque [${unit}]`, marks: engagementMarks(runs), height: 310 },
       lackOf(runs, "torque.torque", "peak_torque", "the torque without the sensor's swing"),
     ),
-    disturbance.length ? signalFigure("Disturbance once a turn, before the sensor amplifies it", BAND_WORDS, disturbance, { label: "amplitude [N mm]", include: () => [0], height: 190 }, []) : null,
+    disturbance.length ? signalFigure("Disturbance once a turn, before the sensor amplifies it", BAND_WORDS, disturbance, { label: `amplitude [${unit}]`, include: () => [0], height: 190 }, []) : null,
     runs.map((run) => torqueSpectrum(run, runs)),
     runs.map((run) => designFigure(run, runs)),
   );
@@ -112,7 +120,8 @@ function designFigure(run, runs) {
 // Amplitudes over frequency; where the sensor swings and where the shaft's orders lie at its largest speed is marked.
 function torqueSpectrum(run, runs) {
   const frequencies = listOf(run, "torque_spectrum_frequencies");
-  const amplitudes = listOf(run, "torque_spectrum_amplitudes").map((value) => 1e3 * value);
+  const [unit, scale] = torqueUnit([run]);
+  const amplitudes = listOf(run, "torque_spectrum_amplitudes").map((value) => scale * value);
   const title = shareOfRun(run, runs, "Spectrum of the reading");
   if (!frequencies.length) return figure(title, null, null, [notInThisRun(quantityOf(run, "torque_spectrum_frequencies").why || "no reason is given", run)]);
   const top = Math.max(...amplitudes);
@@ -127,7 +136,7 @@ function torqueSpectrum(run, runs) {
     ...(sensor === null ? [] : [upright(sensor, `sensor, ${numberText(sensor, 4)} Hz`, SERIES_COLOURS.race, "7 4")]),
     ...orders.map(([order, at]) => upright(at, `order ${order} at the largest speed, ${numberText(at, 4)} Hz`, SERIES_COLOURS.cage, "2 3")),
   ];
-  return figure(title, "Amplitude of a sine, peak; overlapping Hann segments over the whole record. A speed that changes smears its orders.", curves({ series, across: "frequency [Hz]", upright: "amplitude [N mm]", logarithmic: true, height: 280 }));
+  return figure(title, "Amplitude of a sine, peak; overlapping Hann segments over the whole record. A speed that changes smears its orders.", curves({ series, across: "frequency [Hz]", upright: `amplitude [${unit}]`, logarithmic: true, height: 280 }));
 }
 
 // A band beyond which a slip says nothing, %.

@@ -286,9 +286,8 @@ pub(crate) const KEYS: &[Key] = &[
         "signals.torque.scale",
         Kind::Quantity("N m"),
         "1 N mm",
-        "Torque of one unit of the channel, where the file gives no unit or none of a torque.",
+        "Torque of one unit of the channel, where the file gives no unit or none of a torque; below 0 for a sensor that reads the other way round, as \"-1 N mm\" of a channel in N mm.",
     )
-    .positive()
     .optional("the unit of the file counts, which must be one of a torque"),
     Key::new(
         "signals.torque.sensor_frequency",
