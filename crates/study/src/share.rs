@@ -24,10 +24,12 @@ pub fn wilson(count: usize, members: usize) -> [f64; 2] {
     let middle = p + z * z / (2.0 * n);
     let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
     let scale = 1.0 + z * z / n;
-    [
-        ((middle - half) / scale).max(0.0),
-        ((middle + half) / scale).min(1.0),
-    ]
+    // the ends of none and of all are exact
+    match count {
+        0 => [0.0, (middle + half) / scale],
+        all if all == members => [(middle - half) / scale, 1.0],
+        _ => [(middle - half) / scale, (middle + half) / scale],
+    }
 }
 
 /// Members that count for something other than one that must show an event for its probability to be told.

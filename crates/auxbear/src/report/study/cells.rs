@@ -29,7 +29,8 @@ pub(super) fn scaled(name: &str, unit: &str, values: impl Iterator<Item = f64>) 
         "" | "1" => return (1.0, plain(name)),
         // unbalance
         "kg m" => return (1e6, format!("{}, g mm", plain(name))),
-        "s" | "m" | "N" | "J" | "W" | "Pa" | "N m" if most > 0.0 => {
+        "rad/s" => return (30.0 / std::f64::consts::PI, format!("{}, rpm", plain(name))),
+        "s" | "m" | "N" | "J" | "W" | "Pa" | "N m" | "N/m" if most > 0.0 => {
             (most.log10() / 3.0 - 0.1).floor().clamp(-3.0, 3.0) as i32
         }
         _ => 0,
@@ -54,7 +55,7 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn amount(value: f64, unit: &str) -> String {
     let (factor, label) = scaled("", unit, [value].into_iter());
     format!(
-        "{} {}",
+        "{}\u{a0}{}",
         short(factor * value),
         label.trim_start_matches(", ")
     )

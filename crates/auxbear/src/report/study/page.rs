@@ -183,7 +183,14 @@ fn spreads(study: &Study, answer: &Answer) -> String {
     let row =
         |(name, unit, spread): &(String, &'static str, Option<crate::result::outcome::Spread>)| {
             let spread = spread.as_ref()?;
-            let number = |value: f64| amount(value, unit);
+            // one unit for a row
+            let (factor, label) = scaled("", unit, [spread.smallest, spread.largest].into_iter());
+            let unit = label.trim_start_matches(", ").to_string();
+            let number = |value: f64| {
+                format!("{}\u{a0}{unit}", short(factor * value))
+                    .trim()
+                    .to_string()
+            };
             let mut cells = vec![
                 plain(name),
                 spread.members.to_string(),
