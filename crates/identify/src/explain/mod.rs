@@ -19,7 +19,7 @@
 //! y are means of torque (and cage speed). What enters linearly and is shared — zero, scale, level
 //! and band of M, inertia — is integrated in closed form; the models' own error has an amplitude of a short list. The parameters z are
 //! those of the largest posterior, their integral is that of Laplace, and the power w is the effective number of data over their
-//! number: see [`evidence`](crate::evidence), `noise` and `mode`. An explanation wins with a probability of
+//! number: see `evidence`, `noise` and `mode`. An explanation wins with a probability of
 //! [`Settings::decision`] and an acceptable fit; otherwise the verdict is "undecided" or "none of these".
 //!
 //! An explanation is a claim: what it says must show on the torque by [`Settings::least_effect`]. Grease claims that both
