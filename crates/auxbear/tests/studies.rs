@@ -93,6 +93,24 @@ fn what_had_ended_when_a_study_is_interrupted_is_kept() {
 }
 
 #[test]
+fn parts_computed_elsewhere_are_those_computed_here() {
+    // what no member of a part has, such as an impact force before the first contact, is in none of its columns
+    let folder = folder(&STUDY.replace("run.duration=8 ms", "run.duration=6 ms"));
+    let path = folder.path();
+    whole(path, "here");
+    let away = directory(path, "away");
+    let never = AtomicBool::new(false);
+    for part in away.open_parts().unwrap() {
+        let bytes = auxbear::report::study::part(&away.study, part, &Options::unwatched(&never));
+        away.put(part, &bytes.unwrap().unwrap()).unwrap();
+    }
+    away.finish(&Options::unwatched(&never)).unwrap();
+    assert_eq!(table(path, "away"), table(path, "here"));
+    let parts = |out: &str| fs::read(path.join(out).join("members/0000.parquet")).unwrap();
+    assert!(parts("away") == parts("here"));
+}
+
+#[test]
 fn an_instant_that_does_not_come_is_judged_as_in_a_single_run() {
     let limit = "quantity = \"inner_race_time_to_50_percent\"";
     for (bound, verdict) in [("5 ms", Verdict::Fail), ("50 ms", Verdict::Undecided)] {

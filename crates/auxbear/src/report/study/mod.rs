@@ -301,6 +301,7 @@ pub fn part(
     if table.members.len() < members.len() {
         return None;
     }
+    let table = table.part(0..table.members.len());
     let mut bytes = Vec::new();
     let written = part::write(&mut bytes, &table).map(|()| bytes);
     Some(written.map_err(|error| part::damaged(Path::new(MEMBERS), error.to_string())))
