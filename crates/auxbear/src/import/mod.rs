@@ -15,6 +15,7 @@ use crate::problem::{Code, Problem};
 use crate::scenario::{BuiltIn, Scenario, System};
 use draft::Draft;
 use rotor::{Analysis, C64};
+use std::io::Read;
 use std::path::Path;
 
 /// A rotor of another program.
@@ -54,6 +55,9 @@ impl Compared {
 
 /// Eigenvalues shown at each speed.
 const SHOWN: usize = 8;
+
+/// Largest file, bytes.
+const LARGEST: u64 = 10_000_000;
 
 /// Reads a file of another program and writes it as a scenario.
 ///
@@ -111,7 +115,12 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
 
 /// The draft of a file, recognised by its content.
 fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
-    let bytes = std::fs::read(path).map_err(|error| {
+    let opened = measure::file::open_file(path).and_then(|file| {
+        let mut bytes = Vec::new();
+        file.take(LARGEST + 1).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    });
+    let bytes = opened.map_err(|error| {
         let code = match error.kind() {
             std::io::ErrorKind::NotFound => Code::FileMissing,
             _ => Code::FileUnreadable,
@@ -124,6 +133,16 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
             "a rotor or a table of sections is needed",
         ))
     })?;
+    if bytes.len() as u64 > LARGEST {
+        let found = format!("a file of more than {LARGEST} bytes");
+        let needed = "a rotor or a table of sections is needed";
+        return Err(Box::new(Problem::at_path(
+            Code::FileTooLarge,
+            path,
+            found,
+            needed,
+        )));
+    }
     // a workbook is a ZIP archive
     if bytes.starts_with(b"PK\x03\x04") {
         let rows = table::of_workbook(&bytes).map_err(|why| unknown(name, &why))?;

@@ -11,8 +11,9 @@
 
 use crate::import::draft::{Draft, cleaned};
 use crate::problem::{Code, Place, Problem};
-use calamine::{Reader, Xlsx};
+use calamine::{Data, Reader, Xlsx};
 use rotor::{Annulus, Disk, Element, MATERIALS, Material};
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use units::Unit;
 
@@ -49,22 +50,57 @@ pub(super) fn of_text(text: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Rows of the first sheet of a workbook.
+/// Rows of sections that a rotor may have, and columns of a table.
+const MOST_ROWS: usize = 500;
+const MOST_COLUMNS: u32 = 50;
+/// Last row of a sheet that is looked at: what stands below is no table of sections.
+const LAST_ROW: u32 = 10_000;
+/// Bytes of all parts of a workbook, unpacked.
+const MOST_UNPACKED: u64 = 50_000_000;
+
+/// Rows of the first sheet of a workbook, cell by cell: a stray cell far out makes no large table.
 pub(super) fn of_workbook(bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
     let damaged = |error: calamine::XlsxError| format!("a workbook that cannot be read ({error})");
+    let unpacked = unpacked(bytes);
+    if unpacked > MOST_UNPACKED {
+        return Err(format!(
+            "a workbook of {unpacked} bytes unpacked, where at most {MOST_UNPACKED} are read"
+        ));
+    }
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(damaged)?;
-    let sheet = book
-        .worksheet_range_at(0)
-        .ok_or("a workbook without a sheet")?
-        .map_err(damaged)?;
-    let rows = sheet.rows().map(|row| {
-        row.iter()
-            .map(|cell| cell.to_string().trim().to_string())
-            .collect()
-    });
-    Ok(rows
-        .filter(|row: &Vec<String>| row.iter().any(|cell| !cell.is_empty()))
-        .collect())
+    let names = book.sheet_names();
+    let name = names.first().ok_or("a workbook without a sheet")?;
+    let mut cells = book.worksheet_cells_reader(name).map_err(damaged)?;
+    let mut rows: BTreeMap<u32, Vec<String>> = BTreeMap::new();
+    while let Some(cell) = cells.next_cell().map_err(damaged)? {
+        let (row, column) = cell.get_position();
+        let text = Data::from(cell.get_value().clone()).to_string();
+        let text = text.trim();
+        if text.is_empty() {
+            continue;
+        }
+        if row >= LAST_ROW || column >= MOST_COLUMNS {
+            return Err(format!(
+                "a cell in row {} and column {}, where at most {LAST_ROW} rows and {MOST_COLUMNS} columns are read",
+                u64::from(row) + 1,
+                u64::from(column) + 1
+            ));
+        }
+        let cells = rows.entry(row).or_default();
+        cells.resize(cells.len().max(column as usize + 1), String::new());
+        cells[column as usize] = text.to_string();
+    }
+    Ok(rows.into_values().collect())
+}
+
+/// Bytes of all parts of a ZIP archive as its directory states them.
+fn unpacked(bytes: &[u8]) -> u64 {
+    const ENTRY: &[u8] = b"PK\x01\x02";
+    let entries = bytes
+        .windows(ENTRY.len() + 24)
+        .filter(|entry| entry.starts_with(ENTRY));
+    let size = |entry: &[u8]| <[u8; 4]>::try_from(&entry[24..28]).map_or(0, u32::from_le_bytes);
+    entries.map(|entry| u64::from(size(entry))).sum()
 }
 
 /// A column of the header: which it is, and what its numbers are multiplied with.
@@ -86,6 +122,11 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
             "a header and a row for each section are needed",
         )));
     };
+    if rows.len() > MOST_ROWS {
+        let found = format!("{} rows of sections", rows.len());
+        let allowed = format!("at most {MOST_ROWS} are possible");
+        return Err(Box::new(problem(1, found, &allowed)));
+    }
     let mut notes = Vec::new();
     let mut columns: Vec<Option<Column>> = Vec::new();
     for text in head {
@@ -93,6 +134,18 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
             .push(column(text).map_err(|(found, allowed)| Box::new(problem(1, found, &allowed)))?);
         if columns.last().is_some_and(Option::is_none) && !text.is_empty() {
             notes.push(format!("column \"{text}\": not understood, left out"));
+        }
+    }
+    for (at, name) in columns
+        .iter()
+        .flatten()
+        .map(|column| column.name)
+        .enumerate()
+    {
+        let others = columns.iter().flatten().take(at);
+        if others.into_iter().any(|other| other.name == name) {
+            let found = format!("two columns {name}");
+            return Err(Box::new(problem(1, found, "each column is possible once")));
         }
     }
     let has = |name: &str| columns.iter().flatten().any(|column| column.name == name);
@@ -114,6 +167,11 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
     notes.push("rotor.speed = 100 rad/s is a place-holder to be replaced".to_string());
     notes.push("a table has no supports: add [[rotor.support]]".to_string());
     for (line, row) in (2..).zip(rows) {
+        if let Some(text) = row.iter().skip(head.len()).find(|text| !text.is_empty()) {
+            let found = format!("\"{text}\" in a column without a name");
+            let allowed = "cells below the header alone are possible";
+            return Err(Box::new(problem(line, found, allowed)));
+        }
         let at = |name: &str| {
             columns
                 .iter()
@@ -128,6 +186,16 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
             let Some(written) = text(name) else {
                 return Ok(None);
             };
+            let (whole, rest) = written.split_once(',').unwrap_or((written, ""));
+            if rest.len() == 3
+                && !whole.starts_with('0')
+                && rest.bytes().all(|b| b.is_ascii_digit())
+            {
+                let found =
+                    format!("\"{written}\" as {name}, which may be a decimal comma or thousands");
+                let allowed = "a point before decimals, and no mark between thousands, is needed";
+                return Err(Box::new(problem(line, found, allowed)));
+            }
             let value: Option<f64> = written.replace(',', ".").parse().ok();
             let value = value
                 .filter(|value: &f64| value.is_finite() && *value >= 0.0)

@@ -473,6 +473,40 @@ fn a_workbook_says_what_the_same_table_says_as_text_without_a_tail_of_digits() {
     assert!(told.contains("a workbook that cannot be read"), "{told}");
 }
 
+/// Two rows of sections each, and a stray cell far out, a column twice, or a comma that may be thousands.
+#[test]
+fn workbooks_and_tables_that_are_no_sections_are_refused_at_once() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenario/workbooks");
+    let refused = |path: &std::path::Path, wanted: &str| {
+        let told = import(path).map(|_| ()).unwrap_err().to_string();
+        assert!(told.contains(wanted), "{}: {told}", path.display());
+    };
+    for (name, wanted) in [
+        ("beyond", "AB2006"),
+        ("farcell", "row 1048576 and column 16384"),
+        ("mid", "row 200000 and column 702"),
+        ("hdr", "two columns outer diameter"),
+        ("thousands", "a decimal comma or thousands"),
+    ] {
+        refused(
+            &std::path::Path::new(folder).join(format!("{name}.xlsx")),
+            wanted,
+        );
+    }
+    let head = "length [mm];outer diameter [mm];material\n";
+    let long = format!("{head}{}", "1;40;steel\n".repeat(501));
+    refused(&file("long.csv", &long), "501 rows of sections");
+    let wide = format!("{head}1;40;steel;7\n");
+    refused(&file("wide.csv", &wide), "a column without a name");
+    refused(
+        &file("comma.csv", &format!("{head}1,234;40;steel\n")),
+        "thousands",
+    );
+    assert!(import(&file("decimal.csv", &format!("{head}100,5;40;steel\n"))).is_ok());
+    let large = "#".repeat(10_000_001);
+    refused(&file("large.csv", &large), "AB0005");
+}
+
 #[test]
 fn the_reference_rotors_are_imported_with_their_eigenvalues() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../validation/cases/rotor");

@@ -104,8 +104,21 @@ impl Part {
     }
 }
 
+/// Parts of a rotor, at most: more than there may be elements and what sits between them.
+const MOST_PARTS: usize = 2000;
+
 /// All parts of a document, completed.
 pub(crate) fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+    if document.parts.len() > MOST_PARTS {
+        let found = format!("{} parts of a rotor", document.parts.len());
+        let allowed = format!("at most {MOST_PARTS} are possible");
+        return Err(Box::new(Problem::new(
+            Code::RotorGeometry,
+            &values.file,
+            found,
+            allowed,
+        )));
+    }
     let mut all: Vec<Part> = Vec::new();
     for kind in PARTS {
         let of_kind = document.parts.iter().filter(|part| part.kind == kind.word);
