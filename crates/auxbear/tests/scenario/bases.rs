@@ -67,8 +67,8 @@ pub fn base(system: SystemName, path: &str) -> String {
         SystemName::Torque => String::new(),
         SystemName::Signals => return measurement(path),
         SystemName::Rig => rig(path),
-        SystemName::Rotor => return rotor(),
-        SystemName::Machine => MACHINE.to_string(),
+        SystemName::Rotor => return format!("{}{}", rotor(), unbalanced(path)),
+        SystemName::Machine => format!("{MACHINE}{}", unbalanced(path)),
         SystemName::CoastDown => run_out(path),
         SystemName::Identify => {
             "[identify]\ncoast_down = [\"a.toml\"]\nradial_load = \"60 N\"\n".to_string()
@@ -102,6 +102,14 @@ fn run_out(path: &str) -> String {
     format!(
         "[rotor]\nmass = \"8 kg\"\npolar_inertia = \"0.01 kg m^2\"\nspeed = \"-12000 rpm\"\n{beside}{points}"
     )
+}
+
+/// What a grade scales.
+fn unbalanced(path: &str) -> &'static str {
+    match path {
+        "rotor.balance_grade" => "[[rotor.unbalance]]\nat = \"0.4 m\"\namount = \"40 g mm\"\n",
+        _ => "",
+    }
 }
 
 /// A bent rotor.

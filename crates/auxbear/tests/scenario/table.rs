@@ -470,6 +470,10 @@ fn every_number_reaches_the_typed_scenario() {
             if *system == SystemName::Machine && key.path == "rotor.longest_element" {
                 continue;
             }
+            // the unbalances have it
+            if key.path == "rotor.balance_grade" {
+                continue;
+            }
             let mut list = choices_of(*system, key.path);
             if key.path == "bearing.traction.a" {
                 list.push(format!("bearing.traction.d={:?}", -si));

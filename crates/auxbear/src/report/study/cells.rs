@@ -55,7 +55,7 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn amount(value: f64, unit: &str) -> String {
     let (factor, label) = scaled("", unit, [value].into_iter());
     format!(
-        "{}\u{a0}{}",
+        "{} {}",
         short(factor * value),
         label.trim_start_matches(", ")
     )
