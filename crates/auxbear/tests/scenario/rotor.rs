@@ -482,7 +482,6 @@ fn workbooks_and_tables_that_are_no_sections_are_refused_at_once() {
         assert!(told.contains(wanted), "{}: {told}", path.display());
     };
     for (name, wanted) in [
-        ("beyond", "AB2006"),
         ("farcell", "row 1048576 and column 16384"),
         ("mid", "row 200000 and column 702"),
         ("hdr", "two columns outer diameter"),
