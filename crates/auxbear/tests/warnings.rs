@@ -2,7 +2,7 @@
 //! implausible inputs, a race that does not come to speed.
 
 use crate::machine::{near, number, parsed, ran};
-use auxbear::result::outcome::{Outcome, Verdict};
+use auxbear::result::outcome::{Outcome, Value, Verdict};
 use auxbear::scenario::template;
 
 const DROP: &str = include_str!("../../../scenarios/reference_drop.toml");
@@ -214,4 +214,105 @@ fn the_frequency_of_a_mode_may_be_given_in_hertz() {
             .unwrap_err()
             .contains("2638.937829 rad/s")
     );
+}
+
+#[test]
+fn few_unbalance_angles_pass_no_limit_of_whirl() {
+    let text = format!("{DROP}\n[[limit]]\nquantity = \"whirl_turns\"\nleast = -1\n");
+    let judged = |sets: &[&str]| ran(&text, sets).limits[0].clone();
+    // the race is at 95 % after 40 ms
+    let long = "run.duration=60 ms";
+    let one = judged(&[long]);
+    assert_eq!(one.verdict, Verdict::Undecided);
+    assert!(
+        one.why.contains("1 of at least 8 unbalance angles"),
+        "{}",
+        one.why
+    );
+    let same = [long, "repeat.count=8", "repeat.unbalance_angle=as given"];
+    assert_eq!(judged(&same).verdict, Verdict::Undecided);
+    let eight = judged(&[long, "repeat.count=8"]);
+    assert_eq!(eight.verdict, Verdict::Pass, "{}", eight.why);
+    let short = judged(&["run.duration=20 ms", "repeat.count=8"]);
+    assert_eq!(short.verdict, Verdict::Undecided);
+    assert!(short.why.contains("95 %"), "{}", short.why);
+}
+
+/// A shaft of 50 mm over 1 m with a disk of 10 kg at 0.3 m, nearly pinned. Own finite elements of another program: forward critical speed
+/// 459.88 rad/s.
+const PINNED: &str = r#"format = "auxbear.scenario/1"
+system = "rotor"
+[rotor]
+speed = "4200 rpm"
+longest_element = "20 mm"
+[[rotor.section]]
+length = "1 m"
+outer_diameter = "50 mm"
+material = "steel"
+[[rotor.support]]
+at = "0 m"
+stiffness = "1e10 N/m"
+damping = "1e3 N s/m"
+[[rotor.support]]
+at = "1 m"
+stiffness = "1e10 N/m"
+damping = "1e3 N s/m"
+[[rotor.disk]]
+at = "0.3 m"
+mass = "10 kg"
+polar_inertia = "0.05 kg m^2"
+diametral_inertia = "0.03 kg m^2"
+[analysis]
+separation_margin = 0.2
+"#;
+
+#[test]
+fn separation_passes_where_all_of_the_margin_was_looked_at_alone() {
+    let verdict = |sets: &[&str]| {
+        let run = ran(PINNED, sets);
+        let found = run
+            .quantities
+            .iter()
+            .find(|one| one.name == "separation_verdict");
+        let Value::Text(verdict) = found.unwrap().value.clone() else {
+            panic!("a word");
+        };
+        (verdict, !texts(&run, "AB2043").is_empty())
+    };
+    for (sets, word, short) in [
+        // 459.9 rad/s is 4.6 % from 4200 rpm, 58.6 % from 290 rad/s, within 2000 to 5000 rpm, 8 % below 500 rad/s
+        (&[][..], "fail", false),
+        (
+            &["rotor.speed=290 rad/s", "analysis.separation_margin=0.6"],
+            "fail",
+            false,
+        ),
+        (
+            &["rotor.speed=290 rad/s", "analysis.separation_margin=0.5"],
+            "pass",
+            false,
+        ),
+        (
+            &[
+                "rotor.speed=2500 rpm",
+                "analysis.operating_from=2000 rpm",
+                "analysis.operating_to=5000 rpm",
+            ],
+            "fail",
+            false,
+        ),
+        (&["analysis.speed_to=4250 rpm"], "undecided", true),
+        (
+            &["rotor.speed=500 rad/s", "analysis.speed_from=470 rad/s"],
+            "undecided",
+            true,
+        ),
+        (
+            &["rotor.speed=4000 rpm", "analysis.speed_to=3000 rpm"],
+            "undecided",
+            true,
+        ),
+    ] {
+        assert_eq!(verdict(sets), (word.to_string(), short), "{sets:?}");
+    }
 }

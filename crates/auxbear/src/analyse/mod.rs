@@ -1,5 +1,5 @@
 //! What measurements hold: one folder a system.
 
-pub(crate) mod heed;
 pub mod identify;
+pub(crate) mod interruptible;
 pub mod signals;

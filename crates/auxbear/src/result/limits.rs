@@ -17,7 +17,8 @@
 use crate::problem::{Code, Problem, did_you_mean, question};
 use crate::result::list::NOT_GIVEN;
 use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
-use crate::scenario::{Limit, Side};
+use crate::scenario::{Limit, Side, UNBALANCE_ANGLE};
+use std::collections::BTreeSet;
 use study::share::{
     CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
     shows_reached,
@@ -124,6 +125,14 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
 
 /// The verdicts of a run.
 pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
+    // a member that draws none has that of the file
+    let angle_of = |drawn: &Vec<(String, String)>| {
+        let mut drawn = drawn.iter();
+        drawn
+            .find(|(path, _)| path == UNBALANCE_ANGLE)
+            .map(|(_, angle)| angle.clone())
+    };
+    let angles: BTreeSet<Option<String>> = outcome.drawn.iter().map(angle_of).collect();
     let no_qualification =
         (outcome.warnings.iter()).any(|warning| warning.code == NO_QUALIFICATION);
     let judged = |limit: &Limit| {
@@ -137,12 +146,53 @@ pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
             None => ("", vec![None], "this run has no such result".to_string()),
         };
         let judged = judge(limit, unit, &values, &why);
+        let judged = whirl_sought(judged, angles.len().max(1), !spins_up(limit, outcome));
         match no_qualification {
             true => withheld(judged),
             false => judged,
         }
     };
     limits.iter().map(judged).collect()
+}
+
+/// Unbalance angles from which on a run that saw no whirl says something.
+const ANGLES_FOR_WHIRL: usize = 8;
+const WHIRL: &str = "whirl_turns";
+
+/// Whether the inner race of the bearing of a limit reaches 95 % of the speed in every member; so it is where it has none.
+fn spins_up(limit: &Limit, outcome: &Outcome) -> bool {
+    let name = limit
+        .quantity
+        .replace(WHIRL, "inner_race_time_to_95_percent");
+    let time = outcome
+        .quantities
+        .iter()
+        .find(|quantity| quantity.name == name);
+    time.is_none_or(|time| match &time.spread {
+        Some(spread) => spread.members == outcome.work.members,
+        None => matches!(time.value, Value::Number(_)),
+    })
+}
+
+/// Whether friction starts whirl depends on the angle of the unbalance at the release, and on slip until the race turns: a limit of the
+/// turns of whirl is not held by few angles, nor by runs that end before.
+pub(crate) fn whirl_sought(judged: Judged, angles: usize, slips: bool) -> Judged {
+    let whirl = judged.limit.quantity.rsplit('.').next() == Some(WHIRL);
+    let lacking = match (angles < ANGLES_FOR_WHIRL, slips) {
+        (true, _) => format!(
+            "{angles} of at least {ANGLES_FOR_WHIRL} unbalance angles tried (--repeat {ANGLES_FOR_WHIRL})"
+        ),
+        (false, true) => "it ends before the inner race reaches 95 % of the speed".to_string(),
+        (false, false) => return judged,
+    };
+    match whirl && judged.verdict == Verdict::Pass {
+        true => Judged {
+            verdict: Verdict::Undecided,
+            why: format!("{}; {lacking}", judged.why),
+            ..judged
+        },
+        false => judged,
+    }
 }
 
 /// A verdict of runs that qualify no machine: what is broken stays so.

@@ -92,6 +92,7 @@ pub use system::{KINDS, SystemName};
 pub use table::{FORMAT, keys, keys_of, presence, sections, sections_of, systems};
 pub use template::template;
 pub use torque::{ComparedLaw, Torque};
+pub(crate) use vary::UNBALANCE_ANGLE;
 pub use vary::{Distribution, Vary};
 
 use crate::problem::{Code, Problem};

@@ -237,16 +237,18 @@ pub(crate) fn of_drop(
     for (path, raw, place) in entries {
         list.push(one(path, raw, *place, all)?);
     }
-    let angle = "rotor.unbalance_angle";
     if repeat.count > 1
         && repeat.random_unbalance_angle
-        && list.iter().all(|vary| vary.path != angle)
+        && list.iter().all(|vary| vary.path != UNBALANCE_ANGLE)
     {
         let anywhere = Distribution::Uniform(0.0, TAU);
-        list.extend(by_repeat(angle, anywhere, &all[..1]));
+        list.extend(by_repeat(UNBALANCE_ANGLE, anywhere, &all[..1]));
     }
     Ok(list)
 }
+
+/// Direction of all unbalances at the release, which decides whether friction starts whirl.
+pub(crate) const UNBALANCE_ANGLE: &str = "rotor.unbalance_angle";
 
 fn by_repeat(path: &str, distribution: Distribution, all: &[Values]) -> Option<Vary> {
     let key = table::key(path)?;

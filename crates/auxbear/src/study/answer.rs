@@ -5,11 +5,12 @@ use super::selection::Candidate;
 use super::table::Table;
 use crate::result::limits;
 use crate::result::outcome::{Judged, Spread, Value, Verdict};
-use crate::scenario::Limit;
+use crate::scenario::{Limit, UNBALANCE_ANGLE};
 use ::study::design::Design;
 use ::study::elementary::{Effect, effects};
 use ::study::indices::{Index, indices};
 use ::study::share;
+use std::collections::BTreeSet;
 
 /// Draws of the bands of indices, apart from those of the design.
 const BANDS: u64 = 0xd1b5_4a32_d192_ed03;
@@ -113,6 +114,7 @@ impl Study {
                 }
                 _ => limit_of(limit, unit, &values, is_sample),
             };
+            found.judged = limits::whirl_sought(found.judged, self.unbalance_angles(table), false);
             if table.warns(limits::NO_QUALIFICATION) {
                 found.judged = limits::withheld(found.judged);
             }
@@ -138,6 +140,14 @@ impl Study {
             ranking: self.ranking(table),
             sensitivity: sensitivity.collect(),
         }
+    }
+
+    /// How many unbalance angles at the release its members try.
+    pub(super) fn unbalance_angles(&self, table: &Table) -> usize {
+        let column = table.column(&format!("input.{UNBALANCE_ANGLE}"));
+        let angles = column.map_or(&[][..], |column| &column.values);
+        let angles: BTreeSet<u64> = angles.iter().map(|angle| angle.to_bits()).collect();
+        angles.len().max(1)
     }
 
     fn sensitivity(&self, values: &[Option<f64>]) -> Option<Sensitivity> {

@@ -116,7 +116,8 @@ impl Study {
         let limits: Vec<Judged> = (self.file.limits.iter())
             .map(|limit| {
                 let values = of(&self.decisive(table, &limit.quantity, limit.bound));
-                limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING)
+                let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
+                limits::whirl_sought(judged, self.unbalance_angles(table), false)
             })
             .collect();
         let own: Vec<f64> = of(ranked).into_iter().flatten().collect();

@@ -1,12 +1,12 @@
 //! What the estimators find in the tests, each with its own reason where it refuses.
 
-use crate::analyse::heed::{INTERRUPTED, heed};
 use crate::analyse::identify::coast_down::{coasted, largest};
 use crate::analyse::identify::consequence::{
     false_reading, other_cause, rolls, slip_is_open, slips,
 };
 use crate::analyse::identify::notes::{Note, grouped, noted};
 use crate::analyse::identify::read::{Asked, Test};
+use crate::analyse::interruptible::{INTERRUPTED, interruptible};
 use crate::analyse::signals;
 use crate::options::Options;
 use crate::result::outcome::Warning;
@@ -173,7 +173,7 @@ impl Found {
         };
         let mut moment = match steady.is_empty() {
             true => Err("none of the slow tests can be used".to_string()),
-            false => heed(interrupt, move || {
+            false => interruptible(interrupt, move || {
                 moment(&steady.iter().collect::<Vec<_>>(), &set, &settings)
             }),
         };
@@ -212,7 +212,7 @@ impl Found {
         let mut tests: Vec<TestFound> = (tests.into_iter())
             .map(|(test, peak_acceleration)| {
                 let (own, moment) = (test.clone(), curve.ok().cloned());
-                let parts = heed(interrupt, move || {
+                let parts = interruptible(interrupt, move || {
                     let curve = || moment.as_ref().ok_or_else(no_moment);
                     Ok((
                         curve().and_then(|curve| loss(&own, curve, &set, &settings)),
@@ -272,7 +272,7 @@ impl Found {
                 None => {
                     let tests: Vec<Measurement> = measurements.iter().copied().cloned().collect();
                     let (moment, settling_time) = (moment.clone(), wish.settling_time);
-                    let found = heed(interrupt, move || {
+                    let found = interruptible(interrupt, move || {
                         Ok(explained(&tests, &moment, &set, how, settling_time))
                     });
                     found.unwrap_or_else(|why| (Err(why.clone()), Err(why)))
@@ -452,7 +452,7 @@ fn map(
         return Err("no test with acceleration can be used".to_string());
     }
     let (curve, set, settings) = (curve.clone(), *set, *settings);
-    heed(interrupt, move || {
+    interruptible(interrupt, move || {
         let pairs: Vec<(&Measurement, &Loss)> =
             pairs.iter().map(|(test, loss)| (test, loss)).collect();
         LossMap::fitted(&pairs, &curve, &set, &settings)

@@ -27,7 +27,7 @@ pub(crate) mod torque;
 mod unit;
 mod vibration;
 
-use crate::analyse::heed::{INTERRUPTED, heed};
+use crate::analyse::interruptible::{INTERRUPTED, interruptible};
 pub(crate) use crate::analyse::signals::asked::Asked;
 use crate::analyse::signals::asked::{capital, sampled};
 use crate::analyse::signals::found::Found;
@@ -76,7 +76,7 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
             (Some(series), Some(wish), Some(shaft)) => vibration::Found::of(series, wish, shaft),
             _ => no_shaft(),
         };
-        match heed(interrupt, vibration) {
+        match interruptible(interrupt, vibration) {
             Ok(vibration) => {
                 found.warn("AB1043", "Vibration", &vibration.notes);
                 found.vibration = Some(vibration);
@@ -100,7 +100,7 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
             _ => no_shaft(),
         }
     };
-    match heed(interrupt, steady) {
+    match interruptible(interrupt, steady) {
         Ok(steady) => {
             if let Some(doubt) = &steady.doubt {
                 found.warn("AB1122", "Steady curve", std::slice::from_ref(doubt));
@@ -161,7 +161,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             (Some(signal), Some(wish)) => shaft::Found::of(signal, wish, watched),
             _ => not_asked(),
         };
-        match heed(interrupt, shaft) {
+        match interruptible(interrupt, shaft) {
             Ok(shaft) => {
                 if let Some(doubt) = &shaft.doubt {
                     found.warn(
@@ -196,7 +196,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             }
             _ => not_asked(),
         };
-        match heed(interrupt, torque) {
+        match interruptible(interrupt, torque) {
             Ok(torque) => {
                 for (code, doubt) in &torque.doubts {
                     found.warn(code, "Torque", std::slice::from_ref(doubt));
@@ -213,7 +213,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             (Some(signal), Some(wish), Some(shaft)) => cage::Found::of(signal, wish, shaft),
             _ => no_shaft(),
         };
-        match heed(interrupt, cage) {
+        match interruptible(interrupt, cage) {
             Ok(cage) => {
                 found.warn("AB1043", "Cage", &cage.notes);
                 let marks = asked.signals.speed.as_ref();

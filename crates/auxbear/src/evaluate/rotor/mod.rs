@@ -9,7 +9,7 @@ pub(crate) mod levitated;
 pub(crate) mod quantities;
 pub(crate) mod warnings;
 
-use crate::analyse::heed::{INTERRUPTED, heed};
+use crate::analyse::interruptible::{INTERRUPTED, interruptible};
 pub(crate) use crate::evaluate::rotor::asked::Asked;
 use crate::evaluate::rotor::asked::{Found, Motion, sense};
 use crate::options::Options;
@@ -23,7 +23,7 @@ use std::time::Instant;
 pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
     let own = Arc::clone(asked);
     // an eigenproblem knows of no interrupt: its thread is left
-    let waited = heed(options.interrupt, move || {
+    let waited = interruptible(options.interrupt, move || {
         own.found();
         Ok(())
     });

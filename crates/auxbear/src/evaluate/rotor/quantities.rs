@@ -130,7 +130,9 @@ fn criticals(list: &mut List, asked: &Asked, found: &Found) {
         |(from, to): &(f64, f64)| *from <= analysis.operating_to && *to >= analysis.operating_from;
     if found.growing.is_some() || found.unstable.iter().any(operated) {
         verdict = Some("fail");
-    } else if verdict != Some("fail") && !found.unlisted.is_empty() {
+    } else if verdict != Some("fail")
+        && (!found.unlisted.is_empty() || analysis.not_looked_at().is_some())
+    {
         verdict = Some("undecided");
     }
     let text = match (analysis.separation_margin, verdict) {

@@ -70,6 +70,19 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             ),
         ));
     }
+    if let Some([low, high]) = analysis.not_looked_at() {
+        out.push(warning(
+            "AB2043",
+            format!(
+                "Critical speeds and growth are looked for from {} to {} rad/s, and the operating speeds with their margin reach from {} to {} rad/s: \
+                 analysis.speed_from and analysis.speed_to must take them in. A verdict on the separation that is not \"fail\" is undecided.",
+                number_text(analysis.speed_from.round()),
+                number_text(analysis.speed_to.round()),
+                number_text(low.round()),
+                number_text(high.round())
+            ),
+        ));
+    }
     out.extend(against_spin(&analysis.model, analysis.speed));
     if let Some(error) = found.reduction_error.filter(|error| *error > REDUCTION) {
         out.push(warning(

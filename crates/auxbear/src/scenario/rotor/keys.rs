@@ -29,7 +29,7 @@ pub(crate) const KEYS: &[Key] = &[
         "Highest speed of the diagrams.",
     )
     .positive()
-    .derived("1.5 times rotor.speed; of a machine that starts at standstill the highest speed of its drive"),
+    .derived("1.5 times rotor.speed, at least as far as analysis.separation_margin reaches above analysis.operating_to; of a machine that starts at standstill the highest speed of its drive"),
     Key::new(
         "analysis.speed_count",
         Kind::Count,

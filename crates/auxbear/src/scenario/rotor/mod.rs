@@ -76,7 +76,14 @@ impl RotorAnalysis {
             path: "analysis",
         };
         let speed = values.number("rotor.speed").unwrap_or_default();
-        let speed_to = analysis.maybe("speed_to").unwrap_or(1.5 * speed.abs());
+        let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
+        let (operating_from, operating_to) =
+            (operating("operating_from"), operating("operating_to"));
+        let separation_margin = analysis.maybe("separation_margin");
+        let margin = separation_margin.unwrap_or(0.0);
+        let speed_to = analysis
+            .maybe("speed_to")
+            .unwrap_or((1.5 * speed.abs()).max((1.0 + margin) * operating_to));
         let speed_from = analysis.number("speed_from");
         let frequency_to = analysis
             .maybe("frequency_to")
@@ -84,7 +91,6 @@ impl RotorAnalysis {
         let followed = frequency_to.max(speed_to);
         let typical = build::typical_stiffness(&model, speed);
         let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
-        let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
         let this = RotorAnalysis {
             speed,
             speed_from,
@@ -104,9 +110,9 @@ impl RotorAnalysis {
             model,
             gravity: analysis.number("gravity"),
             gravity_angle: analysis.number("gravity_angle"),
-            operating_from: operating("operating_from"),
-            operating_to: operating("operating_to"),
-            separation_margin: analysis.maybe("separation_margin"),
+            operating_from,
+            operating_to,
+            separation_margin,
             exempt_amplification: analysis.maybe("exempt_amplification"),
             map_from: map("map_from", 1e-2),
             map_to: map("map_to", 1e2),
@@ -114,6 +120,16 @@ impl RotorAnalysis {
         };
         this.check(values)?;
         Ok(this)
+    }
+
+    /// The speeds that a verdict on the separation needs, where not all of them are looked at.
+    pub(crate) fn not_looked_at(&self) -> Option<[f64; 2]> {
+        let margin = self.separation_margin.unwrap_or(0.0);
+        let needed = [
+            (1.0 - margin).max(0.0) * self.operating_from,
+            (1.0 + margin) * self.operating_to,
+        ];
+        (self.speed_from > needed[0] || self.speed_to < needed[1]).then_some(needed)
     }
 
     /// Refuses ranges that are none.

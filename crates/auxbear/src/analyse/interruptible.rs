@@ -18,7 +18,7 @@ const STACK: usize = 8 << 20;
 ///
 /// Estimators know of no interrupt and may compute for seconds: the thread of one that is not waited for any more runs on
 /// until it is done, or the process ends.
-pub(crate) fn heed<T: Send + 'static>(
+pub(crate) fn interruptible<T: Send + 'static>(
     interrupt: &AtomicBool,
     part: impl FnOnce() -> Result<T, String> + Send + 'static,
 ) -> Result<T, String> {
@@ -55,24 +55,27 @@ mod tests {
     #[test]
     fn a_part_that_computes_on_is_not_waited_for() {
         let interrupt = Arc::new(AtomicBool::new(false));
-        assert_eq!(heed(&interrupt, || Ok(7)), Ok(7));
+        assert_eq!(interruptible(&interrupt, || Ok(7)), Ok(7));
         let own = Arc::clone(&interrupt);
         let begin = Instant::now();
-        let found: Result<(), String> = heed(&interrupt, move || {
+        let found: Result<(), String> = interruptible(&interrupt, move || {
             own.store(true, Ordering::Relaxed);
             std::thread::sleep(Duration::from_secs(5));
             Ok(())
         });
         assert_eq!(found, Err(INTERRUPTED.to_string()));
         assert!(begin.elapsed() < Duration::from_secs(1));
-        assert_eq!(heed(&interrupt, || Ok(7)), Err(INTERRUPTED.to_string()));
+        assert_eq!(
+            interruptible(&interrupt, || Ok(7)),
+            Err(INTERRUPTED.to_string())
+        );
     }
 
     #[test]
     fn a_panic_of_a_part_is_one_of_the_caller() {
         let interrupt = AtomicBool::new(false);
         let caught = std::panic::catch_unwind(|| {
-            let _ = heed::<()>(&interrupt, || resume_unwind(Box::new("broken")));
+            let _ = interruptible::<()>(&interrupt, || resume_unwind(Box::new("broken")));
         });
         assert_eq!(caught.unwrap_err().downcast_ref(), Some(&"broken"));
     }
