@@ -5,7 +5,8 @@
 //! ```
 //! Every heat that the ledger books for the bearing goes to nodes by shares that add to one, so that what the nodes store and the
 //! surroundings take is the heat made, to rounding. Friction of rotor and race is shared as the surfaces that rub have shared it,
-//! where they are followed.
+//! where they are followed; what flows from the warmer to the cooler through the patch in which they slide is part of that, and the network's own
+//! contact conducts under the rest of the force.
 //!
 //! | loss | to |
 //! |---|---|
@@ -14,7 +15,7 @@
 //! | orbit drag, inlets, the viscous part of the steady moment | lubricant |
 //! | where contact films warm: sliding and steady moment, inlets, less what the films keep | as the rest of the steady moment |
 //! | the rest of the steady moment, which depends on load | half at each race, both sides by their effusivity |
-//! | rotor on race | half each, or as the surfaces shared it |
+//! | rotor on race | as the surfaces share it, where they are followed; else half each |
 //! | mount damping | mount, where it is a node, else housing |
 //!
 //! The network takes the heat in spans of 10 ms, long beside a contact and short beside its own times; conductances are those
@@ -35,8 +36,8 @@ use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{
-    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, Operation, PASSES,
-    ROTOR, relaxing, together,
+    BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, Landing, NODES, OUTER_RACE, Operation,
+    PASSES, ROTOR, relaxing, together,
 };
 use thermal::held::Held;
 use thermal::load_zone::LoadZone;
@@ -113,6 +114,7 @@ pub struct Warmth {
     /// Spin of the inner race then, rad/s.
     spin: Option<f64>,
     taken: [f64; 2],
+    slid: f64,
     impulse: f64,
 }
 
@@ -161,8 +163,8 @@ pub struct Seen {
     pub spin: f64,
     /// D of the lubricant, by which M0 differs from its law.
     pub drag_factor: f64,
-    /// Friction heat that rotor and race have taken so far, where it is followed, J.
-    pub taken: Option<[f64; 2]>,
+    /// Friction heat that rotor and race have taken so far, and ∫N dt of the force under which they slid, N s, where that is followed, J.
+    pub taken: Option<([f64; 2], f64)>,
     /// ∫N dt of the force of the rotor on the race so far, N s; none where it is the weight.
     pub impulse: Option<f64>,
     /// Heat that warm contact films keep, J; none where there are no such films.
@@ -302,17 +304,16 @@ impl WarmBearing {
         (self.zone).loads_under(force, self.zone.clearance_at(temperatures, speed))
     }
 
-    /// What its conductances follow at a spin of the inner race (rad/s), the force of the rotor on it (N), temperatures of the nodes (°C) and
-    /// loads of the balls (N).
+    /// What its conductances follow at a spin of the inner race (rad/s), the rotor on it, temperatures of the nodes (°C) and loads of the balls (N).
     fn operation<'a>(
         &self,
-        [speed, force]: [f64; 2],
+        (speed, landing): (f64, Landing),
         nodes: &'a [f64],
         loads: &'a [f64],
     ) -> Operation<'a> {
         Operation {
             speed,
-            force,
+            landing,
             loads,
             viscosity: self.viscosity_at(nodes[LUBRICANT]),
             temperatures: nodes,
@@ -331,26 +332,22 @@ impl WarmBearing {
         }
     }
 
-    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C); friction of rotor and race by
-    /// halves.
+    /// Mean heats, W, over the nodes, at a spin of the inner race (rad/s) and a temperature of the lubricant (°C); of the friction of rotor and
+    /// race the rotor takes so much more than the race.
     pub fn over_nodes(
         &self,
         heats: &[f64; HEATS],
         spin: f64,
-        lubricant: f64,
-        drag_factor: f64,
+        (lubricant, drag_factor): (f64, f64),
+        uneven: f64,
     ) -> OfNodes {
         let viscous = self.viscous(spin, lubricant, drag_factor);
-        sums(&self.flows(heats, viscous, None))
+        sums(&self.flows(heats, viscous, uneven))
     }
 
     /// Heats of a span, each over the nodes, J; so much of the steady moment's is viscous, J: all of it where there is no law.
-    fn flows(
-        &self,
-        heats: &[f64; HEATS],
-        viscous: Option<f64>,
-        rubbing: Option<f64>,
-    ) -> [OfNodes; HEATS] {
+    /// Of the friction of rotor and race the rotor takes so much more than the race, J.
+    fn flows(&self, heats: &[f64; HEATS], viscous: Option<f64>, uneven: f64) -> [OfNodes; HEATS] {
         let (steady, friction) = (place("steady_moment"), place("rotor_race_friction"));
         let viscous = match viscous {
             Some(viscous) if viscous < heats[steady] => viscous / heats[steady],
@@ -363,10 +360,11 @@ impl WarmBearing {
                 shares = sliding(self.network.ball).map(|share| share * (1.0 - viscous));
                 shares[LUBRICANT] = viscous;
             }
-            if let (true, Some(rotor)) = (k == friction, rubbing) {
-                shares = of(&[(ROTOR, rotor), (INNER_RACE, 1.0 - rotor)]);
-            }
             flows[k] = shares.map(|share| share * heat);
+            if k == friction {
+                flows[k][ROTOR] += 0.5 * uneven;
+                flows[k][INNER_RACE] -= 0.5 * uneven;
+            }
         }
         flows
     }
@@ -396,7 +394,11 @@ impl Warmth {
             given_from: [0.0; NODES.len()],
             passes: part
                 .network
-                .passes(part.zone.load, 0.0, &[part.start; NODES.len()])
+                .passes(
+                    Landing::rolls(part.zone.load),
+                    0.0,
+                    &[part.start; NODES.len()],
+                )
                 .map(|one| [one; 2]),
             loose: [None; 2],
             beyond_data,
@@ -406,6 +408,7 @@ impl Warmth {
             heats: [0.0; HEATS],
             spin: None,
             taken: [0.0; 2],
+            slid: 0.0,
             impulse: 0.0,
         }
     }
@@ -435,17 +438,15 @@ impl Warmth {
         for (heat, before) in heats.iter_mut().zip(self.heats) {
             *heat -= before;
         }
-        let rubbing = seen.taken.and_then(|taken| {
-            let [rotor, race] = [taken[0] - self.taken[0], taken[1] - self.taken[1]];
-            (rotor + race > 0.0).then(|| rotor / (rotor + race))
-        });
+        let (taken, slid) = seen.taken.unwrap_or((self.taken, self.slid));
+        let uneven = (taken[0] - self.taken[0]) - (taken[1] - self.taken[1]);
         let lubricant = self.temperatures[LUBRICANT];
         let power = |spin| part.viscous(spin, lubricant, seen.drag_factor);
         let mean = |(first, last)| 0.5 * (first + last);
         let viscous = power(self.spin.unwrap_or(seen.spin))
             .zip(power(seen.spin))
             .map(mean);
-        let mut flows = part.flows(&heats, viscous.map(|power| power * span), rubbing);
+        let mut flows = part.flows(&heats, viscous.map(|power| power * span), uneven);
         if let Some(films) = seen.films {
             let kept = films - self.in_films;
             through_films(&mut flows, [&heats, &seen.heats], kept, part.network.ball);
@@ -453,13 +454,22 @@ impl Warmth {
         let nodes = sums(&flows);
         let mean = |impulse: f64| (impulse - self.impulse) / span;
         let force = seen.impulse.map_or(part.zone.load, mean);
+        let pushed = seen.impulse.map_or(0.0, |impulse| impulse - self.impulse);
+        let landing = Landing {
+            force,
+            slides: match pushed > 0.0 {
+                true => ((slid - self.slid) / pushed).clamp(0.0, 1.0),
+                false => 0.0,
+            },
+            conductance: 0.0,
+        };
         let loads = part.loads_at(force, &self.temperatures, seen.spin);
-        let operation = part.operation([seen.spin, force], &self.temperatures, &loads);
+        let operation = part.operation((seen.spin, landing), &self.temperatures, &loads);
         // a state that is none ends the run elsewhere
         let Ok(network) = part.network.at(operation) else {
             return;
         };
-        let passes = part.network.passes(force, seen.spin, &self.temperatures);
+        let passes = part.network.passes(landing, seen.spin, &self.temperatures);
         for ([least, most], now) in self.passes.iter_mut().zip(passes) {
             (*least, *most) = (least.min(now), most.max(now));
         }
@@ -506,7 +516,7 @@ impl Warmth {
         self.until = seen.time;
         self.heats = seen.heats;
         self.spin = Some(seen.spin);
-        self.taken = seen.taken.unwrap_or(self.taken);
+        (self.taken, self.slid) = (taken, slid);
         self.impulse = seen.impulse.unwrap_or(self.impulse);
         let mut row = [0.0; NODES.len()];
         for (node, (now, peak)) in self.temperatures.iter().zip(&mut self.peaks).enumerate() {
@@ -526,7 +536,7 @@ impl Warmth {
                 return None;
             }
             let loads = part.loads_at(force, &row, seen.spin);
-            let operation = part.operation([seen.spin, force], &row, &loads);
+            let operation = part.operation((seen.spin, landing), &row, &loads);
             let machine = SteadySpeed {
                 network: part.network.at(operation).ok()?,
                 losses,
@@ -536,7 +546,7 @@ impl Warmth {
             };
             let passes = |moved: &[f64]| {
                 let loads = part.loads_at(force, moved, seen.spin);
-                let operation = part.operation([seen.spin, force], moved, &loads);
+                let operation = part.operation((seen.spin, landing), moved, &loads);
                 relaxing(&[(&part.network, operation)], &row)
             };
             Some(machine.growth_of(&row, &passes))

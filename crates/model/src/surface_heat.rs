@@ -9,9 +9,9 @@
 //! between the smallest and the largest angle on that body where the patch has been, up to its circumference.
 //!
 //! Each layer exchanges heat with the metal behind it, k A/(L/2) from its mean: the rotor's with its core, the race's with its ring, to the
-//! mean of which the heat of an arc goes along the ring as well. It holds what it is above that metal, so heat between the bodies themselves goes by
-//! the network's contact alone; rises that are reported add the temperatures of the network. Without a
-//! network the ring is alone and keeps what it gets, and the rotor's layer has an insulated back.
+//! mean of which the heat of an arc goes along the ring as well. It holds what it is above that metal, and the patch has the temperatures of the
+//! network behind both layers: while the surfaces slide, heat between the bodies goes through it, under the force of rolling through the network's
+//! rough line. Without a network the ring is alone and keeps what it gets, and the rotor's layer has an insulated back.
 //!
 //! Spans of heat are as long as a step at the touch and then a share of the time since: short where the flash grows, never
 //! so long that the force changes much.
@@ -56,8 +56,11 @@ pub struct SurfaceHeat {
     touched: Option<f64>,
     /// Until when the layers are known, s, and the friction heat until then, J.
     known: (f64, f64),
-    /// ∫N dt since, N s.
+    /// ∫N dt and ∫N|u| dt since, N s, N m.
     impulse: f64,
+    worked: f64,
+    /// What slid of all that.
+    pub slid: Slid,
     /// Rise of the patch in the last span of a touch, K; once it is over the mean of both surfaces.
     pub rise: f64,
     /// Largest rise of the patch, K.
@@ -78,6 +81,17 @@ pub struct SurfaceHeat {
     stays: Option<(f64, f64)>,
 }
 
+/// What has slid so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Slid {
+    /// ∫N dt of it, N s.
+    pub impulse: f64,
+    /// What the patches would have conducted between bodies 1 K apart, layers steady and touched all round, J/K.
+    pub conducted: f64,
+    /// By how much more of the friction heat they would have given the rotor than the race, both equally warm, J.
+    pub uneven: f64,
+}
+
 /// What a step shows of a contact.
 pub(crate) struct Seen {
     /// Begin and end, s.
@@ -92,6 +106,8 @@ pub(crate) struct Seen {
     pub friction: f64,
     /// Rises of the rotor's core and of the ring of the race above the start, K; none without a network.
     pub cores: Option<[f64; 2]>,
+    /// Whether the patch conducts between them; not where a conductance is given.
+    pub conducts: bool,
 }
 
 /// Where the surfaces are, and how they move.
@@ -115,6 +131,8 @@ impl SurfaceHeat {
             touched: None,
             known: (0.0, 0.0),
             impulse: 0.0,
+            worked: 0.0,
+            slid: Slid::default(),
             rise: 0.0,
             contact: Peak::NONE,
             of_touch: 0.0,
@@ -147,6 +165,9 @@ impl SurfaceHeat {
             self.of_touch = 0.0;
         }
         self.impulse += 0.5 * (seen.forces[0] + seen.forces[1]) * length;
+        self.worked += 0.5
+            * (seen.forces[0] * seen.slips[0].abs() + seen.forces[1] * seen.slips[1].abs())
+            * length;
         self.distance += 0.5 * (seen.slips[0].abs() + seen.slips[1].abs()) * length;
         let pressure = seen.forces[1] / (2.0 * bore * surfaces.length);
         self.pressure_speed
@@ -182,22 +203,33 @@ impl SurfaceHeat {
             self.rubbed += power * span / seen.friction;
         }
         let since = 0.5 * (from + end) - touched;
-        let touch = Touch {
+        let mut touch = Touch {
             power,
             half_width,
             length: surfaces.length,
             passing: [0, 1].map(|body| radii[body] * turning[body]),
             since,
             tracks: self.tracks,
+            metals: [0.0; 2],
         };
+        let slides = touch.slides(self.worked / self.impulse.max(f64::MIN_POSITIVE));
+        // of bodies that roll, or conduct by a given number, the patch is between both
+        let behind = seen.cores.unwrap_or_default();
+        let mean = 0.5 * (behind[0] + behind[1]);
+        let through = if seen.conducts { slides } else { 0.0 };
+        touch.metals = behind.map(|metal| mean + through * (metal - mean));
         let halves = [0, 1].map(|body: usize| surfaces.layers[body].half_step(span));
         if half_width > 0.0 {
             let shared = touch.advance(&surfaces.layers, &mut self.states, &halves);
             let middle = 0.5 * (from + end);
-            let behind = seen.cores.unwrap_or_default();
+            // over a long time patches go round: a race that stands for good takes less than this
+            let tracks = radii.map(|radius| TAU * radius * surfaces.length);
+            let [rotor, race] = Touch { tracks, ..touch }.steady(&surfaces.layers);
+            self.slid.impulse += slides * self.impulse;
+            self.slid.conducted += slides * span / (rotor + race);
+            self.slid.uneven += power * span * (race - rotor) / (rotor + race);
             let surfaces = [0, 1].map(|body: usize| shared.surfaces[body] + behind[body]);
-            // on the warmer of both bodies
-            let contact = shared.contact + behind[0].max(behind[1]);
+            let contact = shared.contact;
             self.contact.raise(contact, middle);
             self.rise = match seen.forces[1] > 0.0 {
                 true => contact,
@@ -215,7 +247,7 @@ impl SurfaceHeat {
             2.0 * half_width / radii[0],
         );
         self.known = (end, seen.heats[1]);
-        self.impulse = 0.0;
+        (self.impulse, self.worked) = (0.0, 0.0);
         if seen.forces[1] == 0.0 {
             self.touched = None;
             self.stays = None;
@@ -334,6 +366,7 @@ mod tests {
                 heats: times.map(|time| power * time),
                 friction: 0.15,
                 cores: Some([0.0; 2]),
+                conducts: true,
             };
             if k == 9_001 {
                 before = heat.taken();

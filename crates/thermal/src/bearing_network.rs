@@ -108,13 +108,43 @@ pub struct BearingNetwork {
     pub ambient: f64,
 }
 
+/// How the rotor lies in the race, mean over a time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Landing {
+    /// Its radial force on the race, N.
+    pub force: f64,
+    /// Share of that force under which it slides: the rough line of one that rolls conducts by the rest.
+    pub slides: f64,
+    /// What the patch conducts meanwhile, W/K; 0 where surface layers conduct it.
+    pub conductance: f64,
+}
+
+impl Landing {
+    /// One that rolls under a force, N.
+    pub fn rolls(force: f64) -> Self {
+        Landing {
+            force,
+            ..Landing::default()
+        }
+    }
+    /// Between this and another, a share of the way on.
+    pub fn along(self, to: Self, way: f64) -> Self {
+        let along = |from: f64, to: f64| from + way * (to - from);
+        Landing {
+            force: along(self.force, to.force),
+            slides: along(self.slides, to.slides),
+            conductance: along(self.conductance, to.conductance),
+        }
+    }
+}
+
 /// The state that the conductances follow.
 #[derive(Clone, Copy, Debug)]
 pub struct Operation<'a> {
     /// Speed of rotor and inner race, rad/s.
     pub speed: f64,
-    /// Radial force of the rotor on the inner race, N.
-    pub force: f64,
+    /// How the rotor lies in the inner race.
+    pub landing: Landing,
     /// Load of each ball on the inner race, N.
     pub loads: &'a [f64],
     /// Kinematic viscosity of the lubricant, m²/s.
@@ -162,7 +192,7 @@ impl BearingNetwork {
             conductance,
             temperature: self.ambient,
         };
-        let passes = self.passes(operation.force, operation.speed, operation.temperatures);
+        let passes = self.passes(operation.landing, operation.speed, operation.temperatures);
         let mut links = vec![
             link(ROTOR, INNER_RACE, passes[0]),
             link(INNER_RACE, BALLS, inner),
@@ -242,13 +272,21 @@ impl BearingNetwork {
         }
     }
 
-    /// Conductances of the [`PASSES`] under a radial force of the rotor, N, at a speed of the inner race, rad/s, and at temperatures of the nodes,
+    /// Conductances of the [`PASSES`] with the rotor on its race, at a speed of the inner race, rad/s, and at temperatures of the nodes,
     /// °C: W/K.
-    pub fn passes(&self, force: f64, speed: f64, temperatures: &[f64]) -> [f64; PASSES.len()] {
+    pub fn passes(
+        &self,
+        landing: Landing,
+        speed: f64,
+        temperatures: &[f64],
+    ) -> [f64; PASSES.len()] {
+        let force = landing.force;
+        let rolling = (1.0 - landing.slides) * force;
         let at = |node: usize| temperatures[node];
         let room = self.ambient;
         [
-            (self.landing).conductance(force, speed, [at(ROTOR), at(INNER_RACE)]),
+            landing.conductance
+                + (self.landing).conductance(rolling, speed, [at(ROTOR), at(INNER_RACE)]),
             (self.outer_seat).conductance(force, 0.0, [at(OUTER_RACE), at(HOUSING)]),
             (self.surroundings).conductance(force, 0.0, [at(HOUSING), room]),
             (self.rotor_surroundings).conductance(force, speed, [at(self.open_rotor()), room]),
@@ -340,7 +378,7 @@ mod tests {
     fn at(speed: f64, loads: &[f64]) -> Operation<'_> {
         Operation {
             speed,
-            force: 0.0,
+            landing: Landing::rolls(0.0),
             loads,
             viscosity: 2e-5,
             temperatures: &[25.0; NODES.len()],
@@ -434,7 +472,7 @@ mod tests {
         let with = |temperatures: &[f64], act: &dyn Fn(Operation<'_>) -> Vec<f64>| {
             act(Operation {
                 speed: 2094.0,
-                force: 118.0,
+                landing: Landing::rolls(118.0),
                 loads: &zone.loads(zone.clearance_at(temperatures, 2094.0)),
                 viscosity: losses.oil.held(temperatures[LUBRICANT] + 273.15),
                 temperatures,

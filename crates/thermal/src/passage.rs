@@ -125,6 +125,10 @@ impl Passage {
 }
 
 impl Passage {
+    /// Whether a person has given it, whatever the bodies do.
+    pub fn is_given(&self) -> bool {
+        matches!(self, Passage::Given(_))
+    }
     /// Whether it follows temperatures so closely that only short steps see it.
     pub fn is_pressed(&self) -> bool {
         matches!(self, Passage::Pressed(_))

@@ -10,12 +10,14 @@
 //! T is the surface of each body's [`layer`](crate::layer), averaged over its track; v is the speed of each surface past
 //! the patch, not past the other surface. Equal temperatures divide the power as Blok's rule does, unequal ones let heat
 //! flow to the cooler body even without friction. In a step the match holds at its middle (second order).
+//! Once the profiles of both layers are steady, P₁ = (P R₂ + T₂ − T₁)/(R₁ + R₂), R = F + (5/3) L/(2kA) from the mean of the metal on.
 //!
 //! Not modelled: asperities, which are hotter than the mean of the patch; uneven pressure along the contact; cooling by oil.
 //!
 //! Source: derived; book/src/theory/heat.md.
 
 use crate::layer::{Answer, HalfStep, Layer, LayerState};
+use crate::passage::GROUND_STEEL;
 use physics::flash::{flash_rise, return_factor};
 
 /// How two bodies touch, in the middle of a step or at an instant.
@@ -33,6 +35,8 @@ pub struct Touch {
     pub since: f64,
     /// Track of each body that the patch sweeps, m².
     pub tracks: [f64; 2],
+    /// Rise of the metal behind each layer, to which its state is a rise, K.
+    pub metals: [f64; 2],
 }
 
 /// What a touch does.
@@ -42,7 +46,7 @@ pub struct Shared {
     pub powers: [f64; 2],
     /// Rise of both sides of the patch, at its hottest edge, K.
     pub contact: f64,
-    /// Rise of each surface under the patch, averaged over its track, K.
+    /// Rise of each surface under the patch above its metal, averaged over its track, K.
     pub surfaces: [f64; 2],
 }
 
@@ -50,6 +54,19 @@ impl Touch {
     /// Area of the patch, m².
     pub fn patch(&self) -> f64 {
         2.0 * self.half_width * self.length
+    }
+
+    /// How far a mean slip, m/s, makes one patch of both surfaces: the share of a surface that the spots where they touch sweep as they pass.
+    ///
+    /// Formula: s/(s + σ/m), s = 2b |u|/v, v the faster of both speeds past the patch: 1 of one that slides, 0 of those that roll
+    pub fn slides(&self, slip: f64) -> f64 {
+        let (roughness, slope, _) = GROUND_STEEL;
+        let fastest = self.passing[0].abs().max(self.passing[1].abs());
+        let swept = 2.0 * self.half_width * slip.abs();
+        match swept > 0.0 {
+            true => swept / (swept + roughness / slope * fastest),
+            false => 0.0,
+        }
     }
 
     /// F of a body, K/W.
@@ -60,17 +77,28 @@ impl Touch {
         return_factor((patch / self.tracks[body]).min(1.0)) * rise
     }
 
+    /// From the mean of the metal behind each layer to the patch, once the profiles of both layers are steady, K/W.
+    ///
+    /// Formula: F + L/(2kA) + L/(3kA)
+    pub fn steady(&self, layers: &[Layer; 2]) -> [f64; 2] {
+        [0, 1].map(|body| {
+            let layer = &layers[body];
+            self.flash(body, layer) + 5.0 / 3.0 / layer.to_core(self.tracks[body])
+        })
+    }
+
     /// Divides the power between two bodies by how their surfaces answer.
     fn shared(&self, layers: &[Layer; 2], answers: [Answer; 2]) -> Shared {
         let flashes = [0, 1].map(|body| self.flash(body, &layers[body]));
         let resistances = [0, 1].map(|body| flashes[body] + answers[body].resistance);
-        let first = (self.power * resistances[1] + answers[1].free - answers[0].free)
-            / (resistances[0] + resistances[1]);
+        let free = [0, 1].map(|body: usize| self.metals[body] + answers[body].free);
+        let first =
+            (self.power * resistances[1] + free[1] - free[0]) / (resistances[0] + resistances[1]);
         let powers = [first, self.power - first];
         let surface = |body: usize| answers[body].free + powers[body] * answers[body].resistance;
         Shared {
             powers,
-            contact: answers[0].free + first * resistances[0],
+            contact: free[0] + first * resistances[0],
             surfaces: [surface(0), surface(1)],
         }
     }
@@ -123,6 +151,7 @@ mod tests {
         passing: [49.0, 3.0],
         since: 2e-3,
         tracks: [9.2e-4, 9.4e-4],
+        metals: [0.0; 2],
     };
 
     #[test]
@@ -171,6 +200,30 @@ mod tests {
         };
         let shared = still.at_once(&layers, &states);
         assert!(shared.powers[0] > 0.0 && shared.powers[1] == -shared.powers[0]);
+        // the metals alone: steady, both layers held at theirs
+        let metals = [20.0, 70.0];
+        let warm = Touch { metals, ..still };
+        let mut states = [LayerState::default(); 2];
+        for _ in 0..20_000 {
+            warm.advance(&layers, &mut states, &halves);
+            for (body, layer) in layers.iter().enumerate() {
+                let track = TOUCH.tracks[body];
+                let back = (1.0 / layer.to_core(track), 0.0);
+                layer.exchange(&mut states[body], track, back, 1e-3);
+            }
+        }
+        let [rotor, race] = warm.steady(&layers);
+        let found = warm.at_once(&layers, &states);
+        let right = 50.0 / (rotor + race);
+        assert!(
+            (found.powers[0] / right - 1.0).abs() < 2e-3,
+            "{found:?} {right}"
+        );
+        assert!((metals[0]..metals[1]).contains(&found.contact));
+        // 15 m/s on a race that stands is one patch, 0.5 mm/s of 30 m/s is rolling: a spot moves by 8 nm in the patch, by its size of 8 um at 1.7 %
+        let at = |passing: [f64; 2], slip: f64| Touch { passing, ..TOUCH }.slides(slip);
+        assert!(at([15.0, 0.0], 15.0) > 0.98 && at([30.0, 30.0], 5e-4) < 2e-3);
+        assert!((at([30.0, 29.5], 0.5) - 0.5).abs() < 1e-12 && at([0.0; 2], 0.0) == 0.0);
         // no slip and equal temperatures: nothing
         let nothing = still.at_once(&layers, &Default::default());
         assert_eq!((nothing.powers[0], nothing.contact), (0.0, 0.0));

@@ -12,7 +12,7 @@
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::bearing_network::NODES;
+use crate::bearing_network::{Landing, NODES};
 use crate::losses::Losses;
 use crate::warm_bearing::WarmBearings;
 use physics::palmgren::FADING_SPEED;
@@ -44,8 +44,8 @@ pub struct InMotion {
     pub beside: f64,
     /// Speed of its inner race over that of one that rolls.
     pub spin: f64,
-    /// Mean force of the rotor on it, N.
-    pub force: f64,
+    /// How the rotor lies in it.
+    pub landing: Landing,
 }
 
 /// What a machine does at a speed at which its motion was followed.
@@ -84,16 +84,16 @@ impl Between {
             factors: [0, 1].map(|part| along(from.factors[part], to.factors[part])),
             beside: along(from.beside, to.beside),
             spin: along(from.spin, to.spin),
-            force: along(from.force, to.force),
+            landing: from.landing.along(to.landing, way),
         }
     }
     /// Speed of the inner race of a bearing over that of one that rolls, at a speed of the rotor.
     pub fn spin(&self, speed: f64, bearing: usize) -> f64 {
         self.bearing(self.way(speed), bearing).spin
     }
-    /// Mean force of the rotor on a bearing at a speed of the rotor, N.
-    pub fn force(&self, speed: f64, bearing: usize) -> f64 {
-        self.bearing(self.way(speed), bearing).force
+    /// How the rotor lies in a bearing at a speed of the rotor.
+    pub fn landing(&self, speed: f64, bearing: usize) -> Landing {
+        self.bearing(self.way(speed), bearing).landing
     }
 }
 
@@ -232,7 +232,7 @@ mod tests {
                 factors: [1.0, factor],
                 beside,
                 spin: beside,
-                force: 100.0 * beside,
+                landing: Landing::rolls(100.0 * beside),
             }],
             rotor: 1e-3 * speed,
         };
@@ -254,7 +254,7 @@ mod tests {
             shares,
         };
         assert!((motion.spin(950.0, 0) - 0.3).abs() < 1e-12);
-        assert!((motion.force(950.0, 0) - 30.0).abs() < 1e-10);
+        assert!((motion.landing(950.0, 0).force - 30.0).abs() < 1e-10);
         machine.motion = Some(motion);
         for (law, celsius) in law.iter().zip([40.0, 90.0]) {
             let found = moments(&machine, 950.0, celsius);

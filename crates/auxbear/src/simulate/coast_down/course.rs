@@ -4,7 +4,9 @@ use crate::problem::Problem;
 use crate::simulate::coast_down::build::{Built, ICE_POINT, Part, hold};
 use crate::simulate::coast_down::rows::{End, Row, RowOfBearing};
 use std::sync::atomic::{AtomicBool, Ordering};
-use thermal::bearing_network::{BearingNetwork, LUBRICANT, NODES, Operation, relaxing, together};
+use thermal::bearing_network::{
+    BearingNetwork, LUBRICANT, Landing, NODES, Operation, relaxing, together,
+};
 use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
 use thermal::held::Held;
 use thermal::losses::Losses;
@@ -199,12 +201,11 @@ fn race(built: &Built, speed: f64, bearing: usize) -> f64 {
     built.parts[bearing].losses.ratio * speed * spin
 }
 
-/// Mean force of the rotor on a bearing at a speed of the rotor, N: its load where it rolls.
-fn force(built: &Built, speed: f64, bearing: usize) -> f64 {
+/// How the rotor lies in a bearing at a speed of the rotor: it rolls under its load where its motion was not followed.
+fn landing(built: &Built, speed: f64, bearing: usize) -> Landing {
+    let rolls = || Landing::rolls(built.parts[bearing].zone.load);
     let motion = built.motion.as_ref();
-    motion.map_or(built.parts[bearing].zone.load, |motion| {
-        motion.between.force(speed, bearing)
-    })
+    motion.map_or_else(rolls, |motion| motion.between.landing(speed, bearing))
 }
 
 /// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
@@ -226,7 +227,7 @@ fn operating<T>(
     let loads: Vec<Vec<f64>> = each()
         .map(|(k, (part, temperatures))| {
             let at = race(built, speed, k);
-            let force = force(built, speed, k);
+            let force = landing(built, speed, k).force;
             part.zone
                 .loads_under(force, clearance(part, at, temperatures))
         })
@@ -237,7 +238,7 @@ fn operating<T>(
             let kelvin = temperatures[LUBRICANT] + ICE_POINT;
             Operation {
                 speed: race(built, speed, k),
-                force: force(built, speed, k),
+                landing: landing(built, speed, k),
                 loads,
                 viscosity: part.viscosity.held(kelvin),
                 temperatures,
@@ -276,7 +277,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
             clearance,
             largest_pressure: part.largest_pressure(loads),
             largest_ball_loads: loads,
-            force: force(built, state.speed, k),
+            landing: landing(built, state.speed, k),
             speed,
             balls: balls.cloned(),
         }

@@ -100,7 +100,7 @@ fn heats(ran: &Ran, list: &mut List) {
         for row in &free.rows {
             let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
             let now =
-                (part.network).passes(row.bearings[k].force, row.bearings[k].speed, temperatures);
+                (part.network).passes(row.bearings[k].landing, row.bearings[k].speed, temperatures);
             for ([least, most], now) in passes.iter_mut().zip(now) {
                 (*least, *most) = (least.min(now), most.max(now));
             }

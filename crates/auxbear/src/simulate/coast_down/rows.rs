@@ -1,6 +1,7 @@
 //! What is known at the instants of a run-out, and how it ended.
 
 use std::sync::Arc;
+use thermal::bearing_network::Landing;
 use thermal::coast_down::Endless;
 
 /// What is known at the end of a step. Moments and powers are those of all bearings.
@@ -31,8 +32,8 @@ pub(crate) struct RowOfBearing {
     pub largest_ball_loads: [f64; 2],
     /// Its largest pressure, Pa.
     pub largest_pressure: f64,
-    /// Mean force of the rotor on it, N.
-    pub force: f64,
+    /// How the rotor lies in it.
+    pub landing: Landing,
     /// Speed of its inner race, rad/s.
     pub speed: f64,
     /// Of its balls, where windows follow them: as the nearest has seen them.

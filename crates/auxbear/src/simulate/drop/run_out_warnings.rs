@@ -171,11 +171,18 @@ fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
         ),
         _ => String::new(),
     };
+    // without contact.width nothing says how it is shared
+    let shared = match context.record(0).heat.is_some() {
+        true => "",
+        false => {
+            " and warms both bodies by halves: a race that stands is computed too warm, the rotor too cool"
+        }
+    };
     Some(warning(
         "AB2318",
         format!(
             "{when} the rotor slides on its races in the windows that follow it{slowest}: friction makes {}. \
-             It is in run_out.load_dependent_heat and warms both bodies by halves: a race that stands is computed too warm, the rotor too cool. sliding_distance \
+             It is in run_out.load_dependent_heat{shared}. sliding_distance \
              and wear are those of the first {:.3} s alone.",
             rubs.join(", "),
             context.finished.ending.time

@@ -9,7 +9,7 @@
 
 use crate::scenario::Drop;
 use crate::simulate::bearing::feedback::Follows;
-use crate::simulate::coast_down::build::{Built, ICE_POINT};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::simulate::coast_down::rows::BallsSeen;
 use crate::simulate::drop::build;
 use crate::simulate::drop::context::Context;
@@ -19,12 +19,13 @@ use crate::simulate::drop::method;
 use crate::simulate::ending::settings_at;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, HEATS};
 use model::bearing_heat::OfNodes;
+use model::surface_heat::Slid;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, ROTOR};
+use thermal::bearing_network::{INNER_RACE, LUBRICANT, Landing, NODES, ROTOR};
 use thermal::warm_machine::{Followed, InMotion};
 
 /// Turns of the rotor in which a window settles, and in each of its batches; and the longest that either takes, s.
@@ -101,8 +102,8 @@ struct Batch {
     drag_factors: Vec<f64>,
     /// Of the inner races, rad/s.
     spins: Vec<f64>,
-    /// Mean forces of the rotor on them, N.
-    forces: Vec<f64>,
+    /// The rotor in them: mean force, N, share under which it slides, and conductance of the patch, W/K.
+    landings: Vec<f64>,
     rotor: f64,
     /// Turns of the rotor about each inner race, with its spin.
     whirl: Vec<f64>,
@@ -289,13 +290,14 @@ impl<'a> Way<'a> {
                 .map(|record| record.whirl_turns * state[spin].signum())
                 .collect(),
             balls,
-            forces: (bearings.iter())
-                .map(|record| record.impulse / span)
+            landings: (bearings.iter())
+                .zip(&built.parts)
+                .flat_map(|(record, part)| landing(record, part, span))
                 .collect(),
             ways: (bearings.iter())
                 .map(|record| TAU * record.travel.way / record.travel.turned)
                 .collect(),
-            ..self.heats(built, state, span)
+            ..self.heats(built, state, span, bearings)
         })
     }
 
@@ -312,7 +314,7 @@ impl<'a> Way<'a> {
     }
 
     /// Powers of the losses and of the nodes over a span, from the ledger that began with it, W.
-    fn heats(&self, built: &Built, state: &[f64], span: f64) -> Batch {
+    fn heats(&self, built: &Built, state: &[f64], span: f64, records: &[BearingRecord]) -> Batch {
         let layout = self.last.machine.layout();
         let (mut powers, mut nodes, mut friction) = (Vec::new(), Vec::new(), Vec::new());
         let (mut drag_factors, mut spins) = (Vec::new(), Vec::new());
@@ -329,7 +331,12 @@ impl<'a> Way<'a> {
             let of_nodes: OfNodes = match &part.warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
-                    warm.over_nodes(&heats, state[at.inner + 5], lubricant, drag_factor)
+                    let oil = (lubricant, drag_factor);
+                    let slid = records[k]
+                        .heat
+                        .as_ref()
+                        .map_or(0.0, |heat| heat.slid.uneven);
+                    warm.over_nodes(&heats, state[at.inner + 5], oil, slid / span)
                 }
                 None => [0.0; NODES.len()],
             };
@@ -353,7 +360,7 @@ impl<'a> Way<'a> {
             peaks: Vec::new(),
             rises: Vec::new(),
             balls: Vec::new(),
-            forces: Vec::new(),
+            landings: Vec::new(),
             whirl: Vec::new(),
             ways: Vec::new(),
             drag_factors,
@@ -364,12 +371,12 @@ impl<'a> Way<'a> {
 }
 
 /// What the mean powers of a window say beside the laws at its speed and temperatures, and what heats the nodes besides, W: of powers as
-/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, the mean forces of the rotor on them, N, and what brakes the rotor besides its drag, W.
+/// in [`Window`], the heats over all nodes, the factors of the lubricants on M0, the speeds of the inner races, rad/s, the rotor in them as in [`Batch`], and what brakes the rotor besides its drag, W.
 fn beside_laws(
     built: &Built,
     powers: &[f64],
     nodes: &[f64],
-    [drag_factors, spins, forces]: [&[f64]; 3],
+    [drag_factors, spins, landings]: [&[f64]; 3],
     rotor: f64,
 ) -> (Followed, Vec<f64>) {
     let start = &built.start;
@@ -399,7 +406,11 @@ fn beside_laws(
             factors: [factor(first, laws[0]), factor(second, laws[1])],
             beside: sides * (steady - first - second + other) / start.speed,
             spin: spins[k] / (part.losses.ratio * start.speed),
-            force: forces[k],
+            landing: Landing {
+                force: landings[3 * k],
+                slides: landings[3 * k + 1],
+                conductance: landings[3 * k + 2],
+            },
         });
     }
     let followed = Followed {
@@ -408,6 +419,20 @@ fn beside_laws(
         rotor: sides * rotor / start.speed,
     };
     (followed, beside)
+}
+
+/// The rotor in a bearing over a span, s: mean force, N, share under which it slides, conductance of the patch, W/K.
+fn landing(record: &BearingRecord, part: &Part, span: f64) -> [f64; 3] {
+    let slid = (record.heat.as_ref()).map_or(Slid::default(), |heat| heat.slid);
+    let slides = match record.impulse > 0.0 {
+        true => (slid.impulse / record.impulse).min(1.0),
+        false => 0.0,
+    };
+    let conducted = match part.network.landing.is_given() {
+        true => 0.0,
+        false => slid.conducted / span,
+    };
+    [record.impulse / span, slides, conducted]
 }
 
 /// Largest contact force of each bearing, N.
@@ -483,8 +508,8 @@ fn mean(
     let drag_factors = of(batches.iter().map(|batch| &batch.drag_factors).collect());
     let rotor = batches.iter().map(|batch| batch.rotor).sum::<f64>() / count;
     let spins = of(batches.iter().map(|batch| &batch.spins).collect());
-    let forces = of(batches.iter().map(|batch| &batch.forces).collect());
-    let of_bearings = [&drag_factors, &spins, &forces].map(Vec::as_slice);
+    let landings = of(batches.iter().map(|batch| &batch.landings).collect());
+    let of_bearings = [&drag_factors, &spins, &landings].map(Vec::as_slice);
     let (followed, beside) = beside_laws(built, &powers, &nodes, of_bearings, rotor);
     let whirl = of(batches.iter().map(|batch| &batch.whirl).collect());
     let largest = |of: fn(&Batch) -> &Vec<f64>| -> Vec<f64> {

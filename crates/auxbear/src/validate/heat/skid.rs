@@ -110,6 +110,7 @@ impl Skid {
             passing: [rotor, self.bore * self.race_speed_at(time)],
             since: time,
             tracks: self.tracks,
+            metals: [0.0; 2],
         }
     }
 }

@@ -417,6 +417,7 @@ impl BearingRecord {
             ],
             friction: part.contact.friction,
             cores,
+            conducts: (part.warm.as_ref()).is_some_and(|warm| !warm.network.landing.is_given()),
         };
         let contact = &part.contact;
         if !heat.watch(surfaces, contact.bore_radius, &seen) {
@@ -480,7 +481,7 @@ impl BearingRecord {
             spin: state(self.at.inner + 5),
             drag_factor: part.bearing.drag_factor(&|own| state(first + own)),
             films: part.bearing.in_films(&|own| state(first + own)),
-            taken: self.heat.as_ref().map(|heat| heat.taken()),
+            taken: (self.heat.as_ref()).map(|heat| (heat.taken(), heat.slid.impulse)),
             impulse: Some(self.impulse),
         };
         warmth.take(warm, &seen);
