@@ -431,7 +431,7 @@ impl Condition {
 
 /// `a` or `an`.
 pub(crate) fn article(noun: &str) -> &'static str {
-    if noun.starts_with(['a', 'e', 'i', 'o']) {
+    if noun.starts_with(['a', 'e', 'i', 'o']) || noun == "unbalance" {
         "an"
     } else {
         "a"

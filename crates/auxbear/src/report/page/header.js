@@ -120,7 +120,7 @@ function whirlTile(run) {
   const rule = quantity.value === "none" && !unknown.length ? "below one turn there is no whirl" : null;
   const mean = meanNote(turns);
   const others = quantity.value !== "backward" && back >= 1 ? `BACKWARD in other members: ${numberText(back, 3)} turns in the worst` : null;
-  const shown = unknown.length && quantity.value === "none" ? NOT_IN_THIS_RUN : quantity.value;
+  const shown = unknown.length && quantity.value === "none" ? NOT_IN_THIS_RUN : others ? "backward" : quantity.value;
   return tile("Whirl", shown, [others, unknown, count, rule, mean && `${mean} members; counter-clockwise is positive`], unknown.length ? null : verdictState(run, bad));
 }
 
@@ -175,10 +175,16 @@ function distanceTile(run) {
   if (run.summary.system !== "machine") return null;
   const [least] = distancesOf(run);
   const rubs = warningsOf(run, RUB);
-  const distance = least ? `least distance ${engineeringText(least.clearance - least.displacement, "m", 3)} at ${wordsOf(least.name)}` : null;
+  const whose = list(run.summary.members).length > 1 ? " in the unperturbed run" : "";
+  const distance = least ? `least distance${whose} ${engineeringText(least.clearance - least.displacement, "m", 3)} at ${wordsOf(least.name)}` : null;
   if (rubs.length) return tile("Clearances along the shaft", `rub: ${rubs.length} ${rubs.length === 1 ? "place" : "places"}`, [distance, `${RUB}: these contacts are not computed`], "bad");
   if (!least) return tile("Clearances along the shaft", NOT_IN_THIS_RUN, ["no seal, sensor or gap of a magnet is given (rotor.node.clearance)"]);
-  return tile("Clearances along the shaft", engineeringText(least.clearance - least.displacement, "m", 3), [`least distance, at ${wordsOf(least.name)}`], verdictState(run, false));
+  const magnets = wordsAt(run, "magnet_names");
+  const open = [
+    distancesOf(run).every(({ name }) => magnets.includes(name)) ? "gaps of magnets alone: no seal or sensor is given (rotor.node.clearance)" : null,
+    list(run.summary.members).length > 1 ? "of the unperturbed run alone" : null,
+  ].filter(Boolean);
+  return tile("Clearances along the shaft", engineeringText(least.clearance - least.displacement, "m", 3), [`least distance, at ${wordsOf(least.name)}`, open], open.length ? null : verdictState(run, false));
 }
 
 // What bearing and laws are made for: the warning of each, and its words.
@@ -262,7 +268,7 @@ function machineLine(run) {
   const assumed = (path) => (inputOf(run, path).mark === "assumed" ? " (assumed)" : "");
   const facts = [
     mass && `rotor ${mass}`,
-    speed,
+    speed && (/^0 /.test(speed) ? "from rest" : speed),
     bearing && bearing + (planes && !run.summary.name ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
     clearance && `radial air clearance ${clearance}${assumed("contact.radial_air_clearance")}`,
     friction && `friction coefficient ${friction}${assumed("contact.friction_coefficient")}`,
@@ -374,7 +380,7 @@ function ofOneRun(runs) {
 
 function header(runs) {
   const single = runs.length === 1 ? runs[0] : null;
-  const parts = [element("h1", {}, ofOneRun(runs) ? runs[0].summary.title || runs[0].name : "Comparison of " + runs.length + " runs")];
+  const parts = [element("h1", {}, ofOneRun(runs) ? runs[0].summary.title || runs[0].name : `Comparison of ${machinesOf(runs).length} runs`)];
   if (differentSystems(runs)) parts.push(element("div", { class: "warnings" }, element("strong", {}, "These runs cannot be compared: "), `they are of different kinds (${[...new Set(runs.map((run) => run.summary.system))].join(", ")}). Each is shown with its own pictures; quantities of one name may mean different things.`));
   // what all bearings of a machine share stands once, before what each has of its own
   for (const bearings of machinesOf(runs)) {

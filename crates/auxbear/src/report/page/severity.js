@@ -27,7 +27,7 @@ function indexRows(run) {
 }
 
 // Distances along the shaft, severe warnings and limits of the file: what a machine has besides the indices of its bearings. Of a
-// warning no share is known: it stands first. What rubs is said by its distance.
+// warning no share is known: it stands at its limit. What rubs is said by its distance.
 function marginRows(machine) {
   const distances = distancesOf(machine).map(({ name, clearance, displacement }) => ({ name: `node.${name}`, words: `Clearance at ${wordsOf(name)}`, share: displacement / clearance, limit: `the shaft moves by ${engineeringText(displacement, "m", 4)} of ${engineeringText(clearance, "m", 4)}` }));
   const severe = list(machine.summary.warnings).filter((warning) => warning && graveness(warning) === 0 && !(warning.code === RUB && distances.length));
@@ -43,7 +43,7 @@ function marginRows(machine) {
 
 function marginsOf(bearings) {
   const indices = bearings.flatMap((run) => indexRows(run).map(({ name, words, quantity }) => ({ name, words: bearings.length > 1 ? `${run.summary.name}: ${words}` : words, share: isNumber(quantity.value) ? quantity.value : null, limit: `${quantity.law}; ${quantity.valid}`, why: quantity.why })));
-  const rank = ({ share }) => (share === null ? -1 : share);
+  const rank = ({ share }) => (share === null ? -1 : share === Infinity ? 1 : share);
   return [...indices, ...marginRows(bearings[0].whole || bearings[0])].sort((one, other) => (rank(other) === rank(one) ? 0 : rank(other) - rank(one)));
 }
 

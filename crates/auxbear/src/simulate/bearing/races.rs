@@ -235,7 +235,7 @@ const FLASH: Origin = Origin {
     law: "largest 1.19 q b/(G_ball + G_race) over all balls, q = μQ|u|/(πab), G = ½ k √(π(B + Pe)), Pe = |U| b/(2α): flash of both \
           surfaces above their own means, and its time",
     source: "J. C. Jaeger 1942, H. Blok 1937, crates/physics/src/flash.rs, crates/model/src/system/race_record.rs",
-    valid: "within 4 % of Hertz's ellipse that moves steadily; of the ends of steps, where slip times the root of the load is the largest so far, and of eight looks a turn; what the \
+    valid: "within 4 % of Hertz's ellipse that moves steadily, where the motion is known: it scatters by 7 % with run.tolerance, by a third with the unbalance angle; of the ends of steps, where slip times the root of the load is the largest so far, and of eight looks a turn; what the \
             law of traction is off, the flash is off; asperities are hotter, and traction does not follow it",
 };
 const INDEX: Origin = Origin {

@@ -332,7 +332,7 @@ const SPEED_INDEX: Origin = Origin {
 const RELEASE: Origin = Origin {
     law: "first instant, from the start of the run, at which a magnet, an axis or all power is lost",
     source: "levitation.power_lost_at; 0 where the run begins with the release",
-    valid: "column time, contacts and instants in messages count from the start of the run, what is called after the release from here",
+    valid: "column time and instants in messages count from the start of the run; results of contacts, spin-up and whirl from here",
 };
 const AXIAL_SHARE: Origin = Origin {
     law: "sqrt(1 - (g/g0)^2), g = gravity.acceleration across the shaft, g0 = 9.80665 m/s^2",
