@@ -167,7 +167,7 @@ pub struct Service {
 
 #[derive(Debug, Args)]
 pub struct Import {
-    /// Rotor saved by ROSS 2 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header
+    /// Rotor saved by ROSS 2 or 3 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header
     pub file: PathBuf,
     /// File to write [printed if none is given]
     #[arg(long, value_name = "FILE")]

@@ -175,6 +175,6 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
 
 /// A file that is none of those that are understood.
 fn unknown(name: &str, found: &str) -> Box<Problem> {
-    let allowed = "a rotor saved by ROSS 2 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header, is needed";
+    let allowed = "a rotor saved by ROSS 2 or 3 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header, is needed";
     Box::new(Problem::new(Code::ImportFormat, name, found, allowed))
 }

@@ -1,17 +1,25 @@
-//! Rotors saved by ROSS 2: a table of parameters and one of each element, named by its class and tag, in SI.
+//! Rotors saved by ROSS 2 or 3: a table of parameters and one of each element, named by its class and tag, in SI.
 //!
 //! Versions 2.1 and later write `ross_version`; version 2.0 does not, and is known by its bearings with axial coefficients,
 //! which versions 1 did not write. A key that TOML cannot hold as nothing is left out, in JSON it is null.
 
 use crate::import::draft::{Draft, DraftSupport, cleaned};
-use rotor::{Annulus, Block, Disk, Element, Material, Place, PointMass};
+use rotor::{Annulus, Block, Coefficients, Disk, Element, Material, Place, PointMass};
 use serde_json::{Map, Value};
 
 /// Keys of elements that say nothing of motion across the shaft.
 const OF_LOOKS: [&str; 4] = ["tag", "color", "scale_factor", "shear_method_calc"];
 
-/// Keys of the speeds of a table of coefficients, rad/s; ROSS has the first.
-const SPEEDS: [&str; 4] = ["frequency", "speed", "speed_rad_s", "speeds_rad_s"];
+/// Keys of the speeds of a table of coefficients, rad/s; ROSS 2 has the last, ROSS 3 the first, the last or both.
+const SPEEDS: [&str; 4] = ["speed", "speed_rad_s", "speeds_rad_s", "frequency"];
+
+/// Keys of the damping of the whole rotor, of ROSS 3.
+const DAMPING: [&str; 4] = [
+    "alpha",
+    "beta",
+    "modal_damping_ratio",
+    "default_damping_ratio",
+];
 
 /// The draft of a saved rotor.
 pub(super) fn draft(value: &Value) -> Result<Draft, String> {
@@ -34,6 +42,14 @@ pub(super) fn draft(value: &Value) -> Result<Draft, String> {
             .collect()
     };
     speed(&mut draft, value.get("parameters"));
+    for key in DAMPING {
+        let damping = value.get("parameters").and_then(|all| all.get(key));
+        if damping.is_some_and(|damping| values(damping).iter().any(|value| *value != 0.0)) {
+            draft.notes.push(format!(
+                "parameters: {key} (damping of the whole rotor) is left out"
+            ));
+        }
+    }
     let mut shaft = classes(&["ShaftElement", "ShaftTaperedElement"]);
     shaft.sort_by(|a, b| {
         number(a.2, "n")
@@ -112,7 +128,9 @@ pub(super) fn draft(value: &Value) -> Result<Draft, String> {
 /// The version, where it is one that is understood.
 fn version(all: &Map<String, Value>) -> Result<String, String> {
     match all.get("ross_version").map(Value::as_str) {
-        Some(Some(version)) if version.starts_with("2.") => Ok(version.to_string()),
+        Some(Some(version)) if ["2.", "3."].iter().any(|own| version.starts_with(own)) => {
+            Ok(version.to_string())
+        }
         Some(Some(version)) => Err(format!("ROSS version {version}, which is not known here")),
         Some(None) => Err("a ross_version that is no text".to_string()),
         None => {
@@ -251,8 +269,17 @@ fn support(
     };
     let table = coefficients(element, &format!("{class} {tag}"))?;
     if table.len() > 1 {
+        let ross = match draft.kind.contains("ROSS 2") {
+            true => "a spline in ROSS 2",
+            false => "PCHIP, and the slope of its ends, in ROSS 3",
+        };
+        let over = match axes(element) {
+            (_, whirl) if whirl.is_empty() => "",
+            (speeds, _) if speeds.is_empty() => " over frequency is taken as one over speed, and",
+            _ => " over speed and frequency is taken where both are the same, and",
+        };
         draft.notes.push(format!(
-            "{class} {tag}: its table over frequency is taken as one over speed, linear between its rows (ROSS: a spline)"
+            "{class} {tag}: its table{over} is linear between its rows and constant beyond them ({ross})"
         ));
     }
     for key in ["kzz", "czz", "mzz"] {
@@ -284,45 +311,72 @@ fn support(
     })
 }
 
+/// Speeds and frequencies of a table of coefficients, rad/s.
+fn axes(element: &Map<String, Value>) -> (Vec<f64>, Vec<f64>) {
+    let (whirl, speeds) = SPEEDS.split_last().expect("four keys");
+    let of = |key: &&str| {
+        element
+            .get(*key)
+            .map(values)
+            .filter(|list| !list.is_empty())
+    };
+    let speeds = speeds.iter().find_map(of).unwrap_or_default();
+    (speeds, of(whirl).unwrap_or_default())
+}
+
 /// Coefficients of a bearing over speed, rad/s; one row where they are the same at every speed.
+///
+/// Of a table over speed and frequency they are those of whirl at the speed.
 pub(super) fn coefficients(
     element: &Map<String, Value>,
     what: &str,
 ) -> Result<Vec<(f64, Block)>, String> {
-    let speeds = SPEEDS.iter().find_map(|key| element.get(*key));
-    let speeds = speeds.map(values).unwrap_or_default();
-    let rows = speeds.len().max(1);
-    let entry = |key: String, row: usize| -> Result<f64, String> {
+    let (mut speeds, mut whirl) = axes(element);
+    if speeds.is_empty() {
+        speeds = std::mem::take(&mut whirl);
+    }
+    let (rows, columns) = (speeds.len().max(1), whirl.len().max(1));
+    let list = |key: String| {
         let list = element.get(&key).map(values).unwrap_or_default();
-        match list.as_slice() {
-            [] => Ok(0.0),
-            [one] => Ok(*one),
-            list if list.len() == rows => Ok(list[row]),
-            list => Err(format!(
-                "{what}: {} values of {key} at {} speeds ({})",
-                list.len(),
-                speeds.len(),
+        match list.len() {
+            0 | 1 => Ok(list),
+            count if count == rows * columns => Ok(list),
+            count => Err(format!(
+                "{what}: {count} values of {key} at {} speeds ({})",
+                rows * columns,
                 SPEEDS.join(", ")
             )),
         }
     };
-    let mut table = Vec::new();
-    for row in 0..rows {
-        let matrix = |letter: char| -> Result<[[f64; 2]; 2], String> {
-            let of = |end: &str| entry(format!("{letter}{end}"), row);
-            Ok([[of("xx")?, of("xy")?], [of("yx")?, of("yy")?]])
+    let ends = ["xx", "xy", "yx", "yy"];
+    let keys = ['k', 'c', 'm'].map(|letter| ends.map(|end| format!("{letter}{end}")));
+    let lists = keys.into_iter().flatten().map(list);
+    let lists: Vec<Vec<f64>> = lists.collect::<Result<_, _>>()?;
+    let block = |index: usize| {
+        let of = |at: usize| match lists[at].as_slice() {
+            [] => 0.0,
+            [one] => *one,
+            list => list[index],
         };
-        let block = Block {
-            stiffness: matrix('k')?,
-            damping: matrix('c')?,
-            mass: matrix('m')?,
-        };
-        table.push((speeds.get(row).copied().unwrap_or_default(), block));
-    }
-    match table.windows(2).all(|pair| pair[0].0 < pair[1].0) {
-        true => Ok(table),
-        false => Err(format!("{what}: speeds that do not rise")),
-    }
+        let matrix = |at: usize| [[of(at), of(at + 1)], [of(at + 2), of(at + 3)]];
+        Block {
+            stiffness: matrix(0),
+            damping: matrix(4),
+            mass: matrix(8),
+        }
+    };
+    let table = (0..rows).map(|row| {
+        let speed = speeds.get(row).copied().unwrap_or_default();
+        let over_whirl = (0..columns).map(|column| {
+            let at = whirl.get(column).copied().unwrap_or_default();
+            (at, block(row * columns + column))
+        });
+        Some((speed, Coefficients::table(over_whirl.collect())?.at(speed)))
+    });
+    let table: Option<Vec<(f64, Block)>> = table.collect();
+    let rising = |table: &Vec<(f64, Block)>| table.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    let table = table.filter(rising);
+    table.ok_or(format!("{what}: speeds or frequencies that do not rise"))
 }
 
 /// The node of an element.

@@ -381,10 +381,89 @@ fn a_rotor_saved_by_ross_is_written_without_loss() {
     assert_eq!(rotor.speed, 300.0);
 }
 
+/// One rotor, saved by ROSS 2.3.0 with tables over frequency, by ROSS 3.1.0 over speed, over frequency and over both.
+#[test]
+fn a_rotor_saved_by_ross_2_and_3_is_the_same_rotor() {
+    let [two, three] = [include_str!("ross_2.json"), include_str!("ross_3.json")]
+        .map(|text| import(&file("ross.json", text)).unwrap());
+    let numbers = |toml: &str| -> String {
+        let lines = toml.lines().filter(|line| !line.starts_with('#'));
+        lines.skip_while(|line| *line != "[rotor]").collect()
+    };
+    assert_eq!(numbers(&two.toml), numbers(&three.toml));
+    assert!(three.kind.contains("ROSS 3.1.0"));
+    // Source: `run_modal(200.0)` of both versions, where the tables have a row
+    let source = [
+        (-18.5883176, 827.2930342),
+        (-17.1977425, 852.6134123),
+        (-143.7229598, 2062.9851591),
+        (-142.6969671, 2248.7448343),
+    ];
+    for imported in [&two, &three] {
+        let at_speed = &imported.eigenvalues[1];
+        assert_eq!(at_speed.speed, 200.0);
+        for (re, im) in source {
+            let near = |z: &rotor::C64| {
+                // with the spin Im λ > 0
+                ((z.re - re).powi(2) + (z.im.abs() - im).powi(2)).sqrt() < 1e-6 * im
+            };
+            assert!(at_speed.after.iter().any(near), "{:?}", at_speed.after);
+        }
+    }
+    for (note, imported) in [
+        (
+            "balance: its table over frequency is taken as one over speed, and is linear",
+            &two,
+        ),
+        ("(a spline in ROSS 2)", &two),
+        (
+            "drive_end: its table is linear between its rows and constant beyond",
+            &three,
+        ),
+        (
+            "balance: its table over frequency is taken as one over speed",
+            &three,
+        ),
+        (
+            "labyrinth: its table over speed and frequency is taken where both are the same",
+            &three,
+        ),
+        ("(PCHIP, and the slope of its ends, in ROSS 3)", &three),
+    ] {
+        assert!(
+            imported.notes.iter().any(|told| told.contains(note)),
+            "{note}: {:?}",
+            imported.notes
+        );
+    }
+    // between the frequencies of its table, and a rotor damped as a whole
+    let three = include_str!("ross_3.json");
+    let other = three.replacen("\"alpha\":0.0", "\"alpha\":2.0", 1);
+    let other = other.replace(
+        "\"frequency\":[100.0,200.0,400.0],\"interpolation\":\"pchip\",\"kxx\":[[",
+        "\"frequency\":[100.0,300.0,400.0],\"interpolation\":\"pchip\",\"kxx\":[[",
+    );
+    let other = import(&file("other.json", &other)).unwrap();
+    assert!(
+        other
+            .notes
+            .iter()
+            .any(|note| note.contains("parameters: alpha")),
+        "{:?}",
+        other.notes
+    );
+    let System::Rotor(rotor) = parsed(&other.toml, &[]).unwrap().system else {
+        panic!("a rotor");
+    };
+    let supports = &rotor.model.rotor.supports;
+    let stiffness = |support: &rotor::Support| support.coefficients.at(200.0).stiffness[0][0];
+    assert!(supports.iter().any(|support| stiffness(support) == 3.15e5));
+}
+
 #[test]
 fn a_rotor_of_an_unknown_version_is_refused() {
     for (version, wanted) in [
-        ("\"ross_version\": \"3.0.0\",", "ROSS version 3.0.0"),
+        ("\"ross_version\": \"4.0.0\",", "ROSS version 4.0.0"),
         ("\"ross_version\": \"1.6.1\",", "ROSS version 1.6.1"),
     ] {
         let path = file("version.json", &saved(version));
