@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+mod advisories;
 mod architecture;
 mod bench;
 mod book;
@@ -35,6 +36,7 @@ cargo xtask bench --against COMMIT
                             this tree beside a commit, built beside it, in turns; minutes (benchmarks/README.md)
 cargo xtask docs            writes the book's page of validation from auxbear validate
 cargo xtask docs PROGRAM    the same with a command that is built already
+cargo xtask advisories PATH writes what of the RustSec database in a folder is about packages in Cargo.lock, advisories.toml
 cargo xtask golden          writes the golden values of six scenarios, xtask/golden.json
 cargo xtask coverage        writes what the bands of signals and identify hold, book/src/coverage.md; hours
 cargo xtask coverage NAME   the same of one test binary; the rest of the page stays
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         ["bench", program] => bench::run(Some(program)),
         ["docs"] => docs::run(None),
         ["docs", program] => docs::run(Some(program)),
+        ["advisories", database] => advisories::write(database),
         ["golden"] => golden::write(),
         ["coverage"] => coverage::run(None),
         ["coverage", name] => coverage::run(Some(name)),
