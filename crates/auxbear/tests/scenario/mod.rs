@@ -10,6 +10,7 @@ mod coast_down;
 mod contact_angle;
 mod files;
 mod friction;
+mod import;
 mod limits;
 mod lubricant;
 mod lubricant_state;
