@@ -37,6 +37,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     measured_quietly();
     full_files_are_errors();
+    auxbear::run::start_pool();
     let performed = match Arguments::try_parse() {
         Ok(arguments) => perform(&arguments.command),
         Err(told) if told.use_stderr() => told.exit(),
@@ -88,6 +89,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
         Command::Import(wish) => import::perform(wish)?,
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;
+            run::listen(false);
             let busy = Busy::building(&scenario);
             let machine = auxbear::run::build(&scenario)?;
             drop(busy);

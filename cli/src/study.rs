@@ -58,8 +58,9 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("runs").join(&name));
+    let study = Study::new(file)?;
     run::listen(true);
-    let directory = Directory::open(&path, Study::new(file)?, add.unwrap_or(0))?;
+    let directory = Directory::open(&path, study, add.unwrap_or(0))?;
     let pace = Pace::new(&directory, wish.quiet);
     let options = Options {
         threads: threads.map(usize::from),

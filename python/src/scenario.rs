@@ -67,7 +67,10 @@ impl Scenario {
 
     /// Builds the machine and returns code and text of each warning known before a run.
     fn check(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String)>> {
-        let warnings = py.detach(|| build(&self.0).map(|machine| machine.warnings()));
+        let scenario = self.0.clone();
+        let warnings = watched(py, None, None, PATIENCE, move |_, _| {
+            build(&scenario).map(|machine| machine.warnings())
+        })?;
         let warnings = warnings.map_err(|problem| raised(py, problem))?;
         let pairs = warnings
             .into_iter()

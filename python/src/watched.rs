@@ -93,10 +93,15 @@ pub fn watched<T: Send + 'static>(
 
 /// Runs the work where its parts find threads: a forked process has none of the pool of the process that it comes from.
 fn in_living_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    if *FIRST.get_or_init(process::id) == process::id() {
+    let first = FIRST.get_or_init(|| {
+        auxbear::run::start_pool();
+        process::id()
+    });
+    if *first == process::id() {
         return work();
     }
-    match rayon::ThreadPoolBuilder::new().build() {
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    match rayon::ThreadPoolBuilder::new().num_threads(cores).build() {
         Ok(pool) => pool.install(work),
         Err(_) => work(),
     }

@@ -28,6 +28,27 @@ def test_ctrl_c_ends_a_run():
     assert time.monotonic() - begin < 10.0
 
 
+ROTOR = """
+format = "auxbear.scenario/1"
+system = "rotor"
+rotor.speed = "1000 rad/s"
+analysis = { speed_to = "2000 rad/s", cutoff = "1e9 rad/s", speed_count = 200 }
+rotor.section = [{ length = "1 m", outer_diameter = "50 mm", material = "steel", elements = 30 }]
+rotor.support = [{ at = "0 m", stiffness = "1 MN/m" }, { at = "1 m", stiffness = "1 MN/m" }]
+limit = [{ quantity = "mode_1.frequency", least = "1 rad/s" }]
+"""
+
+
+def test_ctrl_c_ends_a_check():
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    begin = time.monotonic()
+    threading.Timer(0.5, _thread.interrupt_main).start()
+    with pytest.raises(KeyboardInterrupt):
+        auxbear.Scenario.parse(ROTOR).check()
+    signal.signal(signal.SIGINT, before)
+    assert time.monotonic() - begin < 3.0
+
+
 def test_progress_is_told_and_may_end_a_run():
     told = []
 

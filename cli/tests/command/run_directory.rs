@@ -104,6 +104,25 @@ fn the_resolved_scenario_gives_the_same_history_bit_for_bit() {
     assert_eq!(quantities("first"), quantities("second"));
 }
 
+/// 20000 threads take minutes to start.
+#[test]
+fn the_environment_does_not_set_the_number_of_threads() {
+    let place = Place::new();
+    let words = [
+        "run",
+        "drop.toml",
+        "--set",
+        "run.duration=1 ms",
+        "--repeat",
+        "8",
+    ];
+    let mut command = place.command(&words);
+    let begin = std::time::Instant::now();
+    let output = command.env("RAYON_NUM_THREADS", "20000").output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
+}
+
 #[test]
 fn repeated_runs_do_not_depend_on_the_number_of_threads() {
     let place = Place::new();

@@ -26,6 +26,13 @@ impl<'a> Options<'a> {
 /// Threads for each core, at most: more only cost time.
 const THREADS_A_CORE: usize = 8;
 
+/// Starts the shared pool with a thread a core, whatever RAYON_NUM_THREADS says; a pool that is there already stays.
+pub fn start_pool() {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(cores);
+    let _ = pool.build_global();
+}
+
 /// So many threads, or as many as help on this machine; numbers do not depend on it.
 pub(crate) fn bounded(threads: usize) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);

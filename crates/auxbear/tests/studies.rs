@@ -2,12 +2,13 @@
 
 use auxbear::report::study::{Directory, Done};
 use auxbear::result::outcome::Verdict;
-use auxbear::run::Options;
-use auxbear::scenario::{StudyFile, template};
+use auxbear::run::{Options, each};
+use auxbear::scenario::{BuiltIn, Scenario, StudyFile, template};
 use auxbear::study::Study;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 const STUDY: &str = r#"format = "auxbear.study/1"
@@ -26,6 +27,34 @@ most = "1 N"
 [question]
 results = ["first_impact_force", "inner_race_time_to_50_percent"]
 "#;
+
+/// Limits name results that an analysis of some seconds has, so a member's machine is built as long.
+#[test]
+fn an_interrupt_ends_the_analysis_that_limits_ask_for() {
+    let rotor = "format = \"auxbear.scenario/1\"\nsystem = \"rotor\"\n[rotor]\nspeed = \"1000 rad/s\"\n\
+        [analysis]\nspeed_to = \"2000 rad/s\"\ncutoff = \"1e9 rad/s\"\nspeed_count = 200\n\
+        [[rotor.section]]\nlength = \"1 m\"\nouter_diameter = \"50 mm\"\nmaterial = \"steel\"\nelements = 30\n\
+        [[rotor.support]]\nat = \"0 m\"\nstiffness = \"1 MN/m\"\ndamping = \"100 N s/m\"\n\
+        [[rotor.support]]\nat = \"1 m\"\nstiffness = \"1 MN/m\"\ndamping = \"100 N s/m\"\n\
+        [[limit]]\nquantity = \"mode_1.frequency\"\nleast = \"1 rad/s\"\n";
+    let scenario = Scenario::parse(rotor, "rotor.toml", &[], &BuiltIn);
+    let interrupt = AtomicBool::new(false);
+    let single = std::thread::scope(|scope| {
+        scope.spawn(|| {
+            std::thread::sleep(Duration::from_millis(800));
+            interrupt.store(true, Ordering::Relaxed);
+        });
+        let begin = Instant::now();
+        let singles = each(&[scenario], &Options::unwatched(&interrupt));
+        assert!(
+            begin.elapsed() < Duration::from_secs(3),
+            "{:?}",
+            begin.elapsed()
+        );
+        singles.into_iter().next().unwrap()
+    });
+    assert_eq!(single.stop.reason, "interrupted");
+}
 
 fn folder(study: &str) -> TempDir {
     let folder = TempDir::new().unwrap();

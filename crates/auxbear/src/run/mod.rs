@@ -12,7 +12,7 @@ mod known;
 
 use crate::analyse::{identify, signals};
 use crate::evaluate::{rotor, torque};
-pub use crate::options::Options;
+pub use crate::options::{Options, start_pool};
 use crate::problem::Problem;
 use crate::result::limits;
 use crate::result::outcome::Quantity;
@@ -22,7 +22,7 @@ use crate::simulate::{coast_down, drop, rig, spin_up};
 pub use each::each;
 pub use measure::file::parquet::panic_is_caught;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -48,6 +48,14 @@ enum Built<'a> {
 
 /// Builds the machine that the scenario describes; runs nothing.
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
+    build_until(scenario, &AtomicBool::new(false))
+}
+
+/// The same; limits are not checked after an interrupt, which ends their analysis of a rotor.
+pub(crate) fn build_until<'a>(
+    scenario: &'a Scenario,
+    interrupt: &AtomicBool,
+) -> Result<Machine<'a>, Box<Problem>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
             let varied = drop::members::varied(scenario, of)?;
@@ -70,7 +78,10 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = system.map_err(|problem| scenario.locate(problem))?;
     let machine = Machine { scenario, system };
     if !scenario.limits.is_empty() {
-        let known = machine.results_without_values();
+        let known = machine.names(interrupt);
+        if interrupt.load(Ordering::Relaxed) {
+            return Ok(machine);
+        }
         let later = match &machine.system {
             Built::Identify(asked) => asked.results_of_tests(),
             _ => Vec::new(),
@@ -120,6 +131,10 @@ impl Machine<'_> {
 
     /// Names and units of what a run will find: a run that is interrupted before its first step has them all.
     pub(crate) fn results_without_values(&self) -> Vec<Quantity> {
+        self.names(&AtomicBool::new(false))
+    }
+
+    fn names(&self, interrupt: &AtomicBool) -> Vec<Quantity> {
         let at_once = AtomicBool::new(true);
         let options = Options::unwatched(&at_once);
         let outcome = match &self.system {
@@ -129,10 +144,7 @@ impl Machine<'_> {
                 self.dropped(&once, built, &[], &options)
             }
             // what it finds has names of its own, and is kept for the run
-            Built::Rotor(asked) => {
-                let never = AtomicBool::new(false);
-                rotor::run(self.scenario, asked, &Options::unwatched(&never))
-            }
+            Built::Rotor(asked) => rotor::run(self.scenario, asked, &Options::unwatched(interrupt)),
             _ => self.computed(&options),
         };
         outcome.quantities
