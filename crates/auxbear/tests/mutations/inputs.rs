@@ -1,12 +1,14 @@
-//! Texts that a user types: scenarios, overrides, catalogues, cases; and run directories.
+//! Texts that a user types: scenarios, overrides, catalogues, cases; rotors to import; directories of runs and studies.
 
 use crate::mutator::{Dice, bytes, numbers, text};
 use crate::watch::{Watch, count};
 use crate::{files, repository};
 use auxbear::catalogue::Catalogue;
-use auxbear::report::{directory, page};
+use auxbear::import::import;
+use auxbear::report::{directory, page, study as studies};
 use auxbear::run::build;
-use auxbear::scenario::{BuiltIn, Scenario, SystemName, keys, template};
+use auxbear::scenario::{BuiltIn, Scenario, StudyFile, SystemName, keys, template};
+use auxbear::study::Study;
 use auxbear::validate::{LawsOnly, case, reference};
 use std::fs;
 use std::sync::atomic::AtomicBool;
@@ -222,6 +224,82 @@ fn mutated_cases_are_read() {
 }
 
 #[test]
+fn mutated_rotors_are_imported_or_refused() {
+    let tests = repository("crates/auxbear/tests/scenario");
+    let table = b"length [mm];outer diameter [mm];material;disk mass [kg]\n100;40;steel;\n250;60.5;steel;4.5\n";
+    let names = ["ross_2.json", "ross_3.json", "sections.xlsx"];
+    let mut seeds: Vec<Vec<u8>> = names.map(|name| fs::read(tests.join(name)).unwrap()).into();
+    seeds.push(table.to_vec());
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mutated");
+    let mut watch = Watch::new("import");
+    for k in 0..mutations() {
+        let mut dice = Dice::new(k as u64);
+        let seed = dice.of(&seeds);
+        let mutated = bytes(&mut dice, seed, &seeds[k % seeds.len()]);
+        fs::write(&path, &mutated).unwrap();
+        watch.each(&mutated, || match import(&path) {
+            Ok(imported) => !imported.toml.is_empty(),
+            Err(problem) => {
+                assert!(problem.to_string().starts_with("error[AB"), "{problem}");
+                false
+            }
+        });
+    }
+    watch.end();
+}
+
+/// A file with one bit flipped.
+fn flipped(dice: &mut Dice, seed: &[u8]) -> Vec<u8> {
+    let mut flipped = seed.to_vec();
+    flipped[dice.below(seed.len())] ^= 1 << dice.below(8);
+    flipped
+}
+
+/// What is read of a damaged file is what was written, or nothing.
+fn same(read: &str, written: &str) -> bool {
+    assert!(read == written, "other numbers than were written");
+    true
+}
+
+#[test]
+fn study_directories_with_flipped_bits_are_read_or_refused() {
+    const STUDY: &str = "format = \"auxbear.study/1\"\nscenario = \"drop.toml\"\nset = [\"run.duration=8 ms\", \
+        \"run.accuracy=screening\"]\nseed = 3\n[design]\nkind = \"monte carlo\"\nmembers = 20\n[[input]]\n\
+        path = \"contact.friction_coefficient\"\nlognormal = 0.2\n[question]\nresults = [\"first_impact_force\"]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    fs::write(place("study.toml"), STUDY).unwrap();
+    fs::write(place("drop.toml"), template("drop").unwrap()).unwrap();
+    let never = AtomicBool::new(false);
+    let options = auxbear::run::Options::unwatched(&never);
+    let study = Study::new(StudyFile::read(&place("study.toml")).unwrap()).unwrap();
+    let directory = studies::Directory::open(&place("out"), study, 0).unwrap();
+    directory.run(&options, &|_| {}).unwrap();
+    let table = || studies::read(&place("out")).map(|(_, table)| format!("{table:?}"));
+    let written = table().unwrap();
+    let names = [
+        "out/members/0000.parquet",
+        "out/study.toml",
+        "out/scenario.toml",
+    ];
+    let seeds = names.map(|name| fs::read(place(name)).unwrap());
+    let mut watch = Watch::new("study-directory");
+    for k in 0..mutations() {
+        let mut dice = Dice::new(k as u64);
+        // mostly the members, which have a checksum
+        let which = [0, 0, 1, 2][dice.below(4)];
+        let mutated = flipped(&mut dice, &seeds[which]);
+        fs::write(place(names[which]), &mutated).unwrap();
+        watch.each(&mutated, || {
+            table().is_ok_and(|read| which != 0 || same(&read, &written))
+        });
+        fs::write(place(names[which]), &seeds[which]).unwrap();
+    }
+    watch.end();
+}
+
+#[test]
 fn mutated_run_directories_are_reported_or_refused() {
     let folder = tempfile::tempdir().unwrap();
     let whole = folder.path().join("whole");
@@ -242,6 +320,16 @@ fn mutated_run_directories_are_reported_or_refused() {
         fs::write(mutated_folder.join(name), seed).unwrap();
     }
     let mut watch = Watch::new("run-directory");
+    let columns = || directory::read(&mutated_folder).map(|run| format!("{:?}", run.columns));
+    let written = columns().unwrap();
+    for k in 0..mutations() {
+        let flipped = flipped(&mut Dice::new(k as u64), &seeds[0]);
+        fs::write(mutated_folder.join(names[0]), &flipped).unwrap();
+        watch.each(&flipped, || {
+            columns().is_ok_and(|read| same(&read, &written))
+        });
+    }
+    fs::write(mutated_folder.join(names[0]), &seeds[0]).unwrap();
     for k in 0..mutations() {
         let mut dice = Dice::new(k as u64);
         // half of them the history, whose end describes the rest
