@@ -155,6 +155,18 @@ fn loads_at_other_places_of_the_rings_use_less_life_than_the_sum() {
 }
 
 #[test]
+fn a_sum_beyond_all_numbers_says_so() {
+    let place = Place::new();
+    drop(&place, "run", &[]);
+    let mut summary = place.summary("run");
+    summary["quantities"]["life_share"]["value"] = 1e308.into();
+    std::fs::write(place.path("run/summary.json"), summary.to_string()).unwrap();
+    let told = place.call(&["service", "40:run"]).done();
+    assert!(told.out.contains("a sum that is not finite"), "{told:?}");
+    assert!(!told.out.contains("inf"), "{told:?}");
+}
+
+#[test]
 fn what_is_no_drop_of_this_machine_is_refused() {
     let place = Place::new();
     drop(&place, "run", &[]);

@@ -429,3 +429,13 @@ fn what_is_no_selection_is_refused() {
             .refused(&[words]);
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_study_is_that_study() {
+    let place = place(&STUDY.replace("members = 130", "members = 3"));
+    place.call(&["study", "study.toml", "--out", "own"]).done();
+    std::os::unix::fs::symlink(place.path("own"), place.path("link")).unwrap();
+    let called = place.call(&["study", "study.toml", "--out", "link"]).done();
+    assert!(called.err.is_empty(), "{called:?}");
+}

@@ -159,6 +159,32 @@ fn a_damaged_attribute_is_noted() {
     );
 }
 
+/// A node of a symbol table of version 0 (and no entries), and a dataspace larger than its largest size.
+#[test]
+fn a_symbol_table_or_dataspace_that_cannot_be_is_noted() {
+    let whole = bytes("old.h5");
+    let known = notes(&open(whole.clone()).unwrap());
+    let is_noted = |changed: Vec<u8>| match open(changed) {
+        Ok(file) => notes(&file).iter().any(|note| !known.contains(note)),
+        Err(_) => true,
+    };
+    for node in places(&whole, b"SNOD\x01\0") {
+        let mut changed = whole.clone();
+        changed[node + 4..node + 8].fill(0);
+        assert!(is_noted(changed), "{node}");
+    }
+    // version 1, one dimension with a largest size, both 400
+    let [now, most] = [400u64, 400].map(u64::to_le_bytes);
+    let space = [&[1, 1, 1, 0, 0, 0, 0, 0][..], &now, &most].concat();
+    let found = places(&whole, &space);
+    assert!(!found.is_empty());
+    for at in found {
+        let mut changed = whole.clone();
+        changed[at + 16] -= 1;
+        assert!(is_noted(changed), "{at}");
+    }
+}
+
 #[test]
 fn links_that_lead_nowhere_and_deep_groups_are_noted() {
     let mut file = open(bytes("links.h5")).unwrap();

@@ -230,6 +230,9 @@ fn mode(
         (true, false) => parts.iter().sum(),
         (false, _) => parts.iter().copied().fold(0.0, f64::max),
     };
+    if why.is_none() && !(total.is_finite() && parts.iter().all(|part| part.is_finite())) {
+        why = Some("a sum that is not finite".to_string());
+    }
     Mode {
         bearing: bearing.to_string(),
         what,

@@ -71,7 +71,9 @@ impl Directory {
 
     fn begun(path: &Path, study: Study, add: usize, new: bool) -> Result<Directory, Box<Problem>> {
         fs::create_dir_all(path).map_err(|error| misplaced(path, &error))?;
-        let lock = match locked(path) {
+        // a link to a directory is that directory
+        let own = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let lock = match locked(&own) {
             Ok(lock) => Some(lock),
             Err(TryLockError::WouldBlock) => {
                 let found = "a study that another process works on";

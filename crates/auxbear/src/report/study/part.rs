@@ -92,7 +92,7 @@ pub(super) fn read(path: &Path, study: &Study, own: &Range<usize>) -> Result<Tab
 
 /// All members as text: names with units in the first line, an empty cell where there is nothing.
 pub(super) fn csv(study: &Study, table: &Table) -> String {
-    let cell = |text: &str| match text.contains([',', '"', '\n']) {
+    let cell = |text: &str| match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.to_string(),
     };

@@ -60,7 +60,8 @@ impl Dataspace {
         } else {
             now.clone()
         };
-        Some(Dataspace {
+        let fits = now.iter().zip(&largest).all(|(now, most)| now <= most);
+        fits.then_some(Dataspace {
             sizes: now,
             largest,
             null,

@@ -58,8 +58,8 @@ impl<S: Read + Seek> Storage<S> {
             let head = self.piece(address, 8, WHAT)?;
             let mut fields = self.fields(&head);
             let count = (|| {
-                fields.expect(b"SNOD")?;
-                fields.skip(2)?;
+                fields.expect(b"SNOD\x01")?;
+                fields.skip(1)?;
                 fields.u16()
             })();
             let count = u64::from(count.ok_or_else(|| self.damaged(address, WHAT))?);
