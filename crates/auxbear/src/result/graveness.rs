@@ -9,6 +9,7 @@ const GRAVE: &[&str] = &[
     "AB1090", "AB1092", "AB1094", "AB1095", "AB1096", "AB1097", "AB1127", "AB1128", "AB2021",
     "AB2030", "AB2031", "AB2032", "AB2033", "AB2035", "AB2040", "AB2042", "AB2043", "AB2079",
     "AB2300", "AB2301", "AB2302", "AB2303", "AB2311", "AB2312", "AB2314", "AB2323", "AB2324",
+    "AB2336",
 ];
 /// What is left out, or to be kept in mind.
 const REMARKS: &[&str] = &[

@@ -159,6 +159,10 @@ pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
 const ANGLES_FOR_WHIRL: usize = 8;
 const WHIRL: &str = "whirl_turns";
 
+fn is_whirl(limit: &Limit) -> bool {
+    limit.quantity.rsplit('.').next() == Some(WHIRL)
+}
+
 /// Whether the inner race of the bearing of a limit reaches 95 % of the speed in every member; so it is where it has none.
 fn spins_up(limit: &Limit, outcome: &Outcome) -> bool {
     let name = limit
@@ -177,7 +181,7 @@ fn spins_up(limit: &Limit, outcome: &Outcome) -> bool {
 /// Whether friction starts whirl depends on the angle of the unbalance at the release, and on slip until the race turns: a limit of the
 /// turns of whirl is not held by few angles, nor by runs that end before.
 pub(crate) fn whirl_sought(judged: Judged, angles: usize, slips: bool) -> Judged {
-    let whirl = judged.limit.quantity.rsplit('.').next() == Some(WHIRL);
+    let whirl = is_whirl(&judged.limit);
     let lacking = match (angles < ANGLES_FOR_WHIRL, slips) {
         (true, _) => format!(
             "{angles} of at least {ANGLES_FOR_WHIRL} unbalance angles tried (--repeat {ANGLES_FOR_WHIRL})"
@@ -245,7 +249,10 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
 pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &str) -> Judged {
     let members = values.len();
     let holds = |value: &f64| limit.side.holds(*value, limit.bound);
-    let known: Vec<f64> = values.iter().flatten().copied().collect();
+    // turns of whirl have a sense: at most so many is meant of either
+    let both = limit.side == Side::Most && limit.bound >= 0.0 && is_whirl(limit);
+    let sized = |value: f64| if both { value.abs() } else { value };
+    let known: Vec<f64> = values.iter().flatten().copied().map(sized).collect();
     let hold = known.iter().filter(|value| holds(value)).count();
     let open = members - known.len();
     let late = known.iter().filter(|value| value.is_infinite()).count();
@@ -405,6 +412,24 @@ mod tests {
         values.extend(vec![Some(3.0); broken]);
         values.extend(vec![None; open]);
         judge(limit, "N", &values, "it ended early")
+    }
+
+    #[test]
+    fn at_most_so_many_turns_of_whirl_are_meant_in_either_sense() {
+        let turns = |side, bound| Limit {
+            quantity: "drive_end.whirl_turns".to_string(),
+            ..limit(side, bound, 1.0)
+        };
+        let all = [Some(-49.6), Some(-0.3), Some(0.4)];
+        let found = judge(&turns(Side::Most, 1.0), "", &all, "");
+        assert_eq!((found.verdict, found.value), (Verdict::Fail, Some(49.6)));
+        let found = judge(&turns(Side::Most, 1.0), "", &all[1..], "");
+        assert_eq!(
+            (found.verdict, found.value),
+            (Verdict::Pass, Some(0.4))
+        );
+        let found = judge(&turns(Side::Least, -1.0), "", &all, "");
+        assert_eq!((found.verdict, found.value), (Verdict::Fail, Some(-49.6)));
     }
 
     #[test]

@@ -117,7 +117,7 @@ function whirlTile(run) {
   const back = worstOf(turns, (value) => -value * spin);
   const bad = quantity.value === "backward" || back >= 1;
   const unknown = bad ? [] : whirlNotSought(run);
-  const rule = quantity.value === "none" && !unknown.length ? "below one turn there is no whirl" : null;
+  const rule = quantity.value === "none" && !unknown.length && !bad ? "below one turn there is no whirl" : null;
   const mean = meanNote(turns);
   const others = quantity.value !== "backward" && back >= 1 ? `BACKWARD in other members: ${numberText(back, 3)} turns in the worst` : null;
   const shown = unknown.length && quantity.value === "none" ? NOT_IN_THIS_RUN : others ? "backward" : quantity.value;
@@ -153,8 +153,10 @@ function pressureTile(run) {
   const share = numberOf(run, "hertz_pressure_share_of_limit");
   const worst = worstOf(quantityOf(run, "hertz_pressure_share_of_limit"), (value) => value);
   const later = shareInRunOut(run);
-  const state = share === null ? null : verdictState(run, worst > 1 || later > 1);
-  const others = [worst > share ? `in the worst member ${percentText(worst)} of the limit` : null, later > share ? `in the run-out ${percentText(later)} of the limit` : null].filter(Boolean);
+  const bad = worst > 1 || later > 1;
+  const untouched = !bad && numberOf(run, "contact_count") === 0;
+  const state = share === null || untouched ? null : verdictState(run, bad);
+  const others = [worst > share ? `in the worst member ${percentText(worst)} of the limit` : null, later > share ? `in the run-out ${percentText(later)} of the limit` : null, untouched ? "the rotor touched nothing in this run" : null].filter(Boolean);
   return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => [pressureNote(run, pressure), others].flat(), () => state);
 }
 
@@ -204,6 +206,9 @@ const RANGES = [
   ["AB1001", "rotor bends: taken as rigid"],
   ["AB2031", "too few modes for impacts"],
   ["AB2033", "shaft thicker than the bore"],
+  ["AB2336", "contact of rotor and race beyond the law of its width"],
+  ["AB2301", "contact of rotor and race so hot that steel changes"],
+  ["AB1017", "balls must skid"],
 ];
 
 function rangeTile(run) {

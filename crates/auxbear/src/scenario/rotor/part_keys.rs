@@ -96,7 +96,7 @@ pub(crate) const PARTS: &[PartKind] = &[
         alone: false,
         keys: &[
             key!("material", "name", Kind::Text, "shaft_steel", "Its name."),
-            key!("material", "youngs_modulus", Kind::Quantity("Pa"), "211 GPa", "Young's modulus.").positive(),
+            key!("material", "youngs_modulus", Kind::Quantity("Pa"), "211 GPa", "Young's modulus.").within(Range::FromTo(1e5, 1e14)),
             key!("material", "poisson_ratio", Kind::Coefficient, "0.3", "Poisson's ratio.").within(Range::FromTo(0.0, 0.499)).optional("it follows from shear_modulus, else it is 0.3"),
             key!("material", "shear_modulus", Kind::Quantity("Pa"), "81.2 GPa", "Shear modulus.").positive().optional("it is E/(2(1 + poisson_ratio))").excludes("rotor.material.poisson_ratio"),
             key!("material", "density", Kind::Quantity("kg/m^3"), "7810 kg/m^3", "Density.").positive(),

@@ -8,6 +8,9 @@ use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::system::SystemName;
 use toml::de::{DeTable, DeValue};
 
+/// Most parts of a kind: a shaft has at most 500 elements, and reading takes the square of their number.
+const MOST_OF_A_KIND: usize = 1000;
+
 /// A part as the text has it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct WrittenPart {
@@ -54,6 +57,11 @@ pub(crate) fn read_all(
             return refuse(no_effect(kind, file));
         }
         let written = match value.get_ref() {
+            DeValue::Array(list) if list.len() > MOST_OF_A_KIND => {
+                let found = format!("{} tables [[{}]]", list.len(), kind.path());
+                let allowed = format!("at most {MOST_OF_A_KIND} are needed");
+                return refuse(Problem::new(Code::RotorGeometry, file, found, allowed));
+            }
             DeValue::Array(_) => tables(text, start, value.get_ref()),
             DeValue::Table(single) if kind.alone => {
                 let mut keys = Vec::new();
