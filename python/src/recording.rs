@@ -1,7 +1,7 @@
 //! Channels from memory, written as a file that every reader of measurements takes.
 
-use auxbear::measure::file;
-use auxbear::measure::recording::{Channel, Clock, FileError};
+use auxbear::recording::file;
+use auxbear::recording::{Channel, Clock, FileError};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;

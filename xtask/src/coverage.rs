@@ -114,7 +114,7 @@ const TABLES: &[Table] = &[
     },
     Table {
         subject: "Rare events",
-        package: "auxbear-study",
+        package: "auxbear-statistics",
         module: "rare",
         tests: &["a_known"],
         seeds: 200,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Table;
 
 /// Each folder with a package, and the workspace crates it may name.
-const ALLOWED: [(&str, &[&str]); 16] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("crates/number", &[]),
     ("crates/units", &[]),
     ("crates/physics", &["number"]),
@@ -23,11 +23,12 @@ const ALLOWED: [(&str, &[&str]); 16] = [
         ],
     ),
     ("crates/levitation", &["number", "physics", "rotor"]),
-    ("crates/measure", &["number", "units"]),
-    ("crates/measure/fuzz", &["measure"]),
-    ("crates/identify", &["measure", "physics"]),
+    ("crates/measure", &["recording", "statistics", "units"]),
+    ("crates/recording", &["statistics", "units"]),
+    ("crates/recording/fuzz", &["recording"]),
+    ("crates/identify", &["measure", "physics", "statistics"]),
     ("crates/rotor", &[]),
-    ("crates/study", &["measure"]),
+    ("crates/statistics", &[]),
     ("crates/thermal", &["physics"]),
     (
         "crates/auxbear",
@@ -38,9 +39,10 @@ const ALLOWED: [(&str, &[&str]); 16] = [
             "model",
             "number",
             "physics",
+            "recording",
             "rotor",
             "solve",
-            "study",
+            "statistics",
             "thermal",
             "units",
         ],

@@ -36,4 +36,5 @@ pub mod validate;
 
 pub use measure;
 pub use physics;
+pub use recording;
 pub use units;

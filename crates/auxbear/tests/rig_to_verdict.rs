@@ -4,7 +4,7 @@ use auxbear::report::directory;
 use auxbear::result::outcome::{Attached, Value};
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
-use measure::file;
+use recording::file;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 

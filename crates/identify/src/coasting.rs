@@ -11,9 +11,9 @@
 use crate::measurement::Measurement;
 use crate::moment::Moment;
 use crate::steady_curve::SteadyCurve;
-use measure::interpolation::place;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::interpolation::place;
+use statistics::uncertain::Uncertain;
 
 /// What brakes a shaft without the bearing.
 #[derive(Clone, Debug)]

@@ -15,9 +15,9 @@ use crate::dissipation::spin_up_window;
 use crate::measurement::Measurement;
 use crate::moment::{SteadyMoment, same_load};
 use crate::series::{RunningVariance, median, trapezoid};
-use measure::normal::MEDIAN_OF_SIZE;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::normal::MEDIAN_OF_SIZE;
+use statistics::uncertain::Uncertain;
 
 /// What a rise of temperature changes.
 #[derive(Clone, Copy)]
@@ -353,7 +353,7 @@ fn cage_ratio(
     let top = test.fastest();
     let (mut ratios, mut deviations) = (Vec::new(), Vec::new());
     for ((&time, &own), &deviation) in cage.time.iter().zip(&cage.speed).zip(&cage.deviation) {
-        let of = |list: &[f64]| measure::interpolation::between(&test.time, list, time);
+        let of = |list: &[f64]| statistics::interpolation::between(&test.time, list, time);
         let (Some(speed), Some(rate)) = (of(&test.speed), of(&test.acceleration)) else {
             continue;
         };

@@ -25,11 +25,11 @@
 
 use crate::measurement::{Measurement, SetDeviation};
 use crate::series::{RunningVariance, trapezoid};
-use measure::interpolation::{between, held};
-use measure::normal::below;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
+use statistics::interpolation::{between, held};
+use statistics::normal::below;
+use statistics::uncertain::Uncertain;
 
 /// What a spin-up dissipates.
 #[derive(Clone, Debug, PartialEq)]

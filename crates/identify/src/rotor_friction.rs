@@ -21,8 +21,8 @@
 
 use crate::measurement::SetDeviation;
 use measure::speed::Speed;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 mod turns;

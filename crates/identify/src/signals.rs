@@ -20,7 +20,7 @@ use grid::Grid;
 use measure::cage_speed::CageSpeed;
 use measure::speed::{Motion, Speed};
 use measure::torque_sensor::Torque;
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// What the estimators of `measure` found in the signals of one test.
 #[derive(Clone, Copy)]

@@ -15,10 +15,10 @@ use crate::measurement::Measurement;
 use crate::moment::{CARRIED_ON, SteadyMoment};
 use crate::series::{RunningVariance, trapezoid};
 use crate::slip::{self, SlipSettings, slip_at};
-use measure::interpolation::between;
-use measure::normal::{below, density};
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::interpolation::between;
+use statistics::normal::{below, density};
+use statistics::uncertain::Uncertain;
 
 /// What is known beside a test.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,10 +14,10 @@
 //! the true time from which on it stays below the limit lies between earliest and latest in 98 % of the seeds.
 
 use crate::measurement::Measurement;
-use measure::interpolation::between;
-use measure::normal::beyond;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::interpolation::between;
+use statistics::normal::beyond;
+use statistics::uncertain::Uncertain;
 
 /// Deviations from 0 beyond which a slip is one, however wide its band.
 const CERTAIN: f64 = 3.0;

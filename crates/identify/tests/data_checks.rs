@@ -4,7 +4,7 @@ use crate::made_up::{Random, coast_down, rolling_spin_up, set, steady};
 use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts};
 use identify::moment::SteadyMoment;
 use identify::{CageTrace, Measurement};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 fn curve(factor: f64) -> SteadyMoment {
     let speed: Vec<f64> = (0..400).map(|k| 0.4 * f64::from(k)).collect();

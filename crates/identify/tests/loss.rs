@@ -7,7 +7,7 @@ use crate::made_up::{
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, State, loss};
 use identify::moment::{MomentSettings, moment};
 use identify::{Measurement, SetDeviation, SteadyMoment};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// A steady moment without error.
 fn exact() -> SteadyMoment {

@@ -3,7 +3,7 @@
 use crate::made_up::{Random, covered, seeds, set, steady};
 use identify::SetDeviation;
 use identify::rotor_friction::{Race, RubbingSpinUp, rotor_friction};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 const BORE: f64 = 12.5e-3;
 const RACE_INERTIA: f64 = 2e-5;

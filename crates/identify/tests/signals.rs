@@ -6,8 +6,8 @@ use identify::slip::{SlipSettings, cage_slip};
 use measure::pulse::{Edges, Wheel, number};
 use measure::speed::{Speed, SpeedSettings, Transient, smooth};
 use measure::torque_sensor::Torque;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 const MARKS: usize = 60;

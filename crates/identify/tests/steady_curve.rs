@@ -4,7 +4,7 @@
 mod synthetic;
 
 use identify::steady_curve::{compare, direct, inertial};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use synthetic::{Random, median};
 
 /// Torque in N mm: constant below 10 rad/s, then with the 2/3 power of the speed, and a share of the load.

@@ -1,6 +1,6 @@
 //! Inertia of a rotor from simple tests.
 
-use crate::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 /// Inertia about the own axis of a rotor that swings as a pendulum about a knife edge parallel to that axis.

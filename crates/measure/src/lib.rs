@@ -1,9 +1,7 @@
-//! From a lab's files to signals, and from signals to speed, acceleration and torque with honest uncertainty.
+//! From the channels of a measurement to speed, acceleration and torque with honest uncertainty.
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`recording`] | channels of a file: names, units, clocks, and values read in pieces |
-//! | [`mod@file`] | the formats: from a file to a recording, and back |
 //! | [`pulse`] | pulse trains: edge times, numbering of the marks, calibration of the wheel |
 //! | [`speed`] | from numbered pulses, or a speed that an instrument shows, to angle, speed and acceleration with covariance |
 //! | [`converter`] | steps, clipping, drop-outs |
@@ -13,9 +11,6 @@
 //! | [`torque_sensor`] | a sensor that swings: identified from a tap, its reading inverted, its frequency chosen |
 //! | [`inertia`] | inertia of a rotor from simple tests |
 //! | [`cage_speed`] | speed and slip of a cage from passing balls or vibration |
-//! | [`interpolation`] | straight lines between values |
-//! | [`random`] | repeatable numbers |
-//! | [`uncertain`] | a number with its standard deviation |
 //!
 //! Estimators return values with standard deviations and notes about what is not trustworthy; what they refuse they refuse with a
 //! sentence. Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
@@ -24,20 +19,12 @@
 
 pub mod cage_speed;
 pub mod converter;
-pub mod file;
 pub mod inertia;
-pub mod interpolation;
 mod kernel;
-mod linear;
-pub mod normal;
 pub mod order;
 pub mod pulse;
-pub mod random;
-pub mod recording;
 pub mod shaft;
-mod simplex;
 pub mod spectrum;
 pub mod speed;
 mod state_space;
 pub mod torque_sensor;
-pub mod uncertain;

@@ -1,7 +1,7 @@
 //! Inertia from swings and from a known torque, against a ring of which it is known.
 
 use measure::inertia::{inertia_from_bifilar, inertia_from_known_torque, inertia_from_pendulum};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// A thin ring of radius 0.1 m: I = m r² about its axis; on its rim it swings with T = 2π √(2r/g); on strings 2r apart with
 /// T = 2π √(l/g).

@@ -3,7 +3,7 @@
 use crate::synthetic::rig::{Random, SpinUp};
 use measure::shaft::Shaft;
 use measure::torque_sensor::{Inversion, Sensor, Torque, invert};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 const INTERVAL: f64 = 0.002;

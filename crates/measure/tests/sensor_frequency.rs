@@ -1,8 +1,8 @@
 //! The frequency at which a sensor rings, beside the one that is stated.
 
-use measure::random::Random;
 use measure::torque_sensor::{Inversion, Sensor, invert};
-use measure::uncertain::Uncertain;
+use statistics::random::Random;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 const INTERVAL: f64 = 0.002;

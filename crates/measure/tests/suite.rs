@@ -1,23 +1,15 @@
-//! All tests of the crate but that of its memory, in one binary.
+//! All tests of the crate in one binary.
 
 mod cage_ramp;
 mod cage_speed;
 mod converter;
-mod csv;
 mod few_marks;
 mod few_samples;
-mod formats;
 mod free_response;
 mod gaps;
-mod hdf5;
-mod hdf5_damage;
-mod heads;
 mod inertia;
 mod marks;
-mod mat4;
-mod mat5;
 mod order;
-mod parquet;
 mod pickups;
 mod pulse;
 mod run_out;
@@ -30,9 +22,5 @@ mod speed_coverage;
 mod speed_long;
 mod speed_rest;
 mod synthetic;
-mod tables;
-mod tdms;
 mod torque_sensor;
-mod uff;
-mod wav;
 mod whole_chain;

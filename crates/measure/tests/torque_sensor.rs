@@ -3,7 +3,7 @@
 use crate::synthetic::rig::{Random, SpinUp, median};
 use measure::shaft::Shaft;
 use measure::torque_sensor::{Clipped, Design, Inversion, Sensor, design_error, invert};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 const INTERVAL: f64 = 0.002;

@@ -9,7 +9,7 @@ use measure::spectrum::{
     AngularSettings, Segments, Window, order_spectrogram, spectrogram, spectrum,
 };
 use measure::torque_sensor::{Clipped, Inversion, Sensor, identify_free_response, invert};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 use std::time::Instant;
 

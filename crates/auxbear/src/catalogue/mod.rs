@@ -185,7 +185,7 @@ fn read_text(path: &Path) -> Result<String, Box<Problem>> {
             format!("a file that cannot be read ({error})"),
         ),
     };
-    let file = measure::file::open_file(path).map_err(unreadable)?;
+    let file = recording::file::open_file(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     // Not the size of the metadata: a pipe or a device has none.
     file.take(LARGEST_FILE + 1)

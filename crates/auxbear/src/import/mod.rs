@@ -115,7 +115,7 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
 
 /// The draft of a file, recognised by its content.
 fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
-    let opened = measure::file::open_file(path).and_then(|file| {
+    let opened = recording::file::open_file(path).and_then(|file| {
         let mut bytes = Vec::new();
         file.take(LARGEST + 1).read_to_end(&mut bytes)?;
         Ok(bytes)

@@ -14,8 +14,8 @@ use crate::problem::{Code, Problem};
 use crate::result::outcome::{Attached, Stop};
 use crate::run::Outcome;
 use crate::scenario::Scenario;
-use measure::file::open_file;
-use measure::recording::Channel;
+use recording::Channel;
+use recording::file::open_file;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
@@ -193,7 +193,7 @@ impl NewDirectory {
             .iter()
             .map(|(channel, values)| (channel.clone(), values.as_slice()))
             .unzip();
-        measure::file::create(self.partial.join(name), &told)
+        recording::file::create(self.partial.join(name), &told)
             .and_then(|mut writer| {
                 // in pieces, as a logger writes: a file that is cut keeps its begin
                 let longest = values.iter().map(|list| list.len()).max().unwrap_or(0);

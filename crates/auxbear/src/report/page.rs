@@ -7,7 +7,7 @@
 
 use super::closely;
 use super::page_summary::for_page;
-use measure::file::parquet::arrow_schema::push_base64;
+use recording::file::parquet::arrow_schema::push_base64;
 use std::collections::BTreeSet;
 
 /// Largest number of rows of a history that the page carries.

@@ -18,11 +18,11 @@ use crate::problem::{Code, Problem, did_you_mean, question};
 use crate::result::list::NOT_GIVEN;
 use crate::result::outcome::{Judged, Outcome, Quantity, Value, Verdict};
 use crate::scenario::{Limit, Side, UNBALANCE_ANGLE};
-use std::collections::BTreeSet;
-use study::share::{
+use statistics::share::{
     CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
     shows_reached,
 };
+use std::collections::BTreeSet;
 use units::{Dimension, Unit};
 
 /// The warning of runs that qualify no machine, and what is said instead of a verdict.

@@ -50,7 +50,7 @@ pub enum Attached {
     /// A text.
     Text(String),
     /// Channels of a measurement with their values; the name of the file gives the format.
-    Recording(Vec<(measure::recording::Channel, Vec<f64>)>),
+    Recording(Vec<(recording::Channel, Vec<f64>)>),
 }
 
 /// A named result.

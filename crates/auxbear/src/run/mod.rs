@@ -20,7 +20,7 @@ pub use crate::result::outcome::{self, Outcome};
 use crate::scenario::{CoastDown, Drop, Rig, Scenario, SpinUp, System};
 use crate::simulate::{coast_down, drop, rig, spin_up};
 pub use each::each;
-pub use measure::file::parquet::panic_is_caught;
+pub use recording::file::parquet::panic_is_caught;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -328,7 +328,7 @@ impl Scenario {
         {
             let vary = vary::of_part(path, raw, place, &self.document.file)?;
             // the part and its key must be there
-            let middle = ::study::design::Coordinate::Share(0.5);
+            let middle = statistics::design::Coordinate::Share(0.5);
             self.with(&vary.at(middle).0)?;
             return Ok(vary);
         }
@@ -430,7 +430,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Box<Problem>> {
             &format!("a file that cannot be read ({error})"),
         ),
     };
-    let file = measure::file::open_file(path).map_err(unreadable)?;
+    let file = recording::file::open_file(path).map_err(unreadable)?;
     let metadata = file.metadata().map_err(unreadable)?;
     if metadata.is_dir() {
         return Err(problem(Code::FileIsFolder, "a folder"));

@@ -29,9 +29,9 @@ use crate::scenario::raw::{Written, collect, raw, tables};
 use crate::scenario::study_inputs::{StudyInput, inputs_of};
 use crate::scenario::study_section::{Page, Section};
 use crate::scenario::{Accuracy, BuiltIn, Limit, Scenario, System, read_text};
+use statistics::correlation::Correlation;
+use statistics::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
 use std::path::{Path, PathBuf};
-use study::correlation::Correlation;
-use study::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
 use toml::de::DeTable;
 
 /// The format of a study file.

@@ -18,10 +18,10 @@ use crate::scenario::key::{Key, Kind, quoted};
 use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::scenario::table;
 use crate::scenario::values::Values;
-use measure::random::Random;
+use statistics::design::Coordinate;
+use statistics::distribution::{self as law, triangular};
+use statistics::random::Random;
 use std::f64::consts::TAU;
-use study::design::Coordinate;
-use study::distribution::{self as law, triangular};
 use units::{Dimension, Quantity, parse_quantity};
 
 /// A value of the file that repeated runs draw.

@@ -6,10 +6,10 @@ use super::table::Table;
 use crate::result::limits;
 use crate::result::outcome::{Judged, Spread, Value, Verdict};
 use crate::scenario::{Limit, UNBALANCE_ANGLE};
-use ::study::design::Design;
-use ::study::elementary::{Effect, effects};
-use ::study::indices::{Index, indices};
-use ::study::share;
+use statistics::design::Design;
+use statistics::elementary::{Effect, effects};
+use statistics::indices::{Index, indices};
+use statistics::share;
 use std::collections::BTreeSet;
 
 /// Draws of the bands of indices, apart from those of the design.

@@ -18,8 +18,8 @@ use crate::result::limits;
 use crate::result::outcome::{Quantity, Value};
 use crate::run::{self, Options};
 use crate::scenario::{Scenario, StudyFile};
-use ::study::design::Coordinate;
 use rayon::prelude::*;
+use statistics::design::Coordinate;
 use table::{Column, Row, Table};
 
 /// Members of a part.

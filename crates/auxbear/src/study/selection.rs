@@ -8,8 +8,8 @@ use super::Study;
 use super::table::Table;
 use crate::result::limits;
 use crate::result::outcome::{Judged, Verdict};
-use ::study::design::{Coordinate, Design};
-use ::study::random::below;
+use statistics::design::{Coordinate, Design};
+use statistics::random::below;
 
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;

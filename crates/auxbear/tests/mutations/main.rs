@@ -8,7 +8,7 @@ mod inputs;
 mod mutator;
 mod readers;
 mod runs;
-#[path = "../../../measure/fuzz/touch.rs"]
+#[path = "../../../recording/fuzz/touch.rs"]
 mod touch;
 mod watch;
 

@@ -4,8 +4,8 @@ use crate::mutator::{Dice, bytes};
 use crate::touch::touch;
 use crate::watch::{Watch, count};
 use crate::{files, repository};
-use measure::file::{csv, hdf5, mat5, parquet, tdms, uff, wav};
-use measure::recording::{Channel, Clock, Content, FileError, Property, Recording, Value};
+use recording::file::{csv, hdf5, mat5, parquet, tdms, uff, wav};
+use recording::{Channel, Clock, Content, FileError, Property, Recording, Value};
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
@@ -53,7 +53,7 @@ fn mutate(name: &'static str, seeds: &[Vec<u8>], open: impl Fn(Cursor<Vec<u8>>, 
 }
 
 fn peers(ending: &str) -> Vec<Vec<u8>> {
-    let found = files("crates/measure/tests/data/peers", ending).into_iter();
+    let found = files("crates/recording/tests/data/peers", ending).into_iter();
     found.map(|(_, bytes)| bytes).collect()
 }
 
@@ -75,7 +75,7 @@ fn written(ending: &str) -> Vec<u8> {
         ..Channel::new(name, 0)
     };
     let channels = [channel("rig/speed", "V"), channel("rig/torque", "N m")];
-    let mut writer = measure::file::create(&path, &channels).unwrap();
+    let mut writer = recording::file::create(&path, &channels).unwrap();
     let wave: Vec<f64> = (0..500).map(|k| f64::from(k * k % 97) / 8.0).collect();
     for piece in wave.chunks(120) {
         writer.append(&[piece, piece]).unwrap();
@@ -107,7 +107,7 @@ fn mutated_csv_is_read() {
 #[test]
 fn mutated_hdf5_is_read() {
     let mut seeds = peers("h5");
-    let matlab = repository("crates/measure/tests/data/peers/v73.mat");
+    let matlab = repository("crates/recording/tests/data/peers/v73.mat");
     seeds.push(fs::read(matlab).unwrap());
     mutate("hdf5", &seeds, |bytes, path| {
         read(hdf5::Hdf5::from_source(bytes, path))
@@ -134,7 +134,7 @@ fn mutated_parquet_is_read() {
 
 #[test]
 fn mutated_uff_is_read() {
-    let seeds: Vec<Vec<u8>> = files("crates/measure/tests/data", "uff")
+    let seeds: Vec<Vec<u8>> = files("crates/recording/tests/data", "uff")
         .into_iter()
         .map(|(_, bytes)| bytes)
         .collect();

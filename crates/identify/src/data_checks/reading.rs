@@ -9,9 +9,9 @@ use super::{APART, Doubt, set_free_mean};
 use crate::Measurement;
 use crate::moment::MomentSettings;
 use crate::series::trapezoid;
-use measure::uncertain::Uncertain;
 use physics::palmgren::viscous_moment;
 use physics::rolling::RollingSet;
+use statistics::uncertain::Uncertain;
 
 /// f0 of ball bearings, from oil mist to a flooded one; makers print 0.7 to 6, and twice that for a vertical shaft (from memory).
 const FACTORS: (f64, f64) = (0.7, 12.0);

@@ -5,7 +5,7 @@
 
 use crate::series::{RunningVariance, trapezoid};
 use crate::{CageTrace, Measurement};
-use measure::interpolation::held;
+use statistics::interpolation::held;
 
 /// A mean of the cage speed over the part of a time that its signal covers.
 #[derive(Clone, Copy, Debug)]

@@ -65,11 +65,11 @@ use crate::{Measurement, SteadyMoment};
 
 use crate::evidence::{limited, shares};
 use hypothesis::{Bearing, Hypothesis, Prediction};
-use measure::normal::squares_above;
-use measure::random::Random;
 use mode::{Mode, Search};
 use noise::Observed;
 use record::{Trial, engagement};
+use statistics::normal::squares_above;
+use statistics::random::Random;
 use verdict::FormDraw;
 
 pub use explanation::Explanation;

@@ -12,8 +12,8 @@ use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::noise::Observed;
 use super::record::Trial;
 use crate::algebra::{Factor, dot, log_sum_exp};
-use measure::random::{Random, quasi_normal};
 use nalgebra::{DMatrix, DVector};
+use statistics::random::{Random, quasi_normal};
 
 /// A place where the posterior is high.
 pub(crate) struct Mode {

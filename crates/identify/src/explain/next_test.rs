@@ -10,9 +10,9 @@
 //!
 //! Does not model: what the new test shares with the old ones (zero, scale and level count as new), the effort of a test.
 
-use measure::random::Random;
 use nalgebra::DMatrix;
 use physics::rolling::RollingSet;
+use statistics::random::Random;
 
 use crate::algebra::{Factor, dot, log_sum_exp};
 use crate::{Measurement, SteadyMoment};

@@ -4,7 +4,7 @@
 //! run-down, with the time since standstill; none spans a large change of speed.
 
 use crate::{CageTrace, Measurement};
-use measure::interpolation::held;
+use statistics::interpolation::held;
 
 use super::means::{CageMean, cage_mean, torque_mean, zeroed};
 use super::steady::{Table, fading};

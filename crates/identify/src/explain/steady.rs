@@ -1,7 +1,7 @@
 //! The steady friction moment continued beyond what was measured: an explanation predicts whole tests, from rest to rest.
 
 use crate::SteadyMoment;
-use measure::interpolation::place;
+use statistics::interpolation::place;
 
 /// The steady curve straight between its speeds, held above them, fading to 0 at rest below.
 ///

@@ -9,7 +9,7 @@
 use super::Loss;
 use crate::measurement::Measurement;
 use crate::series::trapezoid;
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// Time after the engagement from which on, and until when, the settled torque is taken, s.
 const SETTLED: (f64, f64) = (0.2, 0.4);

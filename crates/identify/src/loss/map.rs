@@ -26,9 +26,9 @@ use crate::algebra::{Factor, dot};
 use crate::measurement::Measurement;
 use crate::moment::SteadyMoment;
 use crate::series::{alike, trapezoid};
-use measure::uncertain::Uncertain;
 use nalgebra::{DMatrix, DVector};
 use physics::rolling::RollingSet;
+use statistics::uncertain::Uncertain;
 
 /// Most means that are used: their matrix is dense.
 const MOST: usize = 240;

@@ -28,9 +28,9 @@ use crate::measurement::{Measurement, SetDeviation};
 use crate::moment::{SteadyMoment, same_load};
 use crate::series::rates;
 use crate::slip::{self, SlipSettings, slip_at};
-use measure::interpolation::between;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::interpolation::between;
+use statistics::uncertain::Uncertain;
 
 /// What is known of the rolling of the balls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! A steady moment over speed with its band.
 
-use measure::interpolation::place;
-use measure::uncertain::Uncertain;
+use statistics::interpolation::place;
+use statistics::uncertain::Uncertain;
 
 /// Part of the largest speed by which a speed may lie above it and still count as measured: tests and slow tests start from a
 /// drive's speed that is set to about a per cent. M is taken from the end of the curve, its slope's part is in the deviation.

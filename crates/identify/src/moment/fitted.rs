@@ -10,9 +10,9 @@ use crate::evidence::{effective_number, limited, linear, shares};
 use crate::measurement::Measurement;
 use crate::regression::{Data, Posterior, weighed};
 use crate::steady_curve::{Difference, SteadyCurve, compare};
-use measure::uncertain::Uncertain;
 use nalgebra::DMatrix;
 use physics::rolling::RollingSet;
+use statistics::uncertain::Uncertain;
 
 /// Number of speeds of a curve.
 const SPEEDS: usize = 81;

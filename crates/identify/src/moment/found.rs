@@ -3,7 +3,7 @@
 use super::curve::SteadyMoment;
 use super::settings::Form;
 use crate::steady_curve::Difference;
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// A number of a form.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@
 //!   n         (windows + 1)/2: half of each is in the next
 //! ```
 
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// Friction at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! One curve against another.
 
 use super::SteadyCurve;
-use measure::normal::squares_above;
-use measure::uncertain::Uncertain;
 use nalgebra::{DMatrix, DVector};
+use statistics::normal::squares_above;
+use statistics::uncertain::Uncertain;
 
 /// Directions of a smaller variance, over the largest, do not count: of a smooth curve they are rounding.
 const LEAST_VARIANCE: f64 = 1e-4;

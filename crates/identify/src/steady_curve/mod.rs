@@ -16,8 +16,8 @@ mod compare;
 pub use compare::{Difference, compare};
 
 use crate::regression::{Data, Posterior, spline, weighed};
-use measure::uncertain::Uncertain;
 use nalgebra::DMatrix;
+use statistics::uncertain::Uncertain;
 
 /// About as many means as are fitted. Few, so that noise faster than a mean averages out and what is left is near a first-order
 /// autoregression.

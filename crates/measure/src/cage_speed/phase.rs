@@ -1,10 +1,10 @@
 //! Deviation of the cage angle from that of a rolling cage, smoothed.
 
 use super::CageSpeed;
-use crate::normal::MEDIAN_OF_SIZE;
 use crate::shaft::Shaft;
-use crate::simplex;
 use crate::state_space::{Filter, Observation, colour};
+use statistics::normal::MEDIAN_OF_SIZE;
+use statistics::simplex;
 use std::f64::consts::PI;
 
 /// Observed deviations of the cage angle.

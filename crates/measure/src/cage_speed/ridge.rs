@@ -460,7 +460,7 @@ fn with_lost_cycles(found: &mut CageSpeed, noise: &[f64], periods: f64) {
     // The next phase is predicted with about as much error again: one and a quarter of its noise in all.
     let chances: Vec<f64> = noise
         .iter()
-        .map(|noise| crate::normal::beyond(0.0, 1.25 * noise, PI))
+        .map(|noise| statistics::normal::beyond(0.0, 1.25 * noise, PI))
         .collect();
     for k in 0..found.slip.len() {
         let near = &chances[k.saturating_sub(MEMORY / 2)..(k + MEMORY / 2 + 1).min(chances.len())];

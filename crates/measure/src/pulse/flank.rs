@@ -6,7 +6,7 @@
 
 use super::level::Levels;
 use super::median;
-use crate::normal::MEDIAN_OF_SIZE;
+use statistics::normal::MEDIAN_OF_SIZE;
 
 /// A crossing of the middle, in samples.
 pub(super) struct Passing {

@@ -14,7 +14,7 @@
 //!
 //! **Does not model**: a shaft that brakes and speeds up again in the gap, so that both edges look as if nothing had been.
 
-use crate::linear::inverse;
+use statistics::linear::inverse;
 
 /// Marks that did not come, in an interval between two that did.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,10 +21,10 @@
 //! lags alone prove nothing and are left out of all combs, so that at some speeds nothing is reported.
 
 use super::{Pulses, median};
-use crate::linear::solved;
-use crate::normal::MEDIAN_OF_SIZE;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use statistics::linear::solved;
+use statistics::normal::MEDIAN_OF_SIZE;
 use std::f64::consts::TAU;
 
 /// Harmonics of the place between two samples that are taken out.

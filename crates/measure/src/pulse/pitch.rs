@@ -1,6 +1,6 @@
 //! Errors of the wheel, from its own pulses.
 
-use crate::normal::MEDIAN_OF_SIZE;
+use statistics::normal::MEDIAN_OF_SIZE;
 use std::f64::consts::TAU;
 
 use super::{Pulses, Refusal, median};

@@ -4,7 +4,7 @@ use super::gap::{LONG, count as count_over, is_sure};
 use super::undersampled::undersampled;
 use super::wheel::Wheel;
 use super::{Edges, Flank, Gap, Refusal, median};
-use crate::normal::MEDIAN_OF_SIZE;
+use statistics::normal::MEDIAN_OF_SIZE;
 
 /// Passages with the number of the mark that passed.
 #[derive(Clone, Debug, PartialEq)]

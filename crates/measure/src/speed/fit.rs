@@ -3,7 +3,7 @@
 use super::matrix::Memory;
 use super::plan::{Data, Noise, Passage, Plan, Unsteady};
 use super::settings::Transient;
-use crate::simplex;
+use statistics::simplex;
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.
 pub(super) const STRETCH: usize = 80;

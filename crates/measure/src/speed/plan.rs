@@ -4,6 +4,7 @@ use super::matrix::{Memory, N, Vector};
 use super::node::{Belief, Fresh, Node, Sight, moving};
 use super::track::{Pass, forward};
 use crate::pulse::{Pitch, Pulses};
+use statistics::normal::below;
 
 /// A mark that passes, or a mean of samples of a speed, in the units of the fit.
 #[derive(Clone, Copy, Debug)]
@@ -442,10 +443,8 @@ impl Plan {
 fn forward_only(pass: &Pass, variance: f64) -> f64 {
     let left = variance * (1.0 - variance * pass.curvature).max(1e-12);
     let z = variance * pass.slope / left.sqrt();
-    // Far below, erfc is no number that has a logarithm.
-    libm::erfc(-z / std::f64::consts::SQRT_2)
-        .max(f64::MIN_POSITIVE)
-        .ln()
+    // Far below, that is no number that has a logarithm.
+    (2.0 * below(z)).max(f64::MIN_POSITIVE).ln()
 }
 
 /// What may differ between a motion of which hardly anything is known and the speed that is shown, as parts of the largest speed.

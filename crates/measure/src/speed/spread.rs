@@ -1,7 +1,7 @@
 //! A picture of how well parameters are known.
 
-use crate::linear::lower;
-use crate::random::quasi_normal;
+use statistics::linear::lower;
+use statistics::random::quasi_normal;
 
 /// Points spread as a density `exp(-value)`, with weights and the logarithm of the integral of the density.
 ///

@@ -9,7 +9,7 @@
 //!
 //! **Does not model**: errors of the marks, and noise of the instants that is correlated.
 
-use crate::linear::inverse;
+use statistics::linear::inverse;
 
 /// Coefficients of the cubic.
 const SIZE: usize = 4;

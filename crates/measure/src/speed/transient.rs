@@ -11,7 +11,7 @@
 use super::fit::{STRETCH, Sight};
 use super::plan::{Data, Head, Knot, Knots, Passage, Plan};
 use super::spread::spread;
-use crate::simplex;
+use statistics::simplex;
 
 /// Passages beyond the quick change that take part in its fit.
 const BEYOND: usize = 40;

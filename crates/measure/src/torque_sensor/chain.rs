@@ -1,12 +1,12 @@
 //! The chain of states that is filtered and smoothed, for one sensor, one engagement and one growth of the disturbance.
 
 use super::Swing;
-use crate::normal::MEDIAN_OF_SIZE;
-use crate::simplex;
 use crate::state_space::{
     Filter, GAUSS, Matrix, Observation, Vector, applied, exponential, gathered_noise, identity,
 };
-use crate::uncertain::Uncertain;
+use statistics::normal::MEDIAN_OF_SIZE;
+use statistics::simplex;
+use statistics::uncertain::Uncertain;
 
 pub(super) const STATES: usize = 7;
 pub(super) const TORQUE: usize = 2;

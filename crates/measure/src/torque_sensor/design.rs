@@ -3,9 +3,9 @@
 use super::input::Inversion;
 use super::inversion::invert;
 use super::{Sensor, Swing, chain};
-use crate::random::Random;
 use crate::shaft::Shaft;
-use crate::uncertain::Uncertain;
+use statistics::random::Random;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 /// The test for which a sensor is to be chosen.

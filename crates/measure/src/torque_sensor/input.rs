@@ -2,7 +2,7 @@
 
 use super::Sensor;
 use crate::shaft::Shaft;
-use crate::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// What is known of a torque measurement.
 #[derive(Clone, Copy, Debug)]

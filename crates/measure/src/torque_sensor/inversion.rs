@@ -23,9 +23,9 @@ use super::blocks::Thin;
 use super::chain::{COSINE, Chain, Knots, Pass, RATE, SINE, Samples, TORQUE, ZERO, mixed};
 use super::input::Inversion;
 use super::shown;
-use crate::normal::below;
 use crate::state_space::{colour, correlation};
-use crate::uncertain::Uncertain;
+use statistics::normal::below;
+use statistics::uncertain::Uncertain;
 
 /// Torque found from the data. All lists have the same length; NaN, with its deviation, is what clipped readings hide.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Steady sinusoidal lines in what a swing leaves.
 
-use crate::linear::solved;
-use crate::simplex;
+use statistics::linear::solved;
+use statistics::simplex;
 use std::f64::consts::TAU;
 
 /// A line: cosine and sine parts about the first value.

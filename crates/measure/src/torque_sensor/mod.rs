@@ -28,7 +28,7 @@ pub use input::{Clipped, Inversion};
 pub use inversion::{Torque, invert};
 pub use response::{Excitation, FreeResponse, identify_free_response};
 
-use crate::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// A sensor of one degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,7 +18,7 @@
 use super::Sensor;
 use super::line::{self, Line};
 use super::swing::{Data, Fit, damping_of};
-use crate::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
 /// What set a sensor swinging.

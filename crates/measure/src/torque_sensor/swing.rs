@@ -1,8 +1,8 @@
 //! The fit of a decaying swing about a level.
 
-use crate::linear::solved;
-use crate::normal::MEDIAN_OF_SIZE;
-use crate::simplex;
+use statistics::linear::solved;
+use statistics::normal::MEDIAN_OF_SIZE;
+use statistics::simplex;
 use std::f64::consts::TAU;
 
 /// Values after the force has ended.

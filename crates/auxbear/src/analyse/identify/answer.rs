@@ -10,7 +10,7 @@ use identify::coasting::Windage;
 use identify::explain::{self, Conclusion, Explanation};
 use identify::moment::{Form, Moment};
 use identify::slip::{Established, SlipSettings};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// Speeds at which the steady moment is listed.
 const CURVE_POINTS: usize = 60;

@@ -24,8 +24,8 @@ use identify::signals::{Signals, before_the_stop, measurement};
 use identify::skid::{Skid, SkidSettings, skid};
 use identify::slip::{CageSlip, SlipSettings, cage_slip};
 use identify::{Measurement, SetDeviation};
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
+use statistics::uncertain::Uncertain;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Part of the largest speed at which tests are compared where nothing is asked for.

@@ -3,8 +3,8 @@
 use crate::analyse::identify::found::{Found, TestFound};
 use crate::result::outcome::Column;
 use identify::explain::TorqueMean;
-use measure::interpolation::between;
-use measure::uncertain::Uncertain;
+use statistics::interpolation::between;
+use statistics::uncertain::Uncertain;
 
 /// Interval in the quick part, s, and how long that lasts after the engagement.
 const QUICK: f64 = 5e-4;

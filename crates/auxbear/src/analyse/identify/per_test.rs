@@ -6,9 +6,9 @@ use crate::result::outcome::Value;
 use identify::Measurement;
 use identify::loss::Loss;
 use identify::slip::Established;
-use measure::uncertain::Uncertain;
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::SpinUpEnergy;
+use statistics::uncertain::Uncertain;
 
 /// Names the results of one test; those of the cage where its channel is given.
 pub(crate) fn name(

@@ -382,7 +382,7 @@ fn cage(list: &mut List, found: &Found) {
 
 const FILE: Origin = Origin {
     law: "as stated in the file",
-    source: "the measurement file, crates/measure/src/file",
+    source: "the measurement file, crates/recording/src/file",
     valid: "as far as the file could be read",
 };
 const PULSES: Origin = Origin {

@@ -6,7 +6,7 @@ use crate::scenario::{CageKind, CageSignal};
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
 use measure::pulse::{EdgeSettings, edges};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// Orders of the shaft that are taken out of a vibration before a line is followed.
 const SHAFT_ORDERS: &[f64] = &[1.0, 2.0, 3.0];

@@ -2,8 +2,8 @@
 
 use crate::analyse::signals::shaft;
 use crate::scenario::TorqueSignal;
-use measure::interpolation::held;
 use measure::torque_sensor::{Design, DesignError, Sensor, Torque, design_error};
+use statistics::interpolation::held;
 use std::f64::consts::TAU;
 
 /// Frequencies that are compared, Hz.

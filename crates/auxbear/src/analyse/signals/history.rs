@@ -3,8 +3,8 @@
 use crate::analyse::signals::asked::{Asked, Signal};
 use crate::analyse::signals::found::Found;
 use crate::result::outcome::Column;
-use measure::interpolation;
 use measure::speed::Motion;
+use statistics::interpolation;
 
 /// Rows of a history at equal times.
 const ROWS: usize = 4000;

@@ -11,8 +11,8 @@ use crate::analyse::signals::unit::{no_signal, si_factor, speed_factor, unit_of}
 use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::{Signals, UNNAMED};
 use measure::converter::Converter;
-use measure::file;
-use measure::recording::{Channel, Clock, Content, FileError, Instant, Recording};
+use recording::file;
+use recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use std::path::Path;
 use units::Unit;
 

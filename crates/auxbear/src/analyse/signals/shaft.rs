@@ -3,13 +3,13 @@
 use crate::analyse::signals::asked::Signal;
 use crate::analyse::signals::read::Series;
 use crate::scenario::{PickupFlank, PickupKind, SpeedSignal};
-use measure::interpolation;
 use measure::pulse::{
     EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges,
     number,
 };
 use measure::shaft::Shaft;
 use measure::speed::{Instrument, Motion, Speed, SpeedSettings, Transient, smooth, smooth_channel};
+use statistics::interpolation;
 use std::f64::consts::{PI, TAU};
 
 /// Longest interval of the shaft's angle for other estimators, s: the angle between is a cubic through angle and speed.

@@ -6,7 +6,7 @@ use crate::scenario::{InertiaSource, SteadySignal, TorqueSignal};
 use identify::coasting::Windage;
 use identify::steady_curve::{Difference, SteadyCurve, compare, direct, inertial};
 use measure::inertia::{inertia_from_bifilar, inertia_from_known_torque, inertia_from_pendulum};
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 
 /// Values of the speed that a curve is drawn from, at most; and at least of a shaft that turns few times, whose turns overlap then:
 /// the fit sees that their errors are alike.

@@ -1,7 +1,7 @@
 //! The temperature of the outer race.
 
 use crate::analyse::signals::read::Series;
-use measure::interpolation::held;
+use statistics::interpolation::held;
 
 /// Length of the means, s: short against any thermocouple's lag, long enough to take its noise away.
 const MEAN: f64 = 0.05;

@@ -10,7 +10,7 @@ use measure::spectrum::Spectrum;
 use measure::torque_sensor::{
     Clipped, DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
-use measure::uncertain::Uncertain;
+use statistics::uncertain::Uncertain;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 

@@ -11,7 +11,7 @@ use crate::scenario::{Limit, Side};
 use crate::study::Study;
 use crate::study::answer::{Answer, Sensitivity};
 use crate::study::table::{Column, Table, Warned};
-use ::study::design::Design;
+use statistics::design::Design;
 use std::fmt::Write;
 
 const BAR: &str = "#9db8d6";

@@ -5,10 +5,10 @@ use crate::scenario::{Drop, Scenario, System};
 use crate::simulate::drop::build::{self, Built};
 use crate::simulate::drop::ensemble::Member;
 use crate::simulate::drop::feedback::Following;
-use measure::random::Random;
 use model::bearing::BearingConstants;
 use model::system::machine::RotorMachine;
 use number::Vec2;
+use statistics::random::Random;
 use std::sync::Arc;
 
 /// A member whose machine differs from the one given.

@@ -12,11 +12,11 @@
 //! Does not model: hum, a filter before the converter, cross-talk between channels.
 
 use crate::scenario::{Rig, RigArm, RigPickupKind, RigProgram};
-use measure::random::Random;
 use model::sensor::Marks;
 use model::system::rig::Tap;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::taps::multiplexed;
+use statistics::random::Random;
 
 /// Values of something at equal times.
 #[derive(Clone, Debug, Default, PartialEq)]

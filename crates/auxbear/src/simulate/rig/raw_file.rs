@@ -3,7 +3,7 @@
 use crate::result::outcome::{Attached, Attachment};
 use crate::scenario::{RawFormat, Rig, RigPickupKind, RigProgram};
 use crate::simulate::rig::chain::RawChannel;
-use measure::recording::{Channel, Clock};
+use recording::{Channel, Clock};
 
 /// Name of the file that describes the channels.
 const SIGNALS: &str = "signals.toml";

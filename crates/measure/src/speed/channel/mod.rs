@@ -26,9 +26,9 @@ use super::stiffest::Stiffest;
 use super::stop::Stop;
 use super::track::forward;
 use crate::pulse::Refusal;
-use crate::simplex;
 use crate::state_space::colour;
 use samples::{Rise, Samples};
+use statistics::simplex;
 use std::f64::consts::TAU;
 
 /// What shows the speed.

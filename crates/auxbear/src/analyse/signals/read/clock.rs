@@ -3,7 +3,7 @@
 use crate::analyse::signals::read::timing::Timing;
 use crate::analyse::signals::read::{MOST_VALUES, Series, Source, si_factor};
 use crate::problem::{Code, Problem};
-use measure::recording::{Channel, Clock, Content};
+use recording::{Channel, Clock, Content};
 
 /// Usual intervals in a step from which on values are missing.
 const LONG_GAP: f64 = 1.8;

@@ -3,7 +3,7 @@
 use crate::analyse::signals::read::{MOST_VALUES, Source};
 use crate::problem::{Code, Problem};
 use crate::scenario::PickupFlank;
-use measure::recording::Content;
+use recording::Content;
 
 /// Instants in a channel, s, in order.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,0 @@
-#![no_main]
-
-use libfuzzer_sys::fuzz_target;
-use measure::file::tdms::Tdms;
-use std::io::Cursor;
-
-fuzz_target!(|data: &[u8]| {
-    touch::touch(Tdms::from_source(Cursor::new(data.to_vec()), "fuzz.tdms".as_ref()));
-});

@@ -1,9 +1,0 @@
-#![no_main]
-
-use libfuzzer_sys::fuzz_target;
-use measure::file::wav::Wav;
-use std::io::Cursor;
-
-fuzz_target!(|data: &[u8]| {
-    touch::touch(Wav::from_source(Cursor::new(data.to_vec()), "fuzz.wav".as_ref()));
-});

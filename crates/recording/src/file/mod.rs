@@ -1,0 +1,233 @@
+//! The formats of measurement files.
+//!
+//! A format is recognised by its content, not by the name of its file. Each format has its module, and one row in the
+//! table of this file; a reader is given any source of bytes, so that it reads memory as well as files.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`source`] | bytes of a file, read at a place, with errors that name the file |
+//! | [`draft`] | a file that carries its name only once it is whole |
+//! | [`tdms`] | TDMS of National Instruments: reader and writer |
+//! | [`csv`] | text in columns: reader and writer |
+//! | [`mat5`] | MATLAB up to 7.2, and level 4: reader |
+//! | [`hdf5`] | HDF5 and MATLAB 7.3: reader |
+//! | [`parquet`] | Apache Parquet: reader and writer |
+//! | [`uff`] | the universal file format, sets 58 and 58b: reader |
+//! | [`wav`] | WAV: reader |
+
+mod clock;
+mod columns;
+pub mod csv;
+pub mod draft;
+mod half;
+pub mod hdf5;
+pub mod mat5;
+pub mod parquet;
+mod request;
+pub mod source;
+pub mod tdms;
+pub mod uff;
+pub mod wav;
+mod writer;
+
+pub use writer::Writer;
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+
+use crate::{Channel, FileError, Recording};
+
+/// A format of measurement files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// TDMS of National Instruments, both byte orders.
+    Tdms,
+    /// Universal file format: sets 58 (text) and 58b (binary).
+    Uff,
+    /// Text in columns.
+    Csv,
+    /// MATLAB's format of version 5, up to 7.2, or of level 4.
+    Mat5,
+    /// HDF5, which MATLAB's format of version 7.3 is too.
+    Hdf5,
+    /// Apache Parquet.
+    Parquet,
+    /// WAV: RIFF, RIFX, RF64 or BW64.
+    Wav,
+}
+
+impl Format {
+    /// What people call the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Tdms => "TDMS",
+            Format::Uff => "UFF 58",
+            Format::Csv => "CSV",
+            Format::Mat5 => "MAT 4 or 5",
+            Format::Hdf5 => "HDF5 or MAT 7.3",
+            Format::Parquet => "Parquet",
+            Format::Wav => "WAV",
+        }
+    }
+
+    /// Recognises the format by the first bytes of a file; none where they are of no format that is known.
+    pub fn of(head: &[u8]) -> Option<Format> {
+        FORMATS
+            .iter()
+            .find(|row| (row.recognise)(head))
+            .map(|row| row.format)
+    }
+
+    /// Which formats a file of this name would be of, going by its extension.
+    fn promised_by(path: &Path) -> &'static [Format] {
+        let extension = path
+            .extension()
+            .and_then(|e| e.to_str())
+            .unwrap_or("")
+            .to_ascii_lowercase();
+        match extension.as_str() {
+            "tdms" => &[Format::Tdms],
+            "uff" | "unv" => &[Format::Uff],
+            "mat" => &[Format::Mat5, Format::Hdf5],
+            "h5" | "hdf5" | "hdf" => &[Format::Hdf5],
+            "parquet" => &[Format::Parquet],
+            "wav" | "wave" => &[Format::Wav],
+            _ => &[],
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Opens a file, which the path names in messages.
+type Open = fn(File, &Path) -> Result<Box<dyn Recording>, FileError>;
+
+/// One format: how it is recognised by its first bytes, and how a file of it is opened.
+struct Row {
+    format: Format,
+    recognise: fn(&[u8]) -> bool,
+    open: Open,
+}
+
+/// The formats that can be read, the most certain signature first; text, which has none, is last.
+const FORMATS: &[Row] = &[
+    Row {
+        format: Format::Tdms,
+        recognise: tdms::is_tdms,
+        open: |file, path| Ok(Box::new(tdms::Tdms::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Hdf5,
+        recognise: hdf5::is_hdf5,
+        open: |file, path| Ok(Box::new(hdf5::Hdf5::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Parquet,
+        recognise: parquet::is_parquet,
+        open: |file, path| Ok(Box::new(parquet::Parquet::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Mat5,
+        recognise: mat5::is_mat5,
+        open: |file, path| Ok(Box::new(mat5::Mat5::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Wav,
+        recognise: wav::is_wav,
+        open: |file, path| Ok(Box::new(wav::Wav::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Uff,
+        recognise: uff::is_uff,
+        open: |file, path| Ok(Box::new(uff::Uff::from_source(file, path)?)),
+    },
+    Row {
+        format: Format::Csv,
+        recognise: csv::is_csv,
+        open: |file, path| Ok(Box::new(csv::Csv::from_source(file, path)?)),
+    },
+];
+
+/// The names of the formats that can be read, for messages.
+fn readable() -> String {
+    let names: Vec<&str> = FORMATS.iter().map(|row| row.format.name()).collect();
+    format!("files of these formats can be read: {}", names.join(", "))
+}
+
+/// Whether the bytes look like text: no zero byte, and few control characters; or UTF-16 with its mark.
+fn is_text(head: &[u8]) -> bool {
+    let controls = head
+        .iter()
+        .filter(|b| b.is_ascii_control() && !b.is_ascii_whitespace())
+        .count();
+    let utf16 = head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]);
+    !head.is_empty() && (utf16 || (!head.contains(&0) && controls * 50 <= head.len()))
+}
+
+/// Opens a file of bytes for reading. A pipe, a socket or a device is an error: to open or to read it may wait, or never end.
+pub fn open_file(path: &Path) -> io::Result<File> {
+    let kind = fs::metadata(path)?;
+    if !kind.is_file() && !kind.is_dir() {
+        let found = "a pipe, a socket or a device, not a file";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, found));
+    }
+    File::open(path)
+}
+
+/// Opens a file for reading; its format is recognised by its content.
+///
+/// An error where the file cannot be opened, is of no readable format, or is text under the name of another format.
+pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
+    let path = path.as_ref();
+    let file = open_file(path)
+        .map_err(|e| FileError::new(path, "", format!("cannot be opened ({e})"), ""))?;
+    let mut source = source::Source::new(file, path)?;
+    let head = source.bytes(0, source.length().min(source::HEAD as u64))?;
+    if head.is_empty() {
+        return Err(FileError::new(path, "", "is empty", readable()));
+    }
+    let Some(row) = FORMATS.iter().find(|row| (row.recognise)(&head)) else {
+        let what = match (is_text(&head), head.starts_with(b"TDSh")) {
+            (true, _) => "is text, but of no format that is known",
+            (_, true) => "is the index of a TDMS file, which holds no values",
+            _ => "is of no format that is known",
+        };
+        return Err(FileError::new(path, "", what, readable()));
+    };
+    let promised = Format::promised_by(path);
+    if row.format == Format::Csv && !promised.is_empty() {
+        let found = format!("is text, not {} as its name says", promised[0]);
+        let needed = format!("rename it if it is a table; {}", readable());
+        return Err(FileError::new(path, "", found, needed));
+    }
+    (row.open)(source.into_inner(), path)
+}
+
+/// Starts a file of the channels; the extension of its name decides the format.
+///
+/// The counts of the channels do not matter: the values that are appended count.
+pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Writer>, FileError> {
+    let path = path.as_ref();
+    let extension = path
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or("")
+        .to_ascii_lowercase();
+    match extension.as_str() {
+        "tdms" => Ok(Box::new(tdms::TdmsWriter::create(path, channels)?)),
+        "csv" => Ok(Box::new(csv::CsvWriter::create(path, channels)?)),
+        "parquet" => Ok(Box::new(parquet::ParquetWriter::create(path, channels)?)),
+        _ => Err(FileError::new(
+            path,
+            "",
+            "cannot be written: its name has no format that can be",
+            "end the name with: .tdms, .csv, .parquet",
+        )),
+    }
+}

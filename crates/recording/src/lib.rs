@@ -1,0 +1,197 @@
+//! What a measurement file holds: channels with name, unit and clock, and values that are read in pieces.
+//!
+//! A recording may be larger than the memory: a reader keeps an index of the file, and [`Recording::read`] brings the
+//! piece that is asked for. What could not be read is reported in [`Recording::notes`], never silently left out.
+
+#![forbid(unsafe_code)]
+
+pub mod file;
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// An instant of the calendar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Whole seconds since 1970-01-01 00:00:00 UTC.
+    pub seconds: i64,
+    /// The rest, s, from 0 to below 1.
+    pub fraction: f64,
+}
+
+/// When the values of a channel were taken.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Clock {
+    /// At equal intervals.
+    Uniform {
+        /// Time of the first value after the start, s.
+        first: f64,
+        /// Interval, s; positive.
+        interval: f64,
+    },
+    /// At the values of another channel of the same recording, by its index; in that channel's unit.
+    Channel(usize),
+    /// The file does not state it.
+    Unknown,
+}
+
+/// What the values of a channel are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Numbers, for [`Recording::read`]; whole numbers too, which are exact up to 2⁵³.
+    Number,
+    /// Instants, for [`Recording::read`] as seconds after the channel's [`Channel::start`].
+    Time,
+    /// Texts, for [`Recording::read_text`].
+    Text,
+}
+
+/// What a file states beside the values: of itself or of a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Property {
+    /// Name as in the file.
+    pub name: String,
+    /// What it is set to.
+    pub value: Value,
+}
+
+/// The value of a [`Property`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number, in the file's unit.
+    Number(f64),
+    /// Yes or no.
+    Flag(bool),
+    /// An instant.
+    Time(Instant),
+    /// A text.
+    Text(String),
+}
+
+/// One channel of a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Name as in the file; with its group as `group/name` where the file has groups.
+    pub name: String,
+    /// Unit as in the file; empty where the file gives none.
+    pub unit: String,
+    /// Remark as in the file; may be empty.
+    pub description: String,
+    /// What the values are.
+    pub content: Content,
+    /// Number of values that can be read.
+    pub count: u64,
+    /// The instant from which the clock counts, where the file states it.
+    pub start: Option<Instant>,
+    /// When the values were taken.
+    pub clock: Clock,
+    /// Whatever else the file states of the channel, in the order of the file.
+    pub properties: Vec<Property>,
+}
+
+impl Channel {
+    /// A channel of `count` numbers, of which the file states no more than the name.
+    pub fn new(name: impl Into<String>, count: u64) -> Channel {
+        Channel {
+            name: name.into(),
+            unit: String::new(),
+            description: String::new(),
+            content: Content::Number,
+            count,
+            start: None,
+            clock: Clock::Unknown,
+            properties: Vec::new(),
+        }
+    }
+}
+
+/// Something a reader found wrong with a file, or repaired, or left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Name of the channel; none where it concerns the file.
+    pub channel: Option<String>,
+    /// What was found, and what the reader did about it.
+    pub text: String,
+}
+
+/// A measurement file that is open for reading.
+pub trait Recording {
+    /// Channels in the order of the file.
+    fn channels(&self) -> &[Channel];
+
+    /// What was wrong with the file as far as it was read.
+    fn notes(&self) -> &[Note];
+
+    /// Whether values of a channel that were read contradict a checksum of the file. They were given as NaN, but a file that
+    /// is damaged in one place may be in others that no checksum covers.
+    fn contradicts_checksum(&self, _channel: usize) -> bool {
+        false
+    }
+
+    /// Whatever else the file states of itself, in the order of the file.
+    fn properties(&self) -> &[Property] {
+        &[]
+    }
+
+    /// Fills `values` with values of a channel from the index `first` on; a gap in the file is NaN.
+    ///
+    /// Returns how many there were: fewer than asked at the end of the channel only.
+    /// A channel that the recording does not have, or one of text, is an error.
+    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError>;
+
+    /// Up to `count` texts of a channel from the index `first` on: fewer at the end of the channel only.
+    ///
+    /// A channel that the recording does not have, or one of numbers, is an error.
+    fn read_text(
+        &mut self,
+        channel: usize,
+        first: u64,
+        count: usize,
+    ) -> Result<Vec<String>, FileError>;
+}
+
+/// Why a file, or a channel of it, cannot be read or written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileError {
+    /// The file.
+    pub path: PathBuf,
+    /// Where in it: a channel, a line, a byte; empty for the file as a whole.
+    pub place: String,
+    /// What was found.
+    pub found: String,
+    /// What is needed, or what can be done; may be empty.
+    pub needed: String,
+}
+
+impl FileError {
+    /// An error that concerns a place in a file.
+    pub fn new(
+        path: &Path,
+        place: impl Into<String>,
+        found: impl Into<String>,
+        needed: impl Into<String>,
+    ) -> FileError {
+        FileError {
+            path: path.to_owned(),
+            place: place.into(),
+            found: found.into(),
+            needed: needed.into(),
+        }
+    }
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        if !self.place.is_empty() {
+            write!(f, ", {}", self.place)?;
+        }
+        write!(f, ": {}", self.found)?;
+        if !self.needed.is_empty() {
+            write!(f, "; {}", self.needed)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for FileError {}
