@@ -361,7 +361,7 @@ fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {
         for (node, expected) in ["inner_race", "balls", "lubricant"].iter().zip(by_balls) {
             let found = at(node, time);
             assert!(
-                (found - expected).abs() < 1.0 + 0.03 * (expected - 25.0),
+                (found - expected).abs() < 1.0 + 0.05 * (expected - 25.0),
                 "{node} {time} {found}"
             );
         }

@@ -424,10 +424,7 @@ mod tests {
         let found = judge(&turns(Side::Most, 1.0), "", &all, "");
         assert_eq!((found.verdict, found.value), (Verdict::Fail, Some(49.6)));
         let found = judge(&turns(Side::Most, 1.0), "", &all[1..], "");
-        assert_eq!(
-            (found.verdict, found.value),
-            (Verdict::Pass, Some(0.4))
-        );
+        assert_eq!((found.verdict, found.value), (Verdict::Pass, Some(0.4)));
         let found = judge(&turns(Side::Least, -1.0), "", &all, "");
         assert_eq!((found.verdict, found.value), (Verdict::Fail, Some(-49.6)));
     }
