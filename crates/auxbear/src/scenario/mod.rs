@@ -321,22 +321,24 @@ impl Scenario {
         raw: &document::Raw,
         place: crate::problem::Place,
     ) -> Result<Vary, Box<Problem>> {
-        let section: Vec<&str> = path.splitn(3, '.').collect();
-        if section.len() == 3
-            && self.document.system.has_shaft()
-            && rotor::part_keys::kind_at(&section[..2].join(".")).is_some()
-        {
-            let vary = vary::of_part(path, raw, place, &self.document.file)?;
-            // the part and its key must be there
-            let middle = statistics::design::Coordinate::Share(0.5);
-            self.with(&vary.at(middle).0)?;
-            return Ok(vary);
-        }
         let documents = self.document.of_each_bearing();
         let values = (documents.iter())
             .map(|document| values::Values::resolve(document, &BuiltIn))
             .collect::<Result<Vec<_>, _>>()?;
-        vary::one(path, raw, place, &values)
+        let vary = vary::one(path, raw, place, &values)?;
+        self.with_parts(std::slice::from_ref(&vary))?;
+        Ok(vary)
+    }
+
+    /// Refuses what varies values of parts that are not there.
+    fn with_parts(&self, list: &[Vary]) -> Result<(), Box<Problem>> {
+        let middle = statistics::design::Coordinate::Share(0.5);
+        let parts = list.iter().filter(|vary| vary.is_of_part());
+        let values: Vec<_> = parts.flat_map(|vary| vary.at(middle).0).collect();
+        match values.is_empty() {
+            true => Ok(()),
+            false => self.with(&values).map(|_| ()),
+        }
     }
 
     /// Limits of its results from tables of another file.
@@ -375,7 +377,7 @@ impl Scenario {
                 notes.push(note);
             }
         }
-        Ok(Scenario {
+        let scenario = Scenario {
             format: FORMAT.to_string(),
             title: values[0].text("title"),
             description: values[0].text("description"),
@@ -392,7 +394,9 @@ impl Scenario {
                 sections: document.sections.clone(),
             },
             document,
-        })
+        };
+        scenario.with_parts(&scenario.vary)?;
+        Ok(scenario)
     }
 
     /// The problem with the file and the line of its key: where the key stands, else where the section begins.

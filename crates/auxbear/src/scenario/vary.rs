@@ -15,6 +15,7 @@ use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::Raw;
 use crate::scenario::drop::Repeat;
 use crate::scenario::key::{Key, Kind, quoted};
+use crate::scenario::rotor::part_keys::kind_at;
 use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::scenario::table;
 use crate::scenario::values::Values;
@@ -63,6 +64,11 @@ pub enum Distribution {
 }
 
 impl Vary {
+    /// Whether it is of a part of a bent rotor.
+    pub(crate) fn is_of_part(&self) -> bool {
+        self.targets[0].base.is_none() && is_of_part(&self.path)
+    }
+
     /// Draws a value: paths with their new values, as an override has them.
     pub fn draw(&self, random: &mut Random) -> Vec<(String, String)> {
         let draw: Box<dyn Fn(f64) -> f64> = match &self.distribution {
@@ -285,6 +291,9 @@ pub(crate) fn one(
     place: Place,
     all: &[Values],
 ) -> Result<Vary, Box<Problem>> {
+    if all[0].system().has_shaft() && is_of_part(path) {
+        return of_part(path, raw, place, all[0].file());
+    }
     let shown = format!("{VARY}.{path}");
     let problem = |code, found: String, allowed: &str| {
         Box::new(
@@ -446,13 +455,15 @@ fn override_text(raw: &Raw) -> Option<String> {
     }
 }
 
+/// Whether a path is that of a value of a part of a bent rotor.
+fn is_of_part(path: &str) -> bool {
+    let mut dots = path.match_indices('.');
+    let second = dots.nth(1);
+    second.is_some_and(|(dot, _)| kind_at(&path[..dot]).is_some())
+}
+
 /// A value of a part of a bent rotor that is varied: between values that are given, since none is taken from the part.
-pub(crate) fn of_part(
-    path: &str,
-    raw: &Raw,
-    place: Place,
-    file: &str,
-) -> Result<Vary, Box<Problem>> {
+fn of_part(path: &str, raw: &Raw, place: Place, file: &str) -> Result<Vary, Box<Problem>> {
     let needed = "uniform = [\"1 kg\", \"2 kg\"], triangular with three values or choice with texts is needed for a part of a rotor";
     let problem = |code| {
         Box::new(

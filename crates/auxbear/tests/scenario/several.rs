@@ -220,6 +220,23 @@ fn what_is_wrong_names_the_bearing() {
 }
 
 #[test]
+fn repeated_runs_of_a_machine_vary_values_of_its_parts() {
+    let text = include_str!("../../../../scenarios/machine_retainer_ring.toml");
+    let vary = |path: &str| {
+        let more = format!("[vary]\n\"{path}\" = {{ uniform = [\"20 g mm\", \"40 g mm\"] }}\n");
+        read(&format!("{text}\n{more}"), &[])
+    };
+    let scenario = vary("rotor.unbalance.wheel.amount").expect("it is right");
+    assert_eq!(scenario.vary[0].path, "rotor.unbalance.wheel.amount");
+    let again = read(&scenario.resolved.toml(), &[]).expect("it reads");
+    assert_eq!(again.vary, scenario.vary);
+    for wrong in ["rotor.unbalance.fan.amount", "rotor.unbalance.wheel.size"] {
+        let problem = vary(wrong).expect_err(wrong);
+        assert!(problem.to_string().contains("rotor.unbalance"), "{problem}");
+    }
+}
+
+#[test]
 fn repeated_runs_vary_any_value_by_its_path() {
     let vary = "\n[repeat]\ncount = 12\n[vary]\n\"contact.friction_coefficient\" = { lognormal = 0.2 }\n\
                 \"rotor.speed\" = { uniform = [\"9000 rpm\", \"12000 rpm\"] }\n\
