@@ -358,10 +358,16 @@ proptest! {
                 at[i] *= 1.0 + sign * 1e-5;
                 law.coefficient(at[0], at[1], at[2])
             };
-            let difference = (shifted(1.0) - shifted(-1.0)) / (2e-5 * point[i]);
+            let (above, below) = (shifted(1.0), shifted(-1.0));
+            let difference = (above - below) / (2e-5 * point[i]);
             // truncation 1e-10 times the third power of d ln μ/d ln x where asperities begin to touch, rounding 1e-16/1e-5
             let scale = exact.value / point[i];
             let steepness = (exact.partial[i] / scale).abs();
+            // laws meet in kinks, where each side has its own slope
+            let bend = (above - 2.0 * exact.value + below).abs() / (1e-5 * point[i]);
+            if bend > 1e-3 * scale * (1.0 + 0.01 * steepness.powi(2)) {
+                continue;
+            }
             let allowed = 1e-8 * scale * (1.0 + 0.01 * steepness.powi(3));
             prop_assert!((exact.partial[i] - difference).abs() < allowed, "{i}: {} {difference}", exact.partial[i]);
         }

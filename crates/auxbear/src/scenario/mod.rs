@@ -335,10 +335,12 @@ impl Scenario {
         let middle = statistics::design::Coordinate::Share(0.5);
         let parts = list.iter().filter(|vary| vary.is_of_part());
         let values: Vec<_> = parts.flat_map(|vary| vary.at(middle).0).collect();
-        match values.is_empty() {
-            true => Ok(()),
-            false => self.with(&values).map(|_| ()),
+        if values.is_empty() {
+            return Ok(());
         }
+        let mut alone = self.clone();
+        alone.document.vary.clear();
+        alone.with(&values).map(|_| ())
     }
 
     /// Limits of its results from tables of another file.
