@@ -59,6 +59,9 @@ impl Touch {
     /// How far a mean slip, m/s, makes one patch of both surfaces: the share of a surface that the spots where they touch sweep as they pass.
     ///
     /// Formula: s/(s + σ/m), s = 2b |u|/v, v the faster of both speeds past the patch: 1 of one that slides, 0 of those that roll
+    ///
+    /// Source: assumed, not measured: between the patch of smooth bodies that slide and the rough line of those that roll.
+    /// Valid: as an order of magnitude where slip is 0.1 to 10 %; asperities that keep their own resistance while they slide are not modelled.
     pub fn slides(&self, slip: f64) -> f64 {
         let (roughness, slope, _) = GROUND_STEEL;
         let fastest = self.passing[0].abs().max(self.passing[1].abs());

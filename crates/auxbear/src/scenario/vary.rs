@@ -64,7 +64,7 @@ pub enum Distribution {
 }
 
 impl Vary {
-    /// Whether it is of a part of a bent rotor.
+    /// Whether it is of a part of a flexible rotor.
     pub(crate) fn is_of_part(&self) -> bool {
         self.targets[0].base.is_none() && is_of_part(&self.path)
     }
@@ -455,14 +455,14 @@ fn override_text(raw: &Raw) -> Option<String> {
     }
 }
 
-/// Whether a path is that of a value of a part of a bent rotor.
+/// Whether a path is that of a value of a part of a flexible rotor.
 fn is_of_part(path: &str) -> bool {
     let mut dots = path.match_indices('.');
     let second = dots.nth(1);
     second.is_some_and(|(dot, _)| kind_at(&path[..dot]).is_some())
 }
 
-/// A value of a part of a bent rotor that is varied: between values that are given, since none is taken from the part.
+/// A value of a part of a flexible rotor that is varied: between values that are given, since none is taken from the part.
 fn of_part(path: &str, raw: &Raw, place: Place, file: &str) -> Result<Vary, Box<Problem>> {
     let needed = "uniform = [\"1 kg\", \"2 kg\"], triangular with three values or choice with texts is needed for a part of a rotor";
     let problem = |code| {
