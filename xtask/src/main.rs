@@ -21,6 +21,7 @@ mod repository;
 mod rust_text;
 mod scenarios;
 mod shipped;
+mod snapshots;
 mod source_text;
 mod suites;
 mod toolchain;
@@ -37,7 +38,7 @@ cargo xtask bench --against COMMIT
 cargo xtask docs            writes the book's page of validation from auxbear validate
 cargo xtask docs PROGRAM    the same with a command that is built already
 cargo xtask advisories PATH writes what of the RustSec database in a folder is about packages in Cargo.lock, advisories.toml
-cargo xtask golden          writes the golden values of six scenarios, xtask/golden.json
+cargo xtask golden          runs all scenarios; writes golden values, xtask/golden.json, and snapshots to the bit, xtask/snapshots; minutes
 cargo xtask coverage        writes what the bands of signals and identify hold, book/src/coverage.md; hours
 cargo xtask coverage NAME   the same of one test binary; the rest of the page stays
 cargo xtask help            this text

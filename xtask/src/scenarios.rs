@@ -15,9 +15,26 @@ pub fn check(repository: &Repository) -> Outcome {
         Err(findings) => return Outcome::new("", findings),
     };
     let folder = std::env::temp_dir().join(format!("auxbear-check-{}", std::process::id()));
-    if let Err(error) = std::fs::create_dir_all(&folder) {
-        return Outcome::new("", vec![format!("{}: {error}", folder.display())]);
-    }
+    let mut findings = run_all(repository, &program, &folder);
+    let opened = pages::faults(&folder, &program);
+    let pages = match &opened {
+        Some(_) => "their pages opened in a browser",
+        None => "no page opened: no chromium here",
+    };
+    findings.extend(opened.unwrap_or_default());
+    // Nothing depends on the folder any more; one that stays behind is no fault of the product.
+    let _ = std::fs::remove_dir_all(&folder);
+    findings.extend(call(&repository.root, &program, &["validate"]));
+    let count = repository.below("scenarios/", ".toml").count();
+    let seen = match count {
+        0 => "no scenarios to run: the folder is empty; validation passed".to_owned(),
+        count => format!("{count} run; {pages}; validation passed"),
+    };
+    Outcome::new(seen, findings)
+}
+
+/// Runs every file of `scenarios/` in a folder, each to `runs/NAME` in it; what is wrong with them.
+pub fn run_all(repository: &Repository, program: &Path, folder: &Path) -> Vec<String> {
     let mut findings = Vec::new();
     let files: Vec<&str> = repository.below("scenarios/", "").collect();
     for file in &files {
@@ -38,7 +55,7 @@ pub fn check(repository: &Repository) -> Outcome {
         let work = || {
             let mut found = Vec::new();
             while let Some(file) = group.get(next.fetch_add(1, Ordering::Relaxed)) {
-                found.extend(run(repository, &folder, &program, file));
+                found.extend(run(repository, folder, program, file));
             }
             found
         };
@@ -50,21 +67,7 @@ pub fn check(repository: &Repository) -> Outcome {
             }
         });
     }
-    let opened = pages::faults(&folder, &program);
-    let pages = match &opened {
-        Some(_) => "their pages opened in a browser",
-        None => "no page opened: no chromium here",
-    };
-    findings.extend(opened.unwrap_or_default());
-    // Nothing depends on the folder any more; one that stays behind is no fault of the product.
-    let _ = std::fs::remove_dir_all(&folder);
-    findings.extend(call(&repository.root, &program, &["validate"]));
-    let count = files.iter().filter(|file| file.ends_with(".toml")).count();
-    let seen = match count {
-        0 => "no scenarios to run: the folder is empty; validation passed".to_owned(),
-        count => format!("{count} run; {pages}; validation passed"),
-    };
-    Outcome::new(seen, findings)
+    findings
 }
 
 /// Scenarios that run at the same time: most of them use one core.

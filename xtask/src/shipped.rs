@@ -14,29 +14,6 @@ pub fn summary_in(directory: &Path) -> Result<Value, String> {
     serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Runs a shipped scenario and returns its summary.
-pub fn summary_of(
-    root: &Path,
-    program: &Path,
-    scenario: &str,
-    folder: &Path,
-) -> Result<Value, String> {
-    let file = format!("scenarios/{scenario}.toml");
-    let out = folder.join(scenario);
-    let run = ["run", &file, "--quiet", "--out", &out.to_string_lossy()];
-    let findings = call(root, program, &run);
-    if findings.is_empty() {
-        summary_in(&out)
-    } else {
-        Err(findings.join("\n"))
-    }
-}
-
-/// Builds the command as users do.
-pub fn build(repository: &Repository) -> Result<PathBuf, Vec<String>> {
-    build_in(repository, "release")
-}
-
 /// Builds the command in a profile: `test` shares everything with the tests and gives the same bits.
 pub fn build_in(repository: &Repository, profile: &str) -> Result<PathBuf, Vec<String>> {
     let output = cargo(repository)
