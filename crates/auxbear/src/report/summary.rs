@@ -360,6 +360,7 @@ mod tests {
             name: "force".to_string(),
             value,
             unit: "N",
+            meaning: "",
             law: "",
             source: "",
             valid: "",

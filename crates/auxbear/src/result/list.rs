@@ -1,8 +1,10 @@
 //! Named results: how they are collected, and what each states of its origin.
 
+use crate::result::declared::{Declared, Kind};
 use crate::result::outcome::{Quantity, Value};
 
 /// Law, source and valid range of a kind of result.
+#[derive(Debug)]
 pub(crate) struct Origin {
     pub law: &'static str,
     pub source: &'static str,
@@ -11,16 +13,89 @@ pub(crate) struct Origin {
 
 /// How the reason ends of a result that cannot be had because its key was left out: known before the run.
 pub(crate) const NOT_GIVEN: &str = " is not given";
+/// Why a result has no value before a run.
+const BEFORE_THE_RUN: &str = "not known before the run";
 
 /// Named results in their order.
-pub(crate) struct List(pub Vec<Quantity>);
+#[derive(Default)]
+pub(crate) struct List {
+    pub quantities: Vec<Quantity>,
+    /// What stands for each `*` of a declared name.
+    stars: Vec<String>,
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Value {
+        Ok(value).into()
+    }
+}
+
+impl From<Result<f64, String>> for Value {
+    fn from(value: Result<f64, String>) -> Value {
+        match value {
+            Ok(value) if value.is_finite() => Value::Number(value),
+            Ok(value) => Value::None {
+                why: format!("the run ended with {value} here"),
+            },
+            Err(why) => Value::None { why },
+        }
+    }
+}
+
+impl From<Vec<f64>> for Value {
+    fn from(values: Vec<f64>) -> Value {
+        Value::List(values)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Value {
+        Value::Text(text.to_string())
+    }
+}
 
 impl List {
+    /// Adds a declared result: its value, or before a run none.
+    pub fn add(&mut self, declared: &'static Declared, value: Option<Value>) {
+        let mut name = declared.name.to_string();
+        for star in &self.stars {
+            name = name.replacen('*', star, 1);
+        }
+        let value = value.unwrap_or_else(|| match declared.kind {
+            Kind::number | Kind::instant => Value::None {
+                why: BEFORE_THE_RUN.to_string(),
+            },
+            Kind::list => Value::List(Vec::new()),
+            Kind::text => Value::Text(BEFORE_THE_RUN.to_string()),
+        });
+        self.push(&name, declared.unit, value, declared.origin);
+        if let Some(last) = self.quantities.last_mut() {
+            last.meaning = declared.meaning;
+            last.awaited = declared.kind == Kind::instant;
+        }
+    }
+    /// Adds results whose names have something in the place of each `*`.
+    pub fn named(&mut self, stars: &[&str], add: impl FnOnce(&mut List)) {
+        let stars = stars.iter().map(ToString::to_string).collect();
+        let before = std::mem::replace(&mut self.stars, stars);
+        add(self);
+        self.stars = before;
+    }
+    /// Adds results of a part, whose names follow its own and a point; a part without a name adds nothing to them.
+    #[allow(dead_code)]
+    pub fn of_part(&mut self, part: &str, add: impl FnOnce(&mut List)) {
+        let first = self.quantities.len();
+        add(self);
+        for quantity in &mut self.quantities[first..] {
+            quantity.name = model::system::layout::of_part(part, &quantity.name);
+        }
+    }
     pub fn push(&mut self, name: &str, unit: &'static str, value: Value, origin: &Origin) {
-        self.0.push(Quantity {
+        self.quantities.push(Quantity {
             name: name.to_string(),
             value,
             unit,
+            meaning: "",
             law: origin.law,
             source: origin.source,
             valid: origin.valid,
@@ -32,14 +107,14 @@ impl List {
     /// An instant that the run waits for, s; or why it did not come.
     pub fn awaited(&mut self, name: &str, time: Result<f64, String>, origin: &Origin) {
         self.number(name, "s", time, origin);
-        if let Some(last) = self.0.last_mut() {
+        if let Some(last) = self.quantities.last_mut() {
             last.awaited = true;
         }
     }
     /// The results of a run that ended at an instant, s: no number has a value where it ended before its first step.
     pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
         if time == 0.0 {
-            for quantity in &mut self.0 {
+            for quantity in &mut self.quantities {
                 if matches!(&quantity.value, Value::None { why } if why.ends_with(NOT_GIVEN)) {
                     continue;
                 }
@@ -52,7 +127,7 @@ impl List {
                 };
             }
         }
-        self.0
+        self.quantities
     }
     pub fn number(
         &mut self,
@@ -61,14 +136,7 @@ impl List {
         value: Result<f64, String>,
         origin: &Origin,
     ) {
-        let value = match value {
-            Ok(value) if value.is_finite() => Value::Number(value),
-            Ok(value) => Value::None {
-                why: format!("the run ended with {value} here"),
-            },
-            Err(why) => Value::None { why },
-        };
-        self.push(name, unit, value, origin);
+        self.push(name, unit, value.into(), origin);
     }
 }
 

@@ -62,6 +62,8 @@ pub struct Quantity {
     pub value: Value,
     /// SI unit; empty for text and counts.
     pub unit: &'static str,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
     /// The law or definition it comes from.
     pub law: &'static str,
     /// Source of that law.

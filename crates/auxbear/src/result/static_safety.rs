@@ -1,6 +1,6 @@
 //! The static safety of a bearing, in every system that loads one.
 
-use crate::result::list::{List, Origin};
+use crate::result::list::Origin;
 use crate::scenario::RatedBearing;
 use physics::static_load::{equivalent_static_load, static_load_factors};
 
@@ -14,18 +14,14 @@ pub(crate) struct StaticLoad {
     pub contact_angle: Option<f64>,
 }
 
-impl List {
-    /// s0 = C0/P0, or why there is none.
-    pub fn static_safety(&mut self, rated: &RatedBearing, load: &StaticLoad, origin: &Origin) {
-        let safety = equivalent(rated, load).and_then(|equivalent| {
-            let rating = (rated.static_load_rating)
-                .ok_or_else(|| "bearing.static_load_rating is not given".to_string())?;
-            match equivalent > 0.0 {
-                true => Ok(rating / equivalent),
-                false => Err("there is no load".to_string()),
-            }
-        });
-        self.number("static_safety", "1", safety, origin);
+/// s0 = C0/P0, or why there is none.
+pub(crate) fn static_safety(rated: &RatedBearing, load: &StaticLoad) -> Result<f64, String> {
+    let equivalent = equivalent(rated, load)?;
+    let rating = (rated.static_load_rating)
+        .ok_or_else(|| "bearing.static_load_rating is not given".to_string())?;
+    match equivalent > 0.0 {
+        true => Ok(rating / equivalent),
+        false => Err("there is no load".to_string()),
     }
 }
 

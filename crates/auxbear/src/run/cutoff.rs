@@ -80,6 +80,7 @@ pub(super) fn changes(
             name: format!("cutoff_change.{name}"),
             value,
             unit: "",
+            meaning: "change of a result with twice as many modes",
             law: "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
             source: "crates/auxbear/src/run/cutoff.rs",
             valid: "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic",

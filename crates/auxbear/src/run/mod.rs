@@ -143,6 +143,7 @@ impl Machine<'_> {
                 once.repeat.count = 1;
                 self.dropped(&once, built, &[], &options)
             }
+            Built::Torque(asked) => return torque::results(asked),
             // what it finds has names of its own, and is kept for the run
             Built::Rotor(asked) => rotor::run(self.scenario, asked, &Options::unwatched(interrupt)),
             _ => self.computed(&options),

@@ -19,7 +19,7 @@ const MAP_POINTS: usize = 24;
 
 /// All named results; what was not asked for has none.
 pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     verdict(&mut list, found);
     moment(&mut list, found);
     for (number, test) in found.tests.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
     if asked.rotor.is_some() {
         rotor(&mut list, found);
     }
-    list.0
+    list.quantities
 }
 
 fn word(form: Form) -> &'static str {

@@ -10,7 +10,7 @@ use measure::pulse::{Gap, Pulses};
 
 /// Names the results; what no channel was given for has none.
 pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     listing(&mut list, asked);
     if asked.speed.is_some() {
         speed(&mut list, found);
@@ -22,7 +22,7 @@ pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
         cage(&mut list, found);
     }
     crate::analyse::signals::answer_analysis::name(&mut list, asked, found);
-    list.0
+    list.quantities
 }
 
 fn listing(list: &mut List, asked: &Asked) {

@@ -9,7 +9,7 @@ use rotor::{C64, Critical, Mode, Whirl};
 
 /// All named results, in the order of the report.
 pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     body(&mut list, asked);
     criticals(&mut list, asked, found);
     modes(&mut list, asked, found);
@@ -21,7 +21,7 @@ pub(crate) fn name(asked: &Asked, found: &Found) -> Vec<Quantity> {
     if let Some(levitated) = &asked.levitated {
         levitated::name(&mut list, &asked.analysis, levitated);
     }
-    list.0
+    list.quantities
 }
 
 fn body(list: &mut List, asked: &Asked) {

@@ -15,18 +15,23 @@ pub(crate) mod warnings;
 
 pub(crate) use crate::evaluate::torque::asked::Asked;
 use crate::evaluate::torque::asked::{Moments, law_of, name_of};
-use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
+use crate::result::outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 
 use crate::scenario::Scenario;
 use physics::friction::MomentParts;
 use std::time::Instant;
+
+/// The results of such a computation, without values.
+pub(crate) fn results(asked: &Asked) -> Vec<Quantity> {
+    quantities::name(asked, None)
+}
 
 /// Computes the moments and names them.
 pub(crate) fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     let clock = Instant::now();
     let torque = asked.torque;
     let history = history(asked);
-    let quantities = quantities::name(asked);
+    let quantities = quantities::name(asked, Some(asked));
     let named = torque.name.as_deref().unwrap_or("bearing");
     Outcome {
         system: "torque",

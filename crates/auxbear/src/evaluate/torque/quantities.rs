@@ -1,202 +1,166 @@
 //! Every named result of a torque computation with its law, source and valid range.
 
-use crate::evaluate::torque::asked::{Asked, Moments, law_of, name_of};
+use crate::evaluate::torque::asked::{Asked, Moments, law_of};
+use crate::result::declared::results;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
+use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
+use crate::scenario::Lubricant;
 use physics::friction::{Friction, MomentParts};
 
-/// Names the results.
-pub(crate) fn name(asked: &Asked) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
-    place(&mut list, asked);
-    steady(&mut list, asked);
-    over_acceleration(&mut list, asked);
-    over_load(&mut list, asked);
-    laws(&mut list, asked);
-    lubricants(&mut list, asked);
-    list.0
-}
-
-fn place(list: &mut List, asked: &Asked) {
+/// Names the results; without a second argument those of any computation.
+pub(crate) fn name(asked: &Asked, after: Option<&Asked>) -> Vec<Quantity> {
     let torque = asked.torque;
-    list.number("speed", "rad/s", Ok(torque.speed), &GIVEN);
-    list.number("radial_load", "N", Ok(asked.load()), &GIVEN);
-    list.number(
-        "viscosity",
-        "m^2/s",
-        torque
+    let mut list = List::default();
+    steady(&mut list, asked, after);
+    over_acceleration(&mut list, asked, after);
+    over_load(&mut list, asked, after);
+    for compared in &torque.laws {
+        let law = compared
             .moment
-            .viscosity()
-            .ok_or_else(|| "this law sees no lubricant".to_string()),
-        &VISCOSITY,
-    );
-    list.number(
-        "temperature",
-        "K",
-        torque
-            .temperature
-            .ok_or_else(|| "the viscosity is given as it is".to_string()),
-        &GIVEN,
-    );
-}
-
-fn steady(list: &mut List, asked: &Asked) {
-    let parts = asked.friction(&asked.law, asked.torque.speed, asked.load());
-    parts_of(list, "", Ok(parts));
-    let power = parts.sum() * asked.torque.speed;
-    list.number("power_loss", "W", Ok(power), &POWER);
-    let load = StaticLoad {
-        radial: asked.torque.loads.iter().copied().fold(0.0, f64::max),
-        axial: asked.torque.moment.axial_load(),
-        contact_angle: None,
-    };
-    list.static_safety(&asked.torque.rated(), &load, &AT_THE_LOAD);
-    let starting = match &asked.law {
-        Friction::Skf(law) => {
-            Ok(law.starting_moment(asked.load(), asked.torque.moment.axial_load()))
-        }
-        _ => Err("only the SKF model knows a moment at standstill".to_string()),
-    };
-    list.number("starting_moment", "N m", starting, &STARTING);
-    for (name, unit, value, origin) in [
-        (
-            "inner_race_set_inertia",
-            "kg m^2",
-            asked.set.inner_inertia(),
-            &INNER_INERTIA,
-        ),
-        (
-            "outer_race_set_inertia",
-            "kg m^2",
-            asked.set.outer_inertia(),
-            &OUTER_INERTIA,
-        ),
-        (
-            "pocket_friction_arm",
-            "m",
-            asked.set.pocket_friction_arm(),
-            &ARM,
-        ),
-    ] {
-        list.number(name, unit, Ok(value), origin);
+            .clone()
+            .and_then(|moment| law_of(torque, &moment));
+        let parts = law.map(|law| asked.friction(&law, torque.speed, asked.load()));
+        list.named(&[&compared.law.replace(' ', "_")], |list| {
+            by_law(list, &(), after.map(|_| &parts));
+        });
     }
-}
-
-/// M0, M1 and M under names with this beginning.
-fn parts_of(list: &mut List, begin: &str, parts: Result<MomentParts<f64>, String>) {
-    for (name, part) in [
-        (
-            "speed_dependent_moment",
-            (|parts| parts.speed_dependent) as fn(MomentParts<f64>) -> f64,
-        ),
-        ("load_dependent_moment", |parts| parts.load_dependent),
-        ("friction_moment", |parts| parts.sum()),
-    ] {
-        let value = parts.as_ref().map(|parts| part(*parts));
-        list.number(
-            &format!("{begin}{name}"),
-            "N m",
-            value.map_err(String::clone),
-            &FRICTION,
-        );
-    }
-}
-
-fn over_acceleration(list: &mut List, asked: &Asked) {
-    let accelerations = &asked.torque.accelerations;
-    let all = |part: fn(&Moments) -> f64| {
-        let moments = accelerations
-            .iter()
-            .map(|&acceleration| asked.moments(asked.torque.speed, acceleration));
-        Value::List(moments.map(|moments| part(&moments)).collect())
-    };
-    list.push(
-        "accelerations",
-        "rad/s^2",
-        Value::List(accelerations.clone()),
-        &GIVEN,
-    );
-    for (name, part, origin) in [
-        (
-            "inner_race_inertia_moments",
-            (|moments| moments.inner_inertia) as fn(&Moments) -> f64,
-            &INNER_INERTIA,
-        ),
-        (
-            "outer_race_inertia_moments",
-            |moments| moments.outer_inertia,
-            &OUTER_INERTIA,
-        ),
-        ("acceleration_loss_moments", |moments| moments.loss, &LOSS),
-        ("inner_race_moments", Moments::inner, &INNER),
-        ("outer_race_moments", Moments::outer, &OUTER),
-    ] {
-        list.push(name, "N m", all(part), origin);
-    }
-}
-
-fn over_load(list: &mut List, asked: &Asked) {
-    let loads = &asked.torque.loads;
-    list.push("loads", "N", Value::List(loads.clone()), &GIVEN);
-    for (name, part) in [
-        (
-            "load_dependent_moments_over_load",
-            (|parts| parts.load_dependent) as fn(MomentParts<f64>) -> f64,
-        ),
-        ("friction_moments_over_load", |parts| parts.sum()),
-    ] {
-        let moments = loads
-            .iter()
-            .map(|&load| part(asked.friction(&asked.law, asked.torque.speed, load)));
-        list.push(name, "N m", Value::List(moments.collect()), &FRICTION);
-    }
-}
-
-fn laws(list: &mut List, asked: &Asked) {
-    for compared in &asked.torque.laws {
-        let law = compared.moment.clone();
-        let law = law.and_then(|moment| law_of(asked.torque, &moment));
-        let parts = law.map(|law| asked.friction(&law, asked.torque.speed, asked.load()));
-        parts_of(list, &format!("{}_", name_of(compared.law)), parts);
-    }
-}
-
-fn lubricants(list: &mut List, asked: &Asked) {
-    let torque = asked.torque;
-    let law = |viscosity| law_of(torque, &torque.moment.with_viscosity(viscosity));
-    let moment = |law: Friction<f64>| asked.friction(&law, torque.speed, asked.load()).sum();
     for (number, lubricant) in (1..).zip(&torque.lubricants) {
-        let name = |end: &str| format!("lubricant_{number}{end}");
-        list.push(&name(""), "", Value::Text(lubricant.name.clone()), &GIVEN);
-        let viscosity = lubricant.at(torque.temperature);
-        list.number(&name("_viscosity"), "m^2/s", viscosity.clone(), &VISCOSITY);
-        let running = viscosity.and_then(law).map(moment);
-        list.number(&name("_friction_moment"), "N m", running, &FRICTION);
-        // temperature, viscosity and moment, where all are known
-        let known = |temperature: &f64| {
-            let viscosity = lubricant.at(Some(*temperature))?;
-            Ok([*temperature, viscosity, moment(law(viscosity)?)])
+        let running = Lubricated { asked, lubricant };
+        list.named(&[&format!("{number}")], |list| {
+            lubricants(list, &(), after.map(|_| &running));
+        });
+    }
+    list.quantities
+}
+
+results! {
+    fn steady(asked: &Asked, run: &Asked) {
+        "speed": number "rad/s", GIVEN, "speed of the inner race" => run.torque.speed;
+        "radial_load": number "N", GIVEN, "radial load" => run.load();
+        "viscosity": number "m^2/s", VISCOSITY, "kinematic viscosity of the oil" => {
+            run.torque.moment.viscosity().ok_or_else(|| "this law sees no lubricant".to_string())
         };
-        let rows: Vec<Result<[f64; 3], String>> = torque.temperatures.iter().map(known).collect();
-        let why = rows.iter().find_map(|row| row.as_ref().err());
-        let rows: Vec<[f64; 3]> = rows.iter().filter_map(|row| row.clone().ok()).collect();
-        for (place, (end, unit, origin)) in [
-            ("_temperatures", "K", &GIVEN),
-            ("_viscosities", "m^2/s", &VISCOSITY),
-            ("_friction_moments", "N m", &FRICTION),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let value = match (rows.is_empty(), why) {
-                (true, Some(why)) => Value::None { why: why.clone() },
-                (true, None) => Value::None {
-                    why: "no torque.temperatures are given".to_string(),
-                },
-                (false, _) => Value::List(rows.iter().map(|row| row[place]).collect()),
-            };
-            list.push(&name(end), unit, value, origin);
+        "temperature": number "K", GIVEN, "temperature of the oil" => {
+            run.torque.temperature.ok_or_else(|| "the viscosity is given as it is".to_string())
+        };
+        "speed_dependent_moment": number "N m", FRICTION, "speed-dependent part M0 of the friction" => run.steady().speed_dependent;
+        "load_dependent_moment": number "N m", FRICTION, "load-dependent part M1 of the friction" => run.steady().load_dependent;
+        "friction_moment": number "N m", FRICTION, "steady moment M = M0 + M1" => run.steady().sum();
+        "power_loss": number "W", POWER, "power of the steady moment" => run.steady().sum() * run.torque.speed;
+        "static_safety": number "1", AT_THE_LOAD, "static load rating over equivalent static load" => {
+            static_safety(&run.torque.rated(), &StaticLoad {
+                radial: run.torque.loads.iter().copied().fold(0.0, f64::max),
+                axial: run.torque.moment.axial_load(),
+                contact_angle: None,
+            })
+        };
+        "starting_moment": number "N m", STARTING, "moment at standstill" => match &run.law {
+            Friction::Skf(law) => Ok(law.starting_moment(run.load(), run.torque.moment.axial_load())),
+            _ => Err("only the SKF model knows a moment at standstill".to_string()),
+        };
+        "inner_race_set_inertia": number "kg m^2", INNER_INERTIA, "inertia J_I of balls and cage at the inner race" => run.set.inner_inertia();
+        "outer_race_set_inertia": number "kg m^2", OUTER_INERTIA, "inertia J_O of balls and cage at the outer race" => run.set.outer_inertia();
+        "pocket_friction_arm": number "m", ARM, "arm of the pocket friction" => run.set.pocket_friction_arm();
+    }
+}
+
+results! {
+    fn over_acceleration(asked: &Asked, run: &Asked) {
+        "accelerations": list "rad/s^2", GIVEN, "accelerations of the inner race" => run.torque.accelerations.clone();
+        "inner_race_inertia_moments": list "N m", INNER_INERTIA, "inertia of balls and cage at the inner race" => run.accelerated(|m| m.inner_inertia);
+        "outer_race_inertia_moments": list "N m", OUTER_INERTIA, "inertia of balls and cage at the outer race" => run.accelerated(|m| m.outer_inertia);
+        "acceleration_loss_moments": list "N m", LOSS, "pocket friction at both races" => run.accelerated(|m| m.loss);
+        "inner_race_moments": list "N m", INNER, "moment that resists the inner race" => run.accelerated(Moments::inner);
+        "outer_race_moments": list "N m", OUTER, "moment on the outer race" => run.accelerated(Moments::outer);
+    }
+}
+
+results! {
+    fn over_load(asked: &Asked, run: &Asked) {
+        "loads": list "N", GIVEN, "radial loads" => run.torque.loads.clone();
+        "load_dependent_moments_over_load": list "N m", FRICTION, "load-dependent part M1 under each load" => run.loaded(|parts| parts.load_dependent);
+        "friction_moments_over_load": list "N m", FRICTION, "steady moment M under each load" => run.loaded(|parts| parts.sum());
+    }
+}
+
+results! {
+    /// By another law.
+    fn by_law(setup: &(), run: &Result<MomentParts<f64>, String>) {
+        "law_*_speed_dependent_moment": number "N m", FRICTION, "speed-dependent part M0 by this law" => run.clone().map(|parts| parts.speed_dependent);
+        "law_*_load_dependent_moment": number "N m", FRICTION, "load-dependent part M1 by this law" => run.clone().map(|parts| parts.load_dependent);
+        "law_*_friction_moment": number "N m", FRICTION, "steady moment M by this law" => run.clone().map(|parts| parts.sum());
+    }
+}
+
+results! {
+    /// With another lubricant.
+    fn lubricants(setup: &(), run: &Lubricated) {
+        "lubricant_*": text "", GIVEN, "name of the lubricant" => run.lubricant.name.as_str();
+        "lubricant_*_viscosity": number "m^2/s", VISCOSITY, "its viscosity" => run.viscosity(run.asked.torque.temperature);
+        "lubricant_*_friction_moment": number "N m", FRICTION, "steady moment M with it" => {
+            run.viscosity(run.asked.torque.temperature).and_then(|viscosity| run.moment(viscosity))
+        };
+        "lubricant_*_temperatures": list "K", GIVEN, "temperatures at which all of this is known" => run.over_temperature(0);
+        "lubricant_*_viscosities": list "m^2/s", VISCOSITY, "its viscosity at each of them" => run.over_temperature(1);
+        "lubricant_*_friction_moments": list "N m", FRICTION, "steady moment M with it at each of them" => run.over_temperature(2);
+    }
+}
+
+impl Asked<'_> {
+    fn steady(&self) -> MomentParts<f64> {
+        self.friction(&self.law, self.torque.speed, self.load())
+    }
+
+    /// A moment at each acceleration.
+    fn accelerated(&self, part: fn(&Moments) -> f64) -> Vec<f64> {
+        let moment = |&acceleration: &f64| part(&self.moments(self.torque.speed, acceleration));
+        self.torque.accelerations.iter().map(moment).collect()
+    }
+
+    /// A moment under each load.
+    fn loaded(&self, part: fn(MomentParts<f64>) -> f64) -> Vec<f64> {
+        let moment = |&load: &f64| part(self.friction(&self.law, self.torque.speed, load));
+        self.torque.loads.iter().map(moment).collect()
+    }
+}
+
+/// A bearing with another lubricant.
+struct Lubricated<'a> {
+    asked: &'a Asked<'a>,
+    lubricant: &'a Lubricant,
+}
+
+impl Lubricated<'_> {
+    fn viscosity(&self, temperature: Option<f64>) -> Result<f64, String> {
+        self.lubricant.at(temperature)
+    }
+
+    /// M, N m.
+    fn moment(&self, viscosity: f64) -> Result<f64, String> {
+        let torque = self.asked.torque;
+        let law = law_of(torque, &torque.moment.with_viscosity(viscosity))?;
+        Ok(self
+            .asked
+            .friction(&law, torque.speed, self.asked.load())
+            .sum())
+    }
+
+    /// Temperature (0), viscosity (1) or moment (2) at each temperature at which all of them are known.
+    fn over_temperature(&self, which: usize) -> Value {
+        let row = |temperature: &f64| {
+            let viscosity = self.viscosity(Some(*temperature))?;
+            Ok([*temperature, viscosity, self.moment(viscosity)?])
+        };
+        let rows: Vec<Result<[f64; 3], String>> =
+            self.asked.torque.temperatures.iter().map(row).collect();
+        let known: Vec<f64> = rows.iter().flatten().map(|row| row[which]).collect();
+        match (known.is_empty(), rows.into_iter().find_map(Result::err)) {
+            (false, _) => Value::List(known),
+            (true, Some(why)) => Value::None { why },
+            (true, None) => Value::None {
+                why: "no torque.temperatures are given".to_string(),
+            },
         }
     }
 }

@@ -159,10 +159,10 @@ mod tests {
 
     #[test]
     fn a_rotor_that_lies_still_gives_no_blows() {
-        let mut list = List(Vec::new());
+        let mut list = List::default();
         list.blows([80.0, 100.0].into_iter(), 100.0);
         list.blows([150.0, 300.0].into_iter(), 100.0);
-        let values = list.0.iter().map(|one| one.value.clone());
+        let values = list.quantities.iter().map(|one| one.value.clone());
         assert!(values.eq([Value::Number(0.0), Value::Number(2.5)]));
     }
 }

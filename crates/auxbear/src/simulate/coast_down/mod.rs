@@ -68,7 +68,7 @@ pub(crate) fn run(
     match found {
         Ok(ran) => {
             outcome.stop = stop(&ran.free);
-            let mut list = List(Vec::new());
+            let mut list = List::default();
             quantities::name(&ran, &mut list);
             outcome.quantities = list.ended_at(outcome.stop.time);
             outcome.history = history(&ran);

@@ -36,7 +36,7 @@ pub(crate) fn named<'a>(
     release: f64,
     parts: impl Iterator<Item = &'a str>,
 ) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     for part in parts {
         let found = spectrum(history, part);
         let lists =
@@ -82,7 +82,7 @@ pub(crate) fn named<'a>(
             &LAST,
         );
     }
-    list.0
+    list.quantities
 }
 
 impl Spectrum {

@@ -3,7 +3,7 @@
 use crate::catalogue::geometry::digits;
 use crate::result::list::{List, NOT_GIVEN, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::StaticLoad;
+use crate::result::static_safety::{StaticLoad, static_safety};
 use crate::scenario::axial_share;
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::bearing::warm;
@@ -23,14 +23,15 @@ const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 pub(crate) fn name(context: &Context) -> Vec<Quantity> {
     let ending = &context.finished.ending;
     let state = &ending.state;
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     for (k, part) in context.parts().enumerate() {
-        let mut own = List(Vec::new());
+        let mut own = List::default();
         of_bearing(context, k, part, &mut own);
-        list.0.extend(own.0.into_iter().map(|quantity| Quantity {
-            name: of_part(part, &quantity.name),
-            ..quantity
-        }));
+        list.quantities
+            .extend(own.quantities.into_iter().map(|quantity| Quantity {
+                name: of_part(part, &quantity.name),
+                ..quantity
+            }));
     }
     shaft_results::name(context, &mut list);
     let release = context.release_time().ok_or_else(magnets::kept);
@@ -163,15 +164,15 @@ fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
     if let Some(given) = rolling {
         list.balls(&run, &forces, given, &end);
         list.number("peak_bearing_load", "N", Ok(load), &LOAD);
-        list.static_safety(
+        let safety = static_safety(
             &given.rated(),
             &StaticLoad {
                 radial: load,
                 axial: given.axial_preload,
                 contact_angle: Some(given.contact_angle),
             },
-            &SAFETY,
         );
+        list.number("static_safety", "1", safety, &SAFETY);
         let turns = record.turns;
         let mean = (record.cubed_load_turns / turns).cbrt();
         let still = || "the inner race did not turn".to_string();

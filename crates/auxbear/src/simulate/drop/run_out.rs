@@ -217,7 +217,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
 
 /// The results under their names: those of the run-out, and its course over time.
 fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     let first = &went.first;
     let rolled = |value: f64| match first.never {
         false => Ok(value),
@@ -304,7 +304,7 @@ fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
             ..quantity
         }
     };
-    list.0.into_iter().map(rename).collect()
+    list.quantities.into_iter().map(rename).collect()
 }
 
 const CHANGE: Origin = Origin {

@@ -2,7 +2,7 @@
 
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
+use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
 use crate::scenario::{Fidelity, RigProgram};
 use crate::simulate::bearing::warm::{self, Followed};
 use crate::simulate::bearing::warming::Warming;
@@ -18,7 +18,7 @@ const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
 
 /// Names the results.
 pub(crate) fn name(context: &Context) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     engagement(&mut list, context);
     moments(&mut list, context);
     loads(&mut list, context);
@@ -146,7 +146,8 @@ fn loads(list: &mut List, context: &Context) {
         axial: bearing.axial_preload,
         contact_angle: Some(bearing.contact_angle),
     };
-    list.static_safety(&bearing.rated(), &load, &AT_THE_LOAD);
+    let safety = static_safety(&bearing.rated(), &load);
+    list.number("static_safety", "1", safety, &AT_THE_LOAD);
 }
 
 fn energies(list: &mut List, context: &Context) {

@@ -3,7 +3,7 @@
 use crate::catalogue::geometry::digits;
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::{AT_THE_LOAD, StaticLoad};
+use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
 use crate::scenario::{Drive, Fidelity};
 use crate::simulate::bearing::quantities::{End, LargestForces};
 use crate::simulate::bearing::warm;
@@ -26,7 +26,7 @@ const LEAST_SPEED: f64 = 0.05;
 
 /// Names the results.
 pub(crate) fn name(context: &Context) -> Vec<Quantity> {
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     times(&mut list, context);
     moments(&mut list, context);
     slip(&mut list, context);
@@ -220,7 +220,8 @@ fn loads(list: &mut List, context: &Context) {
         axial: bearing.axial_preload,
         contact_angle: Some(bearing.contact_angle),
     };
-    list.static_safety(&bearing.rated(), &load, &AT_THE_LOAD);
+    let safety = static_safety(&bearing.rated(), &load);
+    list.number("static_safety", "1", safety, &AT_THE_LOAD);
 }
 
 fn energies(list: &mut List, context: &Context) {

@@ -66,9 +66,13 @@ fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
         panic!("a rotor");
     };
     let asked = Asked::of(analysis)?;
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     name(&mut list, analysis, asked.levitated.as_ref().unwrap());
-    Ok(list.0.into_iter().map(|q| (q.name, q.value)).collect())
+    Ok(list
+        .quantities
+        .into_iter()
+        .map(|q| (q.name, q.value))
+        .collect())
 }
 fn number(found: &[(String, Value)], name: &str) -> f64 {
     match found.iter().find(|(own, _)| own == name) {
@@ -107,9 +111,13 @@ fn the_scenario_that_ships_has_the_sensitivity_of_the_reference() {
     };
     assert_eq!(analysis.model.rotor.nodes.len(), 53);
     let asked = Asked::of(analysis).unwrap_or_else(|problem| panic!("{problem}"));
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     name(&mut list, analysis, asked.levitated.as_ref().unwrap());
-    let found: Vec<_> = list.0.into_iter().map(|q| (q.name, q.value)).collect();
+    let found: Vec<_> = list
+        .quantities
+        .into_iter()
+        .map(|q| (q.name, q.value))
+        .collect();
     // machine_levitated.json at 1256.637 rad/s, peaks and slowest eigenvalue; the basis costs up to 4e-5
     for (name, wanted) in [
         (
@@ -299,10 +307,10 @@ fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
     let System::Rotor(analysis) = &scenario.system else {
         panic!("a rotor");
     };
-    let mut list = List(Vec::new());
+    let mut list = List::default();
     crate::result::drawing::name(&mut list, &analysis.model);
     let of = |name: &str| {
-        let found = list.0.iter().find(|q| q.name == name);
+        let found = list.quantities.iter().find(|q| q.name == name);
         found.unwrap_or_else(|| panic!("{name}")).value.clone()
     };
     assert_eq!(of("magnet_names"), Value::Text("left\nright".to_string()));
