@@ -2,8 +2,8 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    advisories, architecture, book, circles, crate_directions, documentation, licences,
-    module_order, python, scenarios, source_text, suites, toolchain,
+    advisories, architecture, book, circles, documentation, licences, module_order, python,
+    scenarios, source_text, suites, toolchain,
 };
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -23,8 +23,7 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 11] = [
-    ("crate directions", crate_directions::check),
+const FAST: [Guard; 10] = [
     ("module order", module_order::check),
     ("no circles", circles::check),
     ("architecture page", architecture::check),

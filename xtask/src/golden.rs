@@ -5,13 +5,12 @@
 //! itself is a regression test, no validation.
 
 use crate::repository::Repository;
-use crate::{scenarios, shipped, snapshots};
+use crate::shipped;
 use serde_json::{Map, Value, json};
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Where the values stand.
-const FILE: &str = "xtask/golden.json";
+pub const FILE: &str = "xtask/golden.json";
 
 /// Largest relative difference: the last digits that another compiler may round in another way.
 const TOLERANCE: f64 = 1e-9;
@@ -185,37 +184,19 @@ fn compare(golden: &Value, found: &Value) -> Vec<String> {
     differences
 }
 
-/// Runs the scenarios, writes golden values and snapshots.
-pub fn write() -> ExitCode {
-    match written() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn written() -> Result<(), String> {
-    let repository = Repository::open()?;
-    let program = shipped::build_in(&repository, "test").map_err(|lines| lines.join("\n"))?;
-    let folder = std::env::temp_dir().join(format!("auxbear-golden-{}", std::process::id()));
-    // what differs from the values before is what this is called for
-    scenarios::run_all(&repository, &program, &folder);
+/// Golden values of runs in a folder, as the file has them.
+pub fn of_runs(runs: &Path) -> Result<String, String> {
     let mut golden = Map::new();
     for (name, names) in SCENARIOS {
-        let summary = shipped::summary_in(&folder.join("runs").join(name))?;
+        let summary = shipped::summary_in(&runs.join(name))?;
         let kept = kept(name, &summary).unwrap_or_default();
         if kept["quantities"].as_object().is_none_or(Map::is_empty) {
             return Err(format!("{name} has none of {}", names.join(", ")));
         }
         golden.insert(name.to_owned(), kept);
     }
-    snapshots::write(&repository, &program, &folder.join("runs"))?;
-    let _ = std::fs::remove_dir_all(&folder);
     let text = serde_json::to_string_pretty(&golden).map_err(|error| error.to_string())?;
-    let path = Path::new(&repository.root).join(FILE);
-    std::fs::write(path, text + "\n").map_err(|error| format!("{FILE}: {error}"))
+    Ok(text + "\n")
 }
 
 #[cfg(test)]

@@ -9,7 +9,6 @@ mod book;
 mod check;
 mod circles;
 mod coverage;
-mod crate_directions;
 mod docs;
 mod documentation;
 mod golden;
@@ -56,7 +55,7 @@ fn main() -> ExitCode {
         ["docs"] => docs::run(None),
         ["docs", program] => docs::run(Some(program)),
         ["advisories", database] => advisories::write(database),
-        ["golden"] => golden::write(),
+        ["golden"] => snapshots::write(),
         ["coverage"] => coverage::run(None),
         ["coverage", name] => coverage::run(Some(name)),
         ["help" | "--help" | "-h"] => {

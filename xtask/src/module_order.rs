@@ -6,8 +6,7 @@ use crate::rust_text::{code_only, is_word};
 const SOURCE: &str = "crates/auxbear/src/";
 
 /// The modules in their order; each may use those to its left.
-const ORDER: [&str; 13] = [
-    "problem",
+const ORDER: [&str; 12] = [
     "catalogue",
     "scenario",
     "options",

@@ -15,7 +15,7 @@
 //! assert!(outcome.stop.complete());
 //! ```
 //!
-//! Modules, each using only those before it: [`problem`], [`catalogue`], [`scenario`], [`options`], [`result`], then
+//! Modules, each using only those before it: [`catalogue`], [`scenario`], [`options`], [`result`], then
 //! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`mod@study`], [`report`], [`import`], [`validate`].
 
 #![forbid(unsafe_code)]
@@ -25,7 +25,6 @@ pub mod catalogue;
 pub mod evaluate;
 pub mod import;
 pub mod options;
-pub mod problem;
 pub mod report;
 pub mod result;
 pub mod run;
@@ -36,5 +35,6 @@ pub mod validate;
 
 pub use measure;
 pub use physics;
+pub use problem;
 pub use recording;
 pub use units;

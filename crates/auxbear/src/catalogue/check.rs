@@ -3,7 +3,7 @@
 use super::complete::mass_of_ball;
 use super::draft::{Draft, Read, Reader};
 use super::geometry::{Geometry, digits, millimetres, rating_beyond_balls};
-use crate::problem::{Code, Problem};
+use problem::{Code, Problem};
 
 /// Refuses contradictions.
 pub(super) fn check(draft: &Draft, reader: &Reader<'_>) -> Read<()> {

@@ -1,7 +1,7 @@
 //! A bearing while its file is read.
 
 use super::bearing::Bearing;
-use crate::problem::Problem;
+use problem::Problem;
 use std::collections::BTreeMap;
 
 pub(super) type Read<T> = Result<T, Box<Problem>>;

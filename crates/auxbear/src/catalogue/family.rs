@@ -4,7 +4,7 @@ use super::bearing::{Mark, Value};
 use super::draft::{Draft, Read, Reader};
 use super::key::Key;
 use super::read::{draft, in_order, kind};
-use crate::problem::{Code, did_you_mean};
+use problem::{Code, did_you_mean};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

@@ -3,7 +3,7 @@
 use super::bearing::Bearing;
 use super::draft::{Read, Reader};
 use super::key::{self, Kind};
-use crate::problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use units::Dimension;
 

@@ -5,7 +5,7 @@
 //! ```
 //! and the balls fit beside each other on the pitch circle, and within the width.
 
-use crate::problem::Code;
+use problem::Code;
 use std::f64::consts::PI;
 
 /// What is known of a bearing: lengths in m.

@@ -2,7 +2,7 @@
 
 use super::designation::{self, Designation};
 use super::{Bearing, Catalogue};
-use crate::problem::{Code, Problem, did_you_mean};
+use problem::{Code, Problem, did_you_mean};
 
 /// Most names that a message lists.
 const MOST_NAMES: usize = 8;

@@ -54,15 +54,11 @@ pub use json::to_json;
 pub use meant::Meant;
 pub use ring::Ring;
 
-use crate::problem::{Code, Problem};
-use std::io::{ErrorKind, Read};
+use problem::Problem;
 use std::path::Path;
 use std::sync::OnceLock;
 
 const TEXT: &str = include_str!("bearings.toml");
-
-/// Largest file of bearings, bytes.
-const LARGEST_FILE: u64 = 10_000_000;
 
 /// The built-in bearings, in the order of their names.
 pub fn bearings() -> &'static [Bearing] {
@@ -119,7 +115,10 @@ impl Catalogue {
 
     /// The built-in bearings with those of a file, which replace built-in ones of the same name.
     pub fn with_file(path: &Path) -> Result<Catalogue, Box<Problem>> {
-        Catalogue::with_text(&read_text(path)?, &path.display().to_string())
+        Catalogue::with_text(
+            &problem::read_text(path, "a file of bearings")?,
+            &path.display().to_string(),
+        )
     }
 
     /// The same from a text; the name stands for the file in messages.
@@ -172,28 +171,4 @@ fn natural_pieces(name: &str) -> Vec<(u64, String)> {
         rest = after;
     }
     pieces
-}
-
-fn read_text(path: &Path) -> Result<String, Box<Problem>> {
-    const NEEDED: &str = "the path of a file of bearings is needed";
-    let problem = |code, found: String| Box::new(Problem::at_path(code, path, found, NEEDED));
-    let unreadable = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => problem(Code::FileMissing, "no file of this name".to_string()),
-        ErrorKind::IsADirectory => problem(Code::FileIsFolder, "a folder".to_string()),
-        _ => problem(
-            Code::FileUnreadable,
-            format!("a file that cannot be read ({error})"),
-        ),
-    };
-    let file = recording::file::open_file(path).map_err(unreadable)?;
-    let mut bytes = Vec::new();
-    // Not the size of the metadata: a pipe or a device has none.
-    file.take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(problem(Code::FileTooLarge, "more than 10 MB".to_string()));
-    }
-    String::from_utf8(bytes)
-        .map_err(|_| problem(Code::FileNotUtf8, "bytes that are not UTF-8".to_string()))
 }

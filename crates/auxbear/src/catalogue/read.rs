@@ -4,7 +4,7 @@ use super::bearing::{Bearing, FORMAT, Origin};
 use super::draft::{Draft, Read, Reader};
 use super::key::{self, KEYS, Key};
 use super::{check, complete};
-use crate::problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};

@@ -4,7 +4,7 @@ use super::bearing::{Datum, Mark, Value};
 use super::draft::{Read, Reader};
 use super::key::{Key, Kind};
 use super::read::{in_order, kind};
-use crate::problem::{Code, did_you_mean, question};
+use problem::{Code, did_you_mean, question};
 use toml::de::{DeTable, DeValue};
 use units::{Dimension, ParseError, parse_quantity};
 

@@ -11,9 +11,9 @@ pub(crate) mod draft;
 pub(crate) mod ross;
 mod table;
 
-use crate::problem::{Code, Problem};
 use crate::scenario::{BuiltIn, Scenario, System};
 use draft::Draft;
+use problem::{Code, Problem};
 use rotor::{Analysis, C64};
 use std::io::Read;
 use std::path::Path;
@@ -69,7 +69,7 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
     let toml = draft.toml();
     let scenario = Scenario::parse(&toml, &name, &[], &BuiltIn).map_err(|mut problem| {
         // The text that was written is not the user's: its lines say nothing.
-        problem.place = crate::problem::Place::Whole;
+        problem.place = problem::Place::Whole;
         problem
     })?;
     let System::Rotor(written) = &scenario.system else {
@@ -115,7 +115,7 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
 
 /// The draft of a file, recognised by its content.
 fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
-    let opened = recording::file::open_file(path).and_then(|file| {
+    let opened = problem::open_file(path).and_then(|file| {
         let mut bytes = Vec::new();
         file.take(LARGEST + 1).read_to_end(&mut bytes)?;
         Ok(bytes)

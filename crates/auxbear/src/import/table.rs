@@ -10,8 +10,8 @@
 //! | `disk mass [kg]`, `disk polar inertia [kg m^2]`, `disk diametral inertia [kg m^2]` | no | a disk at the left end of the row |
 
 use crate::import::draft::{Draft, cleaned};
-use crate::problem::{Code, Place, Problem};
 use calamine::{Data, Reader, Xlsx};
+use problem::{Code, Place, Problem};
 use rotor::{Annulus, Disk, Element, MATERIALS, Material};
 use std::collections::BTreeMap;
 use std::io::Cursor;

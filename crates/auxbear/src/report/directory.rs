@@ -10,12 +10,12 @@
 use super::page::{self, PageColumn, PageRun};
 use super::picture;
 use super::{history, summary};
-use crate::problem::{Code, Problem};
 use crate::result::outcome::{Attached, Stop};
 use crate::run::Outcome;
 use crate::scenario::Scenario;
+use problem::open_file;
+use problem::{Code, Problem};
 use recording::Channel;
-use recording::file::open_file;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};

@@ -16,7 +16,7 @@ use super::directory::{NewDirectory, new_file, read};
 use super::page::PageRun;
 use super::table::{Cell, Table};
 use super::workbook;
-use crate::problem::{Code, Problem};
+use problem::{Code, Problem};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;

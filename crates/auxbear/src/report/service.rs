@@ -16,9 +16,9 @@
 //! Source: derived; book/src/theory/heat.md.
 
 use super::directory::read;
-use crate::problem::{Code, Problem};
 use model::system::layout::of_part;
 use physics::life::{add_points, bearing_damage, mean_damage, repetitions, survival};
+use problem::{Code, Problem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 

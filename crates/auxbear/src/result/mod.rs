@@ -1,7 +1,6 @@
 //! What a run hands over: plain data in SI.
 
 pub(crate) mod assumptions;
-pub(crate) mod declared;
 pub(crate) mod drawing;
 pub mod graveness;
 pub mod limits;

@@ -1,8 +1,8 @@
 //! What checks between values share: each refuses what no simulation could mean.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::run::Run;
 use crate::scenario::values::Values;
+use problem::{Code, Place, Problem};
 
 /// Most values of a history, in memory at the end of a run: 1.6 GB.
 const MOST_VALUES: f64 = 2e8;

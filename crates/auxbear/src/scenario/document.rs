@@ -1,6 +1,5 @@
 //! The text of a scenario as a list of keys and raw values, each with its place.
 
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
 use crate::scenario::not_modelled;
@@ -11,6 +10,7 @@ use crate::scenario::rotor::written::{self, WrittenPart, is_part};
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
+use problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};

@@ -9,13 +9,13 @@
 //! An override is `--set limit.drive_end.peak_contact_force.most="4 kN"`: it changes the limit of that result, or adds one.
 //! Whether a run has such a result is known when its machine is built: `result/limits.rs`.
 
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::{Document, Raw};
 use crate::scenario::key::quoted;
 use crate::scenario::locate::UNNAMED;
 use crate::scenario::read::unreadable;
 use crate::scenario::several::LIMIT;
 use crate::scenario::system::SystemName;
+use problem::{Code, Place, Problem, did_you_mean};
 use units::{Dimension, parse_quantity};
 
 /// What a result must hold.

@@ -1,7 +1,7 @@
 //! Where in the file a problem stands that is found after reading, when the machine is built.
 
-use crate::problem::{Place, Problem};
 use crate::scenario::resolved::Resolved;
+use problem::{Place, Problem};
 use std::collections::BTreeMap;
 
 /// What a problem names as its file until the scenario is known in which it stands.

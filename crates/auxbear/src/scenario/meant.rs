@@ -1,9 +1,9 @@
 //! What an unknown key was probably meant to be, and what may stand in its place.
 
-use crate::problem::question;
 use crate::scenario::key::Key;
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
+use problem::question;
 use units::nearest_names;
 
 /// Most names of a section that a message lists.

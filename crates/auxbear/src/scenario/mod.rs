@@ -95,12 +95,8 @@ pub use torque::{ComparedLaw, Torque};
 pub(crate) use vary::UNBALANCE_ANGLE;
 pub use vary::{Distribution, Vary};
 
-use crate::problem::{Code, Problem};
-use std::io::{ErrorKind, Read};
+use problem::{Code, Problem};
 use std::path::Path;
-
-/// Largest input file, bytes.
-const LARGEST_FILE: u64 = 10_000_000;
 
 /// Ends of the names of measurement files.
 const MEASUREMENTS: [&str; 11] = [
@@ -253,7 +249,7 @@ impl Scenario {
         if let Some(measurement) = measurement(path) {
             return Err(measurement);
         }
-        let text = read_text(path)?;
+        let text = problem::read_text(path, "a scenario file")?;
         Scenario::parse(&text, &path.display().to_string(), sets, bearings)
     }
 
@@ -319,7 +315,7 @@ impl Scenario {
         &self,
         path: &str,
         raw: &document::Raw,
-        place: crate::problem::Place,
+        place: problem::Place,
     ) -> Result<Vary, Box<Problem>> {
         let documents = self.document.of_each_bearing();
         let values = (documents.iter())
@@ -423,48 +419,4 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
              auxbear new identify one for auxbear identify"
         ),
     )))
-}
-
-pub(crate) fn read_text(path: &Path) -> Result<String, Box<Problem>> {
-    const NEEDED: &str = "the path of a scenario file is needed";
-    let problem = |code, found: &str| Box::new(Problem::at_path(code, path, found, NEEDED));
-    let unreadable = |error: std::io::Error| match error.kind() {
-        ErrorKind::NotFound => problem(Code::FileMissing, "no file of this name"),
-        ErrorKind::IsADirectory => problem(Code::FileIsFolder, "a folder"),
-        _ => problem(
-            Code::FileUnreadable,
-            &format!("a file that cannot be read ({error})"),
-        ),
-    };
-    let file = recording::file::open_file(path).map_err(unreadable)?;
-    let metadata = file.metadata().map_err(unreadable)?;
-    if metadata.is_dir() {
-        return Err(problem(Code::FileIsFolder, "a folder"));
-    }
-    // Not the size of the metadata: a pipe or a device has none.
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(Box::new(Problem::at_path(
-            Code::FileTooLarge,
-            path,
-            "more than 10 MB",
-            "a scenario file of at most 10 MB is needed",
-        )));
-    }
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
-        Box::new(
-            Problem::at_path(
-                Code::FileNotUtf8,
-                path,
-                "bytes that are not UTF-8 text",
-                "a text file in UTF-8 is needed",
-            )
-            .at(crate::problem::Place::of_offset(&text, valid)),
-        )
-    })
 }

@@ -1,6 +1,6 @@
 //! Raw values: what stands in a text or an override, before it is known what it means.
 
-use crate::problem::Place;
+use problem::Place;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

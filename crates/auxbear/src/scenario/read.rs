@@ -1,10 +1,10 @@
 //! From one raw value to a value of the kind that its key takes.
 
-use crate::problem::{Code, Place, Problem, did_you_mean, question};
 use crate::scenario::document::{Given, Raw};
 use crate::scenario::key::{Key, Kind, article, quoted};
 use crate::scenario::provenance::Provenance;
 use crate::scenario::values::{Known, POWER_TOLERANCE, Value, Values};
+use problem::{Code, Place, Problem, did_you_mean, question};
 use units::{Dimension, ParseError, Rational, as_product, parse_quantity};
 
 /// What a resolved file says of values that were not given.

@@ -1,10 +1,10 @@
 //! Lists: several values of one kind; a single one needs no brackets.
 
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::Raw;
 use crate::scenario::key::{Key, Kind, quoted};
 use crate::scenario::read_rows::cell;
 use crate::scenario::values::{Value, Values};
+use problem::{Code, Place, Problem, did_you_mean};
 
 impl Values {
     /// Reads a list; a problem names the entry, counted from 1.

@@ -1,10 +1,10 @@
 //! Tables: rows of two quantities, of which the first rises.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::document::Raw;
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::read::{described, unreadable};
 use crate::scenario::values::{Value, Values};
+use problem::{Code, Place, Problem};
 use units::{Unit, parse_quantity};
 
 impl Values {

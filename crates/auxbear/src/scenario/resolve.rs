@@ -1,6 +1,5 @@
 //! From the table of keys and the given values to one value for every key.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
 use crate::scenario::document::{Document, Given, Raw, as_toml};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
@@ -12,6 +11,7 @@ use crate::scenario::table;
 use crate::scenario::values::{
     COMPARED_LAWS, Known, LAW, LUBRICATION, POWER_TOLERANCE, Value, Values,
 };
+use problem::{Code, Place, Problem};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Rational, parse_quantity};

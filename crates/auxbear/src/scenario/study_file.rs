@@ -23,12 +23,12 @@
 //! results = ["peak_contact_force", "first_impact_force"]
 //! ```
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::key::quoted;
 use crate::scenario::raw::{Written, collect, raw, tables};
 use crate::scenario::study_inputs::{StudyInput, inputs_of};
 use crate::scenario::study_section::{Page, Section};
-use crate::scenario::{Accuracy, BuiltIn, Limit, Scenario, System, read_text};
+use crate::scenario::{Accuracy, BuiltIn, Limit, Scenario, System};
+use problem::{Code, Place, Problem};
 use statistics::correlation::Correlation;
 use statistics::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
 use std::path::{Path, PathBuf};
@@ -95,7 +95,7 @@ impl StudyFile {
     /// # Errors
     /// What is wrong with either, with file, line and key.
     pub fn read(path: &Path) -> Result<StudyFile, Box<Problem>> {
-        let text = read_text(path)?;
+        let text = problem::read_text(path, "a study file")?;
         let file = path.display().to_string();
         StudyFile::parse(text.trim_start_matches('\u{feff}'), &file, path.parent())
     }

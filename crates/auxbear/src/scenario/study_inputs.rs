@@ -1,12 +1,12 @@
 //! The inputs of a study: which value differs, how, and on how many levels; bearings of the catalogue that fit an envelope.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
 use crate::scenario::document::Raw;
 use crate::scenario::key::quoted;
 use crate::scenario::raw::Written;
 use crate::scenario::study_section::{Page, Section};
 use crate::scenario::{BuiltIn, Scenario, Vary};
+use problem::{Code, Place, Problem};
 
 /// Levels of an input of a factorial or a sweep, unless given.
 const LEVELS: usize = 5;

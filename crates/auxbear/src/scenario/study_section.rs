@@ -1,9 +1,9 @@
 //! The keys of one table of a study file, each read as what it should be.
 
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::Raw;
 use crate::scenario::key::quoted;
 use crate::scenario::raw::Written;
+use problem::{Code, Place, Problem, did_you_mean};
 
 /// The file in messages.
 pub(super) struct Page<'a> {

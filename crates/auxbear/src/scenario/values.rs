@@ -1,12 +1,12 @@
 //! One value for every key that has one, with everything known of it.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::source::BearingRecord;
 use crate::scenario::key::Key;
 use crate::scenario::provenance::Provenance;
 use crate::scenario::several;
 use crate::scenario::system::SystemName;
 use crate::scenario::words::Words;
+use problem::{Code, Place, Problem};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Dimension, Quantity};

@@ -11,7 +11,6 @@
 //! z is a standard normal number. A path names any key of the file; of several auxiliary bearings `contact.…` is that of
 //! all, `auxiliary_bearing.drive_end.contact.…` that of one. Every drawn value is read and checked like an override.
 
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::Raw;
 use crate::scenario::drop::Repeat;
 use crate::scenario::key::{Key, Kind, quoted};
@@ -19,6 +18,7 @@ use crate::scenario::rotor::part_keys::kind_at;
 use crate::scenario::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::scenario::table;
 use crate::scenario::values::Values;
+use problem::{Code, Place, Problem, did_you_mean};
 use statistics::design::Coordinate;
 use statistics::distribution::{self as law, triangular};
 use statistics::random::Random;

@@ -13,11 +13,11 @@ pub mod confirm;
 pub mod selection;
 pub mod table;
 
-use crate::problem::Problem;
 use crate::result::limits;
 use crate::result::outcome::{Quantity, Value};
 use crate::run::{self, Options};
 use crate::scenario::{Scenario, StudyFile};
+use problem::Problem;
 use rayon::prelude::*;
 use statistics::design::Coordinate;
 use table::{Column, Row, Table};
@@ -108,7 +108,7 @@ impl Study {
                 known.name == *name && matches!(known.value, Value::Number(_) | Value::None { .. })
             };
             if !known.iter().any(|quantity| number(&quantity)) {
-                use crate::problem::{Code, did_you_mean};
+                use problem::{Code, did_you_mean};
                 let names = known.iter().map(|known| known.name.as_str());
                 let problem = Problem::new(
                     Code::UnknownQuantity,

@@ -1,8 +1,8 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::problem::explain;
 use crate::result::graveness::{graveness, graver};
 use crate::result::outcome::{Quantity, Value, Warning};
+use problem::explain;
 use std::collections::BTreeMap;
 
 /// Members with what they drew and gave; what a member does not have is not a number.

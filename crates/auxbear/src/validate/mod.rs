@@ -31,7 +31,7 @@ pub use report::{Report, Row, Tolerance, Verdict};
 pub use simulation::Simulation;
 pub use simulator::{LawsOnly, Simulator};
 
-use crate::problem::{Code, Problem};
+use problem::{Code, Problem};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

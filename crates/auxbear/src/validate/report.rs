@@ -1,6 +1,6 @@
 //! What a validation found: rows, verdicts, table and JSON.
 
-use crate::problem::{Code, Problem};
+use problem::{Code, Problem};
 use serde::Serialize;
 use std::fmt::Write;
 

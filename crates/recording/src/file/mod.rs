@@ -33,11 +33,11 @@ mod writer;
 pub use writer::Writer;
 
 use std::fmt;
-use std::fs::{self, File};
-use std::io;
+use std::fs::File;
 use std::path::Path;
 
 use crate::{Channel, FileError, Recording};
+use problem::open_file;
 
 /// A format of measurement files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,16 +168,6 @@ fn is_text(head: &[u8]) -> bool {
         .count();
     let utf16 = head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]);
     !head.is_empty() && (utf16 || (!head.contains(&0) && controls * 50 <= head.len()))
-}
-
-/// Opens a file of bytes for reading. A pipe, a socket or a device is an error: to open or to read it may wait, or never end.
-pub fn open_file(path: &Path) -> io::Result<File> {
-    let kind = fs::metadata(path)?;
-    if !kind.is_file() && !kind.is_dir() {
-        let found = "a pipe, a socket or a device, not a file";
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, found));
-    }
-    File::open(path)
 }
 
 /// Opens a file for reading; its format is recognised by its content.

@@ -1,8 +1,7 @@
 //! Every named result of a torque computation with its law, source and valid range.
 
 use crate::evaluate::torque::asked::{Asked, Moments, law_of};
-use crate::result::declared::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, Origin, results};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
 use crate::scenario::Lubricant;

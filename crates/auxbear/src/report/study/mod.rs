@@ -15,12 +15,12 @@ pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
 use crate::options::bounded;
-use crate::problem::{Code, Problem};
 use crate::run::Options;
 use crate::scenario::StudyFile;
 use crate::study::answer::Answer;
 use crate::study::table::{Table, Warned};
 use crate::study::{PART, Study};
+use problem::{Code, Problem};
 use std::fs::{self, File, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};

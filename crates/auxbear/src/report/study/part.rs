@@ -1,6 +1,5 @@
 //! `members/NNNN.parquet`: a part of the members, drawn inputs beside results; and all of them as one table of text.
 
-use crate::problem::{Code, Problem};
 use crate::report::history::{self, View};
 use crate::scenario::Distribution;
 use crate::study::Study;
@@ -8,7 +7,8 @@ use crate::study::table::{Column, Table};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use recording::file::open_file;
+use problem::open_file;
+use problem::{Code, Problem};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;

@@ -2,7 +2,6 @@
 
 use crate::catalogue::designation::PAIRS;
 use crate::catalogue::geometry::{Geometry, millimetres, rating_beyond_balls};
-use crate::problem::Code;
 use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
@@ -10,6 +9,7 @@ use crate::scenario::bearing::{Bearing, Traction};
 use crate::scenario::checks::{Check, Context};
 use physics::lubricant::LubricantError;
 use physics::traction::FourParameterTraction;
+use problem::Code;
 
 /// How far D may be from -A: the sum of two decimals of four digits.
 const NO_TRACTION_AT_REST: f64 = 1e-9;

@@ -1,12 +1,12 @@
 //! Checks of how the rings sit.
 
-use crate::problem::Code;
 use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::fits::{
     BORE, GROWTH, Growth, HOUSING, HOUSING_FIT, OPERATING, OUTSIDE, SHAFT_BORE, SHAFT_FIT,
     UNMOUNTED,
 };
 use crate::scenario::checks::{Check, Context};
+use problem::Code;
 
 impl Context<'_> {
     /// Seats that hold each other, and fits that change what they are given for.

@@ -1,10 +1,10 @@
 //! Checks of the slow state of the lubricant.
 
-use crate::problem::Code;
 use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::moment::Moment;
 use crate::scenario::checks::{Check, Context};
+use problem::Code;
 
 /// Shortest time in which a slow state changes, s: the largest step that a run takes unless asked for longer ones.
 const SHORTEST: f64 = 1e-3;

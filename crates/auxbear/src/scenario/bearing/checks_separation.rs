@@ -1,12 +1,12 @@
 //! Checks of what keeps the balls apart, and of contacts at an angle.
 
 use crate::catalogue::geometry::millimetres;
-use crate::problem::Code;
 use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::separation::{Cage, Guidance, Separation};
 use crate::scenario::checks::{Check, Context};
 use physics::angular_contact::preload_interference;
+use problem::Code;
 use std::f64::consts::PI;
 
 /// Fewest balls in a row without a cage: two would touch each other twice.

@@ -1,6 +1,5 @@
 //! Values that follow from others.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType, Modelled};
 use crate::scenario::bearing::lubricant::Lubricant;
 use crate::scenario::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
@@ -17,6 +16,7 @@ use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};
 use physics::viscosity::Viscosity;
+use problem::{Code, Place, Problem};
 
 pub(super) const F0: &str = "bearing.moment.f0";
 pub(super) const F1_FACTOR: &str = "bearing.moment.f1_factor";

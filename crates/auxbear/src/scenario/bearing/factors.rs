@@ -1,6 +1,5 @@
 //! What a file still needs for Palmgren's factors: the series in the name of its bearing, and all keys at once where that is not enough.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::derive::{ANGLE, CONTACT_ANGLE, F0, F1_EXPONENT, F1_FACTOR, SERIES};
 use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::moment::MomentLaw;
@@ -8,6 +7,7 @@ use crate::scenario::key::Key;
 use crate::scenario::table;
 use crate::scenario::values::{LAW, LUBRICATION, Values};
 use physics::palmgren_factors::FACTORS;
+use problem::{Code, Place, Problem};
 
 impl Values {
     /// The series in the name of the bearing, as the tables call it, and how it was found.

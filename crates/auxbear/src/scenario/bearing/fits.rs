@@ -1,12 +1,12 @@
 //! How the rings of a bearing sit: what fits take from its clearance, and how its inner race grows with its speed.
 
-use crate::problem::Code;
 use crate::scenario::checks::Check;
 use crate::scenario::section::Section;
 use crate::scenario::values::{Value, Values};
 use crate::scenario::words::words;
 use physics::materials::BEARING_STEEL;
 use physics::ring::{PressFit, outside_growth};
+use problem::Code;
 
 pub(crate) const UNMOUNTED: &str = "bearing.unmounted_diametral_clearance";
 pub(crate) const OPERATING: &str = "bearing.operating_diametral_clearance";

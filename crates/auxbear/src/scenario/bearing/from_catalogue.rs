@@ -2,12 +2,12 @@
 
 use crate::catalogue::Catalogue;
 use crate::catalogue::designation::{self, Designation};
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
 use crate::scenario::document::{Document, Given, Raw};
 use crate::scenario::key::{Key, Kind, quoted};
 use crate::scenario::table;
 use crate::scenario::values::{Known, Value, Values, quantity_text};
+use problem::{Code, Place, Problem, did_you_mean};
 use std::path::{Path, PathBuf};
 
 /// Keys outside `[bearing]` that take a value of the rings.

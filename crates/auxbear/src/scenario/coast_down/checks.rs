@@ -1,9 +1,9 @@
 //! Checks of a run-out.
 
-use crate::problem::Code;
 use crate::scenario::bearing::fits::SHAFT_BORE;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::coast_down::CoastDown;
+use problem::Code;
 
 impl Context<'_> {
     pub(crate) fn coast_down(&self, run: &CoastDown) -> Check {

@@ -1,7 +1,6 @@
 //! Checks of a drop.
 
 use crate::catalogue::geometry::millimetres;
-use crate::problem::Code;
 use crate::scenario::bearing::Bearing;
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::checks::{Check, Context};
@@ -9,6 +8,7 @@ use crate::scenario::drop::{AuxiliaryBearing, Drop, Spin};
 use crate::scenario::heat::RotorBodies;
 use crate::scenario::values::Values;
 use physics::unbalance::whirl;
+use problem::Code;
 
 /// Standard deviations within which every perturbed start is taken to lie.
 const SPREAD: f64 = 6.0;

@@ -8,7 +8,6 @@ pub(crate) mod kinds;
 pub mod mount;
 mod shaft;
 
-use crate::problem::Problem;
 use crate::scenario::bearing::kind::Modelled;
 use crate::scenario::bearing::{Bearing, bearing};
 use crate::scenario::coast_down::RunOut;
@@ -20,6 +19,7 @@ use crate::scenario::values::Values;
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use problem::Problem;
 pub use shaft::{BearingPlace, Shaft};
 use std::f64::consts::PI;
 use thermal::layer::Layer;

@@ -1,12 +1,12 @@
 //! A rotor that bends, in a machine: its parts, where its bearings stand, what holds it until the release.
 
-use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::document::Document;
 use crate::scenario::key::quoted;
 use crate::scenario::rotor::build::{self, RotorModel};
 use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts;
 use crate::scenario::values::Values;
+use problem::{Code, Problem, did_you_mean};
 use rotor::{Place, Properties, properties};
 
 /// A rotor that bends.

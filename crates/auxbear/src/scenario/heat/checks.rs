@@ -1,11 +1,11 @@
 //! Checks of a bearing that warms.
 
-use crate::problem::Code;
 use crate::scenario::bearing::kind::BearingType;
 use crate::scenario::bearing::moment::Moment;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::heat::{Atmosphere, Heat, Warm};
 use physics::air::{LARGEST_REYNOLDS, reynolds};
+use problem::Code;
 use thermal::passage::Passage;
 
 impl Context<'_> {

@@ -1,6 +1,5 @@
 //! What of a bearing that warms follows from other values.
 
-use crate::problem::{Code, Problem};
 use crate::scenario::bearing::fits::{Fits, HOUSING_FIT};
 use crate::scenario::heat::{Atmosphere, HOUSING_SIZE};
 use crate::scenario::spin_up::DriveKind;
@@ -10,6 +9,7 @@ use physics::air::{GRAVITY, SEA_LEVEL};
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{pressed_joint, to_surroundings};
 use physics::ring::PressFit;
+use problem::{Code, Problem};
 use std::f64::consts::PI;
 use thermal::passage::GROUND_STEEL;
 

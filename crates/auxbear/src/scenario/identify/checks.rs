@@ -1,9 +1,9 @@
 //! Checks of what measured tests are to tell.
 
-use crate::problem::Code;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::identify::{Identify, RotorFriction};
 use crate::scenario::table;
+use problem::Code;
 
 const ROTOR: &str = "identify.rotor_friction";
 const ROTOR_FILE: &str = "identify.rotor_friction.file";

@@ -1,8 +1,8 @@
 //! Checks of a test on a rig.
 
-use crate::problem::Code;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::rig::{RawFormat, Rig, RigPickupKind, RigProgram};
+use problem::Code;
 
 /// Most values of a raw file, in memory at the end of a run: 800 MB.
 const MOST_VALUES: f64 = 1e8;

@@ -1,12 +1,12 @@
 //! From parts with names to the rotor of the kernel.
 
-use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::key::quoted;
 use crate::scenario::rotor::grade;
 use crate::scenario::rotor::levitation::{self, LevitationModel};
 use crate::scenario::rotor::part_keys::STAYS;
 use crate::scenario::rotor::parts::Part;
 use crate::scenario::values::Values;
+use problem::{Code, Problem, did_you_mean};
 use rotor::{
     Annulus, Block, Coefficients, Disk, Housing, Layer, MATERIALS, Material, Mesh, MeshError,
     Place, PointMass, Support, Unbalance,
@@ -200,7 +200,7 @@ fn pieces<'a>(
         return Err(Box::new(values.problem(
             Code::MissingKey,
             "rotor.section",
-            crate::problem::Place::Whole,
+            problem::Place::Whole,
             "a rotor without a section",
             "tables [[rotor.section]] with length, outer_diameter and material are needed",
         )));
@@ -428,7 +428,7 @@ fn mesh(
                 let mut all = all;
                 Box::new(match all.find(at) {
                     Some(part) => part.problem(Code::NoSuchNode, "at", found, allowed),
-                    None => values.problem(Code::NoSuchNode, "rotor.node", crate::problem::Place::Whole, found, allowed),
+                    None => values.problem(Code::NoSuchNode, "rotor.node", problem::Place::Whole, found, allowed),
                 })
             }
             MeshError::Gap(from, to) => Box::new(values.problem(
@@ -441,7 +441,7 @@ fn mesh(
             MeshError::Empty => Box::new(values.problem(
                 Code::MissingKey,
                 "rotor.section",
-                crate::problem::Place::Whole,
+                problem::Place::Whole,
                 "a rotor without a section",
                 "tables [[rotor.section]] are needed",
             )),

@@ -1,7 +1,7 @@
 //! The unbalance of all planes by one balance quality grade.
 
-use crate::problem::{Code, Problem};
 use crate::scenario::values::Values;
+use problem::{Code, Problem};
 use rotor::{Rotor, properties};
 
 const PATH: &str = "rotor.balance_grade";

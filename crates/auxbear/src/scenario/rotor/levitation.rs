@@ -1,6 +1,5 @@
 //! From the tables of magnets, sensors and controllers to the levitation of the kernel.
 
-use crate::problem::{Code, Problem, did_you_mean};
 use crate::scenario::key::quoted;
 use crate::scenario::rotor::parts::Part;
 use ::levitation::{
@@ -8,6 +7,7 @@ use ::levitation::{
 };
 use nalgebra::DMatrix;
 use physics::magnet::{Magnet, OpposedPair};
+use problem::{Code, Problem, did_you_mean};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 type Built<T> = Result<T, Box<Problem>>;

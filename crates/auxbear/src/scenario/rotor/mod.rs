@@ -8,7 +8,6 @@ pub(crate) mod part_keys;
 pub(crate) mod parts;
 pub(crate) mod written;
 
-use crate::problem::{Code, Problem};
 use crate::scenario::document::Document;
 use crate::scenario::key::Key;
 use crate::scenario::section::Section;
@@ -16,6 +15,7 @@ use crate::scenario::values::Values;
 use ::rotor::ModeCount;
 pub use build::{DrawnPiece, RotorModel};
 pub use levitation::LevitationModel;
+use problem::{Code, Problem};
 use units::number_text;
 
 /// The kinds of parts of a bent rotor, with their keys: `rotor.section` of `[[rotor.section]]`.

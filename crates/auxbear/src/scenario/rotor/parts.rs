@@ -1,12 +1,12 @@
 //! Parts of a rotor as tables of a file: read, completed with defaults, written again.
 
-use crate::problem::{Code, Place, Problem, did_you_mean};
 use crate::scenario::document::{Document, Given, Raw};
 use crate::scenario::key::{Key, Presence, quoted};
 use crate::scenario::resolved::{ResolvedValue, line};
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::rotor::written::WrittenPart;
 use crate::scenario::values::{Known, Value, Values};
+use problem::{Code, Place, Problem, did_you_mean};
 use rotor::MATERIALS;
 use std::collections::BTreeMap;
 use units::number_text;

@@ -1,11 +1,11 @@
 //! Parts of a rotor and of its levitation as the text of a file has them, before it is known what their keys mean.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::key::quoted;
 use crate::scenario::not_modelled;
 use crate::scenario::raw::{Raw, Written, collect, raw, tables};
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::system::SystemName;
+use problem::{Code, Place, Problem};
 use toml::de::{DeTable, DeValue};
 
 /// Most parts of a kind: a shaft has at most 500 elements, and reading takes the square of their number.

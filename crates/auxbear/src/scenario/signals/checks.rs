@@ -1,9 +1,9 @@
 //! Checks of what is asked of a measurement.
 
-use crate::problem::Code;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::signals::{PickupKind, Signals, SpeedSignal};
 use crate::scenario::table;
+use problem::Code;
 
 impl Context<'_> {
     pub(crate) fn signals(&self, signals: &Signals) -> Check {

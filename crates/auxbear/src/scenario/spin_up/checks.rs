@@ -1,10 +1,10 @@
 //! Checks of a spin-up.
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::kind::Fidelity;
 use crate::scenario::bearing::moment::AccelerationLoss;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::spin_up::{Course, Drive, SpeedCourse, SpinUp};
+use problem::{Code, Place, Problem};
 
 impl Context<'_> {
     pub(crate) fn spin_up(&self, spin_up: &SpinUp) -> Check {

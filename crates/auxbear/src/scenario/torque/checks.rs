@@ -1,8 +1,8 @@
 //! Checks of where the torque is computed.
 
-use crate::problem::Code;
 use crate::scenario::checks::{Check, Context};
 use crate::scenario::torque::Torque;
+use problem::Code;
 
 impl Context<'_> {
     pub(crate) fn torque(&self, torque: &Torque) -> Check {

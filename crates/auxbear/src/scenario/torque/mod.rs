@@ -3,7 +3,6 @@
 pub(crate) mod checks;
 pub(crate) mod keys;
 
-use crate::problem::{Code, Place, Problem};
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::lubricant::{Lubricant, LubricantViscosity};
 use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
@@ -14,6 +13,7 @@ use crate::scenario::document::{Document, Given, Raw};
 use crate::scenario::section::Section;
 use crate::scenario::values::{COMPARED_LAWS, LAW, Values};
 use physics::viscosity::Viscosity;
+use problem::{Code, Place, Problem};
 
 /// A bearing whose torque is computed without motion. All values are SI.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,14 @@
 //! The one message for wrong input: file, line, key, what was found, what is needed, what was meant.
 
+#![forbid(unsafe_code)]
+
 mod code;
 pub mod explain;
+mod file;
 mod place;
 
 pub use code::Code;
+pub use file::{open_file, read_text};
 pub use place::Place;
 use std::fmt;
 use std::path::Path;
@@ -58,7 +62,7 @@ impl Problem {
     }
 
     /// What the TOML reader refuses, as one clause at its place.
-    pub(crate) fn of_toml(error: &toml::de::Error, text: &str, file: &str) -> Box<Problem> {
+    pub fn of_toml(error: &toml::de::Error, text: &str, file: &str) -> Box<Problem> {
         let clauses: Vec<&str> = error.message().lines().map(str::trim).collect();
         let found = format!("what is not valid TOML ({})", clauses.join("; "));
         let needed = "lines of the form key = \"value\" are needed";
@@ -124,7 +128,7 @@ pub fn did_you_mean<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -
 }
 
 /// The names as a question: `did you mean "mass" or "planes"?`; `None` for no names.
-pub(crate) fn question(names: &[&str]) -> Option<String> {
+pub fn question(names: &[&str]) -> Option<String> {
     let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
     (!quoted.is_empty()).then(|| format!("Did you mean {}?", quoted.join(" or ")))
 }

@@ -3,14 +3,9 @@
 use super::*;
 
 #[test]
-fn codes_are_distinct_ordered_and_explained() {
-    let mut last = "";
-    for (position, code) in Code::all().enumerate() {
-        assert_eq!(code as usize, position, "{code:?}");
-        assert!(code.text() > last, "{code} after {last}");
-        assert!(code.sentence().ends_with('.') && !code.title().ends_with('.'));
-        last = code.text();
-    }
+fn codes_are_distinct_and_ordered() {
+    let codes: Vec<&str> = Code::ALL.iter().map(|code| code.text()).collect();
+    assert!(codes.is_sorted_by(|a, b| a < b), "{codes:?}");
 }
 
 #[test]
