@@ -5,7 +5,16 @@
 mod code;
 pub mod explain;
 mod file;
+pub mod key;
 mod place;
+pub mod provenance;
+pub mod raw;
+pub mod read;
+mod read_lists;
+mod read_rows;
+pub mod table;
+pub mod value;
+pub mod words;
 
 pub use code::Code;
 pub use file::{open_file, read_text};

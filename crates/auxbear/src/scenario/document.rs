@@ -3,26 +3,17 @@
 use crate::scenario::key::{Key, quoted};
 use crate::scenario::meant;
 use crate::scenario::not_modelled;
-pub(crate) use crate::scenario::raw::{Raw, as_toml};
-use crate::scenario::raw::{Written, collect, raw, table_raw, tables};
 use crate::scenario::rotor::part_keys::kind_at;
 use crate::scenario::rotor::written::{self, WrittenPart, is_part};
 use crate::scenario::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
+pub(crate) use problem::raw::{Given, Raw, as_toml};
+use problem::raw::{Written, collect, raw, table_raw, tables};
 use problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
-
-/// One given value.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Given {
-    pub(crate) raw: Raw,
-    /// The value as typed in an override, before it was taken as TOML.
-    pub(crate) typed: Option<String>,
-    pub(crate) place: Place,
-}
 
 /// All given values by path; every path is a key of the table.
 #[derive(Clone, Debug, PartialEq)]

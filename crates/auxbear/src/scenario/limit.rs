@@ -9,13 +9,15 @@
 //! An override is `--set limit.drive_end.peak_contact_force.most="4 kN"`: it changes the limit of that result, or adds one.
 //! Whether a run has such a result is known when its machine is built: `result/limits.rs`.
 
-use crate::scenario::document::{Document, Raw};
-use crate::scenario::key::quoted;
+use crate::scenario::document::Document;
 use crate::scenario::locate::UNNAMED;
-use crate::scenario::read::unreadable;
 use crate::scenario::several::LIMIT;
 use crate::scenario::system::SystemName;
-use problem::{Code, Place, Problem, did_you_mean};
+use problem::key::{Key, Kind, quoted};
+use problem::raw::{Raw, Written};
+use problem::read::unreadable;
+use problem::table::Table;
+use problem::{Code, Place, Problem, question};
 use units::{Dimension, parse_quantity};
 
 /// What a result must hold.
@@ -66,9 +68,21 @@ impl Side {
     }
 }
 
-const KEYS: [&str; 4] = ["quantity", "most", "least", "share"];
 const NEEDED: &str = "tables [[limit]] with quantity = \"…\" and most or least are needed";
 const BOUND: &str = "a quantity with the unit of the result is needed, e.g. most = \"5 kN\"; a bare number where it has none";
+const SHARE: &str = "a share above 0 and not above 1 is needed, e.g. 0.95";
+#[rustfmt::skip]
+const KEYS: &[Key] = &[
+    Key::new("limit.quantity", Kind::Text, "peak_contact_force", "Name of the result."),
+    Key::new("limit.most", Kind::Any(BOUND), "5 kN", "Most that it may be.").optional("it is bounded below"),
+    Key::new("limit.least", Kind::Any(BOUND), "1 mm", "Least that it may be.").optional("it is bounded above"),
+    Key::new("limit.share", Kind::Any(SHARE), "0.95", "Share of the members of a repeated run that must hold it.").optional("all of them"),
+];
+/// Words that people write for those of a limit.
+const SYNONYMS: [(&[&str], &str); 2] = [
+    (&["max", "maximum", "at_most"], "most"),
+    (&["min", "minimum", "at_least"], "least"),
+];
 
 impl Limit {
     /// The limit as a file has it.
@@ -102,159 +116,108 @@ impl Limit {
 /// The limits of a file; those of overrides change or follow them.
 pub(crate) fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
     let mut limits: Vec<Limit> = Vec::new();
-    for keys in &document.limits {
-        let given = Given::of(document, keys)?;
-        let own = |limit: &&mut Limit| limit.quantity == given.quantity.0;
-        let changes = given.place == Place::Set;
-        match &given.bound {
-            None if changes && given.share.is_some() => {
-                let mut changed = false;
-                for limit in limits.iter_mut().filter(own) {
-                    limit.share = given.share.unwrap_or(limit.share);
-                    changed = true;
-                }
-                if !changed {
-                    return Err(given.lacks_a_bound(document));
-                }
+    for written in &document.limits {
+        let table = read(document, written)?;
+        let share = share_of(document, &table)?;
+        let quantity = table.text("quantity").unwrap_or_default().trim();
+        let changes = table.place == Place::Set;
+        let own = |limit: &&mut Limit| changes && limit.quantity == quantity;
+        let side = [Side::Most, Side::Least]
+            .into_iter()
+            .find(|side| table.raw(side.word()).is_some());
+        let Some(side) = side else {
+            let mut known = limits.iter_mut().filter(own).peekable();
+            if share.is_none() || known.peek().is_none() {
+                let found = format!("a limit of {quantity} without most or least");
+                return Err(Box::new(table.problem(Code::MissingKey, "", found, NEEDED)));
             }
-            None => return Err(given.lacks_a_bound(document)),
-            Some(bound) => {
-                let same = |limit: &&mut Limit| own(limit) && limit.side == bound.side;
-                let known = limits.iter_mut().find(same).filter(|_| changes);
-                match known {
-                    Some(limit) => {
-                        limit.bound = bound.value;
-                        limit.dimension = bound.dimension;
-                        limit.text.clone_from(&bound.text);
-                        limit.bound_place = bound.place;
-                    }
-                    None => limits.push(Limit {
-                        quantity: given.quantity.0.clone(),
-                        side: bound.side,
-                        bound: bound.value,
-                        share: given.share.unwrap_or(1.0),
-                        dimension: bound.dimension,
-                        text: bound.text.clone(),
-                        place: given.quantity.1,
-                        bound_place: bound.place,
-                    }),
-                }
+            known.for_each(|limit| limit.share = share.unwrap_or(limit.share));
+            continue;
+        };
+        if side == Side::Most && table.raw("least").is_some() {
+            let found = "both most and least in one limit";
+            let allowed = "one of them is needed; a second [[limit]] takes the other";
+            return Err(Box::new(table.problem(
+                Code::Conflict,
+                "least",
+                found,
+                allowed,
+            )));
+        }
+        let (bound, dimension, text) = bound_of(&table, side.word())?;
+        let bound_place = table.place_of(side.word());
+        match limits
+            .iter_mut()
+            .find(|limit| own(limit) && limit.side == side)
+        {
+            Some(limit) => {
+                (limit.bound, limit.dimension, limit.text) = (bound, dimension, text);
+                limit.bound_place = bound_place;
             }
+            None => limits.push(Limit {
+                quantity: quantity.to_string(),
+                side,
+                bound,
+                share: share.unwrap_or(1.0),
+                dimension,
+                text,
+                place: table.place_of("quantity"),
+                bound_place,
+            }),
         }
     }
     Ok(limits)
 }
 
-/// One table, read.
-struct Given {
-    /// Where its first key stands.
-    place: Place,
-    quantity: (String, Place),
-    bound: Option<Bound>,
-    share: Option<f64>,
-}
-
-struct Bound {
-    side: Side,
-    value: f64,
-    dimension: Dimension,
-    text: String,
-    place: Place,
-}
-
-impl Given {
-    fn of(document: &Document, keys: &[(String, Raw, Place)]) -> Result<Given, Box<Problem>> {
-        let place = keys.first().map_or(Place::Whole, |(.., place)| *place);
-        let problem = |code, key: &str, place, found: String, allowed: &str| {
-            let key = match key {
-                "" => LIMIT.to_string(),
-                key => format!("{LIMIT}.{key}"),
-            };
-            Problem::new(code, &document.file, found, allowed)
-                .at(place)
-                .on_key(key)
-        };
-        let (mut quantity, mut bound, mut share) = (None, None::<Bound>, None);
-        for (key, raw, place) in keys {
-            let wrong = |code, found, allowed| Box::new(problem(code, key, *place, found, allowed));
-            match (key.as_str(), raw) {
-                ("", raw) => return Err(wrong(Code::WrongType, raw.text(), NEEDED)),
-                ("quantity", Raw::Text(name)) if !name.trim().is_empty() => {
-                    quantity = Some((name.trim().to_string(), *place));
-                }
-                ("quantity", raw) => {
-                    let allowed = "the name of a result is needed, e.g. \"peak_contact_force\"";
-                    return Err(wrong(Code::WrongType, raw.text(), allowed));
-                }
-                ("most" | "least", raw) => {
-                    if bound.is_some() {
-                        let found = "both most and least in one limit".to_string();
-                        let allowed = "one of them is needed; a second [[limit]] takes the other";
-                        return Err(wrong(Code::Conflict, found, allowed));
-                    }
-                    let side = match key.as_str() {
-                        "most" => Side::Most,
-                        _ => Side::Least,
-                    };
-                    let (value, dimension, text) = amount(raw).map_err(|(code, found, hint)| {
-                        Box::new(problem(code, key, *place, found, BOUND).with_hint(hint))
-                    })?;
-                    bound = Some(Bound {
-                        side,
-                        value,
-                        dimension,
-                        text,
-                        place: *place,
-                    });
-                }
-                ("share", raw) => {
-                    if !document.system.falls() {
-                        let found = "a key that has no effect".to_string();
-                        let allowed = "it is used only with system = \"drop\" or \"machine\", whose runs are repeated";
-                        return Err(wrong(Code::UnusedKey, found, allowed));
-                    }
-                    let allowed = "a share above 0 and not above 1 is needed, e.g. 0.95";
-                    let (value, ..) = amount(raw)
-                        .ok()
-                        .filter(|(_, dimension, _)| *dimension == Dimension::NONE)
-                        .ok_or_else(|| wrong(Code::WrongType, raw.text(), allowed))?;
-                    if !(value > 0.0 && value <= 1.0) {
-                        return Err(wrong(Code::OutOfRange, raw.text(), allowed));
-                    }
-                    share = Some(value);
-                }
-                (unknown, _) => {
-                    let hint = match unknown {
-                        "max" | "maximum" | "at_most" => Some("Did you mean \"most\"?".to_string()),
-                        "min" | "minimum" | "at_least" => {
-                            Some("Did you mean \"least\"?".to_string())
-                        }
-                        other => did_you_mean(other, KEYS),
-                    };
-                    let allowed = format!("[[{LIMIT}]] takes {}", KEYS.join(", "));
-                    let found = "an unknown key".to_string();
-                    let told = problem(Code::UnknownKey, key, *place, found, &allowed);
-                    return Err(Box::new(told.with_hint(hint)));
-                }
-            }
+fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>> {
+    let table = Table::read(
+        &document.file,
+        (LIMIT.to_string(), "[[limit]]"),
+        KEYS,
+        written,
+        &[],
+    );
+    table.map_err(|mut problem| {
+        let last = problem
+            .key
+            .as_deref()
+            .and_then(|key| key.rsplit('.').next());
+        let meant = SYNONYMS
+            .iter()
+            .find(|(words, _)| last.is_some_and(|last| words.contains(&last)));
+        if let Some((_, right)) = meant {
+            problem.hint = question(&[right]);
         }
-        let nameless = || {
-            let found = "a limit without a quantity".to_string();
-            Box::new(problem(Code::MissingKey, "", place, found, NEEDED))
-        };
-        Ok(Given {
-            place,
-            quantity: quantity.ok_or_else(nameless)?,
-            bound,
-            share,
-        })
-    }
+        problem
+    })
+}
 
-    fn lacks_a_bound(&self, document: &Document) -> Box<Problem> {
-        let found = format!("a limit of {} without most or least", self.quantity.0);
-        let problem = Problem::new(Code::MissingKey, &document.file, found, NEEDED);
-        Box::new(problem.at(self.place).on_key(LIMIT))
+/// The share of the members, of systems whose runs are repeated.
+fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Problem>> {
+    let Some(raw) = table.raw("share") else {
+        return Ok(None);
+    };
+    let wrong =
+        |code, found: String, allowed| Err(Box::new(table.problem(code, "share", found, allowed)));
+    if !document.system.falls() {
+        let found = "a key that has no effect".to_string();
+        let allowed =
+            "it is used only with system = \"drop\" or \"machine\", whose runs are repeated";
+        return wrong(Code::UnusedKey, found, allowed);
     }
+    match amount(raw) {
+        Ok((value, Dimension::NONE, _)) if value > 0.0 && value <= 1.0 => Ok(Some(value)),
+        Ok((_, Dimension::NONE, _)) => wrong(Code::OutOfRange, raw.text(), SHARE),
+        _ => wrong(Code::WrongType, raw.text(), SHARE),
+    }
+}
+
+/// A bound in SI, its dimension, and as a file has it.
+fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String), Box<Problem>> {
+    let raw = table.raw(side).unwrap_or(&Raw::Other("nothing"));
+    amount(raw).map_err(|(code, found, hint)| {
+        Box::new(table.problem(code, side, found, BOUND).with_hint(hint))
+    })
 }
 
 /// Why a value is none: code, what was found, a hint.

@@ -22,11 +22,6 @@ pub(crate) mod locate;
 pub(crate) mod meant;
 pub(crate) mod not_modelled;
 pub(crate) mod notes;
-pub(crate) mod provenance;
-pub(crate) mod raw;
-pub(crate) mod read;
-pub(crate) mod read_lists;
-pub(crate) mod read_rows;
 pub(crate) mod resolve;
 pub(crate) mod resolved;
 pub(crate) mod rig;
@@ -39,14 +34,12 @@ pub(crate) mod signals;
 pub(crate) mod spin_up;
 pub(crate) mod study_file;
 mod study_inputs;
-pub(crate) mod study_section;
 pub(crate) mod system;
 pub(crate) mod table;
 pub(crate) mod template;
 pub(crate) mod torque;
 pub(crate) mod values;
 pub(crate) mod vary;
-pub(crate) mod words;
 
 pub use bearing::fits::{Fits, Growth};
 pub use bearing::kind::{BallMaterial, BearingType, Fidelity};
@@ -69,7 +62,7 @@ pub(crate) use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub use limit::{Limit, Side};
 pub(crate) use locate::UNNAMED;
-pub use provenance::Provenance;
+pub use problem::provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
 pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
@@ -343,7 +336,7 @@ impl Scenario {
     pub(crate) fn limits_of(
         &self,
         file: &str,
-        tables: Vec<Vec<raw::Written>>,
+        tables: Vec<Vec<problem::raw::Written>>,
     ) -> Result<Vec<Limit>, Box<Problem>> {
         let mut document = self.document.clone();
         document.file = file.to_string();

@@ -1,16 +1,15 @@
 //! From the table of keys and the given values to one value for every key.
 
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
-use crate::scenario::document::{Document, Given, Raw, as_toml};
-use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Presence, quoted};
-use crate::scenario::provenance::Provenance;
+use crate::scenario::document::{Document, Given};
+use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, conditions, quoted};
 use crate::scenario::resolved::{Resolved, ResolvedValue};
 use crate::scenario::several::{self, AUXILIARY_BEARING};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
-use crate::scenario::values::{
-    COMPARED_LAWS, Known, LAW, LUBRICATION, POWER_TOLERANCE, Value, Values,
-};
+use crate::scenario::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
+use problem::provenance::Provenance;
+use problem::read::POWER_TOLERANCE;
 use problem::{Code, Place, Problem};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -38,7 +37,7 @@ impl Values {
         let record = values.find_bearing(document, bearings)?;
         for key in table::keys_of_analysis(document.system) {
             if let Some(given) = document.values.get(key.path) {
-                let known = values.read(key, given)?;
+                let known = values.reader(key).read(key, given)?;
                 values.known.insert(key.path, known);
             }
         }
@@ -48,12 +47,12 @@ impl Values {
             if let Some(unmet) = values.unmet(key) {
                 match given {
                     Some(given) if values.of_compared_law(&unmet) => {
-                        let known = values.read(key, given)?;
+                        let known = values.reader(key).read(key, given)?;
                         values.known.insert(key.path, known);
                     }
                     // a file says how its bearing is lubricated, whatever is computed of it
                     Some(given) if key.path == LUBRICATION => {
-                        let known = values.read(key, given)?;
+                        let known = values.reader(key).read(key, given)?;
                         values.known.insert(key.path, known);
                         values.without_effect.push(LUBRICATION);
                     }
@@ -74,7 +73,7 @@ impl Values {
             let known = match given {
                 Some(given) => {
                     values.refuse_conflict(key, given, document)?;
-                    let known = values.lasting_path(key, values.read(key, given)?);
+                    let known = values.lasting_path(key, values.reader(key).read(key, given)?);
                     Some(values.as_filled_in(key, known, record.as_ref(), document))
                 }
                 None => match values.catalogued(key, record.as_ref())? {
@@ -146,7 +145,7 @@ impl Values {
 
     /// The condition that keeps a key from having a meaning, followed to its root.
     pub(crate) fn unmet(&self, key: &Key) -> Option<Condition> {
-        key.conditions().find_map(|condition| {
+        conditions(key).find_map(|condition| {
             if let Some(parent) = table::key(condition.path) {
                 if !table::systems(parent).contains(&self.system) {
                     // there is no choice to be made in this system
@@ -171,7 +170,11 @@ impl Values {
             Value::Number(value) => Rational::parse(wanted)
                 .is_some_and(|wanted| (wanted.value() - value).abs() <= POWER_TOLERANCE),
             Value::Count(count) => count.to_string() == *wanted,
-            Value::Rows(_) | Value::Numbers(_) | Value::Words(_) | Value::Texts(_) => false,
+            Value::Rows(_)
+            | Value::Numbers(_)
+            | Value::Words(_)
+            | Value::Texts(_)
+            | Value::Raw(_) => false,
         })
     }
 
@@ -265,12 +268,12 @@ impl Values {
         }
         match table::presence(key, self.system) {
             Presence::Optional(_) | Presence::Derived(_) => Ok(None),
-            Presence::Default(fallback) => self.fall_back(key, &fallback).map(Some),
+            Presence::Default(fallback) => self.reader(key).fall_back(key, &fallback).map(Some),
             Presence::DefaultWhen(condition, fallback, _) if self.holds(&condition) => {
-                self.fall_back(key, &fallback).map(Some)
+                self.reader(key).fall_back(key, &fallback).map(Some)
             }
             Presence::DefaultWhen(_, _, Otherwise::Fallback(fallback)) => {
-                self.fall_back(key, &fallback).map(Some)
+                self.reader(key).fall_back(key, &fallback).map(Some)
             }
             Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
                 self.missing(key)
@@ -319,32 +322,6 @@ impl Values {
             "no value",
             key.needed(),
         )
-    }
-
-    pub(crate) fn fall_back(&self, key: &Key, fallback: &Fallback) -> Result<Known, Box<Problem>> {
-        let raw = match key.kind {
-            Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
-            Kind::Switch => Raw::Switch(fallback.text == "true"),
-            Kind::Coefficient => (fallback.text.parse())
-                .map_or_else(|_| Raw::Text(fallback.text.to_string()), Raw::Float),
-            Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts => {
-                as_toml(fallback.text).unwrap_or(Raw::Text(fallback.text.to_string()))
-            }
-            _ => Raw::Text(fallback.text.to_string()),
-        };
-        let given = Given {
-            raw,
-            typed: None,
-            place: Place::Whole,
-        };
-        let mut known = self.read(key, &given)?;
-        let reason = fallback.reason.to_string();
-        known.provenance = if fallback.assumed {
-            Provenance::DefaultAssumed(reason)
-        } else {
-            Provenance::Default(reason)
-        };
-        Ok(known)
     }
 
     /// The list of all values for people and for the resolved file: those of the whole file, and behind them those of each of

@@ -1,11 +1,11 @@
 //! The resolved scenario: every value with its origin, and as a file that gives the same run.
 
 use crate::scenario::key::{Key, Kind, quoted};
-use crate::scenario::provenance::Provenance;
 use crate::scenario::several::{self, AUXILIARY_BEARING, VARY};
 use crate::scenario::table;
 use crate::scenario::vary::Vary;
 use problem::Place;
+use problem::provenance::Provenance;
 
 /// One value of a resolved scenario.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
+use problem::words;
 
 /// The simulation.
 #[derive(Clone, Debug, PartialEq)]

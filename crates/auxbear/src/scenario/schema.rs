@@ -14,12 +14,12 @@
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
 use crate::scenario::key::{Condition, Key, Kind, Otherwise, Presence, Range};
-use crate::scenario::read::FILLED_IN;
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
 use crate::scenario::system::SystemName;
 use crate::scenario::table;
 use crate::scenario::values::{COMPARED_LAWS, LAW};
+use problem::read::FILLED_IN;
 use serde_json::{Map, Value, json};
 
 /// Dialect of the schema.
@@ -293,7 +293,10 @@ fn from_bearing(system: SystemName) -> Option<Value> {
 fn conditions(key: &Key, system: SystemName) -> Vec<Condition> {
     let choice =
         |condition: &&Condition| table::keys_of(system).any(|key| key.path == condition.path);
-    key.conditions().filter(choice).copied().collect()
+    crate::scenario::key::conditions(key)
+        .filter(choice)
+        .copied()
+        .collect()
 }
 
 /// Keys that have a meaning only with other values: one rule for all keys of the same conditions. First the rules of those of
@@ -456,6 +459,7 @@ fn plain(key: &Key, system: SystemName) -> Value {
         Kind::Word(_) if key.path == "system" => json!({ "enum": [system.word()] }),
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Switch => json!({ "type": "boolean" }),
+        Kind::Any(_) => json!({}),
         Kind::Text => json!({ "type": "string" }),
         Kind::Quantities(_) | Kind::Series(_) => one_or_several(&quantity),
         Kind::Words(words) => one_or_several(&json!({ "enum": words })),
@@ -487,6 +491,10 @@ fn number(kind: &str, range: Range) -> Value {
         Range::Positive => schema["exclusiveMinimum"] = json!(0),
         Range::NotNegative => schema["minimum"] = json!(0),
         Range::Above(low) => schema["exclusiveMinimum"] = json!(low),
+        Range::AboveTo(low, high) => {
+            schema["exclusiveMinimum"] = json!(low);
+            schema["maximum"] = json!(high);
+        }
         Range::FromTo(low, high) => {
             schema["minimum"] = json!(low);
             schema["maximum"] = json!(high);

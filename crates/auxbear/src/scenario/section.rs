@@ -1,7 +1,7 @@
 //! Typed values taken out of the resolved ones, section by section.
 
 use crate::scenario::values::Values;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// Takes typed values out of the resolved ones.
 pub(crate) struct Section<'a> {

@@ -23,11 +23,11 @@
 //! results = ["peak_contact_force", "first_impact_force"]
 //! ```
 
-use crate::scenario::key::quoted;
-use crate::scenario::raw::{Written, collect, raw, tables};
 use crate::scenario::study_inputs::{StudyInput, inputs_of};
-use crate::scenario::study_section::{Page, Section};
-use crate::scenario::{Accuracy, BuiltIn, Limit, Scenario, System};
+use crate::scenario::{Accuracy, BuiltIn, Distribution, Limit, Scenario, System};
+use problem::key::{Key, Kind, Range, quoted};
+use problem::raw::{Raw, Sections, Written};
+use problem::table::Table;
 use problem::{Code, Place, Problem};
 use statistics::correlation::Correlation;
 use statistics::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
@@ -53,6 +53,35 @@ const DESIGNS: [&str; 9] = [
     "saltelli",
     "selection",
 ];
+
+/// The keys of a study file.
+#[rustfmt::skip]
+mod keys {
+    use super::{DESIGNS, Key, Kind, MOST_WIDENING, Range, STUDY_FORMAT};
+
+    pub const HEAD: &[Key] = &[
+        Key::new("format", Kind::Text, STUDY_FORMAT, "Format and version of this file."),
+        Key::new("title", Kind::Text, "Scatter of a drop", "Title of the report.").optional("the report is titled by the file name"),
+        Key::new("description", Kind::Text, "What was asked", "Text for the report.").optional("the report has no introduction"),
+        Key::new("scenario", Kind::Text, "drop.toml", "The file that is run many times, relative to this one."),
+        Key::new("set", Kind::Texts, "[\"run.accuracy=screening\"]", "Overrides of the scenario, as after --set.").optional("it is run as it is"),
+        Key::new("seed", Kind::Count, "1", "Seed of the design.").default("0", "any number gives as good a sample"),
+    ];
+    pub const KIND: Key = Key::new("design.kind", Kind::Word(&DESIGNS), "monte carlo", "Kind of the design.");
+    pub const MEMBERS: Key = Key::new("design.members", Kind::Count, "100", "Number of members.").positive();
+    pub const BLOCKS: Key = Key::new("design.blocks", Kind::Count, "100", "Number of blocks.").positive();
+    pub const DRAWS: Key = Key::new("design.draws", Kind::Count, "100", "Number of members of each candidate.").positive();
+    pub const ADDED: Key = Key::new("design.added", Kind::Count, "100", "Members or blocks added to those asked for at first.").optional("none were added");
+    pub const WIDEN: Key = Key::new("design.widen", Kind::Coefficient, "2.0", "Factor by which normal numbers scatter more.").within(Range::AboveTo(1.0, MOST_WIDENING)).optional("2: probabilities about a thousandth, of few inputs");
+    pub const RESULTS: Key = Key::new("question.results", Kind::Texts, "[\"peak_contact_force\"]", "Results that the page shows.").optional("those of the limits");
+    pub const CONFIRM: Key = Key::new("question.confirm", Kind::Count, "10", "Members nearest to each limit that are run again at design accuracy.").optional("none is");
+    pub const RANK: Key = Key::new("question.rank", Kind::Text, "peak_contact_force", "The result that candidates are ranked by.");
+    pub const BEST: Key = Key::new("question.best", Kind::Word(&["least", "most"]), "least", "Which of its values is best.").default("least", "loads, heat and times are better small");
+    pub const CORRELATION: &[Key] = &[
+        Key::new("correlation.inputs", Kind::Texts, "[\"rotor.mass\", \"mount.stiffness\"]", "Paths of two inputs."),
+        Key::new("correlation.coefficient", Kind::Coefficient, "0.5", "Their coefficient."),
+    ];
+}
 
 /// A study that was read and checked.
 #[derive(Clone, Debug)]
@@ -106,116 +135,65 @@ impl StudyFile {
     /// What is wrong with it or its scenario, with file, line and key.
     pub fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile, Box<Problem>> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
-        let page = Page { file };
-        let mut head = Section::new(&page, "");
-        let (mut design, mut question) = (
-            Section::new(&page, "design"),
-            Section::new(&page, "question"),
-        );
-        let (mut inputs, mut limits, mut correlations) = (Vec::new(), Vec::new(), Vec::new());
-        for (key, value) in root.get_ref() {
-            let start = key.span().start;
-            match key.get_ref().as_ref() {
-                "input" => inputs = tables(text, start, value.get_ref()),
-                "limit" => limits = tables(text, start, value.get_ref()),
-                "correlation" => correlations = tables(text, start, value.get_ref()),
-                word @ ("design" | "question") => {
-                    let section = if word == "design" {
-                        &mut design
-                    } else {
-                        &mut question
-                    };
-                    match value.get_ref() {
-                        toml::de::DeValue::Table(table) => {
-                            collect(text, table, "", &mut section.list);
-                        }
-                        other => {
-                            let allowed = format!("a section [{word}] is needed");
-                            let place = Place::of_offset(text, start);
-                            let found = raw(other).text();
-                            return Err(page.problem(Code::WrongType, place, word, found, allowed));
-                        }
-                    }
-                }
-                other => {
-                    let place = Place::of_offset(text, start);
-                    head.list
-                        .push((other.to_string(), raw(value.get_ref()), place));
-                }
-            }
-        }
-        head.known(
-            &["format", "title", "description", "scenario", "set", "seed"],
-            &["design", "input", "limit", "correlation", "question"],
-        )?;
-        let format = head.text("format")?;
-        if format.as_ref().is_none_or(|(word, _)| word != STUDY_FORMAT) {
-            let found = format.map_or("nothing".to_string(), |(word, _)| quoted(&word));
-            let allowed = format!(
-                "format = \"{STUDY_FORMAT}\" is needed; auxbear new study writes such a file"
-            );
-            return Err(page.problem(Code::UnknownFormat, Place::Whole, "format", found, allowed));
-        }
-        let (scenario, place) = head.text("scenario")?.ok_or_else(|| {
-            let allowed = "scenario = \"drop.toml\" is needed: the file that is run many times";
-            page.problem(
-                Code::MissingKey,
-                Place::Whole,
-                "scenario",
-                "nothing",
-                allowed,
-            )
-        })?;
-        let scenario = folder.map_or(PathBuf::from(&scenario), |folder| folder.join(&scenario));
-        let sets: Vec<String> = head.texts("set")?.into_iter().map(|(set, _)| set).collect();
-        let scenario = Scenario::read(&scenario, &sets, &BuiltIn)?;
+        let names = ["design", "input", "limit", "correlation", "question"];
+        let sections = Sections::of(text, root.get_ref(), &names);
+        require_format(file, &sections.head)?;
+        let top = (String::new(), "the top level");
+        let head: Table = Table::read(file, top, keys::HEAD, &sections.head, &names)?;
+        let scenario = head.text("scenario").unwrap_or_default();
+        let scenario = folder.map_or(PathBuf::from(scenario), |folder| folder.join(scenario));
+        let scenario = Scenario::read(&scenario, head.texts("set"), &BuiltIn)?;
         single(&scenario).map_err(|found| {
             let allowed = "a scenario of single runs is needed: what differs from run to run stands in the study file";
-            page.problem(Code::StudyScenario, place, "scenario", found, allowed)
+            head.problem(Code::StudyScenario, "scenario", found, allowed)
         })?;
-        let (seed, _) = head.count("seed")?.unwrap_or((0, Place::Whole));
-        let kind = design.word("kind", &DESIGNS)?;
-        let inputs = inputs_of(&page, &scenario, inputs, kind)?;
-        let (shape, asked, added) = shape(&mut design, kind, &inputs)?;
-        let pairs = pairs_of(&page, correlations, &inputs)?;
-        let correlation = correlation_of(&page, &pairs, inputs.len(), kind)?;
-        let rank = rank(&mut question, kind)?;
-        let confirm = question.count("confirm")?;
-        let results = question.texts("results")?;
-        let mut limits = scenario.limits_of(file, limits)?;
+        let kind = kind_of(file, sections.one("design"))?;
+        let inputs = inputs_of(file, &scenario, sections.all("input"), kind)?;
+        let (design, asked, added) = design_of(file, sections.one("design"), kind, &inputs)?;
+        let (pairs, correlation) = correlated(file, sections.all("correlation"), &inputs, kind)?;
+        let keys: &[Key] = match kind {
+            "selection" => &[keys::RESULTS, keys::CONFIRM, keys::RANK, keys::BEST],
+            _ => &[keys::RESULTS, keys::CONFIRM],
+        };
+        let place = ("question".to_string(), "[question]");
+        let question = Table::read(file, place, keys, sections.one("question"), &[])?;
+        let ranked = |name: &str| {
+            let most = question.word("best") == Some("most");
+            (name.to_string(), most, question.place_of("rank"))
+        };
+        let mut limits = scenario.limits_of(file, sections.all("limit").to_vec())?;
         limits.extend(scenario.limits.iter().cloned());
-        if let Some((1.., place)) = confirm {
-            let at_screening = matches!(&scenario.system, System::Drop(drop) if drop.run.accuracy == Accuracy::Screening);
-            if !at_screening || limits.is_empty() {
-                let allowed = "a limit, and members at screening accuracy (set = [\"run.accuracy=screening\"]), are needed: those nearest to a limit are run again at design accuracy";
-                return Err(question.wrong(
-                    Code::StudyDesign,
-                    place,
-                    "confirm",
-                    "nothing to confirm",
-                    allowed,
-                ));
-            }
+        let confirm = question.count("confirm").unwrap_or(0);
+        let at_screening = matches!(&scenario.system, System::Drop(drop) if drop.run.accuracy == Accuracy::Screening);
+        if confirm > 0 && (!at_screening || limits.is_empty()) {
+            let found = "nothing to confirm";
+            let allowed = "a limit, and members at screening accuracy (set = [\"run.accuracy=screening\"]), are needed: those nearest to a limit are run again at design accuracy";
+            return Err(Box::new(question.problem(
+                Code::StudyDesign,
+                "confirm",
+                found,
+                allowed,
+            )));
         }
+        let results = question.texts("results").iter();
         Ok(StudyFile {
             file: file.to_string(),
-            title: head.text("title")?.map(|(title, _)| title),
+            title: head.text("title").map(str::to_string),
             scenario,
-            seed: seed as u64,
+            seed: head.count("seed").unwrap_or(0) as u64,
             kind,
-            design: shape,
+            design,
             asked,
             added,
             inputs,
-            pairs: pairs
-                .into_iter()
-                .map(|(a, b, rho, _)| (a, b, rho))
-                .collect(),
+            pairs,
             correlation,
             limits,
-            results,
-            confirm: confirm.map_or(0, |(count, _)| count),
-            rank,
+            results: results
+                .map(|name| (name.clone(), question.place_of("results")))
+                .collect(),
+            confirm,
+            rank: question.text("rank").map(ranked),
         })
     }
 
@@ -326,37 +304,39 @@ fn single(scenario: &Scenario) -> Result<(), String> {
     }
 }
 
-/// The result that candidates are ranked by.
-fn rank(question: &mut Section, kind: &str) -> Result<Option<(String, bool, Place)>, Box<Problem>> {
-    if kind != "selection" {
-        question.known(&["results", "confirm"], &[])?;
-        return Ok(None);
-    }
-    question.known(&["results", "confirm", "rank", "best"], &[])?;
-    let Some((name, place)) = question.text("rank")? else {
-        let allowed =
-            "rank = \"peak_contact_force\" is needed: the result that candidates are ranked by";
-        return Err(question.wrong(Code::MissingKey, Place::Whole, "rank", "nothing", allowed));
+/// A study begins with its format: a file of another one would fail on its keys with misleading words.
+fn require_format(file: &str, head: &[Written]) -> Result<(), Box<Problem>> {
+    let format = head.iter().find(|(key, ..)| key == "format");
+    let found = match format {
+        Some((_, Raw::Text(word), _)) if word == STUDY_FORMAT => return Ok(()),
+        Some((_, raw, _)) => raw.text(),
+        None => "nothing".to_string(),
     };
-    let most = match question.text("best")? {
-        None => false,
-        Some(_) => question.word("best", &["least", "most"])? == "most",
-    };
-    Ok(Some((name, most, place)))
+    let allowed =
+        format!("format = \"{STUDY_FORMAT}\" is needed; auxbear new study writes such a file");
+    Err(Box::new(
+        Problem::new(Code::UnknownFormat, file, found, allowed).on_key("format"),
+    ))
 }
 
-/// The factor by which the normal numbers of a widened design scatter more.
-fn widening(section: &Section) -> Result<f64, Box<Problem>> {
-    let Some((value, place)) = section.number("widen")? else {
-        return Ok(WIDENING);
+/// The kind of the design, on which its other keys depend.
+fn kind_of(file: &str, written: &[Written]) -> Result<&'static str, Box<Problem>> {
+    let kinds = written.iter().filter(|(key, ..)| key == "kind");
+    let plain = |raw: &Raw| match raw {
+        Raw::Text(text) => Raw::Text(text.replace('_', " ")),
+        other => other.clone(),
     };
-    match (1.0..=MOST_WIDENING).contains(&value) && value > 1.0 {
-        true => Ok(value),
-        false => {
-            let allowed = format!("a number above 1 and up to {MOST_WIDENING} is needed");
-            Err(section.wrong(Code::OutOfRange, place, "widen", value.to_string(), allowed))
-        }
-    }
+    let kinds: Vec<Written> = kinds
+        .map(|(key, raw, place)| (key.clone(), plain(raw), *place))
+        .collect();
+    let table: Table = Table::read(
+        file,
+        ("design".to_string(), "[design]"),
+        &[keys::KIND],
+        &kinds,
+        &[],
+    )?;
+    Ok(table.word("kind").unwrap_or(DESIGNS[0]))
 }
 
 /// The word for the number of members, or of blocks.
@@ -380,54 +360,50 @@ fn is_possible(design: &Design) -> bool {
 }
 
 /// The design with its numbers, and how many members or blocks were asked for and added.
-fn shape(
-    section: &mut Section,
+fn design_of(
+    file: &str,
+    written: &[Written],
     kind: &str,
     inputs: &[StudyInput],
 ) -> Result<(Design, usize, usize), Box<Problem>> {
     let count = inputs.len();
     let levels = || inputs.iter().map(|input| input.levels).collect();
-    let complete = match kind {
-        "factorial" => Some(Design::Factorial(levels())),
-        "sweep" => Some(Design::Sweep(levels())),
-        _ => None,
+    let keys: &[Key] = match kind {
+        "factorial" | "sweep" => &[],
+        "selection" => &[keys::DRAWS],
+        "widened" => &[keys::MEMBERS, keys::ADDED, keys::WIDEN],
+        "morris" | "saltelli" => &[keys::BLOCKS, keys::ADDED],
+        _ => &[keys::MEMBERS, keys::ADDED],
     };
+    let numbers: Vec<Written> = (written.iter())
+        .filter(|(key, ..)| key != "kind")
+        .cloned()
+        .collect();
+    let table = Table::read(
+        file,
+        ("design".to_string(), "[design]"),
+        keys,
+        &numbers,
+        &["kind"],
+    )?;
     let key = count_key(kind);
-    match (&complete, kind) {
-        (Some(_), _) => section.known(&["kind"], &[])?,
-        (None, "selection") => section.known(&["kind", key], &[])?,
-        (None, "widened") => section.known(&["kind", key, "added", "widen"], &[])?,
-        (None, _) => section.known(&["kind", key, "added"], &[])?,
-    }
-    let number = section.count(key)?;
-    let (added, _) = section.count("added")?.unwrap_or((0, Place::Whole));
-    let needed = format!("{key} = 100 is needed: a whole number from 1 on");
-    let (asked, place) = match (&complete, number) {
-        (Some(_), _) => (0, Place::Whole),
-        (None, Some((asked, place))) if asked > 0 => (asked, place),
-        (None, Some((_, place))) => {
-            return Err(section.wrong(Code::OutOfRange, place, key, "0", needed));
-        }
-        (None, None) => {
-            return Err(section.wrong(Code::MissingKey, Place::Whole, key, "nothing", needed));
-        }
+    let asked = table.count(key).unwrap_or(0);
+    let added = table.count("added").unwrap_or(0);
+    let design = match kind {
+        "factorial" => Design::Factorial(levels()),
+        "sweep" => Design::Sweep(levels()),
+        "monte carlo" => Design::MonteCarlo(count, asked),
+        "widened" => Design::Widened(count, asked, table.number("widen").unwrap_or(WIDENING)),
+        "latin hypercube" => Design::LatinHypercube(count, asked, 1),
+        "sobol" => Design::Sobol(count, asked),
+        "morris" => Design::Morris(count, asked),
+        "selection" => Design::Selection(levels(), asked),
+        _ => Design::Saltelli(count, asked),
     };
-    let design = complete.or(match kind {
-        "monte carlo" => Some(Design::MonteCarlo(count, asked)),
-        "widened" => Some(Design::Widened(count, asked, widening(section)?)),
-        "latin hypercube" => Some(Design::LatinHypercube(count, asked, 1)),
-        "sobol" => Some(Design::Sobol(count, asked)),
-        "morris" => Some(Design::Morris(count, asked)),
-        "selection" => Some(Design::Selection(levels(), asked)),
-        _ => Some(Design::Saltelli(count, asked)),
-    });
-    let design = design.and_then(|design| {
-        if added > 0 {
-            design.extended(added)
-        } else {
-            Some(design)
-        }
-    });
+    let design = match added {
+        0 => Some(design),
+        more => design.extended(more),
+    };
     let columns = if kind == "saltelli" { 2 * count } else { count };
     let columns_fit = !["sobol", "saltelli"].contains(&kind) || columns <= MOST_SOBOL_INPUTS;
     match design.filter(|design| columns_fit && is_possible(design)) {
@@ -436,114 +412,80 @@ fn shape(
             let allowed = format!(
                 "at most {MOST_MEMBERS} members are possible; of sobol numbers {MOST_SOBOL} points of {MOST_SOBOL_INPUTS} columns, of which saltelli takes two an input"
             );
-            Err(section.wrong(
+            let found = "a design that is too large";
+            Err(Box::new(table.problem(
                 Code::StudyDesign,
-                place,
                 key,
-                "a design that is too large",
+                found,
                 allowed,
-            ))
+            )))
         }
     }
 }
 
-type Pair = (usize, usize, f64, Place);
+/// Pairs of inputs with their coefficients, and their correlation.
+type Correlated = (Vec<(usize, usize, f64)>, Option<Correlation>);
 
-fn pairs_of(
-    page: &Page,
-    tables: Vec<Vec<Written>>,
+fn correlated(
+    file: &str,
+    tables: &[Vec<Written>],
     inputs: &[StudyInput],
-) -> Result<Vec<Pair>, Box<Problem>> {
-    let mut pairs: Vec<Pair> = Vec::new();
-    for list in tables {
-        let mut section = Section::new(page, "correlation");
-        section.list = list;
-        section.known(&["inputs", "coefficient"], &[])?;
-        let begin = section
-            .list
-            .first()
-            .map_or(Place::Whole, |(.., place)| *place);
-        let names = section.texts("inputs")?;
-        let of = |name: &str| inputs.iter().position(|input| input.vary.path == name);
-        let places: Vec<Option<usize>> = names.iter().map(|(name, _)| of(name)).collect();
-        let needed = "inputs = [\"…\", \"…\"] is needed: the paths of two inputs that are no choices, each pair once";
-        let choice = |k: usize| {
-            matches!(
-                inputs[k].vary.distribution,
-                crate::scenario::Distribution::Choice(_)
-            )
+    kind: &str,
+) -> Result<Correlated, Box<Problem>> {
+    let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
+    let mut first = None;
+    for written in tables {
+        let table: Table = Table::read(
+            file,
+            ("correlation".to_string(), "[[correlation]]"),
+            keys::CORRELATION,
+            written,
+            &[],
+        )?;
+        let wrong = |code, key: &str, found: &str, allowed: &str| {
+            Err(Box::new(table.problem(code, key, found, allowed)))
         };
+        let of = |name: &String| inputs.iter().position(|input| input.vary.path == *name);
+        let places: Vec<Option<usize>> = table.texts("inputs").iter().map(of).collect();
+        let needed = "inputs = [\"…\", \"…\"] is needed: the paths of two inputs that are no choices, each pair once";
+        let choice = |k: usize| matches!(inputs[k].vary.distribution, Distribution::Choice(_));
         let (a, b) = match places.as_slice() {
             [Some(a), Some(b)] if a != b && !choice(*a) && !choice(*b) => (*a.min(b), *a.max(b)),
-            _ => {
-                return Err(section.wrong(
-                    Code::UnknownWord,
-                    begin,
-                    "inputs",
-                    "other names",
-                    needed,
-                ));
-            }
+            _ => return wrong(Code::UnknownWord, "inputs", "other names", needed),
         };
         if pairs.iter().any(|pair| (pair.0, pair.1) == (a, b)) {
-            return Err(section.wrong(
-                Code::Conflict,
-                begin,
-                "inputs",
-                "a pair given twice",
-                needed,
-            ));
+            return wrong(Code::Conflict, "inputs", "a pair given twice", needed);
         }
-        let value = section.number("coefficient")?.map(|(value, _)| value);
-        match value.filter(|value| value.abs() < 1.0) {
-            Some(value) => pairs.push((a, b, value, begin)),
-            None => {
-                let allowed = "a bare number between -1 and 1 is needed";
-                return Err(section.wrong(
-                    Code::OutOfRange,
-                    begin,
-                    "coefficient",
-                    "no such number",
-                    allowed,
-                ));
-            }
+        let value = table.needed("coefficient");
+        if value.abs() >= 1.0 {
+            let allowed = "a bare number between -1 and 1 is needed";
+            return wrong(Code::OutOfRange, "coefficient", &value.to_string(), allowed);
         }
+        pairs.push((a, b, value));
+        first.get_or_insert(table);
     }
-    Ok(pairs)
-}
-
-fn correlation_of(
-    page: &Page,
-    pairs: &[Pair],
-    count: usize,
-    kind: &str,
-) -> Result<Option<Correlation>, Box<Problem>> {
-    let Some((.., place)) = pairs.first() else {
-        return Ok(None);
+    let Some(table) = first else {
+        return Ok((pairs, None));
     };
-    if ["factorial", "sweep", "morris", "saltelli", "selection"].contains(&kind) {
-        let found = format!("correlated inputs of a {kind} design");
-        let allowed = "its effects and indices belong to independent inputs; monte carlo, widened, latin hypercube and sobol take correlated ones";
-        return Err(page.problem(
+    let wrong = |found: &str, allowed| {
+        Err(Box::new(table.problem(
             Code::StudyCorrelation,
-            *place,
-            "correlation",
+            "",
             found,
             allowed,
-        ));
+        )))
+    };
+    if ["factorial", "sweep", "morris", "saltelli", "selection"].contains(&kind) {
+        return wrong(
+            &format!("correlated inputs of a {kind} design"),
+            "its effects and indices belong to independent inputs; monte carlo, widened, latin hypercube and sobol take correlated ones",
+        );
     }
-    let plain: Vec<_> = pairs.iter().map(|(a, b, rho, _)| (*a, *b, *rho)).collect();
-    match Correlation::of(count, &plain) {
-        Some(correlation) => Ok(Some(correlation)),
-        None => {
-            let allowed = "coefficients that inputs can have together are needed (a positive definite matrix)";
-            Err(page.problem(
-                Code::StudyCorrelation,
-                *place,
-                "correlation",
-                "coefficients that contradict each other",
-                allowed,
-            ))
-        }
+    match Correlation::of(inputs.len(), &pairs) {
+        Some(correlation) => Ok((pairs, Some(correlation))),
+        None => wrong(
+            "coefficients that contradict each other",
+            "coefficients that inputs can have together are needed (a positive definite matrix)",
+        ),
     }
 }

@@ -1,12 +1,11 @@
 //! The inputs of a study: which value differs, how, and on how many levels; bearings of the catalogue that fit an envelope.
 
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
-use crate::scenario::document::Raw;
-use crate::scenario::key::quoted;
-use crate::scenario::raw::Written;
-use crate::scenario::study_section::{Page, Section};
-use crate::scenario::{BuiltIn, Scenario, Vary};
-use problem::{Code, Place, Problem};
+use crate::scenario::{BuiltIn, Distribution, Scenario, Vary};
+use problem::key::{Key, Kind, Range, quoted};
+use problem::raw::{Raw, Written};
+use problem::table::Table;
+use problem::{Code, Problem};
 
 /// Levels of an input of a factorial or a sweep, unless given.
 const LEVELS: usize = 5;
@@ -38,21 +37,26 @@ impl StudyInput {
     }
 }
 
+const DISTRIBUTION: Kind = Kind::Any("a distribution in the words of [vary] is needed");
+const SIZES: &str = "bearing names with sizes of the catalogue are needed, e.g. catalogue = { bore_diameter = \"35 mm\", outer_diameter = [\"0 mm\", \"62 mm\"], type = \"deep groove\" }";
+#[rustfmt::skip]
+const KEYS: &[Key] = &[
+    Key::new("input.path", Kind::Text, "contact.friction_coefficient", "Dotted path of a key of the scenario."),
+    Key::new("input.levels", Kind::Count, "5", "Levels in a factorial, a sweep or a selection.").within(Range::FromTo(2.0, 1000.0)).optional("5; a choice has its texts, a selection draws what has no levels"),
+    Key::new("input.catalogue", Kind::Any(SIZES), SIZES, "All bearings of these sizes.").optional("no choice of bearings"),
+    Key::new("input.lognormal", DISTRIBUTION, "0.2", "Deviation of the logarithm.").optional("not so"),
+    Key::new("input.normal", DISTRIBUTION, "0.1", "Standard deviation.").optional("not so"),
+    Key::new("input.uniform", DISTRIBUTION, "[0.1, 0.3]", "Range.").optional("not so"),
+    Key::new("input.triangular", DISTRIBUTION, "[0.1, 0.2, 0.3]", "Least, most probable and largest value.").optional("not so"),
+    Key::new("input.choice", DISTRIBUTION, "[\"6005\", \"6006\"]", "One of these.").optional("not so"),
+];
+
 /// `catalogue = { bore_diameter = "35 mm", outer_diameter = ["0 mm", "62 mm"] }` as the choice of all bearings that fit.
-fn fit(section: &mut Section, path: &str) -> Result<(), Box<Problem>> {
-    let Some(at) = section.list.iter().position(|(key, ..)| key == CATALOGUE) else {
-        return Ok(());
-    };
-    let (_, raw, place) = section.list[at].clone();
-    let needed = "bearing names with sizes of the catalogue are needed, e.g. catalogue = { bore_diameter = \"35 mm\", outer_diameter = [\"0 mm\", \"62 mm\"], type = \"deep groove\" }";
-    let wrong = |section: &Section, found: String| {
-        section.wrong(Code::WrongType, place, CATALOGUE, found, needed)
-    };
-    let (true, Raw::Table(sizes)) = (path.ends_with("bearing.name"), &raw) else {
-        return Err(wrong(
-            section,
-            format!("{} of {}", raw.text(), quoted(path)),
-        ));
+fn fitting(table: &Table, raw: &Raw) -> Result<Raw, Box<Problem>> {
+    let path = table.text("path").unwrap_or_default();
+    let wrong = |found: String| Box::new(table.problem(Code::WrongType, CATALOGUE, found, SIZES));
+    let (true, Raw::Table(sizes)) = (path.ends_with("bearing.name"), raw) else {
+        return Err(wrong(format!("{} of {}", raw.text(), quoted(path))));
     };
     let (mut bounds, mut words) = (Vec::new(), Vec::new());
     for (name, raw) in sizes {
@@ -70,7 +74,7 @@ fn fit(section: &mut Section, path: &str) -> Result<(), Box<Problem>> {
             single => one(single).map(|value| (value, value)),
         };
         let Some((least, most)) = range else {
-            return Err(wrong(section, format!("{name} = {}", raw.text())));
+            return Err(wrong(format!("{name} = {}", raw.text())));
         };
         bounds.push((name.clone(), least * (1.0 - SAME), most * (1.0 + SAME)));
     }
@@ -89,126 +93,109 @@ fn fit(section: &mut Section, path: &str) -> Result<(), Box<Problem>> {
         .filter(|name| BuiltIn.find(name).is_some_and(|record| fits(&record)))
         .map(Raw::Text)
         .collect();
-    if names.is_empty() {
-        return Err(wrong(
-            section,
+    match names.is_empty() {
+        true => Err(wrong(
             "sizes that no bearing of the built-in catalogue has".to_string(),
-        ));
+        )),
+        false => Ok(Raw::List(names)),
     }
-    section.list[at] = ("choice".to_string(), Raw::List(names), place);
-    Ok(())
 }
 
 pub(super) fn inputs_of(
-    page: &Page,
+    file: &str,
     scenario: &Scenario,
-    tables: Vec<Vec<Written>>,
+    tables: &[Vec<Written>],
     kind: &str,
 ) -> Result<Vec<StudyInput>, Box<Problem>> {
     let mut inputs: Vec<StudyInput> = Vec::new();
-    for list in tables {
-        let mut section = Section::new(page, "input");
-        section.list = list;
-        let mut keys = vec!["path", "levels", CATALOGUE];
-        keys.extend(WORDS);
-        section.known(&keys, &[])?;
-        let begin = section
-            .list
-            .first()
-            .map_or(Place::Whole, |(.., place)| *place);
-        let (path, place) = section.text("path")?.ok_or_else(|| {
-            let allowed = "path = \"contact.friction_coefficient\" is needed: the dotted path of a key of the scenario";
-            section.wrong(Code::MissingKey, begin, "path", "nothing", allowed)
-        })?;
-        if inputs.iter().any(|known| known.vary.path == path) {
-            return Err(section.wrong(
-                Code::Conflict,
-                place,
-                "path",
-                quoted(&path),
-                "each input once is needed",
-            ));
-        }
-        fit(&mut section, &path)?;
-        let given: Vec<&Written> = section
-            .list
-            .iter()
-            .filter(|(key, ..)| WORDS.contains(&key.as_str()))
-            .collect();
-        let [(word, value, at)] = given.as_slice() else {
-            let found = format!("{} distributions of {}", given.len(), quoted(&path));
-            let allowed = format!("one of {} is needed", WORDS.join(", "));
-            return Err(section.wrong(Code::Conflict, place, "path", found, allowed));
+    for written in tables {
+        let table: Table =
+            Table::read(file, ("input".to_string(), "[[input]]"), KEYS, written, &[])?;
+        let wrong = |code, key: &str, found: String, allowed: &str| {
+            Err(Box::new(table.problem(code, key, found, allowed)))
         };
-        let distribution = Raw::Table(vec![(word.clone(), value.clone())]);
+        let path = table.text("path").unwrap_or_default();
+        if inputs.iter().any(|known| known.vary.path == path) {
+            return wrong(
+                Code::Conflict,
+                "path",
+                quoted(path),
+                "each input once is needed",
+            );
+        }
+        let fitting = table
+            .raw(CATALOGUE)
+            .map(|raw| fitting(&table, raw))
+            .transpose()?;
+        let of_catalogue = fitting.as_ref().map(|names| ("choice", CATALOGUE, names));
+        let of_words = WORDS
+            .iter()
+            .filter_map(|word| Some((*word, *word, table.raw(word)?)));
+        let given: Vec<(&str, &str, &Raw)> = of_words.chain(of_catalogue).collect();
+        let [(word, key, value)] = given.as_slice() else {
+            let found = format!("{} distributions of {}", given.len(), quoted(path));
+            return wrong(
+                Code::Conflict,
+                "path",
+                found,
+                &format!("one of {} is needed", WORDS.join(", ")),
+            );
+        };
+        let distribution = Raw::Table(vec![(word.to_string(), (*value).clone())]);
         let vary = scenario
-            .varied(&path, &distribution, *at)
+            .varied(path, &distribution, table.place_of(key))
             .map_err(|mut problem| {
-                problem.file = page.file.to_string();
+                problem.file = file.to_string();
                 problem.key = Some(format!("input.{word} of {path}"));
                 if problem.code == Code::UnknownKey {
-                    (problem.key, problem.place) = (Some("input.path".to_string()), place);
+                    problem.key = Some("input.path".to_string());
+                    problem.place = table.place_of("path");
                 }
                 problem
             })?;
-        let levelled = ["factorial", "sweep", "selection"].contains(&kind);
-        let given = section.count("levels")?;
-        let levels = match (&vary.distribution, given) {
-            (_, Some((_, place))) if !levelled => {
-                let allowed = "levels are those of a factorial, a sweep or a selection";
-                return Err(section.wrong(
-                    Code::UnusedKey,
-                    place,
-                    "levels",
-                    "a key that has no effect",
-                    allowed,
-                ));
-            }
-            (crate::scenario::Distribution::Choice(_), Some((_, place))) => {
-                let allowed = "a choice has its texts as levels";
-                return Err(section.wrong(
-                    Code::UnusedKey,
-                    place,
-                    "levels",
-                    "a key that has no effect",
-                    allowed,
-                ));
-            }
-            (crate::scenario::Distribution::Choice(texts), None) => texts.len(),
-            (_, Some((levels, place))) if !(2..=1000).contains(&levels) => {
-                let allowed = "a whole number from 2 to 1000 is needed";
-                return Err(section.wrong(
-                    Code::OutOfRange,
-                    place,
-                    "levels",
-                    levels.to_string(),
-                    allowed,
-                ));
-            }
-            // what has no levels in a selection is drawn for every candidate
-            (_, None) if kind == "selection" => 0,
-            (_, given) => given.map_or(LEVELS, |(levels, _)| levels),
+        let given = table.count("levels");
+        let choice = match &vary.distribution {
+            Distribution::Choice(texts) => Some(texts.len()),
+            _ => None,
         };
+        let unused = match (["factorial", "sweep", "selection"].contains(&kind), choice) {
+            (false, _) => Some("levels are those of a factorial, a sweep or a selection"),
+            (true, Some(_)) => Some("a choice has its texts as levels"),
+            (true, None) => None,
+        };
+        if let (Some(allowed), Some(_)) = (unused, given) {
+            return wrong(
+                Code::UnusedKey,
+                "levels",
+                "a key that has no effect".to_string(),
+                allowed,
+            );
+        }
+        // what has no levels in a selection is drawn for every candidate
+        let drawn = if kind == "selection" { 0 } else { LEVELS };
         inputs.push(StudyInput {
+            levels: choice.or(given).unwrap_or(drawn),
             vary,
             written: format!("{word} {}", value.shown()),
-            levels,
             levels_given: given.is_some(),
         });
     }
+    let missing = |found, allowed| {
+        Err(Box::new(
+            Problem::new(Code::MissingKey, file, found, allowed).on_key("input"),
+        ))
+    };
     if kind == "selection" && inputs.iter().all(|input| input.levels == 0) {
-        let allowed = "a choice, or levels = 3 of a range, is needed of one input at least: these are the candidates";
-        return Err(page.problem(
-            Code::MissingKey,
-            Place::Whole,
-            "input",
+        return missing(
             "nothing to choose",
-            allowed,
-        ));
+            "a choice, or levels = 3 of a range, is needed of one input at least: these are the candidates",
+        );
     }
     if inputs.is_empty() {
-        let allowed = "a table [[input]] with path and distribution is needed for each value that differs from run to run";
-        return Err(page.problem(Code::MissingKey, Place::Whole, "input", "nothing", allowed));
+        return missing(
+            "nothing",
+            "a table [[input]] with path and distribution is needed for each value that differs from run to run",
+        );
     }
     Ok(inputs)
 }

@@ -6,7 +6,7 @@
 use crate::scenario::key::{Key, Kind, Presence, Range, Section};
 use crate::scenario::run::{Accuracy, Method, Until};
 use crate::scenario::system::{FALLING, MOVING, STEPPED, SystemName, WITH_BEARING};
-use crate::scenario::words::Words;
+use problem::words::Words;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 

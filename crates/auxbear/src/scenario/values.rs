@@ -1,18 +1,16 @@
 //! One value for every key that has one, with everything known of it.
 
 use crate::scenario::bearing::source::BearingRecord;
-use crate::scenario::key::Key;
-use crate::scenario::provenance::Provenance;
+use crate::scenario::key::{Key, Kind};
 use crate::scenario::several;
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::provenance::Provenance;
+use problem::read::Reader;
+pub(crate) use problem::value::{Known, Value};
+use problem::words::Words;
 use problem::{Code, Place, Problem};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use units::{Dimension, Quantity};
-
-/// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
-pub(crate) const POWER_TOLERANCE: f64 = 1e-6;
 
 /// Key of the law of the friction moment, on which its constants depend.
 pub(crate) const LAW: &str = "bearing.moment.law";
@@ -20,56 +18,6 @@ pub(crate) const LAW: &str = "bearing.moment.law";
 pub(crate) const LUBRICATION: &str = "bearing.moment.lubrication";
 /// Key of the laws that are compared with it.
 pub(crate) const COMPARED_LAWS: &str = "torque.laws";
-
-/// A value that was read.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Value {
-    /// A quantity in SI or a bare number.
-    Number(f64),
-    /// A whole number, not negative.
-    Count(u64),
-    /// One of the words of the key.
-    Word(&'static str),
-    /// `true` or `false`.
-    Switch(bool),
-    /// Any text.
-    Text(String),
-    /// Rows of two quantities in SI.
-    Rows(Vec<[f64; 2]>),
-    /// Quantities in SI.
-    Numbers(Vec<f64>),
-    /// Words of the key.
-    Words(Vec<&'static str>),
-    /// Any texts.
-    Texts(Vec<String>),
-}
-
-impl Value {
-    pub(crate) fn number(&self) -> Option<f64> {
-        match self {
-            Value::Number(value) => Some(*value),
-            Value::Count(count) => Some(*count as f64),
-            Value::Word(_)
-            | Value::Switch(_)
-            | Value::Text(_)
-            | Value::Rows(_)
-            | Value::Numbers(_)
-            | Value::Words(_)
-            | Value::Texts(_) => None,
-        }
-    }
-}
-
-/// A value with everything known of it.
-#[derive(Clone, Debug)]
-pub(crate) struct Known {
-    pub(crate) value: Value,
-    pub(crate) text: String,
-    pub(crate) provenance: Provenance,
-    pub(crate) place: Place,
-    /// Whether the file says that the program filled it in.
-    pub(crate) filled_in: bool,
-}
 
 /// One value for every key that has one.
 #[derive(Debug)]
@@ -117,6 +65,19 @@ impl Values {
             found,
             needed,
         )))
+    }
+
+    /// What reads a value of this key.
+    pub(crate) fn reader(&self, key: &Key) -> Reader<'_> {
+        let of = |path: &str| Some((self.number(path)?, self.text(path)?));
+        let exponent = match key.kind {
+            Kind::ContactStiffness { exponent } => of(exponent),
+            _ => None,
+        };
+        Reader {
+            exponent: exponent.unwrap_or((f64::NAN, String::new())),
+            ..Reader::of(&self.file, self.shown(key.path))
+        }
     }
 
     pub(crate) fn problem(
@@ -287,30 +248,5 @@ impl Values {
             Some(Value::Count(count)) => *count,
             _ => 0,
         }
-    }
-}
-
-/// A value in SI as a text that reads back bit for bit: in SI, or in rpm or degrees where that is shorter.
-pub(crate) fn quantity_text(key: &Key, value_si: f64) -> String {
-    let Some(dimension) = key.dimension() else {
-        return units::number_text(value_si);
-    };
-    let si = Quantity {
-        value_si,
-        dimension,
-    }
-    .to_string();
-    let unit = match dimension {
-        Dimension::ANGLE => "deg",
-        Dimension::ANGULAR_SPEED => "rpm",
-        _ => return si,
-    };
-    let usual = units::display(value_si, unit).unwrap_or_default();
-    let same = units::parse_quantity(&usual)
-        .is_ok_and(|back| back.value_si.to_bits() == value_si.to_bits());
-    if same && usual.len() < si.len() {
-        usual
-    } else {
-        si
     }
 }

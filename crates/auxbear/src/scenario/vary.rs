@@ -343,7 +343,7 @@ pub(crate) fn one(
         return Err(problem(Code::WrongType, raw.text(), WORDS));
     };
     let number = |raw: &Raw| -> Result<f64, Box<Problem>> {
-        let (value, _) = (of[0].read_raw(key, raw, place)).map_err(|mut wrong| {
+        let (value, _) = (of[0].reader(key).read_raw(key, raw, place)).map_err(|mut wrong| {
             wrong.key = Some(shown.clone());
             wrong
         })?;

@@ -5,17 +5,16 @@ use crate::scenario::bearing::lubricant::Lubricant;
 use crate::scenario::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
 use crate::scenario::heat::Network;
 use crate::scenario::key::quoted;
-use crate::scenario::provenance::Provenance;
 use crate::scenario::system::{FALLING, SystemName};
 use crate::scenario::table;
-use crate::scenario::values::{
-    COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values, quantity_text,
-};
-use crate::scenario::words::Words;
+use crate::scenario::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, SILICON_NITRIDE, ball_mass, contact_modulus};
 use physics::palmgren_factors::{FactorSource, Lubrication, palmgren_factors};
 use physics::viscosity::Viscosity;
+use problem::provenance::Provenance;
+use problem::value::quantity_text;
+use problem::words::Words;
 use problem::{Code, Place, Problem};
 
 pub(super) const F0: &str = "bearing.moment.f0";

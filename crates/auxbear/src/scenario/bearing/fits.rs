@@ -3,10 +3,10 @@
 use crate::scenario::checks::Check;
 use crate::scenario::section::Section;
 use crate::scenario::values::{Value, Values};
-use crate::scenario::words::words;
 use physics::materials::BEARING_STEEL;
 use physics::ring::{PressFit, outside_growth};
 use problem::Code;
+use problem::words;
 
 pub(crate) const UNMOUNTED: &str = "bearing.unmounted_diametral_clearance";
 pub(crate) const OPERATING: &str = "bearing.operating_diametral_clearance";

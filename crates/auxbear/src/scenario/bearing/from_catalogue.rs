@@ -3,10 +3,12 @@
 use crate::catalogue::Catalogue;
 use crate::catalogue::designation::{self, Designation};
 use crate::scenario::bearing::source::{BearingRecord, BearingSource};
-use crate::scenario::document::{Document, Given, Raw};
+use crate::scenario::document::Document;
 use crate::scenario::key::{Key, Kind, quoted};
 use crate::scenario::table;
-use crate::scenario::values::{Known, Value, Values, quantity_text};
+use crate::scenario::values::{Known, Value, Values};
+use problem::raw::{Given, Raw};
+use problem::value::quantity_text;
 use problem::{Code, Place, Problem, did_you_mean};
 use std::path::{Path, PathBuf};
 
@@ -37,7 +39,7 @@ impl Values {
         let (Some(key), Some(given)) = (key, document.values.get(CATALOGUE)) else {
             return Ok(None);
         };
-        let path = beside(&document.file, &self.read(key, given)?.text);
+        let path = beside(&document.file, &self.reader(key).read(key, given)?.text);
         let catalogue = Catalogue::with_file(&path).map_err(|mut problem| {
             if problem.hint.is_none() {
                 problem.hint = Some(format!("It is named by catalogue in {}", document.file));
@@ -89,7 +91,7 @@ impl Values {
         let (Some(key), Some(given)) = (key, given) else {
             return Ok(None);
         };
-        let known = self.read(key, given)?;
+        let known = self.reader(key).read(key, given)?;
         let name = known.text.as_str();
         if let Some(record) = bearings.find(name) {
             return Ok(Some(record));
@@ -190,7 +192,7 @@ impl Values {
             typed: None,
             place: Place::Whole,
         };
-        let mut known = self.read(key, &given)?;
+        let mut known = self.reader(key).read(key, &given)?;
         known.provenance = provenance.clone();
         Ok(Some(known))
     }

@@ -12,7 +12,7 @@ use crate::scenario::system::{
     FALLING, FREE_RACE, MOVING, RACE_MASS, RUNNING_OUT, WITH_BALLS as LOADED, WITH_CAGE,
     WITH_MOMENT,
 };
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing",

@@ -4,7 +4,7 @@ use crate::scenario::bearing::keys::{CAGE, STEEL_BALLS};
 use crate::scenario::bearing::separation::GuidanceKind;
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Section};
 use crate::scenario::system::{MOVING, WITH_BALLS};
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {

@@ -4,7 +4,7 @@ use crate::scenario::bearing::lubricant_state::StateKind;
 use crate::scenario::bearing::lubricant_state::StateStart;
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
 use crate::scenario::system::MOVING;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "bearing.lubricant_state",

@@ -7,7 +7,7 @@ use crate::scenario::bearing::moment::MomentLaw;
 use crate::scenario::bearing::moment::OilKind;
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[
     Section {

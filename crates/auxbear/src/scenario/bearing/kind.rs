@@ -1,10 +1,10 @@
 //! Kinds of a bearing: type, material of the balls, how it is modelled.
 
-use crate::scenario::words::words;
 use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT, ThermalMaterial};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
 use physics::skf_constants::SkfType;
+use problem::words;
 
 words! {
 /// How a rolling bearing is modelled.

@@ -2,8 +2,8 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
 use physics::lubricant_state::{FilmHeating, Grease};
+use problem::words;
 use std::f64::consts::TAU;
 
 words! {

@@ -26,9 +26,9 @@ use crate::scenario::bearing::moment::{AccelerationLoss, Moment, MomentShare, Ra
 use crate::scenario::bearing::separation::Separation;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
 use physics::lubricant::{FVA_3, Lubricant, NAPHTHENIC_100, POLYALPHAOLEFIN_100};
 use physics::rolling::{RollingSet, ring_mass};
+use problem::words;
 use std::f64::consts::PI;
 
 /// The auxiliary bearing at one plane. What is `None` is not known, or is found when the

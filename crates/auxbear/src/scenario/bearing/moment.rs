@@ -3,7 +3,6 @@
 use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
 use model::bearing::AccelerationLoss as LossLaw;
 use model::table::Table;
 use physics::friction::Friction;
@@ -12,6 +11,7 @@ use physics::palmgren::{Palmgren, PalmgrenCombined};
 use physics::palmgren_factors::FactorSource;
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply};
 use physics::static_load::static_load_factors;
+use problem::words;
 
 words! {
     /// Law of the friction moment, as a word.

@@ -2,7 +2,7 @@
 
 use crate::scenario::section::Section;
 use crate::scenario::values::{Value, Values};
-use crate::scenario::words::words;
+use problem::words;
 
 words! {
     /// What keeps the balls apart, as a word.

@@ -1,7 +1,7 @@
 //! What a scenario asks of a bearing catalogue.
 
 use crate::catalogue::{self, Bearing, Catalogue, Datum};
-use crate::scenario::provenance::Provenance;
+use problem::provenance::Provenance;
 
 /// A catalogue of bearings, asked by name.
 pub trait BearingSource {

@@ -5,7 +5,7 @@ use crate::scenario::key::{
     Condition, Fallback, Key, Kind, LANDING_FRICTION, Otherwise, Range, Section,
 };
 use crate::scenario::system::{FALLING, SHAFT, SystemName};
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// Systems whose rotor does not bend.
 const DROP: &[SystemName] = &[SystemName::Drop];

@@ -1,6 +1,6 @@
 //! What a drop may be, as words.
 
-use crate::scenario::words::words;
+use problem::words;
 
 words! {
     /// What becomes of the rotor's spin, as a word.

@@ -3,7 +3,7 @@
 use crate::scenario::heat::{Atmosphere, CageMaterial, Feedback, Network, RotorBodies};
 use crate::scenario::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::scenario::system::{FALLING, SystemName, WARMING, WITH_NETWORK};
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 pub(crate) const SECTIONS: &[Section] = &[Section {
     path: "heat",

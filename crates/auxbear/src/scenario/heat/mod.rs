@@ -10,11 +10,11 @@ use crate::scenario::bearing::kind::{BallMaterial, BearingType};
 use crate::scenario::bearing::moment::{Moment, RatedBearing};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
 use physics::air::SEA_LEVEL;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::ring::PressFit;
 use physics::viscosity::Viscosity;
+use problem::words;
 use thermal::bearing_network::{
     BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
 };

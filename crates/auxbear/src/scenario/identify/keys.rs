@@ -3,7 +3,7 @@
 use crate::scenario::identify::Rolling;
 use crate::scenario::key::{Key, Kind, Range, Section};
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// The systems of this page.
 const IDENTIFY: &[SystemName] = &[SystemName::Identify];

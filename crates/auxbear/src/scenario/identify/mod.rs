@@ -7,7 +7,7 @@ use crate::scenario::bearing::kind::BallMaterial;
 use crate::scenario::bearing::{ball_material, cage_ring_mass};
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
+use problem::words;
 use std::path::PathBuf;
 
 words! {

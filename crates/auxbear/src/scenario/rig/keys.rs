@@ -8,7 +8,7 @@ use crate::scenario::rig::ProgramKind;
 use crate::scenario::rig::RawFormat;
 use crate::scenario::signals::PickupOutput;
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// The systems of this page.
 const RIG: &[SystemName] = &[SystemName::Rig];

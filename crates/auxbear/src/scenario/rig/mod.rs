@@ -9,7 +9,7 @@ use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::signals::PickupOutput;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
+use problem::words;
 
 words! {
     /// Program of a rig, as a word.

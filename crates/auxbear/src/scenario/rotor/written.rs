@@ -2,9 +2,9 @@
 
 use crate::scenario::key::quoted;
 use crate::scenario::not_modelled;
-use crate::scenario::raw::{Raw, Written, collect, raw, tables};
 use crate::scenario::rotor::part_keys::{PARTS, PartKind};
 use crate::scenario::system::SystemName;
+use problem::raw::{Raw, Written, collect, raw, tables};
 use problem::{Code, Place, Problem};
 use toml::de::{DeTable, DeValue};
 

@@ -7,7 +7,7 @@ use crate::scenario::signals::Disturbance;
 use crate::scenario::signals::PickupFlank;
 use crate::scenario::signals::SpeedOutput;
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// The systems of this page.
 const SIGNALS: &[SystemName] = &[SystemName::Signals];

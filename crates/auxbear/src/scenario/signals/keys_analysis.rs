@@ -3,7 +3,7 @@
 use crate::scenario::key::{Condition, Key, Kind, Range, Section};
 use crate::scenario::signals::analysis::InertiaFrom;
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// The systems of this page.
 const SIGNALS: &[SystemName] = &[SystemName::Signals];

@@ -8,7 +8,7 @@ pub(crate) mod keys_analysis;
 use crate::scenario::section::Section;
 use crate::scenario::signals::analysis::{ConverterSignal, SteadySignal, VibrationSignal};
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
+use problem::words;
 use std::path::PathBuf;
 
 /// A measurement and what is computed from it. All values are SI.

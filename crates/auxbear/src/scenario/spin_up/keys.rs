@@ -4,7 +4,7 @@ use crate::scenario::key::{Condition, Fallback, Key, Kind, LANDING_FRICTION, Pre
 use crate::scenario::spin_up::DriveKind;
 use crate::scenario::spin_up::RotorSpin;
 use crate::scenario::system::SystemName;
-use crate::scenario::words::Words;
+use problem::words::Words;
 
 /// The systems of this page.
 const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];

@@ -8,7 +8,7 @@ use crate::scenario::heat::{Network, Warm};
 use crate::scenario::run::Run;
 use crate::scenario::section::Section;
 use crate::scenario::values::Values;
-use crate::scenario::words::words;
+use problem::words;
 
 /// The inner race of a bearing is brought to speed while its outer race stands. All values are SI.
 #[derive(Clone, Debug, PartialEq)]

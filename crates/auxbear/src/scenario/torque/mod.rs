@@ -9,10 +9,11 @@ use crate::scenario::bearing::moment::{AccelerationLoss, Moment, RatedBearing};
 use crate::scenario::bearing::source::BearingSource;
 use crate::scenario::bearing::{ball_material, cage_ring_mass};
 use crate::scenario::checks::Context;
-use crate::scenario::document::{Document, Given, Raw};
+use crate::scenario::document::Document;
 use crate::scenario::section::Section;
 use crate::scenario::values::{COMPARED_LAWS, LAW, Values};
 use physics::viscosity::Viscosity;
+use problem::raw::{Given, Raw};
 use problem::{Code, Place, Problem};
 
 /// A bearing whose torque is computed without motion. All values are SI.

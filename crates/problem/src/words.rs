@@ -1,7 +1,7 @@
 //! Enums that are the words of a key.
 
 /// An enum each value of which is a word in a file.
-pub(crate) trait Words: Copy + PartialEq + 'static {
+pub trait Words: Copy + PartialEq + 'static {
     /// All values.
     const ALL: &'static [Self];
     /// Their words, in the same order.
@@ -21,6 +21,7 @@ pub(crate) trait Words: Copy + PartialEq + 'static {
 }
 
 /// An enum with the word of each value.
+#[macro_export]
 macro_rules! words {
     ($(#[$of_enum:meta])* $vis:vis enum $Name:ident { $($(#[$of_value:meta])* $Value:ident = $word:literal,)+ }) => {
         $(#[$of_enum])*
@@ -29,10 +30,9 @@ macro_rules! words {
             $($(#[$of_value])* $Value,)+
         }
 
-        impl $crate::scenario::words::Words for $Name {
+        impl $crate::words::Words for $Name {
             const ALL: &'static [Self] = &[$($Name::$Value,)+];
             const WORDS: &'static [&'static str] = &[$($word,)+];
         }
     };
 }
-pub(crate) use words;

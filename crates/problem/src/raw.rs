@@ -1,12 +1,13 @@
 //! Raw values: what stands in a text or an override, before it is known what it means.
 
-use problem::Place;
+use crate::Place;
+use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A value as written, before it is known what it means.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Raw {
+pub enum Raw {
     /// A text in quotes, or a bare word of an override.
     Text(String),
     /// A whole number, as written.
@@ -25,7 +26,7 @@ pub(crate) enum Raw {
 
 impl Raw {
     /// The value in words, for a message.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         match self {
             Raw::Text(text) => format!("the text \"{text}\""),
             Raw::Integer(text, _) => format!("the number {text}"),
@@ -38,7 +39,7 @@ impl Raw {
     }
 
     /// The value alone, as somebody wrote it, for a page.
-    pub(crate) fn shown(&self) -> String {
+    pub fn shown(&self) -> String {
         match self {
             Raw::Text(text) | Raw::Integer(text, _) => text.clone(),
             Raw::Float(value) => units::number_text(*value),
@@ -49,10 +50,10 @@ impl Raw {
 }
 
 /// A key or path, what stands there, and where.
-pub(crate) type Written = (String, Raw, Place);
+pub type Written = (String, Raw, Place);
 
 /// Lists paths with what stands there, down to tables whose values are no tables.
-pub(crate) fn collect(
+pub fn collect(
     text: &str,
     table: &DeTable<'_>,
     before: &str,
@@ -78,7 +79,7 @@ pub(crate) fn collect(
 }
 
 /// The keys of each table of an array, with what stands there; what is no such array as a key without a name.
-pub(crate) fn tables(text: &str, start: usize, value: &DeValue<'_>) -> Vec<Vec<Written>> {
+pub fn tables(text: &str, start: usize, value: &DeValue<'_>) -> Vec<Vec<Written>> {
     let DeValue::Array(list) = value else {
         return vec![unnamed(text, start, value)];
     };
@@ -93,13 +94,57 @@ pub(crate) fn tables(text: &str, start: usize, value: &DeValue<'_>) -> Vec<Vec<W
     list.iter().map(keys).collect()
 }
 
+/// The keys at the top of a file, and those of its sections: of `[design]` once, of `[[input]]` as often as it stands there.
+#[derive(Debug, Default)]
+pub struct Sections {
+    /// What stands before all sections, or in none of those named.
+    pub head: Vec<Written>,
+    sections: BTreeMap<&'static str, Vec<Vec<Written>>>,
+}
+
+impl Sections {
+    /// Tells the sections named apart.
+    pub fn of(text: &str, root: &DeTable<'_>, names: &[&'static str]) -> Self {
+        let mut this = Sections::default();
+        for (key, value) in root {
+            let start = key.span().start;
+            let Some(name) = names.iter().find(|name| *name == key.get_ref()) else {
+                let place = Place::of_offset(text, start);
+                let key = key.get_ref().to_string();
+                this.head.push((key, raw(value.get_ref()), place));
+                continue;
+            };
+            let lists = match value.get_ref() {
+                DeValue::Table(table) => {
+                    let mut keys = Vec::new();
+                    collect(text, table, "", &mut keys);
+                    vec![keys]
+                }
+                other => tables(text, start, other),
+            };
+            this.sections.insert(name, lists);
+        }
+        this
+    }
+
+    /// The keys of each table of a section.
+    pub fn all(&self, name: &str) -> &[Vec<Written>] {
+        self.sections.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// The keys of a section that stands in a file once.
+    pub fn one(&self, name: &str) -> &[Written] {
+        self.all(name).first().map_or(&[], Vec::as_slice)
+    }
+}
+
 fn unnamed(text: &str, start: usize, value: &DeValue<'_>) -> Vec<Written> {
     let place = Place::of_offset(text, start);
     vec![(String::new(), raw(value), place)]
 }
 
 /// A table of values.
-pub(crate) fn table_raw(table: &DeTable<'_>) -> Raw {
+pub fn table_raw(table: &DeTable<'_>) -> Raw {
     let mut parts: Vec<(usize, String, Raw)> = table
         .iter()
         .map(|(key, value): (&Spanned<_>, &Spanned<_>)| {
@@ -115,7 +160,7 @@ pub(crate) fn table_raw(table: &DeTable<'_>) -> Raw {
 }
 
 /// A value.
-pub(crate) fn raw(value: &DeValue<'_>) -> Raw {
+pub fn raw(value: &DeValue<'_>) -> Raw {
     match value {
         DeValue::String(text) => Raw::Text(text.to_string()),
         DeValue::Integer(integer) => Raw::Integer(
@@ -131,7 +176,18 @@ pub(crate) fn raw(value: &DeValue<'_>) -> Raw {
 }
 
 /// The value of a text when it is TOML by itself.
-pub(crate) fn as_toml(typed: &str) -> Option<Raw> {
+pub fn as_toml(typed: &str) -> Option<Raw> {
     let value = DeValue::parse(typed).ok()?;
     Some(raw(value.get_ref()))
+}
+
+/// One given value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// What stands there.
+    pub raw: Raw,
+    /// The value as typed in an override, before it was taken as TOML.
+    pub typed: Option<String>,
+    /// Where.
+    pub place: Place,
 }

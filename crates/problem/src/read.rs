@@ -1,14 +1,17 @@
 //! From one raw value to a value of the kind that its key takes.
 
-use crate::scenario::document::{Given, Raw};
-use crate::scenario::key::{Key, Kind, article, quoted};
-use crate::scenario::provenance::Provenance;
-use crate::scenario::values::{Known, POWER_TOLERANCE, Value, Values};
-use problem::{Code, Place, Problem, did_you_mean, question};
+use crate::key::{Fallback, Key, Kind, article, quoted};
+use crate::provenance::Provenance;
+use crate::raw::{Given, Raw, as_toml};
+use crate::value::{Known, Value};
+use crate::{Code, Place, Problem, did_you_mean, question};
 use units::{Dimension, ParseError, Rational, as_product, parse_quantity};
 
+/// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
+pub const POWER_TOLERANCE: f64 = 1e-6;
+
 /// What a resolved file says of values that were not given.
-pub(crate) const FILLED_IN: [&str; 2] = ["default", "catalogue"];
+pub const FILLED_IN: [&str; 2] = ["default", "catalogue"];
 
 /// A value without the table around it.
 struct Unwrapped<'a> {
@@ -17,9 +20,45 @@ struct Unwrapped<'a> {
     filled_in: bool,
 }
 
-impl Values {
+/// A key that is read: where it stands, for messages, and what its kind asks of others.
+#[derive(Clone, Debug)]
+pub struct Reader<'a> {
+    /// The file, as the user named it.
+    pub file: &'a str,
+    /// The path of the key, as the file has it.
+    pub path: String,
+    /// Of a contact stiffness: its exponent, as a number and as written.
+    pub exponent: (f64, String),
+}
+
+impl<'a> Reader<'a> {
+    /// A key at a path, of no contact stiffness.
+    pub fn of(file: &'a str, path: impl Into<String>) -> Self {
+        let (path, exponent) = (path.into(), (f64::NAN, String::new()));
+        Reader {
+            file,
+            path,
+            exponent,
+        }
+    }
+
+    pub(crate) fn problem(
+        &self,
+        code: Code,
+        place: Place,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Problem {
+        Problem::new(code, self.file, found, allowed)
+            .at(place)
+            .on_key(&self.path)
+    }
+
     /// Reads one given value.
-    pub(crate) fn read(&self, key: &Key, given: &Given) -> Result<Known, Box<Problem>> {
+    ///
+    /// # Errors
+    /// A value of another kind, dimension or range than the key takes.
+    pub fn read<S>(&self, key: &Key<S>, given: &Given) -> Result<Known, Box<Problem>> {
         let Unwrapped {
             raw,
             provenance,
@@ -38,7 +77,6 @@ impl Values {
         {
             return Err(Box::new(self.problem(
                 Code::OutOfRange,
-                key.path,
                 given.place,
                 key.literal(&text),
                 key.needed(),
@@ -54,8 +92,12 @@ impl Values {
     }
 
     /// The value of `{ value = …, source = … }`, or the value itself.
-    fn unwrap_table<'a>(&self, key: &Key, given: &'a Given) -> Result<Unwrapped<'a>, Box<Problem>> {
-        let Raw::Table(parts) = &given.raw else {
+    fn unwrap_table<'v, S>(
+        &self,
+        key: &Key<S>,
+        given: &'v Given,
+    ) -> Result<Unwrapped<'v>, Box<Problem>> {
+        let (Raw::Table(parts), false) = (&given.raw, matches!(key.kind, Kind::Any(_))) else {
             return Ok(Unwrapped {
                 raw: &given.raw,
                 provenance: Provenance::Given,
@@ -75,7 +117,6 @@ impl Values {
                 ("source" | "assumed", Raw::Text(_)) if provenance.is_some() => {
                     return Err(Box::new(self.problem(
                         Code::Conflict,
-                        key.path,
                         given.place,
                         "both source and assumed",
                         form,
@@ -90,9 +131,9 @@ impl Values {
                 ("from", Raw::Text(word)) if FILLED_IN.contains(&word.as_str()) => filled_in = true,
                 ("from", raw) => {
                     let words: Vec<String> = FILLED_IN.iter().map(|word| quoted(word)).collect();
-                    return Err(Box::new(self.problem(
+                    let part = Reader::of(self.file, format!("{}.from", self.path));
+                    return Err(Box::new(part.problem(
                         Code::UnknownWord,
-                        &format!("{}.from", key.path),
                         given.place,
                         raw.text(),
                         format!(
@@ -104,7 +145,6 @@ impl Values {
                 ("source" | "assumed", raw) => {
                     return Err(Box::new(self.problem(
                         Code::WrongType,
-                        key.path,
                         given.place,
                         format!("{} for {name}", raw.text()),
                         form,
@@ -112,15 +152,10 @@ impl Values {
                 }
                 (unknown, _) => {
                     let hint = did_you_mean(unknown, ["value", "source", "assumed"]);
+                    let part = Reader::of(self.file, format!("{}.{unknown}", self.path));
                     return Err(Box::new(
-                        self.problem(
-                            Code::UnknownKey,
-                            &format!("{}.{unknown}", key.path),
-                            given.place,
-                            "an unknown key",
-                            form,
-                        )
-                        .with_hint(hint),
+                        part.problem(Code::UnknownKey, given.place, "an unknown key", form)
+                            .with_hint(hint),
                     ));
                 }
             }
@@ -133,7 +168,6 @@ impl Values {
             }),
             None => Err(Box::new(self.problem(
                 Code::MissingKey,
-                key.path,
                 given.place,
                 "a table without value",
                 form,
@@ -141,15 +175,17 @@ impl Values {
         }
     }
 
-    pub(crate) fn read_raw(
+    /// Reads one raw value: the value and how a file has it.
+    ///
+    /// # Errors
+    /// A value of another kind or dimension than the key takes.
+    pub fn read_raw<S>(
         &self,
-        key: &Key,
+        key: &Key<S>,
         raw: &Raw,
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
-        let wrong = |code, found: String| {
-            Box::new(self.problem(code, key.path, place, found, key.needed()))
-        };
+        let wrong = |code, found: String| Box::new(self.problem(code, place, found, key.needed()));
         match (key.kind, raw) {
             (Kind::Quantity(_) | Kind::ContactStiffness { .. }, Raw::Text(text)) => {
                 self.read_quantity(key, text, place)
@@ -162,7 +198,6 @@ impl Values {
                 let number = number.trim_start_matches("the number ");
                 Err(Box::new(self.problem(
                     Code::BareNumber,
-                    key.path,
                     place,
                     format!("a bare number {number}"),
                     format!(
@@ -188,6 +223,7 @@ impl Values {
             (Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts, raw) => {
                 self.read_list(key, raw, place)
             }
+            (Kind::Any(_), raw) => Ok((Value::Raw(raw.clone()), raw.shown())),
             (Kind::Count, Raw::Integer(text, value)) => match value {
                 Some(value) if *value >= 0 => {
                     Ok((Value::Count(value.unsigned_abs()), value.to_string()))
@@ -208,9 +244,9 @@ impl Values {
         }
     }
 
-    fn read_quantity(
+    fn read_quantity<S>(
         &self,
-        key: &Key,
+        key: &Key<S>,
         text: &str,
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
@@ -218,16 +254,15 @@ impl Values {
         let quantity = parse_quantity(text).map_err(|error| {
             let (code, found, hint) = unreadable(&error, text, key.dimension());
             Box::new(
-                self.problem(code, key.path, place, found, key.needed())
+                self.problem(code, place, found, key.needed())
                     .with_hint(hint),
             )
         })?;
         let (fits, wanted) = match key.kind {
-            Kind::ContactStiffness { exponent } => {
-                let n = self.number(exponent).unwrap_or(f64::NAN);
+            Kind::ContactStiffness { .. } => {
+                let (n, here) = &self.exponent;
                 let power = quantity.dimension.length_power_under_force();
-                let fits = power.is_some_and(|power| (power.value() - n).abs() <= POWER_TOLERANCE);
-                let here = self.text(exponent).unwrap_or_default();
+                let fits = power.is_some_and(|power| (power.value() - *n).abs() <= POWER_TOLERANCE);
                 (fits, format!("{}; here n = {here}", key.needed()))
             }
             _ => (key.dimension() == Some(quantity.dimension), key.needed()),
@@ -263,7 +298,6 @@ impl Values {
         Err(Box::new(
             self.problem(
                 Code::WrongDimension,
-                key.path,
                 place,
                 format!("\"{text}\", which is {}", described(quantity.dimension)),
                 wanted,
@@ -271,10 +305,40 @@ impl Values {
             .with_hint(hint),
         ))
     }
+
+    /// The value of a default.
+    ///
+    /// # Errors
+    /// A default that its own key does not take.
+    pub fn fall_back<S>(&self, key: &Key<S>, fallback: &Fallback) -> Result<Known, Box<Problem>> {
+        let raw = match key.kind {
+            Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
+            Kind::Switch => Raw::Switch(fallback.text == "true"),
+            Kind::Coefficient => (fallback.text.parse())
+                .map_or_else(|_| Raw::Text(fallback.text.to_string()), Raw::Float),
+            Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts => {
+                as_toml(fallback.text).unwrap_or(Raw::Text(fallback.text.to_string()))
+            }
+            _ => Raw::Text(fallback.text.to_string()),
+        };
+        let given = Given {
+            raw,
+            typed: None,
+            place: Place::Whole,
+        };
+        let mut known = self.read(key, &given)?;
+        let reason = fallback.reason.to_string();
+        known.provenance = if fallback.assumed {
+            Provenance::DefaultAssumed(reason)
+        } else {
+            Provenance::Default(reason)
+        };
+        Ok(known)
+    }
 }
 
 /// A dimension in words: `a length`.
-pub(crate) fn described(dimension: Dimension) -> String {
+pub fn described(dimension: Dimension) -> String {
     match dimension.name() {
         Some(name) => format!("{} {name}", article(name)),
         None => format!("in {}", dimension.si_unit()),
@@ -282,7 +346,7 @@ pub(crate) fn described(dimension: Dimension) -> String {
 }
 
 /// What is wrong with the text of a quantity. What was meant is a hint of its own, not the middle of the message.
-pub(crate) fn unreadable(
+pub fn unreadable(
     error: &ParseError,
     text: &str,
     wanted: Option<Dimension>,

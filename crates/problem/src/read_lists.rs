@@ -1,22 +1,23 @@
 //! Lists: several values of one kind; a single one needs no brackets.
 
-use crate::scenario::document::Raw;
-use crate::scenario::key::{Key, Kind, quoted};
-use crate::scenario::read_rows::cell;
-use crate::scenario::values::{Value, Values};
-use problem::{Code, Place, Problem, did_you_mean};
+use crate::key::{Key, Kind, quoted};
+use crate::raw::Raw;
+use crate::read::Reader;
+use crate::read_rows::cell;
+use crate::value::Value;
+use crate::{Code, Place, Problem, did_you_mean};
 
-impl Values {
+impl Reader<'_> {
     /// Reads a list; a problem names the entry, counted from 1.
-    pub(crate) fn read_list(
+    pub(crate) fn read_list<S>(
         &self,
-        key: &Key,
+        key: &Key<S>,
         raw: &Raw,
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
         let wrong = |code, found: String, hint| {
             Box::new(
-                self.problem(code, key.path, place, found, key.needed())
+                self.problem(code, place, found, key.needed())
                     .with_hint(hint),
             )
         };

@@ -1,24 +1,22 @@
 //! Tables: rows of two quantities, of which the first rises.
 
-use crate::scenario::document::Raw;
-use crate::scenario::key::{Key, quoted};
-use crate::scenario::read::{described, unreadable};
-use crate::scenario::values::{Value, Values};
-use problem::{Code, Place, Problem};
+use crate::key::{Key, quoted};
+use crate::raw::Raw;
+use crate::read::{Reader, described, unreadable};
+use crate::value::Value;
+use crate::{Code, Place, Problem};
 use units::{Unit, parse_quantity};
 
-impl Values {
+impl Reader<'_> {
     /// Reads the rows of a table; a problem names the row, counted from 1.
-    pub(crate) fn read_rows(
+    pub(crate) fn read_rows<S>(
         &self,
-        key: &Key,
+        key: &Key<S>,
         units: [&str; 2],
         rows: &[Raw],
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
-        let wrong = |code, found: String| {
-            Box::new(self.problem(code, key.path, place, found, key.needed()))
-        };
+        let wrong = |code, found: String| Box::new(self.problem(code, place, found, key.needed()));
         if rows.len() < 2 {
             let found = if rows.is_empty() {
                 "an empty list"
