@@ -94,6 +94,28 @@ pub struct Fallback {
     pub assumed: bool,
 }
 
+impl Fallback {
+    /// A default that is a plain convention.
+    pub const fn convention(text: &'static str, reason: &'static str) -> Fallback {
+        let assumed = false;
+        Fallback {
+            text,
+            reason,
+            assumed,
+        }
+    }
+
+    /// A default that is an assumption.
+    pub const fn assumption(text: &'static str, reason: &'static str) -> Fallback {
+        let assumed = true;
+        Fallback {
+            text,
+            reason,
+            assumed,
+        }
+    }
+}
+
 /// That another key has one of these values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition {
@@ -199,20 +221,12 @@ impl<S: 'static> Key<S> {
 
     /// The same with a default that is a convention, and its reason.
     pub const fn default(self, text: &'static str, reason: &'static str) -> Key<S> {
-        self.present(Presence::Default(Fallback {
-            text,
-            reason,
-            assumed: false,
-        }))
+        self.present(Presence::Default(Fallback::convention(text, reason)))
     }
 
     /// The same with a default that is an assumption, and its reason.
     pub const fn assumed(self, text: &'static str, reason: &'static str) -> Key<S> {
-        self.present(Presence::Default(Fallback {
-            text,
-            reason,
-            assumed: true,
-        }))
+        self.present(Presence::Default(Fallback::assumption(text, reason)))
     }
 
     /// The same with a default under a condition.

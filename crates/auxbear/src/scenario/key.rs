@@ -28,6 +28,16 @@ pub struct Section {
     pub systems: &'static [SystemName],
 }
 
+impl Section {
+    pub(crate) const fn new(
+        path: &'static str,
+        doc: &'static str,
+        systems: &'static [SystemName],
+    ) -> Section {
+        Section { path, doc, systems }
+    }
+}
+
 /// All that must hold for a key to have a meaning: its own conditions, and of a rolling bearing that there are balls.
 pub(crate) fn conditions(key: &Key) -> impl Iterator<Item = &'static Condition> {
     let of_balls = key.path.starts_with("bearing.") && key.path != "bearing.fidelity";

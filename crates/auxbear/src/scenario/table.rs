@@ -152,110 +152,33 @@ pub(crate) fn names_files(key: &Key) -> bool {
     all.into_iter().any(|path| *path == key.path)
 }
 
-const RUN_SECTIONS: &[Section] = &[Section {
-    path: "run",
-    doc: "The simulation.",
-    systems: MOVING,
-}];
+#[rustfmt::skip]
+const RUN_SECTIONS: &[Section] = &[Section::new("run", "The simulation.", MOVING)];
 
+#[rustfmt::skip]
 const HEAD: &[Key] = &[
-    Key::new(
-        "format",
-        Kind::Word(&[FORMAT]),
-        FORMAT,
-        "Format and version of this file.",
-    ),
-    Key::new(
-        "system",
-        Kind::Word(SystemName::WORDS),
-        "drop",
-        "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor; machine, a bent rotor that is released onto its auxiliary bearings; coast_down, a rotor that runs out on its warming auxiliary bearings.",
-    ),
-    Key::new(
-        "title",
-        Kind::Text,
-        "Test rotor at full speed",
-        "Title of the report.",
-    )
-    .optional("the report is titled by the file name"),
-    Key::new(
-        "description",
-        Kind::Text,
-        "What was changed, and why",
-        "Text for the report.",
-    )
-    .optional("the report has no introduction"),
-    Key::new(
-        "catalogue",
-        Kind::Text,
-        "my_bearings.toml",
-        "File with your own bearings, relative to this one; they are added to the catalogue, or replace those of the same name.",
-    )
-    .optional("the built-in catalogue alone is used")
-    .only(WITH_BEARING),
+    Key::new("format", Kind::Word(&[FORMAT]), FORMAT, "Format and version of this file."),
+    Key::new("system", Kind::Word(SystemName::WORDS), "drop", "What is simulated: drop, a levitated rotor that is released onto its auxiliary bearing; spin_up, an inner race that is brought to speed; torque, the torque of a bearing without motion; signals, speed and torque from a measurement; rig, a test on a rig with the raw file of its logger; identify, what measured tests show of a bearing; rotor, modes, critical speeds and response of a bent rotor; machine, a bent rotor that is released onto its auxiliary bearings; coast_down, a rotor that runs out on its warming auxiliary bearings."),
+    Key::new("title", Kind::Text, "Test rotor at full speed", "Title of the report.").optional("the report is titled by the file name"),
+    Key::new("description", Kind::Text, "What was changed, and why", "Text for the report.").optional("the report has no introduction"),
+    Key::new("catalogue", Kind::Text, "my_bearings.toml", "File with your own bearings, relative to this one; they are added to the catalogue, or replace those of the same name.")
+        .optional("the built-in catalogue alone is used").only(WITH_BEARING),
 ];
 
+#[rustfmt::skip]
 const RUN: &[Key] = &[
-    Key::new(
-        "run.duration",
-        Kind::Quantity("s"),
-        "0.5 s",
-        "Simulated time. Time 0 is the release of a rotor that drops, or the start of a drive.",
-    )
-    .positive()
-    .default(
-        "0.5 s",
-        "long enough for the first impacts and the spin-up of a small inner race",
-    ),
-    Key::new(
-        "run.until",
-        Kind::Word(Until::WORDS),
-        "standstill",
-        "duration: the run ends at run.duration. standstill: once the rotor has rolled for 20 turns of every cage it runs out in slow time, on bearings that warm, until it stands.",
-    )
-    .default("duration", "a drop decides itself in its first second")
-    .only(FALLING),
-    Key::new(
-        "run.accuracy",
-        Kind::Word(Accuracy::WORDS),
-        "screening",
-        "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.",
-    )
-    .default("design", "numbers that a design may rest on")
-    .only(STEPPED),
-    Key::new(
-        "run.tolerance",
-        Kind::Coefficient,
-        "1e-4",
-        "Allowed error of a step, relative to each channel's own scale, such as a clearance, the full speed and the energy turned over.",
-    )
-    .within(Range::FromTo(1e-12, 1e-1))
-    .optional("1e-4, by linearly implicit steps 2e-4, of a spin-up 5e-5, where the rotor bends 2e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor bends 3e-3; 1e-3 by explicit ones"),
-    Key::new(
-        "run.output_interval",
-        Kind::Quantity("s"),
-        "0.1 ms",
-        "Time between rows of the history. Peaks and instants do not depend on it.",
-    )
-    .positive()
-    .default("0.1 ms", "5000 rows for the default duration"),
-    Key::new(
-        "run.largest_step",
-        Kind::Quantity("s"),
-        "1 ms",
-        "Largest step of the time integration.",
-    )
-    .positive()
-    .default(
-        "1 ms",
-        "short against a fall through a usual air clearance and against a spin-up",
-    ),
-    Key::new(
-        "run.method",
-        Kind::Word(Method::WORDS),
-        "auto",
-        "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps at screening accuracy, and of a drop where sliding friction is too stiff for explicit ones.",
-    )
-    .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact; of a spin-up by its accuracy")
-    .only(STEPPED),
+    Key::new("run.duration", Kind::Quantity("s"), "0.5 s", "Simulated time. Time 0 is the release of a rotor that drops, or the start of a drive.")
+        .positive().default("0.5 s", "long enough for the first impacts and the spin-up of a small inner race"),
+    Key::new("run.until", Kind::Word(Until::WORDS), "standstill", "duration: the run ends at run.duration. standstill: once the rotor has rolled for 20 turns of every cage it runs out in slow time, on bearings that warm, until it stands.")
+        .default("duration", "a drop decides itself in its first second").only(FALLING),
+    Key::new("run.accuracy", Kind::Word(Accuracy::WORDS), "screening", "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.")
+        .default("design", "numbers that a design may rest on").only(STEPPED),
+    Key::new("run.tolerance", Kind::Coefficient, "1e-4", "Allowed error of a step, relative to each channel's own scale, such as a clearance, the full speed and the energy turned over.")
+        .within(Range::FromTo(1e-12, 1e-1)).optional("1e-4, by linearly implicit steps 2e-4, of a spin-up 5e-5, where the rotor bends 2e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor bends 3e-3; 1e-3 by explicit ones"),
+    Key::new("run.output_interval", Kind::Quantity("s"), "0.1 ms", "Time between rows of the history. Peaks and instants do not depend on it.")
+        .positive().default("0.1 ms", "5000 rows for the default duration"),
+    Key::new("run.largest_step", Kind::Quantity("s"), "1 ms", "Largest step of the time integration.")
+        .positive().default("1 ms", "short against a fall through a usual air clearance and against a spin-up"),
+    Key::new("run.method", Kind::Word(Method::WORDS), "auto", "Time integration: explicit steps are bound by stability, implicit ones are not; auto takes implicit steps at screening accuracy, and of a drop where sliding friction is too stiff for explicit ones.")
+        .default("auto", "the quicker one at equal error, judged by the friction rate of a ball in the first impact; of a spin-up by its accuracy").only(STEPPED),
 ];
