@@ -6,19 +6,9 @@ use crate::rust_text::{code_only, is_word};
 const SOURCE: &str = "crates/auxbear/src/";
 
 /// The modules in their order; each may use those to its left.
-const ORDER: [&str; 12] = [
-    "catalogue",
-    "scenario",
-    "options",
-    "result",
-    "simulate",
-    "analyse",
-    "evaluate",
-    "run",
-    "study",
-    "report",
-    "import",
-    "validate",
+const ORDER: [&str; 11] = [
+    "scenario", "options", "result", "simulate", "analyse", "evaluate", "run", "study", "report",
+    "import", "validate",
 ];
 
 /// Scans every file of every module.

@@ -15,13 +15,12 @@
 //! assert!(outcome.stop.complete());
 //! ```
 //!
-//! Modules, each using only those before it: [`catalogue`], [`scenario`], [`options`], [`result`], then
+//! Modules, each using only those before it: [`scenario`], [`options`], [`result`], then
 //! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`mod@study`], [`report`], [`import`], [`validate`].
 
 #![forbid(unsafe_code)]
 
 pub mod analyse;
-pub mod catalogue;
 pub mod evaluate;
 pub mod import;
 pub mod options;
@@ -33,6 +32,7 @@ pub mod simulate;
 pub mod study;
 pub mod validate;
 
+pub use catalogue;
 pub use measure;
 pub use physics;
 pub use problem;

@@ -116,7 +116,7 @@ fn the_parts_fit_into_the_bearing() {
 
 #[test]
 fn the_shipped_file_passes_the_checks_of_a_users_file() {
-    let text = include_str!("../src/catalogue/bearings.toml");
+    let text = include_str!("../../catalogue/src/bearings.toml");
     let catalogue = Catalogue::with_text(text, "bearings.toml").unwrap();
     assert_eq!(catalogue.iter().count(), bearings().len());
     for bearing in bearings() {

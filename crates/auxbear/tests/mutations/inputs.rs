@@ -173,8 +173,7 @@ rows = [["A", 25, 52, 7.9, 9], ["B", 30, 62, 9.5, { value = 9, assumed = "as A" 
 #[test]
 fn mutated_catalogues_are_read() {
     assert!(Catalogue::with_text(CATALOGUE, "mine.toml").is_ok());
-    let built_in =
-        fs::read_to_string(repository("crates/auxbear/src/catalogue/bearings.toml")).unwrap();
+    let built_in = fs::read_to_string(repository("crates/catalogue/src/bearings.toml")).unwrap();
     let mut watch = Watch::new("catalogue");
     for k in 0..mutations() {
         let mut dice = Dice::new(k as u64);

@@ -1,7 +1,7 @@
 //! Bearings as JSON.
 
 use super::bearing::{Bearing, Datum, Origin};
-use super::key::{self, Kind};
+use super::key;
 use serde_json::{Map, Value as Json, json};
 
 /// The bearings as one JSON text:
@@ -54,9 +54,6 @@ fn bearing(bearing: &Bearing) -> Json {
 }
 
 /// SI unit of a key; "" for counts, ratios and words.
-fn unit(name: &str) -> String {
-    match key::find(name).map(|key| key.kind) {
-        Some(Kind::Quantity(dimension)) => dimension.si_unit(),
-        _ => String::new(),
-    }
+fn unit(name: &str) -> &'static str {
+    key::find(name).map_or("", |key| key.unit())
 }

@@ -2,10 +2,12 @@
 
 use super::bearing::Bearing;
 use super::draft::{Read, Reader};
-use super::key::{self, Kind};
+use super::key;
+use problem::key::Kind;
+use problem::raw::Raw;
+use problem::read::Reader as ValueReader;
 use problem::{Code, Place, Problem, did_you_mean};
 use std::collections::BTreeMap;
-use units::Dimension;
 
 /// How far a bore may be from the one asked for and still be it: inches converted to a tenth of a micrometre.
 const SAME_LENGTH: f64 = 1e-7;
@@ -105,29 +107,20 @@ fn range(reader: &Reader<'_>, text: &str) -> Read<(f64, f64)> {
 }
 
 fn quantity(reader: &Reader<'_>, name: &str, text: &str, option: &str) -> Read<f64> {
-    let Some((key, dimension)) = key::find(name).and_then(|key| match key.kind {
-        Kind::Quantity(dimension) => Some((key, dimension)),
-        _ => None,
-    }) else {
+    let Some(key) = key::find(name) else {
         return Ok(0.0);
     };
-    let datum = reader.quantity(key, dimension, text.trim(), option, 0);
-    let datum = datum.map_err(|mut problem| {
+    let raw = Raw::Text(text.trim().to_string());
+    let read = ValueReader::of(reader.file, option).read_raw(key, &raw, Place::Whole);
+    let (value, _) = read.map_err(|mut problem| {
         // What may be meant by a bare number is the unit of makers' tables.
         if problem.code == Code::BareNumber {
-            let unit = if dimension == Dimension::LENGTH {
-                "mm"
-            } else {
-                "rpm"
-            };
+            let unit = if key.unit() == "m" { "mm" } else { "rpm" };
             problem.hint = Some(format!("Did you mean \"{} {unit}\"?", text.trim()));
         }
         problem
     })?;
-    Ok(match datum {
-        super::Datum::Number { si, .. } => si,
-        super::Datum::Word(_) => 0.0,
-    })
+    Ok(value.number().unwrap_or_default())
 }
 
 fn one_of(reader: &Reader<'_>, name: &str, text: &str, option: &str) -> Read<String> {

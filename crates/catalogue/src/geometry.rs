@@ -10,28 +10,39 @@ use std::f64::consts::PI;
 
 /// What is known of a bearing: lengths in m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Geometry {
-    pub(crate) bore: Option<f64>,
-    pub(crate) outside: Option<f64>,
-    pub(crate) width: Option<f64>,
-    pub(crate) pitch: Option<f64>,
-    pub(crate) ball: Option<f64>,
-    pub(crate) count: Option<f64>,
+pub struct Geometry {
+    /// Bore of the inner ring, m.
+    pub bore: Option<f64>,
+    /// Outside diameter, m.
+    pub outside: Option<f64>,
+    /// Width, m.
+    pub width: Option<f64>,
+    /// Diameter of the circle of ball centres, m.
+    pub pitch: Option<f64>,
+    /// Diameter of a ball, m.
+    pub ball: Option<f64>,
+    /// Number of balls.
+    pub count: Option<f64>,
 }
 
 /// A contradiction, told for each key that may be the wrong one; the most doubtful comes first.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Contradiction {
-    pub(crate) code: Code,
-    pub(crate) blames: Vec<Blame>,
+pub struct Contradiction {
+    /// What kind of contradiction it is.
+    pub code: Code,
+    /// The keys that may be wrong, the first of them most likely.
+    pub blames: Vec<Blame>,
 }
 
 /// What is wrong if it is this key.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Blame {
-    pub(crate) key: &'static str,
-    pub(crate) found: String,
-    pub(crate) allowed: String,
+pub struct Blame {
+    /// The key.
+    pub key: &'static str,
+    /// What was found there.
+    pub found: String,
+    /// What would be possible.
+    pub allowed: String,
 }
 
 const BORE: &str = "bore_diameter";
@@ -43,7 +54,7 @@ const COUNT: &str = "ball_count";
 
 impl Geometry {
     /// The first contradiction; the texts are the values as they are written.
-    pub(crate) fn contradiction(&self, text: &dyn Fn(&str) -> String) -> Option<Contradiction> {
+    pub fn contradiction(&self, text: &dyn Fn(&str) -> String) -> Option<Contradiction> {
         self.order(text)
             .or_else(|| self.rings(text))
             .or_else(|| self.balls_fit(text))
@@ -186,7 +197,7 @@ impl Geometry {
 const RATING: (f64, f64) = (2e6, 60e6);
 
 /// What is allowed instead of a static load rating, N, that balls of this area Z D² cos α, m², cannot have.
-pub(crate) fn rating_beyond_balls(rating: f64, area: f64) -> Option<String> {
+pub fn rating_beyond_balls(rating: f64, area: f64) -> Option<String> {
     let (least, most) = (RATING.0 * area, RATING.1 * area);
     (!(least..=most).contains(&rating)).then(|| {
         format!(
@@ -198,13 +209,13 @@ pub(crate) fn rating_beyond_balls(rating: f64, area: f64) -> Option<String> {
 }
 
 /// A number for a message, to four digits.
-pub(crate) fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     units::number_text(rounded)
 }
 
 /// A length for a message, to four digits.
-pub(crate) fn millimetres(length: f64) -> String {
+pub fn millimetres(length: f64) -> String {
     format!("{} mm", digits(length * 1e3))
 }
 

@@ -24,7 +24,7 @@ impl Column<'_> {
     fn name(&self) -> &str {
         match self {
             Column::Note(name) => name,
-            Column::Values { key, .. } => key.name,
+            Column::Values { key, .. } => key.path,
         }
     }
 }
@@ -142,9 +142,9 @@ impl Reader<'_> {
         let mut draft = draft(start);
         let mut texts: Vec<(&str, String)> = Vec::new();
         for (key, start, value) in common {
-            texts.push((key.name, value.text().to_string()));
+            texts.push((key.path, value.text().to_string()));
             draft.bearing.values.push(value.clone());
-            draft.starts.push((key.name, *start));
+            draft.starts.push((key.path, *start));
         }
         for (column, cell) in columns.iter().zip(cells) {
             let start = cell.span().start;
@@ -152,12 +152,12 @@ impl Reader<'_> {
                 Column::Note(name) => texts.push((name, note_text(cell.get_ref()))),
                 Column::Values { key, unit, mark } => {
                     let value = self.cell(key, *unit, mark, cell.get_ref(), start)?;
-                    texts.push((key.name, value.text().to_string()));
+                    texts.push((key.path, value.text().to_string()));
                     // A row may differ from its family.
-                    draft.bearing.values.retain(|common| common.key != key.name);
-                    draft.starts.retain(|common| common.0 != key.name);
+                    draft.bearing.values.retain(|common| common.key != key.path);
+                    draft.starts.retain(|common| common.0 != key.path);
                     draft.bearing.values.push(value);
-                    draft.starts.push((key.name, start));
+                    draft.starts.push((key.path, start));
                 }
             }
         }
@@ -187,10 +187,10 @@ impl Reader<'_> {
         if let DeValue::Table(_) = cell {
             return self.value(key, cell, unit, "family", start);
         }
-        let path = format!("family.{}", key.name);
+        let path = format!("family.{}", key.path);
         let (mark, note) = self.founded(mark.clone(), &path, start)?;
         Ok(Value {
-            key: key.name.to_string(),
+            key: key.path.to_string(),
             datum: self.datum(key, cell, unit, &path, start)?,
             mark,
             note,

@@ -2,11 +2,13 @@
 
 use super::bearing::{Datum, Mark, Value};
 use super::draft::{Read, Reader};
-use super::key::{Key, Kind};
+use super::key::Key;
 use super::read::{in_order, kind};
-use problem::{Code, did_you_mean, question};
+use problem::raw::{Given, Raw, raw};
+use problem::read::Reader as ValueReader;
+use problem::value::Value as KeyValue;
+use problem::{Code, Place, did_you_mean};
 use toml::de::{DeTable, DeValue};
-use units::{Dimension, ParseError, parse_quantity};
 
 impl Reader<'_> {
     /// A value with its mark: bare, or `{ value = …, catalogue | derived | assumed = "…" }`.
@@ -18,11 +20,11 @@ impl Reader<'_> {
         section: &str,
         start: usize,
     ) -> Read<Value> {
-        let path = format!("{section}.{}", key.name);
+        let path = format!("{section}.{}", key.path);
         let DeValue::Table(table) = value else {
             let (mark, note) = self.founded(None, &path, start)?;
             return Ok(Value {
-                key: key.name.to_string(),
+                key: key.path.to_string(),
                 datum: self.datum(key, value, unit, &path, start)?,
                 mark,
                 note,
@@ -40,7 +42,7 @@ impl Reader<'_> {
             ));
         };
         Ok(Value {
-            key: key.name.to_string(),
+            key: key.path.to_string(),
             datum: self.datum(key, value.get_ref(), unit, &path, start)?,
             mark,
             note,
@@ -148,96 +150,22 @@ impl Reader<'_> {
         path: &str,
         start: usize,
     ) -> Read<Datum> {
-        let wrong = |code, found: String| self.problem(code, start, path, found, key.needed());
-        let number = match value {
-            DeValue::Integer(integer) => Some(integer.to_string()),
-            DeValue::Float(float) => Some(float.as_str().to_string()),
-            _ => None,
+        let place = Place::of_offset(self.text, start);
+        let raw = match (raw(value), unit) {
+            (Raw::Integer(number, _), Some(unit)) => Raw::Text(format!("{number} {unit}")),
+            (Raw::Float(number), Some(unit)) => {
+                Raw::Text(format!("{} {unit}", units::number_text(number)))
+            }
+            (other, _) => other,
         };
-        let datum = match (key.kind, value, number) {
-            (Kind::Word(words), DeValue::String(text), _) => {
-                if words.iter().any(|word| word == text) {
-                    return Ok(Datum::Word(text.to_string()));
-                }
-                let mut problem = wrong(Code::UnknownWord, format!("\"{text}\""));
-                problem.hint = did_you_mean(text, words.iter().copied());
-                return Err(problem);
-            }
-            (Kind::Quantity(dimension), DeValue::String(text), _) => {
-                self.quantity(key, dimension, text.trim(), path, start)?
-            }
-            (Kind::Quantity(dimension), _, Some(number)) => match unit {
-                Some(unit) => {
-                    let text = format!("{number} {unit}");
-                    self.quantity(key, dimension, &text, path, start)?
-                }
-                None => return Err(wrong(Code::BareNumber, format!("a bare number {number}"))),
+        let typed = None;
+        let known = ValueReader::of(self.file, path).read(key, &Given { raw, typed, place })?;
+        Ok(match known.value {
+            KeyValue::Word(word) => Datum::Word(word.to_string()),
+            other => Datum::Number {
+                si: other.number().unwrap_or(f64::NAN),
+                text: known.text,
             },
-            (Kind::Count, DeValue::Integer(_), Some(text)) => plain_number(text),
-            (Kind::Ratio, _, Some(text)) => plain_number(text),
-            (_, other, _) => return Err(wrong(Code::WrongType, kind(other))),
-        };
-        let Datum::Number { si, text } = &datum else {
-            return Ok(datum);
-        };
-        let (above, most) = key.range;
-        if *si > above && *si <= most {
-            return Ok(datum);
-        }
-        Err(self.problem(
-            Code::OutOfRange,
-            start,
-            path,
-            text,
-            format!("a value {} is needed", key.range_text()),
-        ))
+        })
     }
-
-    pub(super) fn quantity(
-        &self,
-        key: &Key,
-        dimension: Dimension,
-        text: &str,
-        path: &str,
-        start: usize,
-    ) -> Read<Datum> {
-        let wrong = |code, found: String| self.problem(code, start, path, found, key.needed());
-        match parse_quantity(text) {
-            Ok(quantity) if quantity.dimension == dimension => Ok(Datum::Number {
-                si: quantity.value_si,
-                text: text.to_string(),
-            }),
-            Ok(quantity) => {
-                let is = match quantity.dimension.name() {
-                    Some(name) => format!("of dimension {name}"),
-                    None => format!("in {}", quantity.dimension.si_unit()),
-                };
-                Err(wrong(
-                    Code::WrongDimension,
-                    format!("\"{text}\", which is {is}"),
-                ))
-            }
-            Err(ParseError::UnknownUnit { unit, nearest }) => {
-                let found = format!("the unknown unit \"{unit}\"");
-                let mut problem = wrong(Code::UnreadableQuantity, found);
-                problem.hint = nearest.as_deref().and_then(|nearest| question(&[nearest]));
-                Err(problem)
-            }
-            Err(error) => {
-                let code = match error {
-                    ParseError::MissingUnit { .. } => Code::BareNumber,
-                    ParseError::OutOfRange { .. } | ParseError::NotFinite { .. } => {
-                        Code::OutOfRange
-                    }
-                    _ => Code::UnreadableQuantity,
-                };
-                Err(wrong(code, error.to_string()))
-            }
-        }
-    }
-}
-
-fn plain_number(text: String) -> Datum {
-    let si = text.replace('_', "").parse().unwrap_or(f64::NAN);
-    Datum::Number { si, text }
 }

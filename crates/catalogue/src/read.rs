@@ -180,7 +180,7 @@ impl Reader<'_> {
                     let key = self.key(name, "bearing", start)?;
                     let value = self.value(key, value.get_ref(), None, "bearing", start)?;
                     draft.bearing.values.push(value);
-                    draft.starts.push((key.name, start));
+                    draft.starts.push((key.path, start));
                 }
             }
         }
@@ -220,7 +220,7 @@ impl Reader<'_> {
 
     pub(super) fn key(&self, name: &str, section: &str, start: usize) -> Read<&'static Key> {
         key::find(name).ok_or_else(|| {
-            let names = || KEYS.iter().map(|key| key.name);
+            let names = || KEYS.iter().map(|key| key.path);
             let listed: Vec<&str> = names().collect();
             let mut problem = self.problem(
                 Code::UnknownKey,

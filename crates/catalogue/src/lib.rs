@@ -33,14 +33,16 @@
 //!
 //! Masses and inertias are those of the bare ring: a sleeve on it belongs to the inner race and is the user's to add.
 
-pub(crate) mod bearing;
+#![forbid(unsafe_code)]
+
+mod bearing;
 mod check;
 mod complete;
 pub mod designation;
 mod draft;
 mod family;
 mod filter;
-pub(crate) mod geometry;
+pub mod geometry;
 mod json;
 mod key;
 mod meant;
