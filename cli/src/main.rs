@@ -27,12 +27,12 @@ use auxbear::report::directory;
 use auxbear::report::export::{self, Format};
 use auxbear::run::panic_is_caught;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
-use auxbear::validate::{self, Simulation};
 use clap::Parser;
 use exit::Exit;
 use progress::Busy;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use validate::Simulation;
 
 fn main() -> ExitCode {
     measured_quietly();

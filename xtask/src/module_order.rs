@@ -6,9 +6,9 @@ use crate::rust_text::{code_only, is_word};
 const SOURCE: &str = "crates/auxbear/src/";
 
 /// The modules in their order; each may use those to its left.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 10] = [
     "scenario", "options", "result", "simulate", "analyse", "evaluate", "run", "study", "report",
-    "import", "validate",
+    "import",
 ];
 
 /// Scans every file of every module.

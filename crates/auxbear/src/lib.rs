@@ -1,7 +1,7 @@
 //! What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
 //!
 //! A [`scenario::Scenario`] is read and checked, [`run::run`] computes it, and the results are plain data
-//! ([`result::outcome::Outcome`]) that [`report`] writes and draws and [`validate`] holds against published numbers.
+//! ([`result::outcome::Outcome`]) that [`report`] writes and draws.
 //!
 //! ```
 //! use auxbear::scenario::{BuiltIn, Scenario, template};
@@ -16,7 +16,7 @@
 //! ```
 //!
 //! Modules, each using only those before it: [`scenario`], [`options`], [`result`], then
-//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`mod@study`], [`report`], [`import`], [`validate`].
+//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`mod@study`], [`report`], [`import`].
 
 #![forbid(unsafe_code)]
 
@@ -30,7 +30,6 @@ pub mod run;
 pub mod scenario;
 pub mod simulate;
 pub mod study;
-pub mod validate;
 
 pub use catalogue;
 pub use measure;

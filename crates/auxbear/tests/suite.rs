@@ -32,5 +32,4 @@ mod signals_files;
 mod speed_channel;
 mod studies;
 mod torque;
-mod validation;
 mod warnings;

@@ -6,7 +6,7 @@ use rotor::{Annulus, C64, Disk, Element, Material, Place, PointMass};
 use serde_json::Value;
 
 /// The draft of a reference file.
-pub(crate) fn draft(file: &Value) -> Result<Draft, String> {
+pub fn draft(file: &Value) -> Result<Draft, String> {
     let model = &file["model"];
     let list = |key: &str| {
         let list = model[key].as_array();

@@ -9,44 +9,52 @@ use units::number_text;
 
 /// A rotor as it was read, in SI.
 #[derive(Default)]
-pub(crate) struct Draft {
+pub struct Draft {
     /// What kind of file it was.
-    pub(crate) kind: String,
-    pub(crate) title: String,
+    pub kind: String,
+    /// Title of the scenario.
+    pub title: String,
     /// Rated speed, rad/s.
-    pub(crate) speed: f64,
+    pub speed: f64,
     /// Positions of nodes of the shaft, m.
-    pub(crate) nodes: Vec<f64>,
+    pub nodes: Vec<f64>,
     /// Materials by name.
-    pub(crate) materials: Vec<(String, Material)>,
+    pub materials: Vec<(String, Material)>,
     /// Pieces of shaft, one element each: index of the material, element.
-    pub(crate) pieces: Vec<(usize, Element)>,
+    pub pieces: Vec<(usize, Element)>,
     /// Name and disk.
-    pub(crate) disks: Vec<(String, Disk)>,
-    pub(crate) masses: Vec<(String, PointMass)>,
-    pub(crate) supports: Vec<(String, DraftSupport)>,
+    pub disks: Vec<(String, Disk)>,
+    /// Masses by name.
+    pub masses: Vec<(String, PointMass)>,
+    /// Supports and seals by name.
+    pub supports: Vec<(String, DraftSupport)>,
     /// Mass of each housing, kg.
-    pub(crate) housings: Vec<f64>,
-    pub(crate) notes: Vec<String>,
+    pub housings: Vec<f64>,
+    /// What the file has and the draft has not.
+    pub notes: Vec<String>,
     /// Eigenvalues that the file states: speed, list.
-    pub(crate) stated: Vec<(f64, Vec<C64>)>,
+    pub stated: Vec<(f64, Vec<C64>)>,
     /// Those that lack a number.
-    pub(crate) nulls: Vec<String>,
+    pub nulls: Vec<String>,
     /// Whether pieces are divided further, because the file says nothing of elements.
-    pub(crate) divide: bool,
+    pub divide: bool,
 }
 
 /// A support before it is known whether its table holds.
-pub(crate) struct DraftSupport {
-    pub(crate) at: Place,
-    pub(crate) on: Option<usize>,
-    pub(crate) rows: Vec<(f64, Block)>,
-    pub(crate) seal: bool,
+pub struct DraftSupport {
+    /// Where it sits.
+    pub at: Place,
+    /// The housing that carries it; none of a fixed one.
+    pub on: Option<usize>,
+    /// Coefficients at speeds, rad/s.
+    pub rows: Vec<(f64, Block)>,
+    /// Whether it is a seal.
+    pub seal: bool,
 }
 
 impl Draft {
     /// The material of these numbers; a new one gets a name of its own.
-    pub(crate) fn material(&mut self, name: &str, material: Material) -> usize {
+    pub fn material(&mut self, name: &str, material: Material) -> usize {
         if let Some(known) = self.materials.iter().position(|(_, own)| *own == material) {
             return known;
         }
@@ -77,7 +85,7 @@ impl Draft {
     }
 
     /// The rotor as it was read.
-    pub(crate) fn rotor(&self) -> Rotor {
+    pub fn rotor(&self) -> Rotor {
         let supports = self.supports.iter().map(|(_, support)| Support {
             at: support.at,
             on: support.on,
@@ -101,7 +109,7 @@ impl Draft {
     }
 
     /// The scenario of the rotor.
-    pub(crate) fn toml(&self) -> String {
+    pub fn toml(&self) -> String {
         let mut out = String::new();
         let mut add = |text: String| {
             out.push_str(&text);

@@ -6,9 +6,9 @@
 //! ```
 //! What a file says that is not understood is listed, never dropped without a word.
 
-pub(crate) mod case;
-pub(crate) mod draft;
-pub(crate) mod ross;
+pub mod case;
+pub mod draft;
+pub mod ross;
 mod table;
 
 use crate::scenario::{BuiltIn, Scenario, System};

@@ -215,7 +215,7 @@ fn lay_out(draft: &mut Draft, shaft: &[(&str, &str, &Map<String, Value>)]) -> Re
 }
 
 /// What an element of shaft says that is not modelled.
-pub(crate) fn not_modelled(element: &Map<String, Value>, what: &str) -> Vec<String> {
+pub fn not_modelled(element: &Map<String, Value>, what: &str) -> Vec<String> {
     let mut notes = Vec::new();
     for (key, word) in [("axial_force", "axial force"), ("torque", "axial torque")] {
         if number(element, key).is_some_and(|value| value != 0.0) {

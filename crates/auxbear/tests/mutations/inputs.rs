@@ -9,10 +9,10 @@ use auxbear::report::{directory, page, study as studies};
 use auxbear::run::build;
 use auxbear::scenario::{BuiltIn, Scenario, StudyFile, SystemName, keys, template};
 use auxbear::study::Study;
-use auxbear::validate::{LawsOnly, case, reference};
 use std::fs;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
+use validate::{LawsOnly, case, reference};
 
 /// Mutations of each kind in the short form: a second each.
 const USUAL: usize = 300;

@@ -182,7 +182,7 @@ fn places(shaft: &Shaft) -> Vec<usize> {
 }
 
 /// Row of a node's displacement.
-pub(crate) fn row(basis: &Basis, node: usize) -> Vec<f64> {
+pub fn row(basis: &Basis, node: usize) -> Vec<f64> {
     basis.shapes.row(2 * node).iter().copied().collect()
 }
 
@@ -206,7 +206,7 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
 }
 
 /// A rotor in the coordinates of a basis, without unbalance, drive and drag.
-pub(crate) fn in_coordinates(rotor: &Rotor, matrices: &Matrices, basis: &Basis) -> RotorConstants {
+pub fn in_coordinates(rotor: &Rotor, matrices: &Matrices, basis: &Basis) -> RotorConstants {
     let reduced = matrices.project(&basis.shapes);
     let mut ones = DVector::zeros(rotor.size());
     for node in 0..rotor.nodes.len() {
@@ -236,7 +236,7 @@ pub(crate) fn in_coordinates(rotor: &Rotor, matrices: &Matrices, basis: &Basis) 
 }
 
 /// The unbalances of a rotor in the coordinates of a basis.
-pub(crate) fn planes(rotor: &Rotor, basis: &Basis) -> Vec<Unbalance> {
+pub fn planes(rotor: &Rotor, basis: &Basis) -> Vec<Unbalance> {
     let planes = rotor.unbalance.iter().map(|plane| Unbalance {
         node: row(basis, plane.node),
         product: plane.amount,

@@ -5,9 +5,9 @@
 
 use super::given::{Coordinates, index, rotor};
 use super::json::{list, number, numbers};
-use crate::validate::compare::{Refusal, Worst};
-use crate::validate::report::{Row, Tolerance};
-use crate::validate::simulation::falling_machine;
+use crate::compare::{Refusal, Worst};
+use crate::report::{Row, Tolerance};
+use crate::simulation::falling_machine;
 use model::bearing::rolling::RollingBall;
 use model::bearing::{AccelerationLoss, BearingConstants, RollingConstants, SteadyMoment};
 use model::system::machine::simulate::{Runs, Steps, simulate};

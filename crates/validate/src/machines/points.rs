@@ -2,8 +2,8 @@
 
 use super::given::{Coordinates, machine, rotor};
 use super::json::{list, number, numbers, pairs};
-use crate::validate::compare::{Refusal, Worst};
-use crate::validate::report::{Row, Tolerance};
+use crate::compare::{Refusal, Worst};
+use crate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::bearing::ball::BallMotion;
 use model::bearing::{BearingConstants, PlanarConstants};

@@ -2,8 +2,8 @@
 
 use super::given::GivenMount;
 use super::json::{list, number, numbers, pair};
-use crate::validate::compare::{Refusal, Worst, part};
-use crate::validate::report::{Row, Tolerance};
+use crate::compare::{Refusal, Worst, part};
+use crate::report::{Row, Tolerance};
 use model::mount::squeeze_film::Film;
 use model::mount::{Mount, MountParts, SqueezeFilm, WholeMount};
 use number::Vec2;

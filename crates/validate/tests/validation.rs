@@ -1,7 +1,7 @@
 //! Every shipped case and every reference file is met.
 
-use auxbear::validate::{Simulation, Verdict, run};
 use std::path::{Path, PathBuf};
+use validate::{Simulation, Verdict, run};
 
 /// The folder of reference cases, which are no part of the program.
 fn reference_cases() -> PathBuf {

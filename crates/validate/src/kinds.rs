@@ -6,8 +6,8 @@
 //! | `bearing_kinematics` | `ball_count`, `ball_diameter`, `pitch_diameter`, `contact_angle` (0) | per turn: `ball_pass_outer`, `ball_pass_inner`, `ball_spin`, `cage` |
 //! | `rolling_moments` | `inner_track_radius`, `ball_radius`, `ball_count`, `ball_mass`, `cage_mass`, `race_acceleration`, `pocket_friction` (0), `steady_moment` (0) | `inner_traction`, `outer_traction`, `inner_moment`, `outer_moment`, `cage_load` |
 //! | `palmgren_moment` | `form` ("printed", "continuous"), `viscous_factor`, `viscosity`, `speed`, `pitch_diameter`, and for the load part `load`, `static_load_rating`, `load_factor`, `load_exponent` | `viscous_moment`; with a load also `load_friction_factor`, `load_moment` |
-//! | `skf_friction`, `palmgren_factors`, `oil_viscosity` | see `crates/auxbear/src/validate/friction_kinds.rs` | |
-//! | `film_thickness` | see `crates/auxbear/src/validate/film_kinds.rs` | |
+//! | `skf_friction`, `palmgren_factors`, `oil_viscosity` | see `crates/validate/src/friction_kinds.rs` | |
+//! | `film_thickness` | see `crates/validate/src/film_kinds.rs` | |
 //! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
 //! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
 

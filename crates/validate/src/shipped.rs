@@ -2,7 +2,7 @@
 
 macro_rules! cases {
     ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../../../validation/", $name, ".toml")))),*]
+        &[$(($name, include_str!(concat!("../../../validation/", $name, ".toml")))),*]
     };
 }
 

@@ -3,9 +3,9 @@
 
 use super::given::{Coordinates, index, machine};
 use super::json::{list, number, pairs};
-use crate::validate::compare::{Refusal, never};
-use crate::validate::levitated;
-use crate::validate::report::{Row, Tolerance};
+use crate::compare::{Refusal, never};
+use crate::levitated;
+use crate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::NORMAL_FORCE;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
@@ -281,7 +281,7 @@ fn judged(file: &Value, key: &str, unit: &str, ours: Option<f64>) -> Option<Row>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validate::report::Verdict;
+    use crate::report::Verdict;
     use serde_json::json;
 
     /// First contact of one end as a point of its static load, F = F(0) e² + k_s e² w, e = exp(-t/τ), over the way that it falls at τ = 0:

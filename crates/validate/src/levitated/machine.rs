@@ -1,7 +1,7 @@
 //! The rotors, magnets and unbalances of the reference files as parts of the kernel.
 
-use crate::validate::compare::{Refusal, part};
-use crate::validate::rotors;
+use crate::compare::{Refusal, part};
+use crate::rotors;
 use levitation::{
     Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Refused, Sensor,
     StateSpace, Timing,

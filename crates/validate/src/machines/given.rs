@@ -1,10 +1,10 @@
 //! Machines of the files as constants of the model.
 
 use super::json::{list, number, numbers, pair};
-use crate::simulate::drop::shaft::{in_coordinates, planes, row};
-use crate::validate::compare::{Refusal, part};
-use crate::validate::machine::ReferenceMachine;
-use crate::validate::{rotors, simulation};
+use crate::compare::{Refusal, part};
+use crate::machine::ReferenceMachine;
+use crate::{rotors, simulation};
+use auxbear::simulate::drop::shaft::{in_coordinates, planes, row};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::BearingConstants;
 use model::levitation::Levitation;

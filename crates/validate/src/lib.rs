@@ -6,6 +6,8 @@
 //!
 //! Laws are computed here. Whole simulations are asked of a [`Simulator`].
 
+#![forbid(unsafe_code)]
+
 pub mod case;
 mod inputs;
 pub mod kinds;

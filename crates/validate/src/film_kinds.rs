@@ -71,10 +71,10 @@ fn entrainment(inputs: &mut Inputs, given: &BallOnRace) -> Result<f64, String> {
 
 #[cfg(test)]
 mod tests {
-    use crate::validate::case;
-    use crate::validate::report::Verdict;
-    use crate::validate::shipped::CASES;
-    use crate::validate::simulator::LawsOnly;
+    use crate::case;
+    use crate::report::Verdict;
+    use crate::shipped::CASES;
+    use crate::simulator::LawsOnly;
 
     fn shipped() -> &'static str {
         CASES

@@ -1,8 +1,8 @@
 //! Comparisons of a file, each quantity with the worst of its rows and the tolerance that the file gives.
 
 use super::json::{list, number, text};
-use crate::validate::compare::Worst;
-use crate::validate::report::{Row, Tolerance};
+use crate::compare::Worst;
+use crate::report::{Row, Tolerance};
 use serde_json::Value;
 
 /// Compares a row of a kind, or a file.

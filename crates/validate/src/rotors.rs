@@ -5,8 +5,8 @@
 
 use super::compare::{Refusal, Worst};
 use super::report::{Row, Tolerance};
-use crate::import::draft::Draft;
-use crate::import::{case, ross};
+use auxbear::import::draft::Draft;
+use auxbear::import::{case, ross};
 use rotor::{
     Analysis, Annulus, C64, Element, Material, Place, Responder, Rotor, Unbalance, properties, sag,
 };
@@ -421,7 +421,7 @@ fn standing(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
 mod tests {
     use super::super::compare::rows_of;
     use super::*;
-    use crate::validate::report::Verdict;
+    use crate::report::Verdict;
     use serde_json::json;
 
     /// Two masses of 1 kg on a shaft without mass, on springs that grow from 1 to 4 MN/m at 200 rad/s: both move alike at √(k/m).

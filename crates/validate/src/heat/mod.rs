@@ -100,7 +100,7 @@ fn by_kind(file: &Value, tally: &mut Tally) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validate::report::{Row, Verdict};
+    use crate::report::{Row, Verdict};
     use serde_json::json;
     use std::path::Path;
 

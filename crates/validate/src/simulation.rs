@@ -3,7 +3,7 @@
 use super::machine::ReferenceMachine;
 use super::reference::{DerivativePoint, DropReference};
 use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Simulator};
-use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use auxbear::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
