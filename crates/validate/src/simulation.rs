@@ -135,13 +135,8 @@ fn simulate(
     duration: f64,
     tolerance: f64,
 ) -> Result<Finished, String> {
-    let member = Member {
-        following: None,
-        kind: 0,
-        start: start.unwrap_or_else(|| machine.start()),
-        machine: machine.into(),
-        keep_rows: false,
-    };
+    let start = start.unwrap_or_else(|| machine.start());
+    let member = Member::of(machine, start);
     let mut finished = ensemble::run(
         std::slice::from_ref(&member),
         &Plan {

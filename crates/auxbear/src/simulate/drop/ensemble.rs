@@ -29,6 +29,19 @@ pub struct Member {
     pub kind: usize,
 }
 
+impl Member {
+    /// A machine whose constants stay; its history is not kept.
+    pub fn of(machine: RotorMachine, start: Vec<f64>) -> Member {
+        Member {
+            machine: machine.into(),
+            following: None,
+            start,
+            keep_rows: false,
+            kind: 0,
+        }
+    }
+}
+
 /// What came out of one member.
 #[derive(Clone, Debug)]
 pub struct Finished {
