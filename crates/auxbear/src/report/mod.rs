@@ -25,4 +25,3 @@ pub mod study;
 mod summary;
 mod table;
 mod workbook;
-mod zip;
