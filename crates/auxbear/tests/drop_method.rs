@@ -78,7 +78,7 @@ fn machines_of_an_ensemble_depend_on_seed_and_number_alone() {
 #[test]
 fn tolerances_of_the_machine_spread_what_they_should() {
     let spread = |outcome: &Outcome, name: &str| {
-        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        let quantity = outcome.quantity(name);
         quantity.and_then(|q| q.spread).expect("repeated")
     };
     let (varied, chaos) = (
@@ -169,7 +169,7 @@ fn the_first_impact_is_met_wherever_it_lies_in_an_implicit_step() {
         run(&scenario, &Options::unwatched(&interrupt)).expect("it builds")
     };
     let value = |outcome: &Outcome, name: &str| {
-        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        let quantity = outcome.quantity(name);
         match quantity.map(|quantity| &quantity.value) {
             Some(Value::Number(value)) => *value,
             other => panic!("{name}: {other:?}"),

@@ -1,5 +1,6 @@
 //! What follows the temperatures of a bearing while it is computed ball by ball.
 
+use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -16,14 +17,6 @@ fn ran(sets: &[&str]) -> Outcome {
     let scenario = Scenario::parse(SHIPPED, "drop.toml", &sets, &BuiltIn).unwrap();
     let never = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&never)).unwrap()
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
-    match &found.unwrap_or_else(|| panic!("{name}")).value {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn column<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
@@ -99,7 +92,7 @@ fn ball_by_ball_and_slow_time_brake_alike_where_rings_press_on_the_balls() {
     let from = times.partition_point(|time| *time < times[last] - 0.03);
     let power = (heats[last] - heats[from]) / (times[last] - times[from]);
     let first = |name: &str| {
-        let found = outcome.quantities.iter().find(|q| q.name == name).unwrap();
+        let found = outcome.quantity(name).unwrap();
         let Value::List(values) = &found.value else {
             panic!("{name}")
         };
@@ -265,13 +258,7 @@ fn seat(fit: physics::ring::PressFit, length: f64, kelvin: f64) -> f64 {
 }
 
 fn both(outcome: &Outcome, name: &str) -> [f64; 2] {
-    match &outcome
-        .quantities
-        .iter()
-        .find(|q| q.name == name)
-        .unwrap()
-        .value
-    {
+    match &outcome.quantity(name).unwrap().value {
         Value::List(list) => [list[0], list[1]],
         other => panic!("{name} is {other:?}"),
     }

@@ -1,6 +1,7 @@
 //! Heat against right values: growth rates, layers on their metal, tracks, films, rings, wear.
 
-use auxbear::result::outcome::{Outcome, Value};
+use crate::outcomes::number;
+use auxbear::result::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
@@ -13,14 +14,6 @@ fn outcome(text: &str, sets: &[&str]) -> Outcome {
     let scenario = Scenario::parse(text, "heat.toml", &sets, &BuiltIn).unwrap();
     let never = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&never)).unwrap()
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
-    match &found.unwrap_or_else(|| panic!("{name}")).value {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn column<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {

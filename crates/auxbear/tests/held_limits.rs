@@ -1,5 +1,6 @@
 //! The heat that must be taken from the nodes of a bearing to hold them at their limits, in whatever is computed in time.
 
+use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -19,15 +20,8 @@ fn ran(text: &str, sets: &[&str]) -> Outcome {
 }
 
 fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
+    let found = outcome.quantity(name);
     &found.unwrap_or_else(|| panic!("{name}")).value
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match value(outcome, name) {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {

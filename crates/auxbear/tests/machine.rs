@@ -1,5 +1,6 @@
 //! A bent rotor that falls onto its auxiliary bearings: what a file says reaches the model, and what cannot be is refused.
 
+pub use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -25,14 +26,6 @@ pub fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
 pub fn ran(text: &str, sets: &[&str]) -> Outcome {
     let scenario = parsed(text, sets).unwrap();
     run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
-}
-
-pub fn number(outcome: &Outcome, name: &str) -> f64 {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
-    match found.unwrap_or_else(|| panic!("{name}")).value.clone() {
-        Value::Number(number) => number,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 pub fn near(ours: f64, expected: f64, share: f64) {
@@ -436,7 +429,7 @@ fn a_release_near_a_resonance_is_told() {
     let frequency = (2e6 / mass).sqrt();
     let ratio = 200.0 / (2.0 * mass * frequency);
     let list = |name: &str| {
-        let found = at.quantities.iter().find(|q| q.name == name).unwrap();
+        let found = at.quantity(name).unwrap();
         match &found.value {
             Value::List(list) => list.clone(),
             other => panic!("{other:?}"),

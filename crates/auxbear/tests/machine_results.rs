@@ -8,7 +8,7 @@ fn rig() -> String {
 }
 
 fn list(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
+    let found = outcome.quantity(name);
     match found.map(|quantity| &quantity.value) {
         Some(Value::List(values)) => values.clone(),
         other => panic!("{name}: {other:?}"),

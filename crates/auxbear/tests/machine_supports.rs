@@ -25,7 +25,7 @@ fn sealed(cross: &str) -> Outcome {
 #[test]
 fn a_seal_acts_on_after_the_release_and_the_ledger_closes() {
     let value = |outcome: &Outcome, name: &str| {
-        let quantity = outcome.quantities.iter().find(|q| q.name == name).unwrap();
+        let quantity = outcome.quantity(name).unwrap();
         match quantity.value {
             Value::Number(value) => value,
             ref other => panic!("{name}: {other:?}"),

@@ -46,13 +46,7 @@ fn an_oil_beyond_its_data_is_drawn_on_and_told_once() {
         .unwrap())
     .parse()
     .unwrap();
-    let of = |name: &str| match &found
-        .quantities
-        .iter()
-        .find(|q| q.name == name)
-        .unwrap()
-        .value
-    {
+    let of = |name: &str| match &found.quantity(name).unwrap().value {
         Value::List(values) => values.clone(),
         other => panic!("{name}: {other:?}"),
     };

@@ -1,6 +1,7 @@
 //! What the races see of their balls: how hot skids are, and what fatigue takes.
 
-use auxbear::result::outcome::{Outcome, Value};
+use crate::outcomes::number;
+use auxbear::result::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::f64::consts::PI;
@@ -13,14 +14,6 @@ fn ran(sets: &[&str]) -> Outcome {
     let scenario = Scenario::parse(STEP, "step.toml", &sets, &BuiltIn).unwrap();
     let never = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&never)).unwrap()
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
-    match &found.unwrap_or_else(|| panic!("{name}")).value {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 /// Load and slip of every ball at the inner race in the first row.

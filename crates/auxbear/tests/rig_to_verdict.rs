@@ -1,5 +1,6 @@
 //! A rig is simulated, its logger's raw files are written, read and identified: end to end.
 
+use crate::outcomes::number;
 use auxbear::report::directory;
 use auxbear::result::outcome::{Attached, Value};
 use auxbear::run::{Options, Outcome, run};
@@ -38,15 +39,8 @@ fn into_runs(folder: &Path, name: &str, sets: &[&str]) -> Outcome {
 }
 
 fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     &quantity.unwrap_or_else(|| panic!("no {name}")).value
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match value(outcome, name) {
-        Value::Number(number) => *number,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 /// The identification of what stands in `folder/runs`.

@@ -72,7 +72,7 @@ fn simulated(scenario: &Scenario) -> Outcome {
 }
 
 fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     &quantity.unwrap_or_else(|| panic!("no {name}")).value
 }
 

@@ -1,5 +1,6 @@
 //! Temperatures in a drop, and its way on until the rotor stands.
 
+pub use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -21,16 +22,8 @@ fn ran(sets: &[&str]) -> Outcome {
     run(&scenario, &Options::unwatched(&never)).unwrap()
 }
 
-pub fn number(outcome: &Outcome, name: &str) -> f64 {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
-    match found.unwrap_or_else(|| panic!("{name}")).value {
-        Value::Number(value) => value,
-        ref other => panic!("{name}: {other:?}"),
-    }
-}
-
 pub fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
+    let found = outcome.quantity(name);
     match &found.unwrap_or_else(|| panic!("{name}")).value {
         Value::List(values) => values,
         other => panic!("{name}: {other:?}"),

@@ -1,6 +1,7 @@
 //! A measurement through its front: the made-up spin-up against the motion it was made from, and files that are wrong.
 
 use crate::measurement_file::{TORQUE, problem, table};
+use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -16,14 +17,6 @@ fn example(sets: &[&str]) -> Outcome {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/signals_spin_up.toml");
     let sets: Vec<String> = sets.iter().map(|set| set.to_string()).collect();
     computed(&Scenario::read(&file, &sets, &BuiltIn).unwrap())
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
-    match &quantity.unwrap_or_else(|| panic!("no {name}")).value {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn column<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
@@ -351,7 +344,7 @@ fn a_torque_that_was_clipped_has_no_peak() {
         "peak_torque_deviation",
         "time_of_peak_torque",
     ] {
-        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        let quantity = outcome.quantity(name);
         match &quantity.unwrap().value {
             Value::None { why } => assert!(why.contains("clipped at"), "{why}"),
             other => panic!("{name}: {other:?}"),
@@ -510,7 +503,7 @@ fn keys_without_their_channel_are_refused() {
 fn the_choice_of_a_sensor_is_shown() {
     let outcome = example(&["signals.torque.design_until=0.3 s"]);
     let list = |name: &str| {
-        let quantity = outcome.quantities.iter().find(|q| q.name == name);
+        let quantity = outcome.quantity(name);
         match quantity.map(|quantity| &quantity.value) {
             Some(Value::List(list)) => list.clone(),
             other => panic!("{name}: {other:?}"),

@@ -1,5 +1,6 @@
 //! More of a measurement through its front: converter, vibration, steady curves, a window for the quick change.
 
+use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -74,15 +75,8 @@ impl Drop for Coast {
 }
 
 fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     &quantity.unwrap_or_else(|| panic!("no {name}")).value
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match value(outcome, name) {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {

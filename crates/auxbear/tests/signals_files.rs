@@ -1,7 +1,8 @@
 //! Measurement files through their front: units of times, clocks, names, cuts.
 
 use crate::measurement_file::{TORQUE, problem, table};
-use auxbear::result::outcome::{Outcome, Value};
+use crate::outcomes::number;
+use auxbear::result::outcome::Outcome;
 use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::fs;
@@ -80,14 +81,6 @@ fn outcome(name: &str, content: &str, more: &str) -> Outcome {
     fs::write(&file, text).unwrap();
     let scenario = Scenario::read(&file, &[], &BuiltIn).unwrap();
     run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
-    match &quantity.unwrap_or_else(|| panic!("{name}")).value {
-        Value::Number(value) => *value,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 const SPEED: &str =

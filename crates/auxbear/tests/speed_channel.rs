@@ -1,5 +1,6 @@
 //! A speed in rpm instead of marks, and coast-downs without a torque sensor, through the front.
 
+use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -102,17 +103,9 @@ fn steady(to: f64, more: &str) -> String {
 const IDENTIFY: &str = "format = \"auxbear.scenario/1\"\nsystem = \"identify\"\n[bearing]\nname = \"6005\"\n[identify]\ncoast_down = [\"coast.toml\"]\n";
 
 fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     match &quantity.unwrap_or_else(|| panic!("{name}")).value {
         Value::List(values) => values,
-        other => panic!("{name}: {other:?}"),
-    }
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
-    match &quantity.unwrap_or_else(|| panic!("{name}")).value {
-        Value::Number(value) => *value,
         other => panic!("{name}: {other:?}"),
     }
 }

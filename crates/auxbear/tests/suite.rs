@@ -18,6 +18,7 @@ mod machine_supports;
 mod magnets_under_load;
 mod measurement_file;
 mod oil_range;
+mod outcomes;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;

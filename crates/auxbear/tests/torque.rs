@@ -1,5 +1,6 @@
 //! The moments of a bearing without motion: the magnitudes of the source paper, comparisons, and what is refused.
 
+use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -36,15 +37,8 @@ fn refused(sets: &[&str], parts: &[&str]) {
 }
 
 fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
+    let found = outcome.quantity(name);
     &found.unwrap_or_else(|| panic!("no {name}")).value
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match value(outcome, name) {
-        Value::Number(number) => *number,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {

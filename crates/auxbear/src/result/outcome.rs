@@ -35,6 +35,26 @@ pub struct Outcome {
     pub limits: Vec<Judged>,
 }
 
+impl Outcome {
+    /// The result of a name, such as `drive_end.peak_contact_force`.
+    pub fn quantity(&self, name: &str) -> Option<&Quantity> {
+        self.quantities.iter().find(|known| known.name == name)
+    }
+
+    /// The value of a result that is a number and has one.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        match self.quantity(name)?.value {
+            Value::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The column of a name, such as `bearing.inner_race.speed`.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.history.iter().find(|known| known.name == name)
+    }
+}
+
 /// A file that a run leaves beside its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attachment {

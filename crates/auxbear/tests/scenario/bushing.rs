@@ -31,7 +31,7 @@ fn with(bearings: &str) -> String {
 #[test]
 fn it_runs_alone_repeated_and_beside_a_ball_bearing() {
     let number = |outcome: &auxbear::run::Outcome, name: &str| {
-        let found = outcome.quantities.iter().find(|q| q.name == name);
+        let found = outcome.quantity(name);
         match found.map(|q| &q.value) {
             Some(Value::Number(value)) => Some(*value),
             _ => None,

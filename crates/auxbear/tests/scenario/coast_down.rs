@@ -1,5 +1,6 @@
 //! Run-outs with heat: balances, closed forms, symmetries, limits, runaway, and what is refused.
 
+use crate::outcomes::number;
 use auxbear::options::Options;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run;
@@ -36,15 +37,11 @@ fn refused(sets: &[&str]) -> String {
 }
 
 fn value(outcome: &Outcome, name: &str) -> Option<f64> {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     match &quantity.unwrap_or_else(|| panic!("no {name}")).value {
         Value::Number(number) => Some(*number),
         _ => None,
     }
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    value(outcome, name).unwrap_or_else(|| panic!("{name} has no value"))
 }
 
 fn has(outcome: &Outcome, code: &str) -> bool {
@@ -208,7 +205,7 @@ fn n_equal_runs_use_n_times_the_life_and_no_rating_gives_none() {
 }
 
 fn both(outcome: &Outcome, name: &str) -> [f64; 2] {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     match &quantity.unwrap_or_else(|| panic!("no {name}")).value {
         Value::List(list) => [list[0], list[1]],
         other => panic!("{name} is {other:?}"),

@@ -1,7 +1,7 @@
 //! Balls at a contact angle: both fidelities are one bearing, and its energy by the outer race closes.
 
 use super::files::read_from;
-use auxbear::result::outcome::Value;
+use crate::outcomes::number;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::BuiltIn;
 use std::sync::atomic::AtomicBool;
@@ -46,16 +46,6 @@ fn ramp(sets: &[String]) -> Outcome {
     let outcome = run(&scenario, &Options::unwatched(&interrupt)).expect("it builds");
     assert!(outcome.stop.complete(), "{:?}", outcome.stop);
     outcome
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match outcome.quantities.iter().find(|q| q.name == name) {
-        Some(quantity) => match quantity.value {
-            Value::Number(number) => number,
-            ref other => panic!("{name}: {other:?}"),
-        },
-        None => panic!("no {name}"),
-    }
 }
 
 fn at_angle(degrees: f64) -> Vec<String> {

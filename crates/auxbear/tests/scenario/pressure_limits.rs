@@ -1,6 +1,6 @@
 //! Each Hertz pressure is compared with the limit of what touches there, and results and warnings agree.
 
-use auxbear::result::outcome::Value;
+use crate::outcomes::number;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::path::Path;
@@ -16,16 +16,6 @@ fn dropped(sets: &[&str]) -> (Scenario, Outcome) {
     let interrupt = AtomicBool::new(false);
     let outcome = run(&scenario, &Options::unwatched(&interrupt)).expect("it builds");
     (scenario, outcome)
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match outcome.quantities.iter().find(|q| q.name == name) {
-        Some(quantity) => match quantity.value {
-            Value::Number(number) => number,
-            ref other => panic!("{name}: {other:?}"),
-        },
-        None => panic!("no {name}"),
-    }
 }
 
 fn warned<'a>(outcome: &'a Outcome, code: &str) -> Option<&'a str> {

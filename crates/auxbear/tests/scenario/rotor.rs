@@ -1,5 +1,6 @@
 //! A bent rotor: its tables, what is refused, what an analysis finds.
 
+pub(super) use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario, System};
@@ -67,15 +68,8 @@ pub(super) fn analysed(text: &str, sets: &[&str]) -> Outcome {
 }
 
 pub(super) fn value(outcome: &Outcome, name: &str) -> Value {
-    let found = outcome.quantities.iter().find(|q| q.name == name);
+    let found = outcome.quantity(name);
     found.unwrap_or_else(|| panic!("{name}")).value.clone()
-}
-
-pub(super) fn number(outcome: &Outcome, name: &str) -> f64 {
-    match value(outcome, name) {
-        Value::Number(number) => number,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 /// The book prints 85.39, 87.80, 251.78 and 294.71 rad/s; six digits are those of ROSS 2.3.0.

@@ -175,7 +175,7 @@ fn a_machine_without_auxiliary_bearings_names_their_table() {
 fn a_grade_scales_the_unbalances_of_all_planes_together() {
     let text = shipped("rotor_overhung.toml");
     let number = |outcome: &Outcome, name: &str| {
-        let found = outcome.quantities.iter().find(|q| q.name == name);
+        let found = outcome.quantity(name);
         match found.unwrap_or_else(|| panic!("{name}")).value {
             auxbear::result::outcome::Value::Number(number) => number,
             ref other => panic!("{name}: {other:?}"),

@@ -1,6 +1,6 @@
 //! Several auxiliary bearings in a file, and values that repeated runs vary.
 
-use auxbear::result::outcome::Value;
+use crate::outcomes::number;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Distribution, Scenario, System};
 use std::sync::atomic::AtomicBool;
@@ -57,14 +57,6 @@ pub(crate) fn outcome(text: &str, sets: &[&str]) -> Outcome {
     let scenario = read(text, sets).expect("it is right");
     let interrupt = AtomicBool::new(false);
     run(&scenario, &Options::unwatched(&interrupt)).expect("it builds")
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
-    match quantity.map(|q| &q.value) {
-        Some(Value::Number(number)) => *number,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn drop(scenario: &Scenario) -> &auxbear::scenario::Drop {

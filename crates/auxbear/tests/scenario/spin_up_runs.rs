@@ -1,5 +1,6 @@
 //! The shipped spin-ups say what they are shipped for.
 
+use crate::outcomes::number;
 use auxbear::result::outcome::Value;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -19,15 +20,8 @@ fn outcome(name: &str) -> Outcome {
 }
 
 fn value<'a>(outcome: &'a Outcome, name: &str) -> &'a Value {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
+    let quantity = outcome.quantity(name);
     &quantity.unwrap_or_else(|| panic!("no {name}")).value
-}
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    match value(outcome, name) {
-        Value::Number(number) => *number,
-        other => panic!("{name}: {other:?}"),
-    }
 }
 
 fn near(name: &str, ours: f64, wanted: f64, tolerance: f64) {

@@ -1,17 +1,10 @@
 //! The heat of the surfaces of rotor and inner race: what of it is booked, and that nothing of the motion knows it.
 
 use super::several::{HEAD, TWINS, outcome};
-use auxbear::result::outcome::{Outcome, Value};
+use crate::outcomes::number;
+use auxbear::result::outcome::Value;
 
 const WIDTH: &str = "contact.width=12 mm";
-
-fn number(outcome: &Outcome, name: &str) -> f64 {
-    let quantity = outcome.quantities.iter().find(|q| q.name == name);
-    match quantity.map(|q| &q.value) {
-        Some(Value::Number(number)) => *number,
-        other => panic!("{name}: {other:?}"),
-    }
-}
 
 #[test]
 fn friction_heat_is_in_one_of_both_bodies() {
