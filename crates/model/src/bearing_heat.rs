@@ -34,6 +34,7 @@ use crate::bearing::lubricant_state::FILM_KINDS;
 use crate::heats::{HEATS, OWN_HEATS};
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
+use physics::viscosity::ICE_POINT;
 use physics::viscosity::Viscosity;
 use thermal::bearing_network::{
     BALLS, BearingNetwork, CAGE, INNER_RACE, LUBRICANT, Landing, NODES, OUTER_RACE, Operation,
@@ -53,8 +54,6 @@ pub type OfNodes = [f64; NODES.len()];
 /// Span of heat that the network takes at once, s.
 const SPAN: f64 = 10e-3;
 
-/// Ice point, K.
-const ICE_POINT: f64 = 273.15;
 /// Constants of a bearing that warms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WarmBearing {

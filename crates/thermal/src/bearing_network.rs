@@ -474,7 +474,9 @@ mod tests {
                 speed: 2094.0,
                 landing: Landing::rolls(118.0),
                 loads: &zone.loads(zone.clearance_at(temperatures, 2094.0)),
-                viscosity: losses.oil.held(temperatures[LUBRICANT] + 273.15),
+                viscosity: losses
+                    .oil
+                    .held(temperatures[LUBRICANT] + physics::viscosity::ICE_POINT),
                 temperatures,
             })
         };

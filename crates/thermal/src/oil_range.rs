@@ -1,6 +1,6 @@
 //! Whether a lubricant has left the temperatures near which its viscosity is known.
 
-use crate::passage::ICE_POINT;
+use physics::viscosity::ICE_POINT;
 use physics::viscosity::Viscosity;
 
 /// A lubricant that has.

@@ -20,10 +20,9 @@ use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{
     line_half_width, pressed_joint, radiation_conductance, rolling_line_conductance,
 };
+use physics::viscosity::ICE_POINT;
 use std::f64::consts::TAU;
 
-/// Ice point, K.
-pub const ICE_POINT: f64 = 273.15;
 /// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: usual ground steel,
 /// assumed; book/src/theory/heat.md.
 pub const GROUND_STEEL: (f64, f64, f64) = (0.8e-6, 0.1, 3e9);

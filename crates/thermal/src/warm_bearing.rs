@@ -12,8 +12,8 @@
 use crate::clearance::{ThermalClearance, preload};
 use crate::load_zone::LoadZone;
 use crate::losses::Losses;
-use crate::passage::ICE_POINT;
 use physics::palmgren::{FADING_SPEED, Palmgren};
+use physics::viscosity::ICE_POINT;
 use physics::viscosity::Viscosity;
 
 /// Bearings that are all alike.

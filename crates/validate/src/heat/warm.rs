@@ -1,6 +1,7 @@
 //! What the files of warm bearings have in common: nodes by name, capacities, links, grounds, oil, shares.
 
 use super::json::{list, number, positive, within};
+use physics::viscosity::ICE_POINT;
 use serde_json::Value;
 use thermal::network::{Ground, Link, Network};
 
@@ -79,7 +80,7 @@ pub(super) fn oil(inputs: &Value) -> Result<physics::viscosity::Viscosity, Strin
         let pair = points.get(at).and_then(Value::as_array);
         let values = pair.map(|pair| pair.iter().filter_map(Value::as_f64).collect::<Vec<_>>());
         match values.as_deref() {
-            Some([celsius, viscosity]) => Ok((celsius + 273.15, viscosity * 1e-6)),
+            Some([celsius, viscosity]) => Ok((celsius + ICE_POINT, viscosity * 1e-6)),
             _ => Err("oil needs two points of temperature and viscosity".to_string()),
         }
     };

@@ -13,13 +13,13 @@ use crate::scenario::values::Values;
 use physics::air::SEA_LEVEL;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::ring::PressFit;
+pub(crate) use physics::viscosity::ICE_POINT;
 use physics::viscosity::Viscosity;
 use problem::words;
 use thermal::bearing_network::{
     BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
 };
 use thermal::clearance::Seat;
-pub(crate) use thermal::passage::ICE_POINT;
 use thermal::passage::{Medium, Open, Passage, Pressed};
 
 words! {
