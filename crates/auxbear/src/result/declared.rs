@@ -66,7 +66,11 @@ macro_rules! results {
                 if true $(&& $there)? {
                     let absent: Option<String> = None$(.or($why))?;
                     let absent = absent.map(|why| $crate::result::outcome::Value::None { why });
-                    list.add(&DECLARED, absent.or_else(|| after.map(|$run| $value.into())));
+                    let value = || after.map(|$run| {
+                        let _ = $run;
+                        $value.into()
+                    });
+                    list.add(&DECLARED, absent.or_else(value));
                 }
             })*
         }

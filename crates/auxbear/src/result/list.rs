@@ -26,19 +26,18 @@ pub(crate) struct List {
 
 impl From<f64> for Value {
     fn from(value: f64) -> Value {
-        Ok(value).into()
+        match value.is_finite() {
+            true => Value::Number(value),
+            false => Value::None {
+                why: format!("the run ended with {value} here"),
+            },
+        }
     }
 }
 
-impl From<Result<f64, String>> for Value {
-    fn from(value: Result<f64, String>) -> Value {
-        match value {
-            Ok(value) if value.is_finite() => Value::Number(value),
-            Ok(value) => Value::None {
-                why: format!("the run ended with {value} here"),
-            },
-            Err(why) => Value::None { why },
-        }
+impl<T: Into<Value>> From<Result<T, String>> for Value {
+    fn from(value: Result<T, String>) -> Value {
+        value.map_or_else(|why| Value::None { why }, Into::into)
     }
 }
 
@@ -51,6 +50,12 @@ impl From<Vec<f64>> for Value {
 impl From<&str> for Value {
     fn from(text: &str) -> Value {
         Value::Text(text.to_string())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Value {
+        Value::Text(text)
     }
 }
 
@@ -80,6 +85,15 @@ impl List {
         let before = std::mem::replace(&mut self.stars, stars);
         add(self);
         self.stars = before;
+    }
+    /// Adds results of each of what a run finds, numbered from 1 in the place of `*`; before the run once, with the `*` itself.
+    pub fn numbered<T>(&mut self, found: Option<&[T]>, add: impl Fn(&mut List, Option<&T>)) {
+        let Some(found) = found else {
+            return self.named(&["*"], |list| add(list, None));
+        };
+        for (number, one) in (1..).zip(found) {
+            self.named(&[&format!("{number}")], |list| add(list, Some(one)));
+        }
     }
     /// Adds results of a part, whose names follow its own and a point; a part without a name adds nothing to them.
     #[allow(dead_code)]
