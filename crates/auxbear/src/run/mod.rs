@@ -128,6 +128,7 @@ impl Machine<'_> {
                 self.dropped(&once, built, &[], &options)
             }
             Built::Torque(asked) => return torque::results(asked),
+            Built::Signals(asked) => return signals::results(asked),
             Built::Rotor(asked) => return rotor::results(asked),
             _ => self.computed(&options),
         };
