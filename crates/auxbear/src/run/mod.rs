@@ -70,11 +70,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = system.map_err(|problem| scenario.locate(problem))?;
     let machine = Machine { scenario, system };
     if !scenario.limits.is_empty() {
-        let later = match &machine.system {
-            Built::Identify(asked) => asked.results_of_tests(),
-            _ => Vec::new(),
-        };
-        limits::check(&scenario.limits, &machine.names(), &later)
+        limits::check(&scenario.limits, &machine.names())
             .map_err(|problem| scenario.locate(problem))?;
     }
     Ok(machine)
@@ -129,6 +125,7 @@ impl Machine<'_> {
             }
             Built::Torque(asked) => return torque::results(asked),
             Built::Signals(asked) => return signals::results(asked),
+            Built::Identify(asked) => return identify::results(asked),
             Built::Rotor(asked) => return rotor::results(asked),
             _ => self.computed(&options),
         };

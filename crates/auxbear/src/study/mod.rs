@@ -99,7 +99,7 @@ impl Study {
         }
         drop(machine);
         let own = file.limits.len() - file.scenario.limits.len();
-        limits::check(&file.limits[..own], &known, &[]).map_err(|mut problem| {
+        limits::check(&file.limits[..own], &known).map_err(|mut problem| {
             problem.file.clone_from(&file.file);
             problem
         })?;
