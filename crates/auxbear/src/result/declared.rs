@@ -47,12 +47,12 @@ pub(crate) enum Kind {
     text,
 }
 
-/// A table of results as a function; see [`crate::result::declared`].
+/// Tables of results as functions; see [`crate::result::declared`].
 macro_rules! results {
-    ($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {
+    ($($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {
         $($name:literal : $kind:ident $unit:literal, $origin:expr, $meaning:literal $(when $there:expr)? $(, unless $why:expr)? => $value:expr;)*
-    }) => {
-        $(#[$doc])*
+    })*) => {
+        $($(#[$doc])*
         $vis fn $table(list: &mut $crate::result::list::List, $setup: &$of, after: Option<&$after>) {
             let _ = $setup;
             $({
@@ -73,7 +73,7 @@ macro_rules! results {
                     list.add(&DECLARED, absent.or_else(value));
                 }
             })*
-        }
+        })*
     };
 }
 pub(crate) use results;

@@ -61,15 +61,11 @@ results! {
         "explanation": text "", VERDICT, "explanation that the tests support" => run.verdict().map(conclusion);
         "explanation_slip_limit": text "", VERDICT, "slip that counts as rolling" => run.verdict().map(|_| slip_limits(run));
     }
-}
 
-results! {
     fn probability(explanation: &Explanation, run: &Found) {
         "probability_of_*": number "1", VERDICT, "probability of this explanation" => run.verdict().map(|verdict| verdict.of(*explanation).probability);
     }
-}
 
-results! {
     fn explained(asked: &Asked, run: &Found) {
         "explanation_parameters": text "", VERDICT, "parameters of the most probable explanation" => run.verdict().map(explanation_parameters);
         "explanation_fit_probability": number "1", FIT, "probability of a fit at least as bad" => {
@@ -79,24 +75,18 @@ results! {
         "explanation_effective_data": number "", MEANS, "effective number of data of the comparison" => run.verdict().map(|verdict| verdict.effective_means);
         "next_tests": text "", NEXT, "tests that would tell most" => run.next.as_ref().map(|all| next_tests(all)).map_err(Clone::clone);
     }
-}
 
-results! {
     fn best_form(asked: &Asked, run: &Found) {
         "steady_moment_form": text "", EVIDENCE, "most probable form of the steady moment" => run.moment().map(|moment| word(moment.best().form));
     }
-}
 
-results! {
     fn form_probability(form: &Form, run: &Found) {
         "probability_of_*_form": number "1", EVIDENCE, "probability of this form" => {
             let fit = |moment: &Moment| moment.forms.iter().find(|fit| fit.form == *form).map(|fit| fit.probability);
             run.moment().and_then(|moment| fit(moment).ok_or_else(|| "this form was not fitted".to_string()))
         };
     }
-}
 
-results! {
     fn moment(asked: &Asked, run: &Found) {
         "steady_moment_parameters": text "", CURVE, "parameters of each form" => run.moment().map(form_parameters);
         "largest_parameter_correlation": number "1", CURVE, "largest correlation of two parameters" => {
@@ -113,9 +103,7 @@ results! {
         "coast_down_torques": list "N m", COAST_DOWN, "torques of the slow tests" => run.measured_curve().1;
         "effective_steady_data": number "", WORTH, "effective number of data of the steady moment" => run.moment().map(|moment| moment.effective_data);
     }
-}
 
-results! {
     fn loss_map(asked: &Asked, run: &Result<[Vec<f64>; 5], &String>) {
         "loss_map_speeds": list "rad/s", MAP, "speeds of the map of F" => column(run, 0);
         "loss_map_accelerations": list "rad/s^2", MAP, "accelerations of the map of F" => column(run, 1);
@@ -123,9 +111,7 @@ results! {
         "loss_map_deviations": list "N", MAP, "its standard deviations" => column(run, 3);
         "loss_map_known": list "", MAP, "1 where data are near" => column(run, 4);
     }
-}
 
-results! {
     fn rotor(asked: &Asked, run: &Found) {
         "rotor_friction_coefficient": number "1", ROTOR, "mean coefficient of friction of rotor and race" => run.rotor().map(|rotor| rotor.mean().friction.value);
         "rotor_friction_coefficient_deviation": number "1", ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);

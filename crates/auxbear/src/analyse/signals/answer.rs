@@ -36,9 +36,7 @@ results! {
             notes => notes.join("; "),
         };
     }
-}
 
-results! {
     fn speed(asked: &Asked, run: &Found) {
         "speed_noise": number "rad/s", CHANNEL, "noise of one value of the channel" when asked.holds_speed() => run.channel().map(|c| c.noise);
         "speed_step": number "rad/s", CHANNEL, "smallest step of the channel" when asked.holds_speed() => run.channel().map(|c| c.step);
@@ -63,17 +61,13 @@ results! {
         "pulses_in_change": number "", CHANGE, "number of pulses in it" => run.change().and_then(|c| run.pulses().map(|_| c.pulses as f64));
         "change_from_rest": text "", CHANGE, "whether the shaft rested before it" => run.change().map(|c| if c.from_rest { "yes" } else { "no" });
     }
-}
 
-results! {
     fn reading(asked: &Asked, run: &Faulty) {
         "torque_clipped_values": number "", FAULTS, "values at the limit of the converter" => run.clipped as f64;
         "torque_stuck_values": number "", FAULTS, "values held without noise" => run.stuck as f64;
         "torque_missing_values": number "", FAULTS, "values that are no numbers" => run.missing as f64;
     }
-}
 
-results! {
     fn torque(asked: &Asked, run: &Found) {
         "sensor_frequency": number "Hz", SENSOR, "natural frequency of the sensor" => run.sensor().map(|s| s.frequency.value);
         "sensor_frequency_deviation": number "Hz", SENSOR, "its standard deviation" => run.sensor().map(|s| s.frequency.deviation);
@@ -96,9 +90,7 @@ results! {
         "sensor_design_raw_errors": list "N m", DESIGN, "error of the reading of each of them" => run.designs(|e| e.raw);
         "sensor_design_inverted_errors": list "N m", DESIGN, "error of the torque from each of them" => run.designs(|e| e.inverted);
     }
-}
 
-results! {
     fn cage(asked: &Asked, run: &Found) {
         "median_cage_slip": number "1", CAGE, "median of the slip of the cage" => run.cage(|c| median(&c.slip));
         "median_cage_slip_deviation": number "1", CAGE, "median of its standard deviation" => run.cage(|c| median(&c.slip_deviation));

@@ -31,17 +31,13 @@ results! {
             run.converted.iter().map(|one| one.rounding_share).fold(0.0, f64::max)
         };
     }
-}
 
-results! {
     /// The amplitudes are in the unit of the channel.
     fn orders(asked: &Asked, run: &Found) {
         "vibration_orders": list "1", ORDERS, "orders of the shaft" => run.orders(|o| o.order);
         "vibration_order_amplitudes": list "1", ORDERS, "median amplitude of each order" => run.orders(|o| median(&o.amplitude()));
     }
-}
 
-results! {
     fn spectrograms(asked: &Asked, run: &Found) {
         "vibration_spectrogram_times": list "s", SPECTROGRAM, "times of the spectrogram" => run.vibration(|v| &v.over_time).map(|p| p.time.clone());
         "vibration_spectrogram_frequencies": list "Hz", SPECTROGRAM, "its frequencies" => run.vibration(|v| &v.over_time).map(|p| p.upright.clone());
@@ -50,9 +46,7 @@ results! {
         "vibration_order_spectrogram_orders": list "1", SPECTROGRAM, "its orders" => run.vibration(|v| &v.over_order).map(|p| p.upright.clone());
         "vibration_order_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_order).map(|p| p.levels.clone());
     }
-}
 
-results! {
     fn steady(asked: &Asked, run: &Found) {
         "steady_inertia": number "kg m^2", INERTIA, "moment of inertia of what coasts" => run.steady(|p| &p.inertia).map(|i| i.value);
         "steady_inertia_deviation": number "kg m^2", INERTIA, "its standard deviation" => run.steady(|p| &p.inertia).map(|i| i.deviation);

@@ -246,9 +246,7 @@ results! {
             names.join("\n")
         };
     }
-}
 
-results! {
     fn axis(of: &(&LevitationModel, usize), run: &Levitated) {
         "levitation.*.static_stiffness": number "N/m", STATIC, "static stiffness" => static_stiffness(of.0, of.1, run);
         "levitation.*.static_current": number "A", STATIC, "control current at rest" => run.rest.currents[of.1];
@@ -259,9 +257,7 @@ results! {
             turning.ok_or_else(|| "no [[rotor.unbalance]] is given".to_string())
         };
     }
-}
 
-results! {
     fn open_loops(setup: &(), run: &OpenLoop) {
         "levitation.*.*.sensitivity_peak": number "", SENSITIVITY, "largest sensitivity" => run.peak().size;
         "levitation.*.*.sensitivity_peak_frequency": number "Hz", SENSITIVITY, "frequency of the largest sensitivity" => run.peak().at / TAU;
@@ -273,9 +269,7 @@ results! {
         "levitation.*.*.open_loop_real": list "", SENSITIVITY, "real part of the open loop over frequency" => run.over_frequency(|s| open_loop(s).re);
         "levitation.*.*.open_loop_imaginary": list "", SENSITIVITY, "imaginary part of the open loop over frequency" => run.over_frequency(|s| open_loop(s).im);
     }
-}
 
-results! {
     fn frequencies(setup: &(), run: &Sensitivity) {
         "levitation.*.frequencies": list "Hz", SENSITIVITY, "frequencies of these curves" => run.grid.iter().map(|omega| omega / TAU).collect::<Vec<_>>();
     }

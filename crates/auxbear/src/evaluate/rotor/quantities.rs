@@ -67,17 +67,13 @@ results! {
         "rated_speed": number "rad/s", GIVEN, "rated speed" => asked.analysis.speed;
         "node_count": number "", ELEMENT, "number of nodes" => asked.rotor().nodes.len() as f64;
     }
-}
 
-results! {
     fn criticals(asked: &Asked, run: &Found) {
         "first_critical_speed": number "rad/s", CRITICAL, "lowest critical speed that is not of backward whirl" => run.first_critical();
         "critical_speeds": list "rad/s", CRITICAL, "critical speeds" => run.criticals.iter().map(|one| one.speed).collect::<Vec<_>>();
         "critical_whirls": text "", CRITICAL, "sense of whirl at each of them" => run.whirls();
     }
-}
 
-results! {
     fn critical(asked: &Asked, run: &Critical) {
         "critical_*.speed": number "rad/s", CRITICAL, "critical speed" => run.speed;
         "critical_*.damping_ratio": number "", MODE, "damping ratio of the mode there" => run.mode.damping_ratio();
@@ -87,16 +83,12 @@ results! {
         };
         "critical_*.verdict": text "", SEPARATION, "verdict on its margin" when asked.analysis.separation_margin.is_some() => asked.verdict(run);
     }
-}
 
-results! {
     fn stability(asked: &Asked, run: &Found) {
         "separation_verdict": text "", SEPARATION, "verdict on all critical speeds", unless asked.no_margin() => asked.whole_verdict(run);
         "first_unstable_speed": number "rad/s", STABILITY, "lowest speed at which a motion grows" => asked.first_unstable(run);
     }
-}
 
-results! {
     fn bending(asked: &Asked, run: &Found) {
         "free_bending_frequencies": list "rad/s", MODE, "natural frequencies of bending of the free rotor at rest" => {
             asked.bending().map(|k| asked.full.frequencies[k]).collect::<Vec<_>>()
@@ -105,30 +97,22 @@ results! {
             asked.bending().next().map(|k| asked.full.frequencies[k]).ok_or_else(|| "a rotor without elements does not bend".to_string())
         };
     }
-}
 
-results! {
     fn bending_mode(of: &(&Asked, usize), run: &Found) {
         "free_mode_*.shape": list "", MODE, "shape of a bending mode of the free rotor at its nodes" => of.0.bending_shape(of.1);
     }
-}
 
-results! {
     fn mode(asked: &Asked, run: &Mode) {
         "mode_*.frequency": number "rad/s", MODE, "damped natural frequency at the rated speed" => run.frequency();
         "mode_*.damping_ratio": number "", MODE, "damping ratio at the rated speed" => run.damping_ratio();
         "mode_*.whirl": text "", MODE, "sense of whirl at the rated speed" => whirl_word(run.whirl);
         "mode_*.shape": list "", MODE, "shape at the nodes, of its larger sense of whirl" => shape(run, asked.rotor().nodes.len());
     }
-}
 
-results! {
     fn branches(asked: &Asked, run: &Found) {
         "branch_senses": list "", MODE, "whirl of each branch of the diagram: 1 forward, -1 backward, 0 planar" => run.branch_senses();
     }
-}
 
-results! {
     fn response(of: &Shown, run: &Found) {
         "*.peak_amplitude": number "m", RESPONSE, "largest response to unbalance, half the longer axis" when !of.is_force() => of.amplitude(run, of.peak(run));
         "*.peak_amplitude": number "N", RESPONSE, "largest force under unbalance, half the longer axis" when of.is_force() => of.amplitude(run, of.peak(run));
@@ -136,44 +120,32 @@ results! {
         "*.rated_amplitude": number "m", RESPONSE, "response to unbalance at the rated speed" when !of.is_force() => of.amplitude(run, of.rated(run));
         "*.rated_amplitude": number "N", RESPONSE, "force under unbalance at the rated speed" when of.is_force() => of.amplitude(run, of.rated(run));
     }
-}
 
-results! {
     fn deflection(asked: &Asked, run: &Response) {
         "deflection_*.speed": number "rad/s", RESPONSE, "speed of a deflected shape" => run.speed;
         "deflection_*.x": list "m", RESPONSE, "x of each node when the mark passes" => asked.over_nodes(|node| run.planes(node).0.re);
         "deflection_*.y": list "m", RESPONSE, "y of each node when the mark passes" => asked.over_nodes(|node| run.planes(node).1.re);
         "deflection_*.amplitude": list "m", RESPONSE, "half the longer axis of the orbit of each node" => asked.over_nodes(|node| run.amplitude(node));
     }
-}
 
-results! {
     fn sag(asked: &Asked, run: &Found) {
         "largest_sag": number "m", SAG, "largest sag under weight" => asked.sag(run).map(|all| all.into_iter().fold(0.0, f64::max));
         "sag": list "m", SAG, "sag of each node under weight" => asked.sag(run);
     }
-}
 
-results! {
     fn support_load(of: &(&Asked, usize), run: &Found) {
         "load.*": number "N", SAG, "weight that a support carries" => of.0.support_load(run, of.1);
     }
-}
 
-results! {
     fn map(asked: &Asked, run: &Found) {
         "map_stiffnesses": list "N/m", MAP, "stiffnesses of the supports in the map" => run.map.iter().map(|point| point.stiffness).collect::<Vec<_>>();
     }
-}
 
-results! {
     fn mapped(forward: &bool, run: &Vec<f64>) {
         "map_forward_*": list "rad/s", MAP, "critical speed of forward whirl at each of them" when *forward => run.clone();
         "map_backward_*": list "rad/s", MAP, "critical speed of backward whirl at each of them" when !*forward => run.clone();
     }
-}
 
-results! {
     fn reduction(asked: &Asked, run: &Found) {
         "coordinates": number "", REDUCTION, "number of coordinates kept" => asked.within.basis.len() as f64;
         "reduction_error": number "", REDUCTION, "largest relative error of eigenvalues that this makes" => {
