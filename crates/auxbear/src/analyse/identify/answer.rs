@@ -113,7 +113,7 @@ results! {
     }
 
     fn rotor(asked: &Asked, run: &Found) {
-        "rotor_friction_coefficient": number "1", ROTOR, "mean coefficient of friction of rotor and race" => run.rotor().map(|rotor| rotor.mean().friction.value);
+        "rotor_friction_coefficient": number "1", ROTOR, "mean coefficient of friction" => run.rotor().map(|rotor| rotor.mean().friction.value);
         "rotor_friction_coefficient_deviation": number "1", ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);
         "rotor_friction_slips": list "m/s", ROTOR, "slips of rotor and race" => run.over_slip(|p| p.slip.value);
         "rotor_friction_slip_deviations": list "m/s", ROTOR, "their standard deviations" => run.over_slip(|p| p.slip.deviation);

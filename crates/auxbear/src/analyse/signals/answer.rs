@@ -84,7 +84,7 @@ results! {
         "torque_zero": number "N m", TORQUE, "zero of the reading" => run.inverted().map(|t| t.zero.value);
         "torque_zero_deviation": number "N m", TORQUE, "its standard deviation" => run.inverted().map(|t| t.zero.deviation);
         "torque_noise": number "N m", TORQUE, "noise of the reading" => run.inverted().map(|t| t.noise);
-        "torque_spectrum_frequencies": list "Hz", SPECTRUM, "frequencies of the spectrum of the reading" => run.torque(|t| &t.spectrum).map(|s| s.frequency.clone());
+        "torque_spectrum_frequencies": list "Hz", SPECTRUM, "frequencies in the reading" => run.torque(|t| &t.spectrum).map(|s| s.frequency.clone());
         "torque_spectrum_amplitudes": list "N m", SPECTRUM, "amplitudes of the reading at these" => run.torque(|t| &t.spectrum).map(|s| s.amplitude.clone());
         "sensor_design_frequencies": list "Hz", DESIGN, "frequencies of other sensors" => run.designs(|e| e.frequency);
         "sensor_design_raw_errors": list "N m", DESIGN, "error of the reading of each of them" => run.designs(|e| e.raw);

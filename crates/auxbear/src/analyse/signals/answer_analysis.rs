@@ -26,7 +26,7 @@ pub(crate) fn name(list: &mut List, asked: &Asked, found: Option<&Found>) {
 
 results! {
     fn converter(asked: &Asked, run: &Found) {
-        "converter_clipped_values": number "", CONVERTER, "values at the limits of the converter" => run.converted.iter().map(|one| one.clipped as f64).sum::<f64>();
+        "converter_clipped_values": number "", CONVERTER, "values at the limits" => run.converted.iter().map(|one| one.clipped as f64).sum::<f64>();
         "converter_rounding_share_of_noise": number "1", CONVERTER, "largest share of the noise that is rounding" => {
             run.converted.iter().map(|one| one.rounding_share).fold(0.0, f64::max)
         };
@@ -42,7 +42,7 @@ results! {
         "vibration_spectrogram_times": list "s", SPECTROGRAM, "times of the spectrogram" => run.vibration(|v| &v.over_time).map(|p| p.time.clone());
         "vibration_spectrogram_frequencies": list "Hz", SPECTROGRAM, "its frequencies" => run.vibration(|v| &v.over_time).map(|p| p.upright.clone());
         "vibration_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_time).map(|p| p.levels.clone());
-        "vibration_order_spectrogram_times": list "s", SPECTROGRAM, "times of the spectrogram over order" => run.vibration(|v| &v.over_order).map(|p| p.time.clone());
+        "vibration_order_spectrogram_times": list "s", SPECTROGRAM, "times of that over order" => run.vibration(|v| &v.over_order).map(|p| p.time.clone());
         "vibration_order_spectrogram_orders": list "1", SPECTROGRAM, "its orders" => run.vibration(|v| &v.over_order).map(|p| p.upright.clone());
         "vibration_order_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_order).map(|p| p.levels.clone());
     }
