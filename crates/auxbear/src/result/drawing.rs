@@ -1,9 +1,9 @@
 //! What the page needs to draw a rotor to scale, as lists.
 
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
-use crate::result::outcome::Value;
 use crate::scenario::RotorModel;
-use rotor::Place;
+use rotor::{Layer, Place};
 
 /// What the scenario says.
 pub(crate) const GIVEN: Origin = Origin {
@@ -14,86 +14,78 @@ pub(crate) const GIVEN: Origin = Origin {
 
 /// Positions, diameters and names of all parts.
 pub(crate) fn name(list: &mut List, model: &RotorModel) {
-    let rotor = &model.rotor;
-    let z = |node: usize| rotor.nodes[node];
-    let mut numbers = |name: &str, unit, values: Vec<f64>| {
-        list.push(name, unit, Value::List(values), &GIVEN);
-    };
-    numbers("node_positions", "m", rotor.nodes.clone());
-    let layers = || model.pieces.iter().map(|piece| &piece.layer);
-    for (name, value) in [
-        ("piece_starts", (|l| l.from) as fn(&rotor::Layer) -> f64),
-        ("piece_ends", |l| l.to),
-        ("piece_outer_starts", |l| l.start.outer),
-        ("piece_outer_ends", |l| l.end.outer),
-        ("piece_inner_starts", |l| l.start.inner),
-        ("piece_inner_ends", |l| l.end.inner),
-    ] {
-        numbers(name, "m", layers().map(value).collect());
+    parts(list, model, Some(model));
+}
+
+results! {
+    fn parts(model: &RotorModel, run: &RotorModel) {
+        "node_positions": list "m", GIVEN, "positions of the nodes" => run.rotor.nodes.clone();
+        "piece_starts": list "m", GIVEN, "where each piece of the shaft begins" => run.over_pieces(|l| l.from);
+        "piece_ends": list "m", GIVEN, "where each piece ends" => run.over_pieces(|l| l.to);
+        "piece_outer_starts": list "m", GIVEN, "outer diameter of each piece where it begins" => run.over_pieces(|l| l.start.outer);
+        "piece_outer_ends": list "m", GIVEN, "outer diameter of each piece where it ends" => run.over_pieces(|l| l.end.outer);
+        "piece_inner_starts": list "m", GIVEN, "inner diameter of each piece where it begins" => run.over_pieces(|l| l.start.inner);
+        "piece_inner_ends": list "m", GIVEN, "inner diameter of each piece where it ends" => run.over_pieces(|l| l.end.inner);
+        "piece_carries": list "1", GIVEN, "1 for a piece that bends with the shaft, else 0" => run.over_pieces(|l| f64::from(u8::from(l.carries)));
+        "disk_positions": list "m", GIVEN, "positions of the disks" => run.at(run.rotor.disks.iter().map(|disk| disk.node));
+        "disk_masses": list "kg", GIVEN, "masses of the disks" => run.rotor.disks.iter().map(|disk| disk.mass).collect::<Vec<_>>();
+        "disk_diameters": list "m", GIVEN, "diameters of the disks, 0 where not given" => run.over_disks(|size| size.0);
+        "disk_widths": list "m", GIVEN, "widths of the disks, 0 where not given" => run.over_disks(|size| size.1);
+        "support_positions": list "m", GIVEN, "positions of the supports" => run.at(run.on_nodes(false).map(|(_, node)| node));
+        "seal_positions": list "m", GIVEN, "positions of the seals" => run.at(run.on_nodes(true).map(|(_, node)| node));
+        "mass_positions": list "m", GIVEN, "positions of the point masses" => run.at(run.rotor.masses.iter().map(|mass| mass.node));
+        "point_masses": list "kg", GIVEN, "point masses" => run.rotor.masses.iter().map(|mass| mass.mass).collect::<Vec<_>>();
+        "unbalance_positions": list "m", GIVEN, "positions of the unbalances" => run.at(run.rotor.unbalance.iter().map(|unbalance| unbalance.node));
+        "named_node_positions": list "m", GIVEN, "positions of the named nodes" => run.at(run.nodes.iter().map(|(_, node)| *node));
+        "magnet_positions": list "m", GIVEN, "positions of the magnets" => run.at(run.magnets().map(|(_, magnet, _)| *magnet));
+        "sensor_positions": list "m", GIVEN, "positions of their sensors" => run.at(run.magnets().map(|(_, _, sensor)| *sensor));
+        "piece_materials": text "", GIVEN, "materials of the pieces" => lines(run.pieces.iter().map(|piece| &piece.material));
+        "piece_names": text "", GIVEN, "names of the pieces" => lines(run.pieces.iter().map(|piece| &piece.name));
+        "disk_names": text "", GIVEN, "names of the disks" => lines(run.disks.iter());
+        "unbalance_names": text "", GIVEN, "names of the unbalances" => lines(run.unbalance.iter());
+        "named_node_names": text "", GIVEN, "names of the named nodes" => lines(run.nodes.iter().map(|(name, _)| name));
+        "magnet_names": text "", GIVEN, "names of the magnets" => lines(run.magnets().map(|(name, _, _)| name));
+        "support_names": text "", GIVEN, "names of the supports" => lines(run.on_nodes(false).map(|(name, _)| name));
+        "seal_names": text "", GIVEN, "names of the seals" => lines(run.on_nodes(true).map(|(name, _)| name));
     }
-    let carries = layers().map(|l| f64::from(u8::from(l.carries)));
-    numbers("piece_carries", "1", carries.collect());
-    numbers(
-        "disk_positions",
-        "m",
-        rotor.disks.iter().map(|d| z(d.node)).collect(),
-    );
-    numbers(
-        "disk_masses",
-        "kg",
-        rotor.disks.iter().map(|d| d.mass).collect(),
-    );
-    // zero: not given, to be drawn by its mass
-    let sizes = || model.disk_sizes.iter();
-    let diameters = sizes().map(|size| size.0.unwrap_or_default());
-    numbers("disk_diameters", "m", diameters.collect());
-    let widths = sizes().map(|size| size.1.unwrap_or_default());
-    numbers("disk_widths", "m", widths.collect());
-    for (name, seal) in [("support_positions", false), ("seal_positions", true)] {
-        let places = rotor.supports.iter().filter(|support| support.seal == seal);
-        let at = places.filter_map(|support| match support.at {
-            Place::Node(node) => Some(z(node)),
+}
+
+fn lines<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    names.map(String::as_str).collect::<Vec<_>>().join("\n")
+}
+
+/// Diameter and width of a disk, m, where they are given.
+type Size = (Option<f64>, Option<f64>);
+
+impl RotorModel {
+    /// A value of each piece of the shaft.
+    fn over_pieces(&self, value: fn(&Layer) -> f64) -> Vec<f64> {
+        let layers = self.pieces.iter().map(|piece| &piece.layer);
+        layers.map(value).collect()
+    }
+
+    /// A diameter or width of each disk, m; 0, to be drawn by its mass, where it is not given.
+    fn over_disks(&self, size: fn(&Size) -> Option<f64>) -> Vec<f64> {
+        let sizes = self.disk_sizes.iter().map(size);
+        sizes.map(Option::unwrap_or_default).collect()
+    }
+
+    /// Positions of nodes, m.
+    fn at(&self, nodes: impl Iterator<Item = usize>) -> Vec<f64> {
+        nodes.map(|node| self.rotor.nodes[node]).collect()
+    }
+
+    fn magnets(&self) -> impl Iterator<Item = &(String, usize, usize)> {
+        self.levitation.iter().flat_map(|own| &own.magnets)
+    }
+
+    /// Names and nodes of supports, or of seals, that stand on a node.
+    fn on_nodes(&self, seal: bool) -> impl Iterator<Item = (&String, usize)> {
+        let all = self.supports.iter().zip(&self.rotor.supports);
+        let own = all.filter(move |(_, support)| support.seal == seal);
+        own.filter_map(|(name, support)| match support.at {
+            Place::Node(node) => Some((name, node)),
             Place::Housing(_) => None,
-        });
-        numbers(name, "m", at.collect());
+        })
     }
-    numbers(
-        "mass_positions",
-        "m",
-        rotor.masses.iter().map(|m| z(m.node)).collect(),
-    );
-    let masses = rotor.masses.iter().map(|m| m.mass);
-    numbers("point_masses", "kg", masses.collect());
-    let unbalance = rotor.unbalance.iter().map(|u| z(u.node));
-    numbers("unbalance_positions", "m", unbalance.collect());
-    let named = model.nodes.iter().map(|(_, node)| z(*node));
-    numbers("named_node_positions", "m", named.collect());
-    let magnets = || model.levitation.iter().flat_map(|own| &own.magnets);
-    numbers("magnet_positions", "m", magnets().map(|m| z(m.1)).collect());
-    numbers("sensor_positions", "m", magnets().map(|m| z(m.2)).collect());
-    let mut text = |name: &str, words: Vec<String>| {
-        list.push(name, "", Value::Text(words.join("\n")), &GIVEN);
-    };
-    text(
-        "piece_materials",
-        model.pieces.iter().map(|p| p.material.clone()).collect(),
-    );
-    text(
-        "piece_names",
-        model.pieces.iter().map(|p| p.name.clone()).collect(),
-    );
-    text("disk_names", model.disks.clone());
-    text("unbalance_names", model.unbalance.clone());
-    text(
-        "named_node_names",
-        model.nodes.iter().map(|n| n.0.clone()).collect(),
-    );
-    text("magnet_names", magnets().map(|m| m.0.clone()).collect());
-    let supports = |seal: bool| {
-        let all = model.supports.iter().zip(&rotor.supports);
-        let own = all.filter(|(_, s)| s.seal == seal && matches!(s.at, Place::Node(_)));
-        own.map(|(name, _)| name.clone()).collect()
-    };
-    text("support_names", supports(false));
-    text("seal_names", supports(true));
 }

@@ -32,15 +32,11 @@ const WITHHELD: &str = "no verdict where weight acts along the shaft: that motio
 const MOST_NAMES: usize = 8;
 
 /// Refuses limits of results that a run does not have, or of another dimension; `known` are its results, without values
-/// where these are not known before the run. What begins like one of `later` is found or not at its end.
-pub(crate) fn check(
-    limits: &[Limit],
-    known: &[Quantity],
-    later: &[String],
-) -> Result<(), Box<Problem>> {
-    let at_the_end = |limit: &&Limit| later.iter().any(|start| limit.quantity.starts_with(start));
-    for limit in limits.iter().filter(|limit| !at_the_end(limit)) {
-        let Some(quantity) = known.iter().find(|known| known.name == limit.quantity) else {
+/// where these are not known before the run. A `*` in the name of one stands for what the run finds.
+pub(crate) fn check(limits: &[Limit], known: &[Quantity]) -> Result<(), Box<Problem>> {
+    for limit in limits {
+        let named = |known: &&Quantity| is_name(&known.name, &limit.quantity);
+        let Some(quantity) = known.iter().find(named) else {
             return Err(unknown(limit, known));
         };
         let kind = match quantity.value {
@@ -88,6 +84,16 @@ pub(crate) fn check(
         }
     }
     Ok(())
+}
+
+/// Whether a listed name stands for this one: each `*` of it is one or more characters without a point.
+fn is_name(listed: &str, name: &str) -> bool {
+    let Some((start, end)) = listed.split_once('*') else {
+        return listed == name;
+    };
+    let rest = name.strip_prefix(start).unwrap_or_default();
+    let mut taken = rest.char_indices().take_while(|(_, letter)| *letter != '.');
+    taken.any(|(at, letter)| is_name(end, &rest[at + letter.len_utf8()..]))
 }
 
 /// The dimension of a result; none of a unit that limits cannot have.
@@ -412,6 +418,22 @@ mod tests {
         values.extend(vec![Some(3.0); broken]);
         values.extend(vec![None; open]);
         judge(limit, "N", &values, "it ended early")
+    }
+
+    #[test]
+    fn a_star_stands_for_what_the_run_finds() {
+        for (listed, name, same) in [
+            ("mass", "mass", true),
+            ("critical_*.speed", "critical_12.speed", true),
+            ("critical_*.speed", "critical_.speed", false),
+            ("critical_*.speed", "critical_1.2.speed", false),
+            ("critical_*.speed", "critical_1.speeds", false),
+            ("map_forward_*", "map_forward_é", true),
+            ("map_forward_*", "map_backward_1", false),
+            ("a_*_b_*", "a_1_b_2_b_3", true),
+        ] {
+            assert_eq!(is_name(listed, name), same, "{listed} {name}");
+        }
     }
 
     #[test]

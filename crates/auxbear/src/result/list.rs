@@ -9,7 +9,7 @@
 //!       }
 //!   }
 //! ```
-//! The table becomes a function `contacts(list, setup, run)`. With a run it lists the values; without one it lists the same
+//! A block may hold several tables. Each becomes a function `contacts(list, setup, run)`. With a run it lists the values; without one it lists the same
 //! names, units and meanings, which is how results are known before a run. Whether a row is there follows from the setup alone
 //! (`when`), and so does the reason of a result that no such run has (`unless`, an `Option<String>`).
 //!
@@ -54,12 +54,12 @@ pub(crate) enum Kind {
     text,
 }
 
-/// A table of results as a function; see the head of this file.
+/// Tables of results as functions; see the head of this file.
 macro_rules! results {
-    ($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {
+    ($($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {
         $($name:literal : $kind:ident $unit:literal, $origin:expr, $meaning:literal $(when $there:expr)? $(, unless $why:expr)? => $value:expr;)*
-    }) => {
-        $(#[$doc])*
+    })*) => {
+        $($(#[$doc])*
         $vis fn $table(list: &mut $crate::result::list::List, $setup: &$of, after: Option<&$after>) {
             let _ = $setup;
             $({
@@ -73,10 +73,14 @@ macro_rules! results {
                 if true $(&& $there)? {
                     let absent: Option<String> = None$(.or($why))?;
                     let absent = absent.map(|why| $crate::result::outcome::Value::None { why });
-                    list.add(&DECLARED, absent.or_else(|| after.map(|$run| $value.into())));
+                    let value = || after.map(|$run| {
+                        let _ = $run;
+                        $value.into()
+                    });
+                    list.add(&DECLARED, absent.or_else(value));
                 }
             })*
-        }
+        })*
     };
 }
 pub(crate) use results;
@@ -96,19 +100,18 @@ pub(crate) struct List {
 
 impl From<f64> for Value {
     fn from(value: f64) -> Value {
-        Ok(value).into()
+        match value.is_finite() {
+            true => Value::Number(value),
+            false => Value::None {
+                why: format!("the run ended with {value} here"),
+            },
+        }
     }
 }
 
-impl From<Result<f64, String>> for Value {
-    fn from(value: Result<f64, String>) -> Value {
-        match value {
-            Ok(value) if value.is_finite() => Value::Number(value),
-            Ok(value) => Value::None {
-                why: format!("the run ended with {value} here"),
-            },
-            Err(why) => Value::None { why },
-        }
+impl<T: Into<Value>> From<Result<T, String>> for Value {
+    fn from(value: Result<T, String>) -> Value {
+        value.map_or_else(|why| Value::None { why }, Into::into)
     }
 }
 
@@ -121,6 +124,12 @@ impl From<Vec<f64>> for Value {
 impl From<&str> for Value {
     fn from(text: &str) -> Value {
         Value::Text(text.to_string())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Value {
+        Value::Text(text)
     }
 }
 
@@ -150,6 +159,15 @@ impl List {
         let before = std::mem::replace(&mut self.stars, stars);
         add(self);
         self.stars = before;
+    }
+    /// Adds results of each of what a run finds, numbered from 1 in the place of `*`; before the run once, with the `*` itself.
+    pub fn numbered<T>(&mut self, found: Option<&[T]>, add: impl Fn(&mut List, Option<&T>)) {
+        let Some(found) = found else {
+            return self.named(&["*"], |list| add(list, None));
+        };
+        for (number, one) in (1..).zip(found) {
+            self.named(&[&format!("{number}")], |list| add(list, Some(one)));
+        }
     }
     /// Adds results of a part, whose names follow its own and a point; a part without a name adds nothing to them.
     #[allow(dead_code)]

@@ -3,7 +3,7 @@
 use crate::options::{Options, bounded};
 use crate::problem::Problem;
 use crate::result::outcome::{Single, Stop};
-use crate::run::{build_until, known};
+use crate::run::{build, known};
 use crate::scenario::{Scenario, System};
 use crate::simulate::drop::each::{self, One};
 use rayon::prelude::*;
@@ -102,7 +102,7 @@ fn staged<'a>(scenario: &'a Result<Scenario, Box<Problem>>, options: &Options) -
         interrupt: options.interrupt,
         progress: &|_| {},
     };
-    Stage::Done(match build_until(scenario, options.interrupt) {
+    Stage::Done(match build(scenario) {
         Ok(machine) => {
             let outcome = machine.run(&unwatched);
             Single {

@@ -22,7 +22,7 @@ use crate::simulate::{coast_down, drop, rig, spin_up};
 pub use each::each;
 pub use recording::file::parquet::panic_is_caught;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -48,14 +48,6 @@ enum Built<'a> {
 
 /// Builds the machine that the scenario describes; runs nothing.
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
-    build_until(scenario, &AtomicBool::new(false))
-}
-
-/// The same; limits are not checked after an interrupt, which ends their analysis of a rotor.
-pub(crate) fn build_until<'a>(
-    scenario: &'a Scenario,
-    interrupt: &AtomicBool,
-) -> Result<Machine<'a>, Box<Problem>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
             let varied = drop::members::varied(scenario, of)?;
@@ -78,15 +70,7 @@ pub(crate) fn build_until<'a>(
     let system = system.map_err(|problem| scenario.locate(problem))?;
     let machine = Machine { scenario, system };
     if !scenario.limits.is_empty() {
-        let known = machine.names(interrupt);
-        if interrupt.load(Ordering::Relaxed) {
-            return Ok(machine);
-        }
-        let later = match &machine.system {
-            Built::Identify(asked) => asked.results_of_tests(),
-            _ => Vec::new(),
-        };
-        limits::check(&scenario.limits, &known, &later)
+        limits::check(&scenario.limits, &machine.names())
             .map_err(|problem| scenario.locate(problem))?;
     }
     Ok(machine)
@@ -129,12 +113,8 @@ impl Machine<'_> {
         outcome
     }
 
-    /// Names and units of what a run will find: a run that is interrupted before its first step has them all.
-    pub(crate) fn results_without_values(&self) -> Vec<Quantity> {
-        self.names(&AtomicBool::new(false))
-    }
-
-    fn names(&self, interrupt: &AtomicBool) -> Vec<Quantity> {
+    /// The results of a run, without values; each `*` in a name stands for what only a run tells.
+    pub(crate) fn names(&self) -> Vec<Quantity> {
         let at_once = AtomicBool::new(true);
         let options = Options::unwatched(&at_once);
         let outcome = match &self.system {
@@ -144,8 +124,9 @@ impl Machine<'_> {
                 self.dropped(&once, built, &[], &options)
             }
             Built::Torque(asked) => return torque::results(asked),
-            // what it finds has names of its own, and is kept for the run
-            Built::Rotor(asked) => rotor::run(self.scenario, asked, &Options::unwatched(interrupt)),
+            Built::Signals(asked) => return signals::results(asked),
+            Built::Identify(asked) => return identify::results(asked),
+            Built::Rotor(asked) => return rotor::results(asked),
             _ => self.computed(&options),
         };
         outcome.quantities

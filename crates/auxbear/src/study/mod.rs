@@ -20,6 +20,7 @@ use crate::scenario::{Scenario, StudyFile};
 use problem::Problem;
 use rayon::prelude::*;
 use statistics::design::Coordinate;
+use std::sync::atomic::AtomicBool;
 use table::{Column, Row, Table};
 
 /// Members of a part.
@@ -90,10 +91,15 @@ impl Study {
     /// What is wrong with scenario, limits or results.
     pub fn new(file: StudyFile) -> Result<Study, Box<Problem>> {
         let machine = run::build(&file.scenario)?;
-        let known = machine.results_without_values();
+        let mut known = machine.names();
+        // what only a run tells is told by one with the values as given
+        if known.iter().any(|known| known.name.contains('*')) {
+            let never = AtomicBool::new(false);
+            known = machine.run(&Options::unwatched(&never)).quantities;
+        }
         drop(machine);
         let own = file.limits.len() - file.scenario.limits.len();
-        limits::check(&file.limits[..own], &known, &[]).map_err(|mut problem| {
+        limits::check(&file.limits[..own], &known).map_err(|mut problem| {
             problem.file.clone_from(&file.file);
             problem
         })?;

@@ -1,14 +1,17 @@
 //! Named results of an identification: the steady moment, the map of F, the explanations; those of each test on their own
 //! page.
 
-use crate::analyse::identify::found::Found;
-use crate::analyse::identify::per_test;
-use crate::analyse::identify::read::Asked;
+use crate::analyse::identify::found::{Found, rolling_set};
+use crate::analyse::identify::per_test::{self, OfTest};
+use crate::analyse::identify::read::{Asked, Test};
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
-use crate::result::outcome::{Quantity, Value};
+use crate::result::outcome::Quantity;
 use identify::coasting::Windage;
-use identify::explain::{self, Conclusion, Explanation};
+use identify::explain::{self, Candidate, Conclusion, Explanation, Verdict};
+use identify::loss::{LossMap, LossPoint};
 use identify::moment::{Form, Moment};
+use identify::rotor_friction::{FrictionPoint, RotorFriction};
 use identify::slip::{Established, SlipSettings};
 use statistics::uncertain::Uncertain;
 
@@ -17,21 +20,106 @@ const CURVE_POINTS: usize = 60;
 /// Speeds and accelerations of the map.
 const MAP_POINTS: usize = 24;
 
-/// All named results; what was not asked for has none.
-pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
+/// All named results, of what was not asked for none; without a second argument those of any such identification.
+pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
     let mut list = List::default();
-    verdict(&mut list, found);
-    moment(&mut list, found);
-    for (number, test) in found.tests.iter().enumerate() {
-        let given = asked.tests.iter().find(|given| given.name == test.name);
-        let cage = given.is_some_and(|given| given.signals.cage.is_some());
-        per_test::name(&mut list, number + 1, test, &found.set, cage);
+    verdict(&mut list, asked, found);
+    for explanation in Explanation::ALL {
+        list.named(&[&explanation.name().replace(' ', "_")], |list| {
+            probability(list, &explanation, found);
+        });
     }
-    map(&mut list, found);
+    explained(&mut list, asked, found);
+    best_form(&mut list, asked, found);
+    for form in [Form::Palmgren, Form::Skf, Form::Spline] {
+        list.named(&[word(form)], |list| form_probability(list, &form, found));
+    }
+    moment(&mut list, asked, found);
+    // tests that cannot be used leave no number out
+    for k in 0..found.map_or(asked.tests.len(), |found| found.tests.len()) {
+        let test = found.map(|found| &found.tests[k]);
+        let own = |given: &&Test| test.is_none_or(|test| test.name == given.name);
+        let mut given = asked.tests[k..].iter().filter(own);
+        let of = OfTest {
+            set: rolling_set(asked),
+            cage: given.any(|given| given.signals.cage.is_some()),
+        };
+        list.named(&[&format!("{}", k + 1)], |list| {
+            per_test::table(list, &of, test);
+        });
+    }
+    let grid = found.map(|found| found.map.as_ref().map(|map| found.grid(map)));
+    loss_map(&mut list, asked, grid.as_ref());
     if asked.rotor.is_some() {
-        rotor(&mut list, found);
+        rotor(&mut list, asked, found);
     }
     list.quantities
+}
+
+results! {
+    fn verdict(asked: &Asked, run: &Found) {
+        "explanation": text "", VERDICT, "explanation that the tests support" => run.verdict().map(conclusion);
+        "explanation_slip_limit": text "", VERDICT, "slip that counts as rolling" => run.verdict().map(|_| slip_limits(run));
+    }
+
+    fn probability(explanation: &Explanation, run: &Found) {
+        "probability_of_*": number "1", VERDICT, "probability of this explanation" => run.verdict().map(|verdict| verdict.of(*explanation).probability);
+    }
+
+    fn explained(asked: &Asked, run: &Found) {
+        "explanation_parameters": text "", VERDICT, "parameters of the most probable explanation" => run.verdict().map(explanation_parameters);
+        "explanation_fit_probability": number "1", FIT, "probability of a fit at least as bad" => {
+            let none = || "it fits nowhere in the range of its parameters".to_string();
+            run.verdict().and_then(|verdict| verdict.best().fit.map(|fit| fit.probability).ok_or_else(none))
+        };
+        "explanation_effective_data": number "", MEANS, "effective number of data of the comparison" => run.verdict().map(|verdict| verdict.effective_means);
+        "next_tests": text "", NEXT, "tests that would tell most" => run.next.as_ref().map(|all| next_tests(all)).map_err(Clone::clone);
+    }
+
+    fn best_form(asked: &Asked, run: &Found) {
+        "steady_moment_form": text "", EVIDENCE, "most probable form of the steady moment" => run.moment().map(|moment| word(moment.best().form));
+    }
+
+    fn form_probability(form: &Form, run: &Found) {
+        "probability_of_*_form": number "1", EVIDENCE, "probability of this form" => {
+            let fit = |moment: &Moment| moment.forms.iter().find(|fit| fit.form == *form).map(|fit| fit.probability);
+            run.moment().and_then(|moment| fit(moment).ok_or_else(|| "this form was not fitted".to_string()))
+        };
+    }
+
+    fn moment(asked: &Asked, run: &Found) {
+        "steady_moment_parameters": text "", CURVE, "parameters of each form" => run.moment().map(form_parameters);
+        "largest_parameter_correlation": number "1", CURVE, "largest correlation of two parameters" => {
+            run.moment().and_then(|moment| largest_correlation(moment).ok_or_else(|| "one parameter".to_string()))
+        };
+        "steady_moment_speeds": list "rad/s", CURVE, "speeds of the steady moment" => run.curve_speeds();
+        "steady_moments": list "N m", CURVE, "steady moment at these" => run.curve(|moment| moment.value);
+        "steady_moment_deviations": list "N m", CURVE, "its standard deviations" => run.curve(|moment| moment.deviation);
+        "windage_torques": list "N m", WINDAGE, "torque of the windage at these" when asked.has_windage() => run.windage(|w, speed| w.at(speed));
+        "windage_deviations": list "N m", WINDAGE, "its standard deviations" when asked.has_windage() => {
+            run.windage(|w, speed| w.covariance(speed, speed).map(f64::sqrt))
+        };
+        "coast_down_speeds": list "rad/s", COAST_DOWN, "speeds of the slow tests" => run.measured_curve().0;
+        "coast_down_torques": list "N m", COAST_DOWN, "torques of the slow tests" => run.measured_curve().1;
+        "effective_steady_data": number "", WORTH, "effective number of data of the steady moment" => run.moment().map(|moment| moment.effective_data);
+    }
+
+    fn loss_map(asked: &Asked, run: &Result<[Vec<f64>; 5], &String>) {
+        "loss_map_speeds": list "rad/s", MAP, "speeds of the map of F" => column(run, 0);
+        "loss_map_accelerations": list "rad/s^2", MAP, "accelerations of the map of F" => column(run, 1);
+        "loss_map_friction": list "N", MAP, "pocket friction F there" => column(run, 2);
+        "loss_map_deviations": list "N", MAP, "its standard deviations" => column(run, 3);
+        "loss_map_known": list "", MAP, "1 where data are near" => column(run, 4);
+    }
+
+    fn rotor(asked: &Asked, run: &Found) {
+        "rotor_friction_coefficient": number "1", ROTOR, "mean coefficient of friction" => run.rotor().map(|rotor| rotor.mean().friction.value);
+        "rotor_friction_coefficient_deviation": number "1", ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);
+        "rotor_friction_slips": list "m/s", ROTOR, "slips of rotor and race" => run.over_slip(|p| p.slip.value);
+        "rotor_friction_slip_deviations": list "m/s", ROTOR, "their standard deviations" => run.over_slip(|p| p.slip.deviation);
+        "rotor_friction_coefficients": list "1", ROTOR, "coefficient of friction at these" => run.over_slip(|p| p.friction.value);
+        "rotor_friction_deviations": list "1", ROTOR, "its standard deviations" => run.over_slip(|p| p.friction.deviation);
+    }
 }
 
 fn word(form: Form) -> &'static str {
@@ -42,82 +130,58 @@ fn word(form: Form) -> &'static str {
     }
 }
 
-fn text_or(value: Result<String, String>) -> Value {
-    match value {
-        Ok(text) => Value::Text(text),
-        Err(why) => Value::None { why },
-    }
-}
-
-fn list_or(value: Result<Vec<f64>, String>) -> Value {
-    match value {
-        Ok(list) => Value::List(list),
-        Err(why) => Value::None { why },
-    }
-}
-
-fn verdict(list: &mut List, found: &Found) {
-    let verdict = found.verdict.as_ref();
-    let conclusion = verdict
-        .map_err(Clone::clone)
-        .map(|verdict| match &verdict.conclusion {
-            Conclusion::Supported(explanation) => explanation.name().to_string(),
-            Conclusion::Undecided(left) => {
-                let names: Vec<&str> = left.iter().map(|left| left.name()).collect();
-                format!("undecided: {}", names.join(", or "))
-            }
-            Conclusion::NoneOfThese => "none of these".to_string(),
-        });
-    list.push("explanation", "", text_or(conclusion), &VERDICT);
-    let limits = verdict.map_err(Clone::clone).map(|_| slip_limits(found));
-    list.push("explanation_slip_limit", "", text_or(limits), &VERDICT);
-    for explanation in Explanation::ALL {
-        let name = format!("probability_of_{}", explanation.name().replace(' ', "_"));
-        let of = verdict.map_err(Clone::clone);
-        let assessment = of.map(|verdict| verdict.of(explanation).probability);
-        list.number(&name, "1", assessment, &VERDICT);
-    }
-    let parameters = verdict.map_err(Clone::clone).map(|verdict| {
-        let best = verdict.best();
-        let values = best.parameters.iter().map(|p| {
-            let unit = if p.unit == "1" { "" } else { p.unit };
-            let value = Uncertain::new(p.mean, p.deviation);
-            format!("{} {value} {unit}", p.name)
-        });
-        let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
-        let name = best.explanation.name();
-        let form = match best.form == name {
-            true => name.to_string(),
-            false => format!("{name} ({})", best.form),
-        };
-        match values.is_empty() {
-            true => form,
-            false => format!("{form}: {}", values.join("; ")),
+fn conclusion(verdict: &Verdict) -> String {
+    match &verdict.conclusion {
+        Conclusion::Supported(explanation) => explanation.name().to_string(),
+        Conclusion::Undecided(left) => {
+            let names: Vec<&str> = left.iter().map(|left| left.name()).collect();
+            format!("undecided: {}", names.join(", or "))
         }
+        Conclusion::NoneOfThese => "none of these".to_string(),
+    }
+}
+
+/// Names with values and units in words.
+fn parameters<'a>(all: impl Iterator<Item = (&'a str, Uncertain, &'a str)>) -> String {
+    let words = all.map(|(name, value, unit)| {
+        let unit = if unit == "1" { "" } else { unit };
+        let text = format!("{name} {value} {unit}");
+        text.trim_end().to_string()
     });
-    list.push("explanation_parameters", "", text_or(parameters), &VERDICT);
-    let fit = verdict.map_err(Clone::clone).and_then(|verdict| {
-        let fit = verdict.best().fit.map(|fit| fit.probability);
-        fit.ok_or_else(|| "it fits nowhere in the range of its parameters".to_string())
+    words.collect::<Vec<_>>().join("; ")
+}
+
+fn explanation_parameters(verdict: &Verdict) -> String {
+    let best = verdict.best();
+    let all = best.parameters.iter();
+    let values = parameters(all.map(|p| (p.name, Uncertain::new(p.mean, p.deviation), p.unit)));
+    let name = best.explanation.name();
+    let form = match best.form == name {
+        true => name.to_string(),
+        false => format!("{name} ({})", best.form),
+    };
+    match values.is_empty() {
+        true => form,
+        false => format!("{form}: {values}"),
+    }
+}
+
+fn form_parameters(moment: &Moment) -> String {
+    let fits = moment.forms.iter().map(|fit| {
+        let values = parameters(fit.parameters.iter().map(|p| (&*p.name, p.value, p.unit)));
+        format!("{}: {values}", word(fit.form))
     });
-    list.number("explanation_fit_probability", "1", fit, &FIT);
-    let effective = verdict.map_err(Clone::clone);
-    let effective = effective.map(|verdict| verdict.effective_means);
-    list.number("explanation_effective_data", "", effective, &MEANS);
-    let next = found.next.as_ref().map_err(Clone::clone);
-    let named = next.map(|candidates| {
-        let lines = candidates.iter().take(5).enumerate().map(|(k, candidate)| {
-            format!(
-                "{}. {} ({:.0} % of what is open): {}",
-                k + 1,
-                candidate.proposal.name(),
-                1e2 * candidate.share,
-                candidate.proposal.difference()
-            )
-        });
-        lines.collect::<Vec<_>>().join("\n")
+    fits.collect::<Vec<_>>().join("\n")
+}
+
+fn next_tests(all: &[Candidate]) -> String {
+    let lines = (1..).zip(all.iter().take(5)).map(|(number, candidate)| {
+        let proposal = candidate.proposal;
+        let (name, difference) = (proposal.name(), proposal.difference());
+        let share = 1e2 * candidate.share;
+        format!("{number}. {name} ({share:.0} % of what is open): {difference}")
     });
-    list.push("next_tests", "", text_or(named), &NEXT);
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// From which slip on the comparison calls it slip, beside the narrower limit of the slip itself.
@@ -137,94 +201,6 @@ fn slip_limits(found: &Found) -> String {
     )
 }
 
-fn moment(list: &mut List, found: &Found) {
-    let moment = found.moment.as_ref().map_err(Clone::clone);
-    let best = moment
-        .clone()
-        .map(|moment| word(moment.best().form).to_string());
-    list.push("steady_moment_form", "", text_or(best), &EVIDENCE);
-    for form in [Form::Palmgren, Form::Skf, Form::Spline] {
-        let probability = moment.clone().and_then(|moment| {
-            let fit = moment.forms.iter().find(|fit| fit.form == form);
-            fit.map(|fit| fit.probability)
-                .ok_or_else(|| "this form was not fitted".to_string())
-        });
-        let name = format!("probability_of_{}_form", word(form));
-        list.number(&name, "1", probability, &EVIDENCE);
-    }
-    let parameters = moment.clone().map(|moment| {
-        let fits = moment.forms.iter().map(|fit| {
-            let values = fit.parameters.iter().map(|p| {
-                let unit = if p.unit == "1" { "" } else { p.unit };
-                format!("{} {} {unit}", p.name, p.value)
-            });
-            let values: Vec<String> = values.map(|text| text.trim_end().to_string()).collect();
-            format!("{}: {}", word(fit.form), values.join("; "))
-        });
-        fits.collect::<Vec<_>>().join("\n")
-    });
-    list.push("steady_moment_parameters", "", text_or(parameters), &CURVE);
-    let largest = moment
-        .clone()
-        .and_then(|moment| largest_correlation(moment).ok_or_else(|| "one parameter".to_string()));
-    list.number("largest_parameter_correlation", "1", largest, &CURVE);
-    let speeds = moment.clone().map(|moment| {
-        let (from, to) = moment.curve.range();
-        let speed = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
-        (0..CURVE_POINTS).map(speed).collect::<Vec<f64>>()
-    });
-    let of_speeds = |pick: fn(Uncertain) -> f64| {
-        let moment = found.moment.as_ref().map_err(Clone::clone)?;
-        let at = |speed: &f64| moment.curve.at(*speed).map_or(f64::NAN, pick);
-        Ok::<Vec<f64>, String>(speeds.clone()?.iter().map(at).collect())
-    };
-    let (values, deviations) = (of_speeds(|u| u.value), of_speeds(|u| u.deviation));
-    list.push(
-        "steady_moment_speeds",
-        "rad/s",
-        list_or(speeds.clone()),
-        &CURVE,
-    );
-    list.push("steady_moments", "N m", list_or(values), &CURVE);
-    list.push(
-        "steady_moment_deviations",
-        "N m",
-        list_or(deviations),
-        &CURVE,
-    );
-    let windage = |pick: fn(&Windage, f64) -> Option<f64>| {
-        let windage = found.windage.as_ref();
-        let windage = windage.ok_or_else(|| "no slow test takes a windage out".to_string())?;
-        let at = |speed: &f64| pick(windage, *speed).unwrap_or(f64::NAN);
-        Ok::<Vec<f64>, String>(speeds.clone()?.iter().map(at).collect())
-    };
-    if found.windage.is_some() {
-        let values = windage(|windage, speed| windage.at(speed));
-        let deviations = windage(|w, speed| w.covariance(speed, speed).map(f64::sqrt));
-        list.push("windage_torques", "N m", list_or(values), &WINDAGE);
-        list.push("windage_deviations", "N m", list_or(deviations), &WINDAGE);
-    }
-    let (speeds, torques) = measured_curve(found);
-    list.push(
-        "coast_down_speeds",
-        "rad/s",
-        Value::List(speeds),
-        &COAST_DOWN,
-    );
-    list.push(
-        "coast_down_torques",
-        "N m",
-        Value::List(torques),
-        &COAST_DOWN,
-    );
-    list.number(
-        "effective_steady_data",
-        "",
-        moment.map(|moment| moment.effective_data),
-        &WORTH,
-    );
-}
-
 fn largest_correlation(moment: &Moment) -> Option<f64> {
     let rows = &moment.best().correlation;
     let mut largest: Option<f64> = None;
@@ -238,91 +214,99 @@ fn largest_correlation(moment: &Moment) -> Option<f64> {
     largest
 }
 
-/// Torque over speed as the slow tests measured it: means of equal parts of their time.
-fn measured_curve(found: &Found) -> (Vec<f64>, Vec<f64>) {
-    const PARTS: usize = 300;
-    let (mut speeds, mut torques) = (Vec::new(), Vec::new());
-    for test in &found.coast_downs {
-        let length = test.time.len().div_ceil(PARTS).max(1);
-        let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
-        for (speed, torque) in test.speed.chunks(length).zip(test.torque.chunks(length)) {
-            speeds.push(mean(speed));
-            torques.push(mean(torque));
-        }
-    }
-    (speeds, torques)
+/// A column of the map.
+fn column(grid: &Result<[Vec<f64>; 5], &String>, index: usize) -> Result<Vec<f64>, String> {
+    let rows = grid.as_ref().map_err(|why| (*why).clone())?;
+    Ok(rows[index].clone())
 }
 
-fn map(list: &mut List, found: &Found) {
-    let grid = found.map.as_ref().map_err(Clone::clone).map(|map| {
-        let largest = |pick: fn(&identify::loss::LossPoint) -> f64| {
-            let points = found
-                .tests
-                .iter()
-                .filter_map(|test| test.loss.as_ref().ok());
-            let points = points.flat_map(|loss| &loss.points);
-            points
-                .filter(|point| point.friction.is_some())
-                .map(|point| pick(point).abs())
-                .fold(0.0, f64::max)
+impl Asked<'_> {
+    /// Whether a slow test takes a windage out.
+    fn has_windage(&self) -> bool {
+        let takes = |test: &Test| {
+            let steady = test.signals.steady.as_ref();
+            test.signals.torque.is_none() && steady.is_some_and(|wish| wish.windage.is_some())
+        };
+        self.coast_downs.iter().any(takes)
+    }
+}
+
+impl Found {
+    fn verdict(&self) -> Result<&Verdict, String> {
+        self.verdict.as_ref().map_err(Clone::clone)
+    }
+
+    fn moment(&self) -> Result<&Moment, String> {
+        self.moment.as_ref().map_err(Clone::clone)
+    }
+
+    fn rotor(&self) -> Result<&RotorFriction, String> {
+        self.rotor.as_ref().map_err(Clone::clone)
+    }
+
+    fn over_slip(&self, value: fn(&FrictionPoint) -> f64) -> Result<Vec<f64>, String> {
+        let points = self.rotor()?.over_slip(20);
+        Ok(points.iter().map(value).collect())
+    }
+
+    fn curve_speeds(&self) -> Result<Vec<f64>, String> {
+        let (from, to) = self.moment()?.curve.range();
+        let speed = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
+        Ok((0..CURVE_POINTS).map(speed).collect())
+    }
+
+    fn curve(&self, pick: fn(Uncertain) -> f64) -> Result<Vec<f64>, String> {
+        let curve = &self.moment()?.curve;
+        let at = |speed: &f64| curve.at(*speed).map_or(f64::NAN, pick);
+        Ok(self.curve_speeds()?.iter().map(at).collect())
+    }
+
+    fn windage(&self, pick: fn(&Windage, f64) -> Option<f64>) -> Result<Vec<f64>, String> {
+        let none = || "no slow test takes a windage out".to_string();
+        let windage = self.windage.as_ref().ok_or_else(none)?;
+        let at = |speed: &f64| pick(windage, *speed).unwrap_or(f64::NAN);
+        Ok(self.curve_speeds()?.iter().map(at).collect())
+    }
+
+    /// Torque over speed as the slow tests measured it: means of equal parts of their time.
+    fn measured_curve(&self) -> (Vec<f64>, Vec<f64>) {
+        const PARTS: usize = 300;
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+        let (mut speeds, mut torques) = (Vec::new(), Vec::new());
+        for test in &self.coast_downs {
+            let length = test.time.len().div_ceil(PARTS).max(1);
+            speeds.extend(test.speed.chunks(length).map(mean));
+            torques.extend(test.torque.chunks(length).map(mean));
+        }
+        (speeds, torques)
+    }
+
+    /// Speeds and accelerations up to the largest that the tests show, with F, its deviation and whether it is known there.
+    fn grid(&self, map: &LossMap) -> [Vec<f64>; 5] {
+        let losses = self.tests.iter().filter_map(|test| test.loss.as_ref().ok());
+        let points: Vec<&LossPoint> = losses
+            .flat_map(|loss| &loss.points)
+            .filter(|point| point.friction.is_some())
+            .collect();
+        let largest = |pick: fn(&LossPoint) -> f64| {
+            let sizes = points.iter().map(|point| pick(point).abs());
+            sizes.fold(0.0, f64::max)
         };
         let (speed, acceleration) = (largest(|p| p.speed), largest(|p| p.acceleration));
+        let part = |index: usize| index as f64 / (MAP_POINTS - 1) as f64;
         let mut rows: [Vec<f64>; 5] = Default::default();
-        for i in 0..MAP_POINTS {
-            for k in 0..MAP_POINTS {
-                let part = |index: usize| index as f64 / (MAP_POINTS - 1) as f64;
-                let (speed, acceleration) = (part(i) * speed, part(k) * acceleration);
-                let place = map.at(speed, acceleration);
-                let values = [
-                    speed,
-                    acceleration,
-                    place.friction.value,
-                    place.friction.deviation,
-                    f64::from(u8::from(place.known)),
-                ];
-                for (row, value) in rows.iter_mut().zip(values) {
-                    row.push(value);
-                }
+        for place in 0..MAP_POINTS * MAP_POINTS {
+            let speed = part(place / MAP_POINTS) * speed;
+            let acceleration = part(place % MAP_POINTS) * acceleration;
+            let at = map.at(speed, acceleration);
+            let (friction, deviation) = (at.friction.value, at.friction.deviation);
+            let known = f64::from(u8::from(at.known));
+            let values = [speed, acceleration, friction, deviation, known];
+            for (row, value) in rows.iter_mut().zip(values) {
+                row.push(value);
             }
         }
         rows
-    });
-    for (index, (name, unit)) in [
-        ("loss_map_speeds", "rad/s"),
-        ("loss_map_accelerations", "rad/s^2"),
-        ("loss_map_friction", "N"),
-        ("loss_map_deviations", "N"),
-        ("loss_map_known", ""),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let values = grid.clone().map(|rows| rows[index].clone());
-        list.push(name, unit, list_or(values), &MAP);
-    }
-}
-
-fn rotor(list: &mut List, found: &Found) {
-    let rotor = found.rotor.as_ref().map_err(Clone::clone);
-    let mean = rotor.clone().map(|rotor| rotor.mean().friction);
-    per_test::uncertain(list, "rotor_friction_coefficient", "1", mean, &ROTOR);
-    let points = rotor.map(|rotor| rotor.over_slip(20));
-    for (name, unit, pick) in [
-        (
-            "rotor_friction_slips",
-            "m/s",
-            (|p| p.slip.value) as fn(&identify::rotor_friction::FrictionPoint) -> f64,
-        ),
-        ("rotor_friction_slip_deviations", "m/s", |p| {
-            p.slip.deviation
-        }),
-        ("rotor_friction_coefficients", "1", |p| p.friction.value),
-        ("rotor_friction_deviations", "1", |p| p.friction.deviation),
-    ] {
-        let values = points
-            .clone()
-            .map(|points| points.iter().map(pick).collect());
-        list.push(name, unit, list_or(values), &ROTOR);
     }
 }
 

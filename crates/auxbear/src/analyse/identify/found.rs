@@ -379,7 +379,7 @@ fn all_unused<T>(found: &[T], asked: &[Test], unusable: &[(String, String)]) -> 
 }
 
 /// Masses and radii of balls and cage.
-fn rolling_set(asked: &Asked) -> RollingSet<f64> {
+pub(super) fn rolling_set(asked: &Asked) -> RollingSet<f64> {
     let bearing = asked.identify;
     let ball = (bearing.ball_mass)
         .unwrap_or_else(|| bearing.ball_material.ball_mass(bearing.ball_diameter));

@@ -25,11 +25,16 @@ mod read;
 
 use crate::options::Options;
 use crate::result::assumptions::assumptions;
-use crate::result::outcome::{Members, Outcome, Picture, Stop, Warning, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
 use crate::scenario::Scenario;
 use found::Found;
 pub(crate) use read::Asked;
 use std::time::Instant;
+
+/// The results of such an identification, without values.
+pub(crate) fn results(asked: &Asked) -> Vec<Quantity> {
+    answer::name(asked, None)
+}
 
 /// Computes what is asked for and names it.
 pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
@@ -65,7 +70,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outc
         system: "identify",
         title: (scenario.title.clone())
             .unwrap_or_else(|| "What the tests show of the bearing".to_string()),
-        quantities: answer::quantities(asked, &found),
+        quantities: answer::name(asked, Some(&found)),
         history,
         contacts: Vec::new(),
         stop,

@@ -1,8 +1,8 @@
 //! Named results of one test with acceleration.
 
 use crate::analyse::identify::found::TestFound;
-use crate::result::list::{List, Origin};
-use crate::result::outcome::Value;
+use crate::result::list::Origin;
+use crate::result::list::results;
 use identify::Measurement;
 use identify::loss::Loss;
 use identify::slip::Established;
@@ -10,187 +10,110 @@ use physics::rolling::RollingSet;
 use physics::spin_up_energy::SpinUpEnergy;
 use statistics::uncertain::Uncertain;
 
-/// Names the results of one test; those of the cage where its channel is given.
-pub(crate) fn name(
-    list: &mut List,
-    number: usize,
-    test: &TestFound,
-    set: &RollingSet<f64>,
-    cage: bool,
-) {
-    let named = |name: &str| format!("test_{number}.{name}");
-    let m = &test.measurement;
-    list.push(&named("name"), "", Value::Text(test.name.clone()), &TEST);
-    list.number(&named("radial_load"), "N", Ok(m.load), &TEST);
-    list.number(
-        &named("engagement_time"),
-        "s",
-        m.engagement
-            .ok_or_else(|| "no quick change was found".to_string()),
-        &ENGAGED,
-    );
-    uncertain(
-        list,
-        &named("peak_acceleration"),
-        "rad/s^2",
-        Ok(test.peak_acceleration),
-        &TEST,
-    );
-    torques(list, &named, test);
-    rolling_up(list, &named, test, set);
-    energies(list, &named, test);
-    if cage {
-        slip(list, &named, test);
-    }
-    skid(list, &named, test);
+/// What is known of a test before it is read.
+pub(crate) struct OfTest {
+    /// Balls and cage.
+    pub set: RollingSet<f64>,
+    /// Whether the channel of the cage is given.
+    pub cage: bool,
 }
 
-/// A value with its standard deviation under the same name.
-pub(crate) fn uncertain(
-    list: &mut List,
-    name: &str,
-    unit: &'static str,
-    value: Result<Uncertain, String>,
-    origin: &Origin,
-) {
-    list.number(name, unit, value.clone().map(|u| u.value), origin);
-    list.number(
-        &format!("{name}_deviation"),
-        unit,
-        value.map(|u| u.deviation),
-        origin,
-    );
-}
-
-fn torques(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
-    let loss = test.loss.as_ref().map_err(Clone::clone);
-    type Part = fn(&Loss, &Measurement) -> Option<Uncertain>;
-    for (name, part, lacking) in [
-        (
-            "excess_torque_settled",
-            Loss::settled_excess as Part,
-            "no engagement was found, or t_O - M is not known 0.2 to 0.4 s after it",
-        ),
-        (
-            "excess_torque_at_end",
-            Loss::excess_at_end,
-            "the test does not hold its full speed long enough, or t_O - M is not known there",
-        ),
-    ] {
-        let unknown = || lacking.to_string();
-        let value =
-            (loss.clone()).and_then(|loss| part(loss, &test.measurement).ok_or_else(unknown));
-        uncertain(list, &named(name), "N m", value, &EXCESS);
+results! {
+    /// The results of one test.
+    pub(crate) fn table(of: &OfTest, run: &TestFound) {
+        "test_*.name": text "", TEST, "name of the test" => run.name.as_str();
+        "test_*.radial_load": number "N", TEST, "weight on the bearing" => run.measurement.load;
+        "test_*.engagement_time": number "s", ENGAGED, "when the quick change of speed begins" => {
+            run.measurement.engagement.ok_or_else(|| "no quick change was found".to_string())
+        };
+        "test_*.peak_acceleration": number "rad/s^2", TEST, "largest acceleration" => run.peak_acceleration.value;
+        "test_*.peak_acceleration_deviation": number "rad/s^2", TEST, "its standard deviation" => run.peak_acceleration.deviation;
+        "test_*.excess_torque_settled": number "N m", EXCESS, "t_O - M shortly after the engagement" => run.settled_excess().map(|u| u.value);
+        "test_*.excess_torque_settled_deviation": number "N m", EXCESS, "its standard deviation" => run.settled_excess().map(|u| u.deviation);
+        "test_*.excess_torque_at_end": number "N m", EXCESS, "t_O - M at the end of the hold" => run.excess_at_end().map(|u| u.value);
+        "test_*.excess_torque_at_end_deviation": number "N m", EXCESS, "its standard deviation" => run.excess_at_end().map(|u| u.deviation);
+        "test_*.torque_to_roll_within_3_5_s": number "N m", ROLLING_UP, "net torque that would bring balls and cage to rolling in 3.5 s" => {
+            let rolling = SpinUpEnergy { set: of.set, final_speed: run.measurement.fastest(), outer_moment_work: 0.0 };
+            rolling.final_angular_momentum() / FALL
+        };
+        "test_*.dissipated_energy": number "J", ENERGY, "energy dissipated in the spin-up, as well as it is known" => run.best_energy().map(|u| u.value);
+        "test_*.dissipated_energy_deviation": number "J", ENERGY, "its standard deviation" => run.best_energy().map(|u| u.deviation);
+        "test_*.dissipated_energy_printed": number "J", ENERGY, "by (21) as printed" => run.energy().map(|d| d.printed.value);
+        "test_*.dissipated_energy_printed_deviation": number "J", ENERGY, "its standard deviation" => run.energy().map(|d| d.printed.deviation);
+        "test_*.dissipated_energy_corrected": number "J", ENERGY, "by (21) corrected" => run.energy().map(|d| d.corrected.value);
+        "test_*.dissipated_energy_corrected_deviation": number "J", ENERGY, "its standard deviation" => run.energy().map(|d| d.corrected.deviation);
+        "test_*.dissipated_energy_exact": number "J", ENERGY, "with the cage signal" => run.exact_energy().map(|u| u.value);
+        "test_*.dissipated_energy_exact_deviation": number "J", ENERGY, "its standard deviation" => run.exact_energy().map(|u| u.deviation);
+        "test_*.dissipated_energy_without_cage": number "J", ENERGY, "without a cage signal" => run.energy().map(|d| d.without_cage.value);
+        "test_*.dissipated_energy_without_cage_deviation": number "J", ENERGY, "its standard deviation" => run.energy().map(|d| d.without_cage.deviation);
+        "test_*.dissipation_until": number "s", UNTIL, "time after the engagement at which the final speed is reached" => {
+            run.dissipation.as_ref().map(|d| d.window.1 - run.measurement.begin()).map_err(Clone::clone)
+        };
+        "test_*.printed_form": text "", ENERGY, "verdict on (21) as printed" => run.energy().map(|found| found.printed_verdict());
+        "test_*.slip_probability": number "1", SLIP, "largest probability of a slip of the cage" when of.cage => run.slip_probability();
+        "test_*.rolling_established_at": number "s", ROLLS, "time after the engagement from which on the cage rolls" when of.cage => run.rolling_established();
+        "test_*.skid_probability": number "1", SKID, "probability that balls skid" => run.skid_probability();
     }
 }
 
 /// Net torque that would bring balls and cage to rolling speed within the time in which the source paper's torque fell, s.
 const FALL: f64 = 3.5;
 
-fn rolling_up(
-    list: &mut List,
-    named: &dyn Fn(&str) -> String,
-    test: &TestFound,
-    set: &RollingSet<f64>,
-) {
-    let rolling = SpinUpEnergy {
-        set: *set,
-        final_speed: test.measurement.fastest(),
-        outer_moment_work: 0.0,
-    };
-    let torque = rolling.final_angular_momentum() / FALL;
-    list.number(
-        &named("torque_to_roll_within_3_5_s"),
-        "N m",
-        Ok(torque),
-        &ROLLING_UP,
-    );
-}
-
-fn energies(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
-    let found = test.energy();
-    let none = || "without a cage signal over the whole spin-up".to_string();
-    uncertain(
-        list,
-        &named("dissipated_energy"),
-        "J",
-        test.best_energy(),
-        &ENERGY,
-    );
-    for (name, pick) in [
-        (
-            "dissipated_energy_printed",
-            (|d| Some(d.printed)) as fn(&identify::dissipation::Dissipation) -> Option<Uncertain>,
-        ),
-        ("dissipated_energy_corrected", |d| Some(d.corrected)),
-        ("dissipated_energy_exact", |d| d.exact),
-        ("dissipated_energy_without_cage", |d| Some(d.without_cage)),
-    ] {
-        let value = found.clone().and_then(|d| pick(d).ok_or_else(none));
-        uncertain(list, &named(name), "J", value, &ENERGY);
+impl TestFound {
+    fn excess(
+        &self,
+        part: fn(&Loss, &Measurement) -> Option<Uncertain>,
+        lacking: &str,
+    ) -> Result<Uncertain, String> {
+        let loss = self.loss.as_ref().map_err(Clone::clone)?;
+        part(loss, &self.measurement).ok_or_else(|| lacking.to_string())
     }
-    list.number(
-        &named("dissipation_until"),
-        "s",
-        (test.dissipation.as_ref().map_err(Clone::clone))
-            .map(|d| d.window.1 - test.measurement.begin()),
-        &UNTIL,
-    );
-    list.push(
-        &named("printed_form"),
-        "",
-        match &found {
-            Ok(found) => Value::Text(found.printed_verdict()),
-            Err(why) => Value::None { why: why.clone() },
-        },
-        &ENERGY,
-    );
-}
 
-fn slip(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
-    let slip = test.slip.as_ref().map_err(Clone::clone);
-    list.number(
-        &named("slip_probability"),
-        "1",
-        slip.clone().and_then(|slip| {
-            slip.slipped.ok_or_else(|| {
-                "the band of the slip is wider than its limit throughout".to_string()
-            })
-        }),
-        &SLIP,
-    );
-    list.number(
-        &named("rolling_established_at"),
-        "s",
-        slip.and_then(|slip| match slip.established {
-            Established::At { time, .. } => Ok(time - test.measurement.begin()),
+    fn settled_excess(&self) -> Result<Uncertain, String> {
+        let lacking = "no engagement was found, or t_O - M is not known 0.2 to 0.4 s after it";
+        self.excess(Loss::settled_excess, lacking)
+    }
+
+    fn excess_at_end(&self) -> Result<Uncertain, String> {
+        let lacking =
+            "the test does not hold its full speed long enough, or t_O - M is not known there";
+        self.excess(Loss::excess_at_end, lacking)
+    }
+
+    fn exact_energy(&self) -> Result<Uncertain, String> {
+        let none = || "without a cage signal over the whole spin-up".to_string();
+        self.energy()?.exact.ok_or_else(none)
+    }
+
+    fn slip_probability(&self) -> Result<f64, String> {
+        let slip = self.slip.as_ref().map_err(Clone::clone)?;
+        let none = || "the band of the slip is wider than its limit throughout".to_string();
+        slip.slipped.ok_or_else(none)
+    }
+
+    fn rolling_established(&self) -> Result<f64, String> {
+        match self.slip.as_ref().map_err(Clone::clone)?.established {
+            Established::At { time, .. } => Ok(time - self.measurement.begin()),
             Established::Throughout => {
                 Err("as far as the signal shows, the cage never slipped".to_string())
             }
             Established::Never => Err("not before the record ends".to_string()),
-        }),
-        &ROLLS,
-    );
-}
+        }
+    }
 
-fn skid(list: &mut List, named: &dyn Fn(&str) -> String, test: &TestFound) {
-    list.number(
-        &named("skid_probability"),
-        "1",
-        match test.withheld() {
-            None if test.rolls => {
-                Err("the balls roll throughout, as it is stated or the tests support".to_string())
-            }
-            Some(why) => Err(format!(
-                "{why}, and a torque that is low for another reason looks like skid"
-            )),
-            None => test.skid.as_ref().map_err(Clone::clone).and_then(|skid| {
-                skid.skidded
-                    .ok_or_else(|| "torque and cage do not show the spin of the balls".to_string())
-            }),
-        },
-        &SKID,
-    );
+    fn skid_probability(&self) -> Result<f64, String> {
+        if let Some(why) = self.withheld() {
+            let low = "a torque that is low for another reason looks like skid";
+            return Err(format!("{why}, and {low}"));
+        }
+        if self.rolls {
+            let stated = "the balls roll throughout, as it is stated or the tests support";
+            return Err(stated.to_string());
+        }
+        let skid = self.skid.as_ref().map_err(Clone::clone)?;
+        let none = || "torque and cage do not show the spin of the balls".to_string();
+        skid.skidded.ok_or_else(none)
+    }
 }
 
 const TEST: Origin = Origin {

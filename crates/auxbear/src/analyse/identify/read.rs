@@ -31,12 +31,6 @@ pub struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// How the names of results begin that each test has: which these are is known when it was read.
-    pub fn results_of_tests(&self) -> Vec<String> {
-        let numbers = 1..=self.tests.len();
-        numbers.map(|number| format!("test_{number}.")).collect()
-    }
-
     /// Reads all files; refuses what is not there or not what it should be.
     pub fn of(identify: &Identify) -> Result<Asked<'_>, Box<Problem>> {
         let list = |key: &'static str, paths: &[std::path::PathBuf]| {

@@ -1,383 +1,141 @@
 //! Every named result of a measurement with law, source and valid range.
 
+use crate::analyse::signals::answer_analysis;
 use crate::analyse::signals::asked::{Asked, median};
 use crate::analyse::signals::found::Found;
-use crate::analyse::signals::shaft::Seen;
-use crate::analyse::signals::torque;
+use crate::analyse::signals::torque::{Faulty, faulty};
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
-use crate::result::outcome::{Quantity, Value};
-use measure::pulse::{Gap, Pulses};
+use crate::result::outcome::Quantity;
+use crate::scenario::PickupKind;
 
-/// Names the results; what no channel was given for has none.
-pub(crate) fn quantities(asked: &Asked, found: &Found) -> Vec<Quantity> {
+/// Names the results, of what was not asked for none; without a second argument those of any such measurement.
+pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
     let mut list = List::default();
-    listing(&mut list, asked);
+    file(&mut list, asked, found);
     if asked.speed.is_some() {
-        speed(&mut list, found);
+        speed(&mut list, asked, found);
     }
-    if asked.torque.is_some() {
+    if let Some(series) = &asked.torque {
+        let faults = found.map(|_| faulty(series));
+        reading(&mut list, asked, faults.as_ref());
         torque(&mut list, asked, found);
     }
     if asked.cage.is_some() {
-        cage(&mut list, found);
+        cage(&mut list, asked, found);
     }
-    crate::analyse::signals::answer_analysis::name(&mut list, asked, found);
+    answer_analysis::name(&mut list, asked, found);
     list.quantities
 }
 
-fn listing(list: &mut List, asked: &Asked) {
-    let texts = asked.listed.iter().map(|channel| {
-        let unit = match channel.unit.as_str() {
-            "" => "without a unit".to_string(),
-            unit => format!("in {unit}"),
+results! {
+    fn file(asked: &Asked, run: &Found) {
+        "channels": text "", FILE, "channels of the file with unit, number of values and rate" => asked.channels();
+        "file_notes": text "", FILE, "what to know of the file" => match asked.notes.as_slice() {
+            [] => "none".to_string(),
+            notes => notes.join("; "),
         };
-        let rate = channel.rate.map_or("no even clock".to_string(), |rate| {
-            format!(
-                "{} values a second",
-                units::number_text((rate * 1e6).round() / 1e6)
-            )
+    }
+
+    fn speed(asked: &Asked, run: &Found) {
+        "speed_noise": number "rad/s", CHANNEL, "noise of one value of the channel" when asked.holds_speed() => run.channel().map(|c| c.noise);
+        "speed_step": number "rad/s", CHANNEL, "smallest step of the channel" when asked.holds_speed() => run.channel().map(|c| c.step);
+        "pulse_count": number "", PULSES, "number of pulses" => run.pulses().map(|pulses| pulses.times.len() as f64);
+        "pulses_repaired_share": number "1", PULSES, "share of pulses that were missing or double" => run.pulses().map(|pulses| pulses.repaired);
+        "pickup_silent_from": list "s", SILENT, "beginnings of the gaps in the signal" => run.over_gaps(|gap| gap.from);
+        "pickup_silent_to": list "s", SILENT, "ends of the gaps in the signal" => run.over_gaps(|gap| gap.to);
+        "pulse_timing_factor": number "1", SPEED, "scatter of the pulses over that stated" => {
+            run.pulses().and_then(|_| run.shaft().map(|s| s.speed.timing_factor))
+        };
+        "largest_mark_error_share_of_pitch": number "1", PITCH, "largest error of a mark over the pitch" => run.shaft().and_then(|s| s.largest_mark_error());
+        "mean_speed": number "rad/s", SPEED, "mean speed of the record" => run.shaft().map(|s| s.mean_speed());
+        "peak_speed": number "rad/s", SPEED, "largest speed" => run.shaft().map(|s| s.fastest.speed);
+        "peak_speed_deviation": number "rad/s", SPEED, "its standard deviation" => run.shaft().map(|s| s.fastest.speed_uncertainty());
+        "peak_acceleration": number "rad/s^2", PEAK_ACCELERATION, "largest acceleration" => run.shaft().map(|s| s.peak.acceleration);
+        "peak_acceleration_deviation": number "rad/s^2", SPEED, "its standard deviation" => run.shaft().map(|s| s.peak.acceleration_uncertainty());
+        "time_of_peak_acceleration": number "s", SPEED, "when the acceleration is largest" => run.shaft().map(|s| s.peak.time);
+        "engagement_time": number "s", CHANGE, "when the quick change of speed begins" => run.change().map(|c| c.engagement.0);
+        "engagement_time_deviation": number "s", CHANGE, "its standard deviation" => run.change().map(|c| c.engagement.1);
+        "change_end_time": number "s", CHANGE, "when the quick change of speed ends" => run.change_end().map(|end| end.0);
+        "change_end_time_deviation": number "s", CHANGE, "its standard deviation" => run.change_end().map(|end| end.1);
+        "pulses_in_change": number "", CHANGE, "number of pulses in it" => run.change().and_then(|c| run.pulses().map(|_| c.pulses as f64));
+        "change_from_rest": text "", CHANGE, "whether the shaft rested before it" => run.change().map(|c| if c.from_rest { "yes" } else { "no" });
+    }
+
+    fn reading(asked: &Asked, run: &Faulty) {
+        "torque_clipped_values": number "", FAULTS, "values at the limit of the converter" => run.clipped as f64;
+        "torque_stuck_values": number "", FAULTS, "values held without noise" => run.stuck as f64;
+        "torque_missing_values": number "", FAULTS, "values that are no numbers" => run.missing as f64;
+    }
+
+    fn torque(asked: &Asked, run: &Found) {
+        "sensor_frequency": number "Hz", SENSOR, "natural frequency of the sensor" => run.sensor().map(|s| s.frequency.value);
+        "sensor_frequency_deviation": number "Hz", SENSOR, "its standard deviation" => run.sensor().map(|s| s.frequency.deviation);
+        "sensor_damping_ratio": number "1", SENSOR, "damping ratio of the sensor" => run.sensor().map(|s| s.damping_ratio.value);
+        "sensor_damping_ratio_deviation": number "1", SENSOR, "its standard deviation" => run.sensor().map(|s| s.damping_ratio.deviation);
+        "peak_torque": number "N m", TORQUE, "largest torque" => run.whole_torque().map(|t| at_largest(&t.torque, &t.torque));
+        "peak_torque_deviation": number "N m", TORQUE, "its standard deviation" => run.whole_torque().map(|t| at_largest(&t.torque, &t.deviation));
+        "time_of_peak_torque": number "s", TORQUE, "when the torque is largest" => run.whole_torque().map(|t| at_largest(&t.torque, &t.time));
+        "median_torque_deviation": number "N m", TORQUE, "median of the standard deviation of the torque" => run.whole_torque().map(|t| median(&t.deviation));
+        "largest_synchronous_disturbance": number "N m", TORQUE, "largest disturbance once a turn" => {
+            run.whole_torque().map(|t| at_largest(&t.disturbance, &t.disturbance))
+        };
+        "disturbance_power": number "1", TORQUE, "power of the speed with which the disturbance grows" => run.inverted().map(|t| t.disturbance_power);
+        "torque_zero": number "N m", TORQUE, "zero of the reading" => run.inverted().map(|t| t.zero.value);
+        "torque_zero_deviation": number "N m", TORQUE, "its standard deviation" => run.inverted().map(|t| t.zero.deviation);
+        "torque_noise": number "N m", TORQUE, "noise of the reading" => run.inverted().map(|t| t.noise);
+        "torque_spectrum_frequencies": list "Hz", SPECTRUM, "frequencies in the reading" => run.torque(|t| &t.spectrum).map(|s| s.frequency.clone());
+        "torque_spectrum_amplitudes": list "N m", SPECTRUM, "amplitudes of the reading at these" => run.torque(|t| &t.spectrum).map(|s| s.amplitude.clone());
+        "sensor_design_frequencies": list "Hz", DESIGN, "frequencies of other sensors" => run.designs(|e| e.frequency);
+        "sensor_design_raw_errors": list "N m", DESIGN, "error of the reading of each of them" => run.designs(|e| e.raw);
+        "sensor_design_inverted_errors": list "N m", DESIGN, "error of the torque from each of them" => run.designs(|e| e.inverted);
+    }
+
+    fn cage(asked: &Asked, run: &Found) {
+        "median_cage_slip": number "1", CAGE, "median of the slip of the cage" => run.cage(|c| median(&c.slip));
+        "median_cage_slip_deviation": number "1", CAGE, "median of its standard deviation" => run.cage(|c| median(&c.slip_deviation));
+        "cage_slip_at_end": number "1", CAGE, "slip of the cage at the end" => run.cage(|c| last(&c.slip));
+        "cage_slip_at_end_deviation": number "1", CAGE, "its standard deviation" => run.cage(|c| last(&c.slip_deviation));
+        "cage_speed_at_end": number "rad/s", CAGE, "speed of the cage at the end" => run.cage(|c| last(&c.speed));
+        "cage_angle_noise": number "rad", CAGE, "noise of the angle of the cage" => run.cage(|c| c.noise);
+    }
+}
+
+fn last(values: &[f64]) -> f64 {
+    values.last().copied().unwrap_or(f64::NAN)
+}
+
+/// What stands where the size of some values is largest.
+fn at_largest(sizes: &[f64], values: &[f64]) -> f64 {
+    let known = (0..sizes.len()).filter(|place| sizes[*place].is_finite());
+    let place = known.max_by(|a, b| sizes[*a].abs().total_cmp(&sizes[*b].abs()));
+    let value = values.get(place.unwrap_or(0));
+    value.copied().unwrap_or(f64::NAN)
+}
+
+impl Asked {
+    /// The channels in words.
+    fn channels(&self) -> String {
+        let texts = self.listed.iter().map(|channel| {
+            let unit = match channel.unit.as_str() {
+                "" => "without a unit".to_string(),
+                unit => format!("in {unit}"),
+            };
+            let rate = channel.rate.map_or("no even clock".to_string(), |rate| {
+                let rate = units::number_text((rate * 1e6).round() / 1e6);
+                format!("{rate} values a second")
+            });
+            let (name, count) = (&channel.name, channel.count);
+            format!("{name} ({unit}, {count} values, {rate})")
         });
-        format!(
-            "{} ({unit}, {} values, {rate})",
-            channel.name, channel.count
-        )
-    });
-    let texts: Vec<String> = texts.collect();
-    list.push("channels", "", Value::Text(texts.join("; ")), &FILE);
-    let notes = match asked.notes.as_slice() {
-        [] => "none".to_string(),
-        notes => notes.join("; "),
-    };
-    list.push("file_notes", "", Value::Text(notes), &FILE);
-}
-
-fn speed(list: &mut List, found: &Found) {
-    let shaft = found.shaft.as_ref().ok_or_else(|| found.why("speed"));
-    let change = || {
-        let shaft = shaft.as_ref().map_err(|why| why.to_string())?;
-        shaft
-            .speed
-            .change
-            .ok_or_else(|| "there is no quick change of speed in the record".to_string())
-    };
-    let of = |value: &dyn Fn(&crate::analyse::signals::shaft::Found) -> f64| {
-        shaft
-            .as_ref()
-            .map(|s| value(s))
-            .map_err(|why| why.to_string())
-    };
-    let channel = shaft.as_ref().ok().and_then(|shaft| match &shaft.seen {
-        Seen::Channel(channel) => Some(channel),
-        Seen::Marks { .. } => None,
-    });
-    if let Some(channel) = channel {
-        list.number("speed_noise", "rad/s", Ok(channel.noise), &CHANNEL);
-        list.number("speed_step", "rad/s", Ok(channel.step), &CHANNEL);
+        texts.collect::<Vec<_>>().join("; ")
     }
-    let of_pulses = |value: &dyn Fn(&Pulses) -> f64| {
-        let shaft = shaft.as_ref().map_err(|why| why.to_string())?;
-        shaft.pulses().map(value)
-    };
-    list.number(
-        "pulse_count",
-        "",
-        of_pulses(&|pulses| pulses.times.len() as f64),
-        &PULSES,
-    );
-    list.number(
-        "pulses_repaired_share",
-        "1",
-        of_pulses(&|pulses| pulses.repaired),
-        &PULSES,
-    );
-    for (name, end) in [
-        ("pickup_silent_from", (|gap| gap.from) as fn(&Gap) -> f64),
-        ("pickup_silent_to", |gap| gap.to),
-    ] {
-        let value = match &shaft {
-            Ok(shaft) => Value::List(shaft.speed.gaps().map(end).collect()),
-            Err(why) => Value::None {
-                why: why.to_string(),
-            },
-        };
-        list.push(name, "s", value, &SILENT);
-    }
-    list.number(
-        "pulse_timing_factor",
-        "1",
-        of_pulses(&|_| shaft.as_ref().map_or(f64::NAN, |s| s.speed.timing_factor)),
-        &SPEED,
-    );
-    let pitch = shaft
-        .as_ref()
-        .map_err(|why| why.to_string())
-        .and_then(|s| match &s.seen {
-            Seen::Marks {
-                pulses,
-                pitch: Some(p),
-            } => {
-                let worst = p.errors.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
-                Ok(worst / pulses.pitch())
-            }
-            _ => Err(s
-                .pulses()
-                .err()
-                .unwrap_or_else(|| "the marks were not calibrated".to_string())),
-        });
-    list.number("largest_mark_error_share_of_pitch", "1", pitch, &PITCH);
-    list.number(
-        "mean_speed",
-        "rad/s",
-        of(&|s| {
-            let (from, to) = s.speed.range();
-            (s.speed.at(to).angle - s.speed.at(from).angle) / (to - from)
-        }),
-        &SPEED,
-    );
-    list.number("peak_speed", "rad/s", of(&|s| s.fastest.speed), &SPEED);
-    list.number(
-        "peak_speed_deviation",
-        "rad/s",
-        of(&|s| s.fastest.speed_uncertainty()),
-        &SPEED,
-    );
-    list.number(
-        "peak_acceleration",
-        "rad/s^2",
-        of(&|s| s.peak.acceleration),
-        &PEAK_ACCELERATION,
-    );
-    list.number(
-        "peak_acceleration_deviation",
-        "rad/s^2",
-        of(&|s| s.peak.acceleration_uncertainty()),
-        &SPEED,
-    );
-    list.number(
-        "time_of_peak_acceleration",
-        "s",
-        of(&|s| s.peak.time),
-        &SPEED,
-    );
-    list.number(
-        "engagement_time",
-        "s",
-        change().map(|c| c.engagement.0),
-        &CHANGE,
-    );
-    list.number(
-        "engagement_time_deviation",
-        "s",
-        change().map(|c| c.engagement.1),
-        &CHANGE,
-    );
-    let end = || {
-        change()?
-            .end
-            .ok_or_else(|| "the record ends before the change does".to_string())
-    };
-    list.number("change_end_time", "s", end().map(|end| end.0), &CHANGE);
-    list.number(
-        "change_end_time_deviation",
-        "s",
-        end().map(|end| end.1),
-        &CHANGE,
-    );
-    list.number(
-        "pulses_in_change",
-        "",
-        change().and_then(|c| match channel {
-            None => Ok(c.pulses as f64),
-            Some(_) => Err("signals.speed.channel holds a speed, not marks".to_string()),
-        }),
-        &CHANGE,
-    );
-    let rest = change().map(|c| if c.from_rest { "yes" } else { "no" });
-    let rest = rest.map_or_else(
-        |why| Value::None { why },
-        |word| Value::Text(word.to_string()),
-    );
-    list.push("change_from_rest", "", rest, &CHANGE);
-}
 
-fn torque(list: &mut List, asked: &Asked, found: &Found) {
-    let part = found.torque.as_ref().ok_or_else(|| found.why("torque"));
-    let series = asked.torque.as_ref().ok_or_else(|| found.why("torque"));
-    let faults = series
-        .as_ref()
-        .map(|series| torque::faulty(series))
-        .map_err(|why| why.to_string());
-    let count = |value: fn(&torque::Faulty) -> usize| {
-        faults
-            .as_ref()
-            .map(|f| value(f) as f64)
-            .map_err(|why| why.to_string())
-    };
-    list.number("torque_clipped_values", "", count(|f| f.clipped), &FAULTS);
-    list.number("torque_stuck_values", "", count(|f| f.stuck), &FAULTS);
-    list.number("torque_missing_values", "", count(|f| f.missing), &FAULTS);
-    let sensor = || match &part {
-        Ok(part) => part.sensor.ok_or_else(|| "no sensor is given".to_string()),
-        Err(why) => Err(why.clone()),
-    };
-    list.number(
-        "sensor_frequency",
-        "Hz",
-        sensor().map(|s| s.frequency.value),
-        &SENSOR,
-    );
-    list.number(
-        "sensor_frequency_deviation",
-        "Hz",
-        sensor().map(|s| s.frequency.deviation),
-        &SENSOR,
-    );
-    list.number(
-        "sensor_damping_ratio",
-        "1",
-        sensor().map(|s| s.damping_ratio.value),
-        &SENSOR,
-    );
-    list.number(
-        "sensor_damping_ratio_deviation",
-        "1",
-        sensor().map(|s| s.damping_ratio.deviation),
-        &SENSOR,
-    );
-    let inverted = || match &part {
-        Ok(part) => part
-            .torque
-            .as_ref()
-            .ok_or_else(|| "no sensor is given".to_string()),
-        Err(why) => Err(why.clone()),
-    };
-    let largest = |values: &[f64]| {
-        let known = (0..values.len()).filter(|place| values[*place].is_finite());
-        let place = known.max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs()));
-        place.unwrap_or(0)
-    };
-    let pick = |values: &[f64], place: usize| values.get(place).copied().unwrap_or(f64::NAN);
-    // the largest may be where a clipped reading hides it
-    let whole = || {
-        let hidden = part.as_ref().ok().and_then(|part| part.hidden.clone());
-        hidden.map_or_else(&inverted, Err)
-    };
-    list.number(
-        "peak_torque",
-        "N m",
-        whole().map(|t| pick(&t.torque, largest(&t.torque))),
-        &TORQUE,
-    );
-    list.number(
-        "peak_torque_deviation",
-        "N m",
-        whole().map(|t| pick(&t.deviation, largest(&t.torque))),
-        &TORQUE,
-    );
-    list.number(
-        "time_of_peak_torque",
-        "s",
-        whole().map(|t| pick(&t.time, largest(&t.torque))),
-        &TORQUE,
-    );
-    list.number(
-        "median_torque_deviation",
-        "N m",
-        whole().map(|t| median(&t.deviation)),
-        &TORQUE,
-    );
-    list.number(
-        "largest_synchronous_disturbance",
-        "N m",
-        whole().map(|t| pick(&t.disturbance, largest(&t.disturbance))),
-        &TORQUE,
-    );
-    list.number(
-        "disturbance_power",
-        "1",
-        inverted().map(|t| t.disturbance_power),
-        &TORQUE,
-    );
-    list.number(
-        "torque_zero",
-        "N m",
-        inverted().map(|t| t.zero.value),
-        &TORQUE,
-    );
-    list.number(
-        "torque_zero_deviation",
-        "N m",
-        inverted().map(|t| t.zero.deviation),
-        &TORQUE,
-    );
-    list.number("torque_noise", "N m", inverted().map(|t| t.noise), &TORQUE);
-    let lines = |value: fn(&measure::spectrum::Spectrum) -> &[f64]| match &part {
-        Ok(part) => match &part.spectrum {
-            Ok(spectrum) => Value::List(value(spectrum).to_vec()),
-            Err(why) => Value::None { why: why.clone() },
-        },
-        Err(why) => Value::None { why: why.clone() },
-    };
-    list.push(
-        "torque_spectrum_frequencies",
-        "Hz",
-        lines(|s| &s.frequency),
-        &SPECTRUM,
-    );
-    list.push(
-        "torque_spectrum_amplitudes",
-        "N m",
-        lines(|s| &s.amplitude),
-        &SPECTRUM,
-    );
-    for (name, unit, pick) in [
-        (
-            "sensor_design_frequencies",
-            "Hz",
-            (|e| e.frequency) as fn(&measure::torque_sensor::DesignError) -> f64,
-        ),
-        ("sensor_design_raw_errors", "N m", |e| e.raw),
-        ("sensor_design_inverted_errors", "N m", |e| e.inverted),
-    ] {
-        let value = match &part {
-            Ok(part) => match &part.design {
-                Ok(errors) => Value::List(errors.iter().map(pick).collect()),
-                Err(why) => Value::None { why: why.clone() },
-            },
-            Err(why) => Value::None { why: why.clone() },
-        };
-        list.push(name, unit, value, &DESIGN);
+    /// Whether the channel of the speed holds a speed, not marks.
+    fn holds_speed(&self) -> bool {
+        let kind = self.signals.speed.as_ref().map(|speed| speed.kind);
+        matches!(kind, Some(PickupKind::Speed { .. }))
     }
-}
-
-fn cage(list: &mut List, found: &Found) {
-    let cage = found.cage.as_ref().ok_or_else(|| found.why("cage"));
-    let of = |value: &dyn Fn(&measure::cage_speed::CageSpeed) -> f64| {
-        cage.as_ref()
-            .map(|found| value(&found.told))
-            .map_err(|why| why.to_string())
-            .and_then(|value| match value.is_nan() {
-                true => Err("the cage speed has no value there: the warnings say why".to_string()),
-                false => Ok(value),
-            })
-    };
-    let last = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);
-    list.number("median_cage_slip", "1", of(&|c| median(&c.slip)), &CAGE);
-    list.number(
-        "median_cage_slip_deviation",
-        "1",
-        of(&|c| median(&c.slip_deviation)),
-        &CAGE,
-    );
-    list.number("cage_slip_at_end", "1", of(&|c| last(&c.slip)), &CAGE);
-    list.number(
-        "cage_slip_at_end_deviation",
-        "1",
-        of(&|c| last(&c.slip_deviation)),
-        &CAGE,
-    );
-    list.number("cage_speed_at_end", "rad/s", of(&|c| last(&c.speed)), &CAGE);
-    list.number("cage_angle_noise", "rad", of(&|c| c.noise), &CAGE);
 }
 
 const FILE: Origin = Origin {

@@ -1,206 +1,84 @@
 //! Named results of a vibration, of slow runs and of the converter, with law, source and valid range.
 
-use crate::analyse::signals::asked::Asked;
+use crate::analyse::signals::asked::{Asked, median, sampled};
 use crate::analyse::signals::found::Found;
-use crate::analyse::signals::vibration;
+use crate::analyse::signals::unit::unit_in_si;
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
-use crate::result::outcome::Value;
-use identify::steady_curve::{Difference, SteadyCurve};
+use identify::steady_curve::SteadyCurve;
 
 /// Names the results; what was not asked for has none.
-pub(crate) fn name(list: &mut List, asked: &Asked, found: &Found) {
-    if !found.converted.is_empty() {
-        converter(list, found);
+pub(crate) fn name(list: &mut List, asked: &Asked, found: Option<&Found>) {
+    if sampled(asked).any(|series| series.converter.is_some()) {
+        converter(list, asked, found);
     }
-    if asked.vibration.is_some() {
-        vibration(list, found);
+    if let Some(series) = &asked.vibration {
+        orders(list, asked, found);
+        if let Some(amplitudes) = list.quantities.last_mut() {
+            amplitudes.unit = unit_in_si(&series.unit).0;
+        }
+        spectrograms(list, asked, found);
     }
     if asked.signals.steady.is_some() {
         steady(list, asked, found);
     }
 }
 
-fn listed(values: Result<Vec<f64>, String>) -> Value {
-    match values {
-        Ok(values) => Value::List(values),
-        Err(why) => Value::None { why },
-    }
-}
-
-fn converter(list: &mut List, found: &Found) {
-    let all = || found.converted.iter();
-    let clipped = all().map(|one| one.clipped as f64).sum();
-    list.number("converter_clipped_values", "", Ok(clipped), &CONVERTER);
-    let share = all().map(|one| one.rounding_share).fold(0.0, f64::max);
-    list.number(
-        "converter_rounding_share_of_noise",
-        "1",
-        Ok(share),
-        &CONVERTER,
-    );
-}
-
-fn vibration(list: &mut List, found: &Found) {
-    let part = found
-        .vibration
-        .as_ref()
-        .ok_or_else(|| found.why("vibration"));
-    let orders = part.as_ref().map_err(|why| why.clone()).and_then(|part| {
-        part.orders
-            .as_ref()
-            .ok_or_else(|| "signals.vibration.orders is not given".to_string())
-    });
-    let unit = part.as_ref().map_or("1", |part| part.unit);
-    let of = |value: &dyn Fn(&measure::order::Order) -> f64| {
-        orders
-            .as_ref()
-            .map(|found| found.orders.iter().map(value).collect::<Vec<f64>>())
-            .map_err(|why| why.clone())
-    };
-    list.push("vibration_orders", "1", listed(of(&|o| o.order)), &ORDERS);
-    let middle = |mut values: Vec<f64>| {
-        values.retain(|value| value.is_finite());
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
-    };
-    list.push(
-        "vibration_order_amplitudes",
-        unit,
-        listed(of(&|o| middle(o.amplitude()))),
-        &ORDERS,
-    );
-    type Side = fn(&vibration::Found) -> &Result<vibration::Picture, String>;
-    let sides: [(&str, &str, &'static str, Side); 2] = [
-        ("vibration_spectrogram", "frequencies", "Hz", |p| {
-            &p.over_time
-        }),
-        ("vibration_order_spectrogram", "orders", "1", |p| {
-            &p.over_order
-        }),
-    ];
-    for (name, upright, upright_unit, side) in sides {
-        let picture = part
-            .as_ref()
-            .map_err(|why| why.clone())
-            .and_then(|part| side(part).as_ref().map_err(|why| why.clone()));
-        let of = |value: fn(&vibration::Picture) -> &Vec<f64>| {
-            listed(
-                picture
-                    .as_ref()
-                    .map(|p| value(p).clone())
-                    .map_err(|why| why.clone()),
-            )
+results! {
+    fn converter(asked: &Asked, run: &Found) {
+        "converter_clipped_values": number "", CONVERTER, "values at the limits" => run.converted.iter().map(|one| one.clipped as f64).sum::<f64>();
+        "converter_rounding_share_of_noise": number "1", CONVERTER, "largest share of the noise that is rounding" => {
+            run.converted.iter().map(|one| one.rounding_share).fold(0.0, f64::max)
         };
-        list.push(&format!("{name}_times"), "s", of(|p| &p.time), &SPECTROGRAM);
-        list.push(
-            &format!("{name}_{upright}"),
-            upright_unit,
-            of(|p| &p.upright),
-            &SPECTROGRAM,
-        );
-        list.push(
-            &format!("{name}_levels"),
-            "1",
-            of(|p| &p.levels),
-            &SPECTROGRAM,
-        );
+    }
+
+    /// The amplitudes are in the unit of the channel.
+    fn orders(asked: &Asked, run: &Found) {
+        "vibration_orders": list "1", ORDERS, "orders of the shaft" => run.orders(|o| o.order);
+        "vibration_order_amplitudes": list "1", ORDERS, "median amplitude of each order" => run.orders(|o| median(&o.amplitude()));
+    }
+
+    fn spectrograms(asked: &Asked, run: &Found) {
+        "vibration_spectrogram_times": list "s", SPECTROGRAM, "times of the spectrogram" => run.vibration(|v| &v.over_time).map(|p| p.time.clone());
+        "vibration_spectrogram_frequencies": list "Hz", SPECTROGRAM, "its frequencies" => run.vibration(|v| &v.over_time).map(|p| p.upright.clone());
+        "vibration_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_time).map(|p| p.levels.clone());
+        "vibration_order_spectrogram_times": list "s", SPECTROGRAM, "times of that over order" => run.vibration(|v| &v.over_order).map(|p| p.time.clone());
+        "vibration_order_spectrogram_orders": list "1", SPECTROGRAM, "its orders" => run.vibration(|v| &v.over_order).map(|p| p.upright.clone());
+        "vibration_order_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_order).map(|p| p.levels.clone());
+    }
+
+    fn steady(asked: &Asked, run: &Found) {
+        "steady_inertia": number "kg m^2", INERTIA, "moment of inertia of what coasts" => run.steady(|p| &p.inertia).map(|i| i.value);
+        "steady_inertia_deviation": number "kg m^2", INERTIA, "its standard deviation" => run.steady(|p| &p.inertia).map(|i| i.deviation);
+        "steady_speeds": list "rad/s", STEADY, "speeds of the curves" => run.slow().map(|p| p.speed.clone());
+        "steady_direct_torques": list "N m", STEADY, "torque by the sensor as the speed falls" => run.steady(|p| &p.direct).map(|c| c.torque.clone());
+        "steady_direct_deviations": list "N m", STEADY, "its standard deviations" => run.steady(|p| &p.direct).map(SteadyCurve::whole_deviation);
+        "steady_inertial_torques": list "N m", STEADY, "torque by inertia and deceleration" => run.steady(|p| &p.inertial).map(|c| c.torque.clone());
+        "steady_inertial_deviations": list "N m", STEADY, "its standard deviations" => run.steady(|p| &p.inertial).map(SteadyCurve::whole_deviation);
+        "steady_up_torques": list "N m", STEADY, "torque by the sensor as the speed rises" => run.steady(|p| &p.up).map(|c| c.torque.clone());
+        "steady_up_deviations": list "N m", STEADY, "its standard deviations" => run.steady(|p| &p.up).map(SteadyCurve::whole_deviation);
+        "steady_windage_torques": list "N m", WINDAGE, "torque of the windage" when asked.has_windage() => run.windage(|w, speed| w.at(speed));
+        "steady_windage_deviations": list "N m", WINDAGE, "its standard deviations" when asked.has_windage() => {
+            run.windage(|w, speed| w.covariance(speed, speed).map(f64::sqrt))
+        };
+        "steady_direct_less_inertial": number "N m", COMPARED, "mean of the torque by the sensor less that by inertia" => {
+            run.steady(|p| &p.direct_less_inertial).map(|d| d.mean.value)
+        };
+        "steady_direct_less_inertial_deviation": number "N m", COMPARED, "its standard deviation" => {
+            run.steady(|p| &p.direct_less_inertial).map(|d| d.mean.deviation)
+        };
+        "steady_direct_less_inertial_chance": number "1", COMPARED, "chance of this where both are equal" => {
+            run.steady(|p| &p.direct_less_inertial).map(|d| d.chance)
+        };
+        "steady_up_less_down": number "N m", COMPARED, "mean of the torque up less that down" => run.steady(|p| &p.up_less_down).map(|d| d.mean.value);
+        "steady_up_less_down_deviation": number "N m", COMPARED, "its standard deviation" => run.steady(|p| &p.up_less_down).map(|d| d.mean.deviation);
+        "steady_up_less_down_chance": number "1", COMPARED, "chance of this where both are equal" => run.steady(|p| &p.up_less_down).map(|d| d.chance);
     }
 }
 
-fn steady(list: &mut List, asked: &Asked, found: &Found) {
-    let part = || found.steady.as_ref().ok_or_else(|| found.why("steady"));
-    let inertia = || part().and_then(|part| part.inertia.clone());
-    list.number(
-        "steady_inertia",
-        "kg m^2",
-        inertia().map(|i| i.value),
-        &INERTIA,
-    );
-    list.number(
-        "steady_inertia_deviation",
-        "kg m^2",
-        inertia().map(|i| i.deviation),
-        &INERTIA,
-    );
-    list.push(
-        "steady_speeds",
-        "rad/s",
-        listed(part().map(|p| p.speed.clone())),
-        &STEADY,
-    );
-    type Curve = fn(&crate::analyse::signals::steady::Found) -> &Result<SteadyCurve, String>;
-    let curves: [(&str, Curve); 3] = [
-        ("direct", |p| &p.direct),
-        ("inertial", |p| &p.inertial),
-        ("up", |p| &p.up),
-    ];
-    for (name, curve) in curves {
-        let curve = || part().and_then(|p| curve(p).as_ref().map_err(|why| why.clone()));
-        let (torque, deviation) = (
-            curve().map(|c| c.torque.clone()),
-            curve().map(SteadyCurve::whole_deviation),
-        );
-        list.push(
-            &format!("steady_{name}_torques"),
-            "N m",
-            listed(torque),
-            &STEADY,
-        );
-        list.push(
-            &format!("steady_{name}_deviations"),
-            "N m",
-            listed(deviation),
-            &STEADY,
-        );
-    }
-    let windage = || part().and_then(|part| Ok((part, part.windage.clone()?)));
-    let torques = windage().map(|(part, windage)| {
-        let at = |speed: &f64| windage.at(*speed).unwrap_or(f64::NAN);
-        part.speed.iter().map(at).collect()
-    });
-    let deviations = windage().map(|(part, windage)| {
-        let at = |speed: &f64| {
-            windage
-                .covariance(*speed, *speed)
-                .map_or(f64::NAN, f64::sqrt)
-        };
-        part.speed.iter().map(at).collect()
-    });
-    let asked_for = (asked.signals.steady.as_ref()).is_some_and(|wish| wish.windage.is_some());
-    if asked_for {
-        list.push("steady_windage_torques", "N m", listed(torques), &WINDAGE);
-        list.push(
-            "steady_windage_deviations",
-            "N m",
-            listed(deviations),
-            &WINDAGE,
-        );
-    }
-    type Pair = fn(&crate::analyse::signals::steady::Found) -> &Result<Difference, String>;
-    let pairs: [(&str, Pair); 2] = [
-        ("direct_less_inertial", |p| &p.direct_less_inertial),
-        ("up_less_down", |p| &p.up_less_down),
-    ];
-    for (name, pair) in pairs {
-        let pair = || part().and_then(|p| pair(p).as_ref().map_err(|why| why.clone()));
-        list.number(
-            &format!("steady_{name}"),
-            "N m",
-            pair().map(|d| d.mean.value),
-            &COMPARED,
-        );
-        list.number(
-            &format!("steady_{name}_deviation"),
-            "N m",
-            pair().map(|d| d.mean.deviation),
-            &COMPARED,
-        );
-        list.number(
-            &format!("steady_{name}_chance"),
-            "1",
-            pair().map(|d| d.chance),
-            &COMPARED,
-        );
+impl Asked {
+    fn has_windage(&self) -> bool {
+        (self.signals.steady.as_ref()).is_some_and(|wish| wish.windage.is_some())
     }
 }
 

@@ -33,7 +33,7 @@ use crate::analyse::signals::asked::{capital, sampled};
 use crate::analyse::signals::found::Found;
 use crate::options::Options;
 use crate::result::assumptions::assumptions;
-use crate::result::outcome::{Members, Outcome, Picture, Stop, Warning, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
 use crate::scenario::{Scenario, SensorSource, SteadySignal};
 use identify::coasting::Windage;
 use std::sync::Arc;
@@ -249,6 +249,11 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     found
 }
 
+/// The results of such a measurement, without values.
+pub(crate) fn results(asked: &Asked) -> Vec<Quantity> {
+    answer::name(asked, None)
+}
+
 /// Computes what is asked for and names it.
 pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
     let clock = Instant::now();
@@ -262,7 +267,7 @@ pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) ->
             .title
             .clone()
             .unwrap_or_else(|| "Measured signals".to_string()),
-        quantities: answer::quantities(asked, &found),
+        quantities: answer::name(asked, Some(&found)),
         history,
         contacts: Vec::new(),
         stop: match found.refused.as_slice() {

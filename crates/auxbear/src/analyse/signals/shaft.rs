@@ -321,6 +321,26 @@ impl Found {
         }
     }
 
+    /// Mean speed of the record, rad/s.
+    pub fn mean_speed(&self) -> f64 {
+        let (from, to) = self.speed.range();
+        (self.speed.at(to).angle - self.speed.at(from).angle) / (to - from)
+    }
+
+    /// Largest error of a mark over the pitch.
+    pub fn largest_mark_error(&self) -> Result<f64, String> {
+        let pulses = self.pulses()?;
+        match &self.seen {
+            Seen::Marks {
+                pitch: Some(pitch), ..
+            } => {
+                let sizes = pitch.errors.iter().map(|error| error.abs());
+                Ok(sizes.fold(0.0, f64::max) / pulses.pitch())
+            }
+            _ => Err("the marks were not calibrated".to_string()),
+        }
+    }
+
     /// Speed between the two pulses around a time, or as the instrument shows it, rad/s; not-a-number outside them.
     pub fn raw_speed(&self, time: f64) -> f64 {
         match &self.seen {

@@ -8,8 +8,6 @@ use rotor::{
     Analysis, Basis, C64, Campbell, Critical, MapPoint, Matrices, Mode, ModeCount, Place,
     Responder, Response, Rotor, RotorError, Sag, Whirl,
 };
-use std::sync::OnceLock;
-use std::time::Instant;
 
 /// A rotor of at most so many coordinates keeps all of them.
 const SMALL: usize = 40;
@@ -36,8 +34,6 @@ pub(crate) struct Asked {
     pub(crate) held: bool,
     /// The closed loop with its magnets.
     pub(crate) levitated: Option<Levitated>,
-    /// What was found, and how long it took, s.
-    found: OnceLock<(Result<Found, RotorError>, f64)>,
 }
 
 /// What was found.
@@ -129,7 +125,6 @@ impl Asked {
             cut,
             held,
             levitated,
-            found: OnceLock::new(),
         };
         this.modes().map_err(|error| match error {
             RotorError::TooManyModes { asked, there } => {
@@ -235,24 +230,8 @@ impl Asked {
         out
     }
 
-    /// Everything, computed once: limits ask for the names of the results before they are printed.
-    pub(crate) fn found(&self) -> &Result<Found, RotorError> {
-        &self.timed().0
-    }
-
-    /// How long that took, s.
-    pub(crate) fn seconds(&self) -> f64 {
-        self.timed().1
-    }
-
-    fn timed(&self) -> &(Result<Found, RotorError>, f64) {
-        self.found.get_or_init(|| {
-            let clock = Instant::now();
-            (self.find(), clock.elapsed().as_secs_f64())
-        })
-    }
-
-    fn find(&self) -> Result<Found, RotorError> {
+    /// Computes everything.
+    pub(crate) fn find(&self) -> Result<Found, RotorError> {
         let (asked, rotor) = (&self.analysis, self.rotor());
         let followed = asked.frequency_to.max(asked.speed_to);
         let diagram = self.within.campbell(&asked.speeds(), followed)?;
@@ -279,7 +258,7 @@ impl Asked {
         };
         let (mut responses, mut deflections, mut peaks) = (Vec::new(), Vec::new(), Vec::new());
         let mut unlisted: Vec<f64> = Vec::new();
-        if !rotor.unbalance.is_empty() && self.held {
+        if self.responds() {
             responses = speeds.iter().map(|speed| respond(*speed)).collect();
             let shown = std::iter::once(asked.speed).chain(most_amplified(&criticals));
             deflections = shown.filter_map(respond).collect();

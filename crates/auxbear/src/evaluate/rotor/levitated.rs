@@ -1,18 +1,20 @@
 //! The closed loop of a rotor on magnets: refused where it does not hold, else poles, sensitivity, static and turning state.
 
 use crate::problem::Problem;
+use crate::result::drawing::GIVEN;
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
-use crate::result::outcome::Value;
 use crate::result::outcome::Warning;
 use crate::scenario::{LevitationModel, RotorAnalysis, RotorModel};
 use crate::simulate::levitated::{at_rest, failed, holds, rise, warnings};
 use levitation::response::{Equilibrium, Excess, Synchronous, excesses, unbalance};
-use levitation::sensitivity::{Band, Sensitivity, open_loop, zone};
+use levitation::sensitivity::{Band, Margins, Peak, Sensitivity, open_loop, zone};
 use levitation::{
     C64, ClosedLoop, Coordinates, Plant, Pole, Refused, Verdict, suspension, verdict, weight,
 };
 use nalgebra::DVector;
 use rotor::{Analysis, Basis, Block, Coefficients, Matrices, Place, Rotor, Support};
+use std::f64::consts::TAU;
 
 /// Largest frequency of the coordinates over that of the band: residual flexibilities have the rest.
 const BEYOND: f64 = 4.0;
@@ -200,178 +202,129 @@ pub(crate) fn basis(
     reduced.map_err(|error| failed(&error.to_string()))
 }
 
-/// The named results.
-pub(crate) fn name(list: &mut List, analysis: &RotorAnalysis, found: &Levitated) {
+/// The named results; without values where nothing was found.
+pub(crate) fn name(list: &mut List, analysis: &RotorAnalysis, found: Option<&Levitated>) {
     let Some(model) = &analysis.model.levitation else {
         return;
     };
-    let slowest = found
-        .poles
-        .iter()
-        .map(|pole| pole.value.re)
-        .fold(f64::MIN, f64::max);
-    list.number("levitation.slowest_eigenvalue", "1/s", Ok(slowest), &POLES);
-    let shown: Vec<&Pole> = found
-        .poles
-        .iter()
-        .filter(|p| p.value.im.abs() <= found.band.to)
-        .collect();
-    let mut poles = |name: &str, unit, value: fn(&Pole) -> f64| {
-        list.push(
-            name,
-            unit,
-            Value::List(shown.iter().map(|p| value(p)).collect()),
-            &POLES,
-        );
-    };
-    poles("levitation.pole_real_parts", "1/s", |pole| pole.value.re);
-    poles("levitation.pole_imaginary_parts", "rad/s", |pole| {
-        pole.value.im
-    });
-    poles("levitation.pole_damping_ratios", "", Pole::damping_ratio);
-    list.number(
-        "levitation.coordinates",
-        "",
-        Ok(found.coordinates as f64),
-        &POLES,
-    );
-    let peaks = found.sensitivity.iter().flat_map(|one| &one.peaks);
-    let largest = peaks.map(|peak| peak.size).fold(0.0, f64::max);
-    list.number(
-        "levitation.largest_sensitivity",
-        "",
-        Ok(largest),
-        &SENSITIVITY,
-    );
-    let letter = zone(largest).to_string();
-    list.push("levitation.zone", "", Value::Text(letter), &SENSITIVITY);
-    let names = model
-        .levitation
-        .actuators()
-        .iter()
-        .map(|a| a.axis.name.as_str());
-    let names: Vec<&str> = names.collect();
-    list.push("levitation.axes", "", Value::Text(names.join("\n")), &GIVEN);
-    for (index, label) in names.iter().enumerate() {
-        axis(
-            list,
-            model,
-            found,
-            index,
-            &format!("levitation.{}", label.replace(['.', ' '], "_")),
-        );
-    }
-    for (at, one) in ["standstill", "rated"].iter().zip(&found.sensitivity) {
-        let hertz = one.grid.iter().map(|omega| omega / std::f64::consts::TAU);
-        list.push(
-            &format!("levitation.{at}.frequencies"),
-            "Hz",
-            Value::List(hertz.collect()),
-            &SENSITIVITY,
-        );
-    }
-}
-
-/// The results of one axis.
-fn axis(list: &mut List, model: &LevitationModel, found: &Levitated, index: usize, begin: &str) {
-    let slopes = &found.rest.slopes;
-    let stiffness = (model.levitation.static_stiffness(slopes).get(index)).copied();
-    let stiffness = match stiffness {
-        Some(k) if k.is_infinite() => Err("without bound: the controller integrates".to_string()),
-        Some(k) => Ok(k),
-        None => Err("one filter serves all axes".to_string()),
-    };
-    list.number(
-        &format!("{begin}.static_stiffness"),
-        "N/m",
-        stiffness,
-        &STATIC,
-    );
-    list.number(
-        &format!("{begin}.static_current"),
-        "A",
-        Ok(found.rest.currents[index]),
-        &STATIC,
-    );
-    list.number(
-        &format!("{begin}.static_displacement"),
-        "m",
-        Ok(found.rest.gaps[index]),
-        &STATIC,
-    );
-    list.number(
-        &format!("{begin}.position_stiffness_rise"),
-        "",
-        Ok(rise(model, index, slopes)),
-        &STATIC,
-    );
-    let turning = (found.turning.as_ref())
-        .map(|turning| turning.currents[index].norm())
-        .ok_or_else(|| "no [[rotor.unbalance]] is given".to_string());
-    list.number(
-        &format!("{begin}.unbalance_current"),
-        "A",
-        turning,
-        &TURNING,
-    );
-    for (at, one) in ["standstill", "rated"].iter().zip(&found.sensitivity) {
-        let begin = format!("{begin}.{at}");
-        let (peak, values) = (one.peaks[index], &one.values[index]);
-        list.number(
-            &format!("{begin}.sensitivity_peak"),
-            "",
-            Ok(peak.size),
-            &SENSITIVITY,
-        );
-        let hertz = peak.at / std::f64::consts::TAU;
-        list.number(
-            &format!("{begin}.sensitivity_peak_frequency"),
-            "Hz",
-            Ok(hertz),
-            &SENSITIVITY,
-        );
-        let letter = zone(peak.size).to_string();
-        list.push(
-            &format!("{begin}.zone"),
-            "",
-            Value::Text(letter),
-            &SENSITIVITY,
-        );
-        let open: Vec<C64> = values.iter().map(|s| open_loop(*s)).collect();
-        let margins = one.margins(index);
-        let none =
-            || "the open loop does not cross there from 0 to the end of the band".to_string();
-        for (name, unit, value) in [
-            ("phase_margin", "rad", margins.phase),
-            ("gain_margin_up", "", margins.upper_gain),
-            ("gain_margin_down", "", margins.lower_gain),
-        ] {
-            list.number(
-                &format!("{begin}.{name}"),
-                unit,
-                value.ok_or_else(none),
-                &SENSITIVITY,
-            );
+    closed_loop(list, model, found);
+    for (index, actuator) in model.levitation.actuators().iter().enumerate() {
+        let label = actuator.axis.name.replace(['.', ' '], "_");
+        list.named(&[&label], |list| axis(list, &(model, index), found));
+        for (at, speed) in SPEEDS.iter().enumerate() {
+            let open = found.map(|found| OpenLoop {
+                one: &found.sensitivity[at],
+                index,
+            });
+            list.named(&[&label, speed], |list| {
+                open_loops(list, &(), open.as_ref())
+            });
         }
-        let mut curve = |name: &str, values: Vec<f64>| {
-            list.push(
-                &format!("{begin}.{name}"),
-                "",
-                Value::List(values),
-                &SENSITIVITY,
-            );
-        };
-        curve("sensitivity", values.iter().map(|s| s.norm()).collect());
-        curve("open_loop_real", open.iter().map(|l| l.re).collect());
-        curve("open_loop_imaginary", open.iter().map(|l| l.im).collect());
+    }
+    for (at, speed) in SPEEDS.iter().enumerate() {
+        let one = found.map(|found| &found.sensitivity[at]);
+        list.named(&[speed], |list| frequencies(list, &(), one));
     }
 }
 
-const GIVEN: Origin = Origin {
-    law: "",
-    source: "the scenario",
-    valid: "",
-};
+/// Names of the speeds of [`Levitated::sensitivity`].
+const SPEEDS: [&str; 2] = ["standstill", "rated"];
+
+results! {
+    fn closed_loop(model: &LevitationModel, run: &Levitated) {
+        "levitation.slowest_eigenvalue": number "1/s", POLES, "largest real part of an eigenvalue" => {
+            run.poles.iter().map(|pole| pole.value.re).fold(f64::MIN, f64::max)
+        };
+        "levitation.pole_real_parts": list "1/s", POLES, "real parts of the eigenvalues in the band" => run.shown(|pole| pole.value.re);
+        "levitation.pole_imaginary_parts": list "rad/s", POLES, "their imaginary parts" => run.shown(|pole| pole.value.im);
+        "levitation.pole_damping_ratios": list "", POLES, "their damping ratios" => run.shown(Pole::damping_ratio);
+        "levitation.coordinates": number "", POLES, "number of coordinates of the rotor" => run.coordinates as f64;
+        "levitation.largest_sensitivity": number "", SENSITIVITY, "largest sensitivity of all axes" => run.largest_sensitivity();
+        "levitation.zone": text "", SENSITIVITY, "zone of ISO 14839-3 of all axes" => zone(run.largest_sensitivity()).to_string();
+        "levitation.axes": text "", GIVEN, "names of the axes" => {
+            let names: Vec<&str> = model.levitation.actuators().iter().map(|a| a.axis.name.as_str()).collect();
+            names.join("\n")
+        };
+    }
+
+    fn axis(of: &(&LevitationModel, usize), run: &Levitated) {
+        "levitation.*.static_stiffness": number "N/m", STATIC, "static stiffness" => static_stiffness(of.0, of.1, run);
+        "levitation.*.static_current": number "A", STATIC, "control current at rest" => run.rest.currents[of.1];
+        "levitation.*.static_displacement": number "m", STATIC, "displacement at rest" => run.rest.gaps[of.1];
+        "levitation.*.position_stiffness_rise": number "", STATIC, "rise of the position stiffness at rest" => rise(of.0, of.1, &run.rest.slopes);
+        "levitation.*.unbalance_current": number "A", TURNING, "amplitude of the current under unbalance" => {
+            let turning = run.turning.as_ref().map(|turning| turning.currents[of.1].norm());
+            turning.ok_or_else(|| "no [[rotor.unbalance]] is given".to_string())
+        };
+    }
+
+    fn open_loops(setup: &(), run: &OpenLoop) {
+        "levitation.*.*.sensitivity_peak": number "", SENSITIVITY, "largest sensitivity" => run.peak().size;
+        "levitation.*.*.sensitivity_peak_frequency": number "Hz", SENSITIVITY, "frequency of the largest sensitivity" => run.peak().at / TAU;
+        "levitation.*.*.zone": text "", SENSITIVITY, "zone of ISO 14839-3" => zone(run.peak().size).to_string();
+        "levitation.*.*.phase_margin": number "rad", SENSITIVITY, "phase margin" => run.margin(|margins| margins.phase);
+        "levitation.*.*.gain_margin_up": number "", SENSITIVITY, "largest factor on the gain that is stable" => run.margin(|margins| margins.upper_gain);
+        "levitation.*.*.gain_margin_down": number "", SENSITIVITY, "smallest factor on the gain that is stable" => run.margin(|margins| margins.lower_gain);
+        "levitation.*.*.sensitivity": list "", SENSITIVITY, "sensitivity over frequency" => run.over_frequency(|s| s.norm());
+        "levitation.*.*.open_loop_real": list "", SENSITIVITY, "real part of the open loop over frequency" => run.over_frequency(|s| open_loop(s).re);
+        "levitation.*.*.open_loop_imaginary": list "", SENSITIVITY, "imaginary part of the open loop over frequency" => run.over_frequency(|s| open_loop(s).im);
+    }
+
+    fn frequencies(setup: &(), run: &Sensitivity) {
+        "levitation.*.frequencies": list "Hz", SENSITIVITY, "frequencies of these curves" => run.grid.iter().map(|omega| omega / TAU).collect::<Vec<_>>();
+    }
+}
+
+impl Levitated {
+    /// A value of each pole in the band.
+    fn shown(&self, value: fn(&Pole) -> f64) -> Vec<f64> {
+        let in_band = |pole: &&Pole| pole.value.im.abs() <= self.band.to;
+        self.poles.iter().filter(in_band).map(value).collect()
+    }
+
+    fn largest_sensitivity(&self) -> f64 {
+        let peaks = self.sensitivity.iter().flat_map(|one| &one.peaks);
+        peaks.map(|peak| peak.size).fold(0.0, f64::max)
+    }
+}
+
+fn static_stiffness(
+    model: &LevitationModel,
+    index: usize,
+    found: &Levitated,
+) -> Result<f64, String> {
+    let all = model.levitation.static_stiffness(&found.rest.slopes);
+    match all.get(index) {
+        Some(k) if k.is_infinite() => Err("without bound: the controller integrates".to_string()),
+        Some(k) => Ok(*k),
+        None => Err("one filter serves all axes".to_string()),
+    }
+}
+
+/// One axis at one speed, all others closed.
+struct OpenLoop<'a> {
+    one: &'a Sensitivity,
+    index: usize,
+}
+
+impl OpenLoop<'_> {
+    fn peak(&self) -> Peak {
+        self.one.peaks[self.index]
+    }
+
+    fn margin(&self, which: fn(Margins) -> Option<f64>) -> Result<f64, String> {
+        let none = "the open loop does not cross there from 0 to the end of the band";
+        which(self.one.margins(self.index)).ok_or_else(|| none.to_string())
+    }
+
+    fn over_frequency(&self, value: fn(C64) -> f64) -> Vec<f64> {
+        self.one.values[self.index]
+            .iter()
+            .map(|s| value(*s))
+            .collect()
+    }
+}
+
 const LINEAR: &str = "small motion about the static position under weight, of a pair with its slopes there; samples as a delay, no limit of current and voltage";
 const POLES: Origin = Origin {
     law: "eigenvalues of rotor, magnets, amplifiers, controller, delay and sensors as one system; Im λ > 0 turns with positive spin",

@@ -13,75 +13,51 @@ use crate::analyse::interruptible::{INTERRUPTED, interruptible};
 pub(crate) use crate::evaluate::rotor::asked::Asked;
 use crate::evaluate::rotor::asked::{Found, Motion, sense};
 use crate::options::Options;
-use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
+use crate::result::outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 use crate::scenario::Scenario;
-use rotor::RotorError;
 use std::sync::Arc;
 use std::time::Instant;
 
+/// The results of such an analysis, without values.
+pub(crate) fn results(asked: &Asked) -> Vec<Quantity> {
+    quantities::name(asked, None)
+}
+
 /// Computes everything and names it.
 pub(crate) fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
+    let clock = Instant::now();
     let own = Arc::clone(asked);
     // an eigenproblem knows of no interrupt: its thread is left
-    let waited = interruptible(options.interrupt, move || {
-        own.found();
-        Ok(())
+    let found = interruptible(options.interrupt, move || {
+        own.find().map_err(|error| error.to_string())
     });
-    let interrupted = waited.is_err_and(|why| why == INTERRUPTED);
-    let nothing = Err(RotorError::NotConverged);
-    let found = match interrupted {
-        true => &nothing,
-        false => asked.found(),
+    let (reason, text) = match &found {
+        Ok(_) => ("finished", "Everything asked for was computed.".to_string()),
+        Err(why) if why == INTERRUPTED => {
+            let text = "Interrupted before the analysis had an answer.";
+            (INTERRUPTED, text.to_string())
+        }
+        Err(why) => ("diverged", format!("The analysis has no answer: {why}.")),
     };
-    // limits have asked for it before this run
-    let clock = Instant::now();
-    let (history, quantities, stop) = match found {
-        Ok(found) => (
-            history(asked, found),
-            quantities::name(asked, found),
-            Stop {
-                reason: "finished",
-                time: 0.0,
-                text: "Everything asked for was computed.".to_string(),
-            },
-        ),
-        Err(_) if interrupted => (
-            Vec::new(),
-            Vec::new(),
-            Stop {
-                reason: INTERRUPTED,
-                time: 0.0,
-                text: "Interrupted before the analysis had an answer.".to_string(),
-            },
-        ),
-        Err(error) => (
-            Vec::new(),
-            Vec::new(),
-            Stop {
-                reason: "diverged",
-                time: 0.0,
-                text: format!("The analysis has no answer: {error}."),
-            },
-        ),
-    };
+    let found = found.as_ref().ok();
     Outcome {
         system: "rotor",
         title: scenario
             .title
             .clone()
             .unwrap_or_else(|| "Rotor".to_string()),
-        quantities,
-        history,
+        quantities: found.map_or_else(Vec::new, |found| quantities::name(asked, Some(found))),
+        history: found.map_or_else(Vec::new, |found| history(asked, found)),
         contacts: Vec::new(),
-        warnings: match found {
-            Ok(found) => warnings::of(asked, found),
-            Err(_) => Vec::new(),
+        warnings: found.map_or_else(Vec::new, |found| warnings::of(asked, found)),
+        stop: Stop {
+            reason,
+            time: 0.0,
+            text,
         },
-        stop,
         work: Work {
             members: 1,
-            seconds: if interrupted { 0.0 } else { asked.seconds() }
-                + clock.elapsed().as_secs_f64(),
+            seconds: clock.elapsed().as_secs_f64(),
             ..Work::default()
         },
         members: Members::default(),
