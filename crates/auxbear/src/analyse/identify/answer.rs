@@ -4,7 +4,7 @@
 use crate::analyse::identify::found::{Found, rolling_set};
 use crate::analyse::identify::per_test::{self, OfTest};
 use crate::analyse::identify::read::{Asked, Test};
-use crate::result::list::results;
+use crate::result::declared::results;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Quantity;
 use identify::coasting::Windage;
@@ -35,7 +35,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
         list.named(&[word(form)], |list| form_probability(list, &form, found));
     }
     moment(&mut list, asked, found);
-    // tests that cannot be used leave no number out
+    // tests that can be used are numbered without gaps
     for k in 0..found.map_or(asked.tests.len(), |found| found.tests.len()) {
         let test = found.map(|found| &found.tests[k]);
         let own = |given: &&Test| test.is_none_or(|test| test.name == given.name);
