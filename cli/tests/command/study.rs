@@ -409,13 +409,21 @@ fn members_near_a_limit_are_confirmed_at_design_accuracy_and_design_decides() {
 #[test]
 fn what_is_no_selection_is_refused() {
     for (old, new, words) in [
-        ("rank = \"time_to_first_contact\"\n", "", "rank = "),
+        (
+            "rank = \"time_to_first_contact\"\n",
+            "",
+            "question.rank: found no value",
+        ),
         (
             "rank = \"time_to_first_contact\"",
             "rank = \"beauty\"",
             "no number among the results",
         ),
-        ("best = \"most\"", "best = \"nicest\"", "least, most"),
+        (
+            "best = \"most\"",
+            "best = \"nicest\"",
+            "\"least\", \"most\"",
+        ),
         (
             "\"25 mm\"",
             "\"25.3 mm\"",

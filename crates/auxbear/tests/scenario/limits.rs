@@ -170,7 +170,11 @@ fn a_wrong_limit_is_refused_before_the_run() {
             Code::MissingKey,
             "without most or least",
         ),
-        ("most = \"5 kN\"", Code::MissingKey, "without a quantity"),
+        (
+            "most = \"5 kN\"",
+            Code::MissingKey,
+            "limit.quantity: found no value",
+        ),
         (
             "quantity = \"peak_contact_force\"\nmax = \"5 kN\"",
             Code::UnknownKey,
@@ -199,7 +203,7 @@ fn a_wrong_limit_is_refused_before_the_run() {
         (
             "quantity = 7\nmost = \"5 kN\"",
             Code::WrongType,
-            "name of a result",
+            "a text in quotes is needed",
         ),
     ] {
         let text = limited(lines);
