@@ -90,6 +90,11 @@ pub(crate) const NOT_GIVEN: &str = " is not given";
 /// Why a result has no value before a run.
 const BEFORE_THE_RUN: &str = "not known before the run";
 
+/// Why a result cannot be had whose key is left out; none where it is given.
+pub(crate) fn not_given<T>(key: &str, value: Option<T>) -> Option<String> {
+    value.is_none().then(|| format!("{key}{NOT_GIVEN}"))
+}
+
 /// Named results in their order.
 #[derive(Default)]
 pub(crate) struct List {
@@ -169,8 +174,20 @@ impl List {
             self.named(&[&format!("{number}")], |list| add(list, Some(one)));
         }
     }
+    /// Adds a list for each of what a run has found, by its name; before the run the pattern of their names.
+    pub fn each_found(
+        &mut self,
+        found: Option<Vec<(&str, Vec<f64>)>>,
+        table: fn(&mut List, &(), Option<&Vec<f64>>),
+    ) {
+        let Some(found) = found else {
+            return self.named(&["*"], |list| table(list, &(), None));
+        };
+        for (name, values) in &found {
+            self.named(&[name], |list| table(list, &(), Some(values)));
+        }
+    }
     /// Adds results of a part, whose names follow its own and a point; a part without a name adds nothing to them.
-    #[allow(dead_code)]
     pub fn of_part(&mut self, part: &str, add: impl FnOnce(&mut List)) {
         let first = self.quantities.len();
         add(self);
@@ -178,6 +195,7 @@ impl List {
             quantity.name = model::system::layout::of_part(part, &quantity.name);
         }
     }
+    /// Adds a result whose name and unit a column has.
     pub fn push(&mut self, name: &str, unit: &'static str, value: Value, origin: &Origin) {
         self.quantities.push(Quantity {
             name: name.to_string(),
@@ -192,16 +210,9 @@ impl List {
             awaited: false,
         });
     }
-    /// An instant that the run waits for, s; or why it did not come.
-    pub fn awaited(&mut self, name: &str, time: Result<f64, String>, origin: &Origin) {
-        self.number(name, "s", time, origin);
-        if let Some(last) = self.quantities.last_mut() {
-            last.awaited = true;
-        }
-    }
-    /// The results of a run that ended at an instant, s: no number has a value where it ended before its first step.
-    pub fn ended_at(mut self, time: f64) -> Vec<Quantity> {
-        if time == 0.0 {
+    /// The results of a run that ended at an instant, s, or of none: no number has a value where it ended before its first step.
+    pub fn ended_at(mut self, time: Option<f64>) -> Vec<Quantity> {
+        if time == Some(0.0) {
             for quantity in &mut self.quantities {
                 if matches!(&quantity.value, Value::None { why } if why.ends_with(NOT_GIVEN)) {
                     continue;
@@ -216,15 +227,6 @@ impl List {
             }
         }
         self.quantities
-    }
-    pub fn number(
-        &mut self,
-        name: &str,
-        unit: &'static str,
-        value: Result<f64, String>,
-        origin: &Origin,
-    ) {
-        self.push(name, unit, value.into(), origin);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The static safety of a bearing, in every system that loads one.
 
-use crate::result::list::Origin;
-use crate::scenario::RatedBearing;
+use crate::result::list::{NOT_GIVEN, Origin};
+use crate::scenario::{Bearing, RatedBearing};
 use physics::static_load::{equivalent_static_load, static_load_factors};
 
 /// The load on a bearing whose static safety is asked for.
@@ -23,6 +23,22 @@ pub(crate) fn static_safety(rated: &RatedBearing, load: &StaticLoad) -> Result<f
         true => Ok(rating / equivalent),
         false => Err("there is no load".to_string()),
     }
+}
+
+/// The same of a bearing under a radial load, N, and its preload.
+pub(crate) fn safety_under(radial: f64, bearing: &Bearing) -> Result<f64, String> {
+    let load = StaticLoad {
+        radial,
+        axial: bearing.axial_preload,
+        contact_angle: Some(bearing.contact_angle),
+    };
+    static_safety(&bearing.rated(), &load)
+}
+
+/// Why there is none under any load.
+pub(crate) fn no_safety(bearing: &Bearing) -> Option<String> {
+    let why = safety_under(0.0, bearing).err();
+    why.filter(|why| why.ends_with(NOT_GIVEN))
 }
 
 /// P0, N; without axial load F_r of every type.

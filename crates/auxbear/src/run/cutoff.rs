@@ -1,14 +1,16 @@
 //! What twice `rotor.cutoff` would change, no bound of what all modes would: the beginning of a drop as it is, and once more with twice the cutoff.
 
 use crate::options::Options;
-use crate::result::outcome::{Quantity, Value};
+use crate::result::list::results;
+use crate::result::list::{List, Origin};
+use crate::result::outcome::{Quantity, Single, Value};
 use crate::scenario::{Scenario, Shaft, System};
 use crate::simulate::drop::each;
 
 /// What is compared: the impact that high modes feel most, and where the rotor goes.
 const COMPARED: [&str; 2] = ["first_impact_force", "max_rotor_displacement"];
 
-/// Relative changes of results by twice the cutoff, each named after what changes; nothing where the scenario does not ask.
+/// Relative changes of results by twice the cutoff; nothing where the scenario does not ask.
 pub(super) fn changes(
     scenario: &Scenario,
     shaft: &Shaft,
@@ -42,11 +44,29 @@ pub(super) fn changes(
         Err(problem) => Err(problem.clone()),
     });
     let drops: Result<Vec<_>, _> = drops.collect();
-    let (found, refused) = match drops {
-        Ok(drops) => (each::run(&drops, &quiet), None),
-        Err(problem) => (Vec::new(), Some(problem.to_string())),
-    };
-    let value = |k: usize, name: &str| {
+    let tried = drops.map(|drops| each::run(&drops, &quiet));
+    name(known, Some(&tried.map_err(|problem| problem.to_string())))
+}
+
+/// Both runs, or why there are none.
+pub(super) type Tried = Result<Vec<Single>, String>;
+
+/// Names these changes, each after what changes; without both runs those of any.
+pub(super) fn name(known: &[Quantity], tried: Option<&Tried>) -> Vec<Quantity> {
+    let mut list = List::default();
+    let names = known.iter().map(|quantity| quantity.name.as_str());
+    let last = |name: &str| COMPARED.contains(&name.rsplit('.').next().unwrap_or(name));
+    for name in names.filter(|name| last(name)) {
+        let changed = tried.map(|tried| changed(tried, name));
+        list.named(&[name], |list| change(list, &(), changed.as_ref()));
+    }
+    list.quantities
+}
+
+/// What a result has changed by, over it.
+fn changed(tried: &Tried, name: &str) -> Result<f64, String> {
+    let found = tried.as_ref().map_err(String::clone)?;
+    let value = |k: usize| {
         let single = found.get(k)?;
         let quantity = single.quantities.iter().find(|q| q.name == name)?;
         match quantity.value {
@@ -54,40 +74,24 @@ pub(super) fn changes(
             _ => None,
         }
     };
-    let compared = known.iter().filter(|quantity| {
-        let (_, last) = quantity
-            .name
-            .rsplit_once('.')
-            .unwrap_or(("", &quantity.name));
-        COMPARED.contains(&last)
-    });
-    let change = |quantity: &Quantity| {
-        let name = quantity.name.as_str();
-        let value = match (value(0, name), value(1, name)) {
-            (Some(before), Some(after)) if before != 0.0 => Value::Number(after / before - 1.0),
-            _ => {
-                let whole = found.iter().find(|single| !single.stop.complete());
-                let why = whole.map(|single| single.stop.text.clone());
-                let why = refused.clone().or(why);
-                Value::None {
-                    why: why.unwrap_or_else(|| {
-                        "one of the two runs has no such result; a longer rotor.cutoff_check may".to_string()
-                    }),
-                }
-            }
-        };
-        Quantity {
-            name: format!("cutoff_change.{name}"),
-            value,
-            unit: "",
-            meaning: "change of a result with twice as many modes",
-            law: "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
-            source: "crates/auxbear/src/run/cutoff.rs",
-            valid: "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic",
-            chaotic: false,
-            spread: None,
-            awaited: false,
+    match (value(0), value(1)) {
+        (Some(before), Some(after)) if before != 0.0 => Ok(after / before - 1.0),
+        _ => {
+            let part = found.iter().find(|single| !single.stop.complete());
+            let none = "one of the two runs has no such result; a longer rotor.cutoff_check may";
+            Err(part.map_or(none, |single| &single.stop.text).to_string())
         }
-    };
-    compared.map(change).collect()
+    }
 }
+
+results! {
+    fn change(setup: &(), changed: &Result<f64, String>) {
+        "cutoff_change.*": number "", CHANGE, "change of a result with twice as many modes" => changed.clone();
+    }
+}
+
+const CHANGE: Origin = Origin {
+    law: "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
+    source: "crates/auxbear/src/run/cutoff.rs",
+    valid: "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic",
+};

@@ -9,6 +9,8 @@ mod before;
 mod cutoff;
 mod each;
 mod known;
+#[cfg(test)]
+mod tests;
 
 use crate::analyse::{identify, signals};
 use crate::evaluate::{rotor, torque};
@@ -22,7 +24,6 @@ use crate::simulate::{coast_down, drop, rig, spin_up};
 pub use each::each;
 pub use recording::file::parquet::panic_is_caught;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -70,7 +71,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = system.map_err(|problem| scenario.locate(problem))?;
     let machine = Machine { scenario, system };
     if !scenario.limits.is_empty() {
-        limits::check(&scenario.limits, &machine.names())
+        limits::check(&scenario.limits, &machine.results())
             .map_err(|problem| scenario.locate(problem))?;
     }
     Ok(machine)
@@ -113,23 +114,25 @@ impl Machine<'_> {
         outcome
     }
 
-    /// The results of a run, without values; each `*` in a name stands for what only a run tells.
-    pub(crate) fn names(&self) -> Vec<Quantity> {
-        let at_once = AtomicBool::new(true);
-        let options = Options::unwatched(&at_once);
-        let outcome = match &self.system {
+    /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.
+    pub fn results(&self) -> Vec<Quantity> {
+        match &self.system {
             Built::Drop(of, built, _) => {
-                let mut once = (*of).clone();
-                once.repeat.count = 1;
-                self.dropped(&once, built, &[], &options)
+                let mut list = drop::results(of, built);
+                let shaft = of.shaft.as_ref();
+                if shaft.is_some_and(|shaft| shaft.cutoff_check.is_some()) {
+                    list.extend(cutoff::name(&list, None));
+                }
+                list
             }
-            Built::Torque(asked) => return torque::results(asked),
-            Built::Signals(asked) => return signals::results(asked),
-            Built::Identify(asked) => return identify::results(asked),
-            Built::Rotor(asked) => return rotor::results(asked),
-            _ => self.computed(&options),
-        };
-        outcome.quantities
+            Built::SpinUp(of, built) => spin_up::results(of, built),
+            Built::Rig(of, built) => rig::results(of, built),
+            Built::CoastDown(_, built) => coast_down::results(built),
+            Built::Torque(asked) => torque::results(asked),
+            Built::Signals(asked) => signals::results(asked),
+            Built::Identify(asked) => identify::results(asked),
+            Built::Rotor(asked) => rotor::results(asked),
+        }
     }
 }
 

@@ -91,7 +91,7 @@ impl Study {
     /// What is wrong with scenario, limits or results.
     pub fn new(file: StudyFile) -> Result<Study, Box<Problem>> {
         let machine = run::build(&file.scenario)?;
-        let mut known = machine.names();
+        let mut known = machine.results();
         // what only a run tells is told by one with the values as given
         if known.iter().any(|known| known.name.contains('*')) {
             let never = AtomicBool::new(false);

@@ -4,7 +4,7 @@
 use crate::analyse::identify::found::{Found, rolling_set};
 use crate::analyse::identify::per_test::{self, OfTest};
 use crate::analyse::identify::read::{Asked, Test};
-use crate::result::declared::results;
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::Quantity;
 use identify::coasting::Windage;

@@ -1,6 +1,7 @@
 //! The films between balls and races, reported after a run from its rows.
 
-use crate::result::list::{List, Origin};
+use crate::result::list::Origin;
+use crate::result::list::results;
 use crate::result::outcome::{Value, Warning, warning};
 use crate::scenario::{Bearing, Traction as TractionChoice};
 use crate::simulate::bearing::run::BearingRun;
@@ -140,26 +141,9 @@ impl Summary {
         count as f64 / self.contacts as f64
     }
 
-    /// The films as results.
-    pub fn name(&self, list: &mut List) {
-        let none = || "no ball carried load in any row".to_string();
-        let mut number = |name: &str, unit, value: f64| {
-            let value = (self.contacts > 0).then_some(value).ok_or_else(none);
-            list.number(name, unit, value, &FILM);
-        };
-        number("smallest_film_thickness", "m", self.thickness);
-        number("smallest_central_film_thickness", "m", self.central);
-        number("smallest_lambda_ratio", "1", self.lambda);
-        number("mixed_film_share", "1", self.share(self.mixed));
-        for (count, regime) in self.regimes.into_iter().zip(FilmRegime::ALL) {
-            let name = format!("{}_film_share", regime.name().replace('-', "_"));
-            number(&name, "1", self.share(count));
-        }
-        let heaviest = self.heaviest.map_or_else(
-            || Value::None { why: none() },
-            |(_, regime)| Value::Text(regime.name().to_string()),
-        );
-        list.push("film_regime_of_heaviest_contact", "", heaviest, &FILM);
+    /// A number of films, of which there must be some.
+    fn seen(&self, value: f64) -> Result<f64, String> {
+        (self.contacts > 0).then_some(value).ok_or_else(none)
     }
 
     /// Films that are thin, and laws outside their range.
@@ -206,6 +190,28 @@ impl Summary {
             ));
         }
         list
+    }
+}
+
+/// Why there are no films.
+fn none() -> String {
+    "no ball carried load in any row".to_string()
+}
+
+results! {
+    /// The films between balls and races.
+    pub(crate) fn films(setup: &(), run: &Summary) {
+        "smallest_film_thickness": number "m", FILM, "smallest minimum film thickness" => run.seen(run.thickness);
+        "smallest_central_film_thickness": number "m", FILM, "smallest central film thickness" => run.seen(run.central);
+        "smallest_lambda_ratio": number "1", FILM, "smallest film over the composite roughness" => run.seen(run.lambda);
+        "mixed_film_share": number "1", FILM, "share of loaded contacts with lambda below 1" => run.seen(run.share(run.mixed));
+        "isoviscous_rigid_film_share": number "1", FILM, "share of loaded contacts in this regime" => run.seen(run.share(run.regimes[0]));
+        "piezoviscous_rigid_film_share": number "1", FILM, "share of loaded contacts in this regime" => run.seen(run.share(run.regimes[1]));
+        "isoviscous_elastic_film_share": number "1", FILM, "share of loaded contacts in this regime" => run.seen(run.share(run.regimes[2]));
+        "piezoviscous_elastic_film_share": number "1", FILM, "share of loaded contacts in this regime" => run.seen(run.share(run.regimes[3]));
+        "film_regime_of_heaviest_contact": text "", FILM, "film regime of the most loaded contact" => {
+            run.heaviest.map_or_else(|| Value::None { why: none() }, |(_, regime)| regime.name().into())
+        };
     }
 }
 

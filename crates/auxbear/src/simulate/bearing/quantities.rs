@@ -1,157 +1,120 @@
 //! Results that several systems have: first rises, ball loads, lubricant, cage, heats.
 
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
 use crate::scenario::Bearing;
-use crate::simulate::bearing::pressure::Pressures;
+use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::run::BearingRun;
-use model::bearing::{BearingConstants, Separation};
-use model::system::layout::Layout;
-use model::system::sampling::Peak;
+use crate::simulate::bearing::{film, races, severity, skid};
+use model::bearing::lubricant_state::LubricantAt;
+use model::bearing::{BearingConstants, LubricantConstants, PlanarConstants, Separation};
+use physics::traction::Traction;
 
-/// A state at the end of a run.
-pub(crate) struct End<'a> {
-    /// Name of the part whose bearing is meant.
-    pub part: &'a str,
-    pub layout: &'a Layout,
-    pub state: &'a [f64],
+/// A bearing before a run.
+#[derive(Clone, Copy)]
+pub(crate) struct BearingSetup<'a> {
+    /// What the scenario says of it.
+    pub given: &'a Bearing,
+    /// Its constants.
+    pub constants: &'a BearingConstants,
+    /// Hertz pressure in the contacts of a ball.
+    pub factors: &'a PressureFactors,
 }
 
-impl End<'_> {
-    /// What a kind of heat has summed up, J.
-    pub fn heat(&self, kind: &str) -> f64 {
-        self.layout
-            .heat_of(self.state, self.part, kind)
-            .unwrap_or(0.0)
+impl<'a> BearingSetup<'a> {
+    /// Its constants where balls may slide.
+    pub fn planar(&self) -> Option<&'a PlanarConstants> {
+        match self.constants {
+            BearingConstants::Planar(planar) => Some(planar),
+            BearingConstants::Rolling(_) => None,
+        }
     }
-    /// What the balls lost sliding on the inner and on the outer race, J.
-    fn slips(&self) -> [f64; 2] {
-        ["inner_ball_slip", "outer_ball_slip"].map(|kind| self.heat(kind))
+}
+
+/// Loads, films, skids, lubricant and cage.
+pub(crate) fn balls(list: &mut List, setup: &BearingSetup, run: Option<&BearingRun>) {
+    ball_loads(list, setup, run);
+    if let Some(planar) = setup.planar() {
+        if let Traction::Lubricated(_) = planar.traction {
+            film::films(list, &(), run.and_then(BearingRun::films).as_ref());
+        }
+        skid::skids(list, &(), run.and_then(BearingRun::skids).as_ref());
+    }
+    races_and_lubricant(list, setup, run);
+    if let Some(planar) = setup.planar() {
+        cage(list, &planar.separation, run);
     }
 }
 
-/// Largest forces of a run.
-pub(crate) struct LargestForces {
-    /// Ball loads at the inner and the outer race.
-    pub loads: [Peak; 2],
-    /// Of pockets, or between balls without a cage, and at the land.
-    pub cage: [Peak; 2],
+/// What the races saw of the balls, and what the lubricant came to.
+pub(crate) fn races_and_lubricant(list: &mut List, setup: &BearingSetup, run: Option<&BearingRun>) {
+    if setup.planar().is_some() {
+        races::races(list, &(), run.and_then(|run| run.races));
+    }
+    if let Some(part) = setup.constants.lubricant() {
+        let at = |run: &BearingRun| run.bearing.lubricant_at(run.own(run.end));
+        lubricant(list, part, run.and_then(at).as_ref());
+    }
 }
 
-impl List {
-    /// First instants at which a body reaches half and 95 % of the speed that counts, and the cage 95 % of its rolling speed;
-    /// or why they are not reached.
-    pub fn rises(
-        &mut self,
-        body: &str,
-        times: [Option<f64>; 3],
-        never: [String; 3],
-        origin: &Origin,
-    ) {
-        let names = [
-            format!("{body}_time_to_50_percent"),
-            format!("{body}_time_to_95_percent"),
-            "cage_time_to_95_percent_of_rolling".to_string(),
+/// Largest ball load and Hertz pressures, against the limits of the bearing.
+pub(crate) fn ball_loads(list: &mut List, setup: &BearingSetup, run: Option<&BearingRun>) {
+    loads(list, setup, run);
+    severity::of_ball_load(list, setup.given, run);
+}
+
+results! {
+    fn loads(setup: &BearingSetup, run: &BearingRun) {
+        "peak_ball_load": number "N", BALL_LOAD, "largest load of a ball" => run.loads[0].value.max(run.loads[1].value);
+        "peak_hertz_pressure": number "Pa", PRESSURE, "largest Hertz pressure between ball and race" => run.pressures().races;
+        "peak_ball_ball_pressure": number "Pa", PRESSURE, "largest Hertz pressure between two balls" when setup.factors.neighbours.is_some() => {
+            run.pressures().neighbours.unwrap_or(0.0)
+        };
+        "hertz_pressure_share_of_limit": number "1", PRESSURE, "largest Hertz pressure over its limit" => run.pressures().share_of_limit(setup.given);
+    }
+    /// What the lubricant came to at the end.
+    fn lubricant(part: &LubricantConstants, at: &LubricantAt) {
+        "lubricant_build_up_at_end": number "1", LUBRICANT, "build-up of the grease at the end" when part.grease.is_some() => at.build_up;
+        "lubricant_breakdown_at_end": number "1", LUBRICANT, "breakdown of the grease at the end" when part.grease.is_some() => at.breakdown;
+        "lubricant_film_temperature_rise_at_end": number "K", LUBRICANT, "rise of the contact films at the end" when part.films.is_some() => {
+            at.film_temperature_rise
+        };
+        "lubricant_drag_factor_at_end": number "1", LUBRICANT, "factor on the speed-dependent moment at the end" => at.drag_factor;
+    }
+    /// Largest forces on the cage, or between the balls, and what their friction took.
+    fn cage(separation: &Separation<f64>, run: &BearingRun) {
+        "peak_ball_ball_force": number "N", CAGE_FORCE, "largest force between two balls" when neighbours(separation) => run.cage[0].value;
+        "peak_pocket_force": number "N", CAGE_FORCE, "largest force between ball and pocket" when !neighbours(separation) => run.cage[0].value;
+        "peak_cage_land_force": number "N", CAGE_FORCE, "largest force between cage and land" when matches!(separation, Separation::FreeCage(Some(_))) => {
+            run.cage[1].value
+        };
+        "ball_ball_friction_energy": number "J", CAGE_FRICTION, "friction heat between the balls" when neighbours(separation) => run.cage_friction();
+        "cage_friction_energy": number "J", CAGE_FRICTION, "friction heat of pockets and land" when !neighbours(separation) => run.cage_friction();
+    }
+}
+
+/// Whether the balls touch each other.
+fn neighbours(separation: &Separation<f64>) -> bool {
+    matches!(separation, Separation::Neighbours(_))
+}
+
+impl BearingRun<'_> {
+    /// What friction of the cage, or between the balls, took, J.
+    fn cage_friction(&self) -> f64 {
+        let kinds = [
+            "pocket_friction",
+            "cage_land_friction",
+            "ball_ball_friction",
         ];
-        for (name, (time, why)) in names.iter().zip(times.into_iter().zip(never)) {
-            self.awaited(name, time.ok_or(why), origin);
-        }
+        kinds.iter().map(|kind| self.heat(kind)).sum()
     }
-
-    /// Largest ball load and Hertz pressures, against the limits of the bearing.
-    pub fn ball_loads(&mut self, loads: [Peak; 2], pressures: &Pressures, bearing: &Bearing) {
-        let load = loads[0].value.max(loads[1].value);
-        self.number("peak_ball_load", "N", Ok(load), &BALL_LOAD);
-        let mut pressure = |name: &str, unit: &'static str, value: f64| {
-            self.number(name, unit, Ok(value), &PRESSURE);
-        };
-        pressure("peak_hertz_pressure", "Pa", pressures.races);
-        if let Some(neighbours) = pressures.neighbours {
-            pressure("peak_ball_ball_pressure", "Pa", neighbours);
-        }
-        let share = pressures.share_of_limit(bearing);
-        pressure("hertz_pressure_share_of_limit", "1", share);
-        self.ball_load_severity(loads, pressures.races, bearing);
-    }
-
-    /// What the lubricant came to in a state at the end; nothing where it has no state.
-    pub fn lubricant(&mut self, run: &BearingRun, state: &[f64]) {
-        let at = run.bearing.lubricant_at(run.own(state));
-        let (Some(part), Some(at)) = (run.bearing.lubricant(), at) else {
-            return;
-        };
-        let mut add = |name: &str, unit: &'static str, value: f64| {
-            self.number(name, unit, Ok(value), &LUBRICANT);
-        };
-        if part.grease.is_some() {
-            add("lubricant_build_up_at_end", "1", at.build_up);
-            add("lubricant_breakdown_at_end", "1", at.breakdown);
-        }
-        if part.films.is_some() {
-            let rise = at.film_temperature_rise;
-            add("lubricant_film_temperature_rise_at_end", "K", rise);
-        }
-        add("lubricant_drag_factor_at_end", "1", at.drag_factor);
-    }
-
-    /// Loads, films, skids, lubricant and cage.
-    pub fn balls(
-        &mut self,
-        run: &BearingRun,
-        forces: &LargestForces,
-        bearing: &Bearing,
-        end: &End,
-    ) {
-        let pressures = (run.pressure_factors).pressures(forces.loads, forces.cage[0]);
-        self.ball_loads(forces.loads, &pressures, bearing);
-        if let Some(films) = run.films() {
-            films.name(self);
-        }
-        if let Some(skids) = run.skids() {
-            skids.name(self, end.slips());
-        }
-        self.races(run);
-        self.lubricant(run, end.state);
-        let friction = end.heat("pocket_friction")
-            + end.heat("cage_land_friction")
-            + end.heat("ball_ball_friction");
-        self.cage(run, forces.cage.map(|force| force.value), friction);
-    }
-
-    /// Largest forces on the cage, or between the balls, N, and what their friction took, J.
-    fn cage(&mut self, run: &BearingRun, [pocket, land]: [f64; 2], friction: f64) {
-        let BearingConstants::Planar(planar) = run.bearing else {
-            return;
-        };
-        let friction_name = match &planar.separation {
-            Separation::Neighbours(_) => {
-                self.number("peak_ball_ball_force", "N", Ok(pocket), &CAGE_FORCE);
-                "ball_ball_friction_energy"
+    /// What the balls lost sliding on both races, J.
+    pub fn ball_slip(&self) -> Result<f64, String> {
+        match self.bearing {
+            BearingConstants::Planar(_) => Ok(self.slips().iter().sum()),
+            BearingConstants::Rolling(_) => {
+                Err("balls do not slip in the rolling fidelity".to_string())
             }
-            Separation::CentredCage | Separation::FreeCage(_) => {
-                self.number("peak_pocket_force", "N", Ok(pocket), &CAGE_FORCE);
-                if let Separation::FreeCage(Some(_)) = planar.separation {
-                    self.number("peak_cage_land_force", "N", Ok(land), &CAGE_FORCE);
-                }
-                "cage_friction_energy"
-            }
-        };
-        self.number(friction_name, "J", Ok(friction), &CAGE_FRICTION);
-    }
-
-    /// What sliding of the rotor and of the balls took, J.
-    pub fn losses(&mut self, run: &BearingRun, end: &End, origin: &Origin) {
-        let [inner, outer] = end.slips();
-        let slip = matches!(run.bearing, BearingConstants::Planar(_))
-            .then_some(inner + outer)
-            .ok_or_else(|| "balls do not slip in the rolling fidelity".to_string());
-        for (name, value) in [
-            (
-                "rotor_race_friction_energy",
-                Ok(end.heat("rotor_race_friction")),
-            ),
-            ("ball_slip_energy", slip),
-        ] {
-            self.number(name, "J", value, origin);
         }
     }
 }

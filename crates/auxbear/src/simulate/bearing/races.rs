@@ -1,19 +1,21 @@
 //! What the races have seen of their balls: flashes where balls skid, dents, rolling fatigue.
 
-use crate::result::list::{List, NOT_GIVEN, Origin};
+use crate::result::list::results;
+use crate::result::list::{Origin, not_given};
 use crate::result::outcome::{Quantity, Value, Warning, warning};
 use crate::scenario::{Bearing, Warm};
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::severity::STEEL_CHANGES;
-use crate::simulate::bearing::warm::Followed;
+use crate::simulate::bearing::warm::{Followed, Heated};
 use crate::simulate::coast_down::build::ICE_POINT;
 use model::bearing::BearingConstants;
 use model::system::layout::of_part;
-use model::system::race_record::{RaceRecord, RaceSeen};
+use model::system::race_record::RaceRecord;
 use physics::life::{
     RatedBearing, add_points, bearing_damage, iso_life_factor, mean_damage, reference_viscosity,
     repetitions, temperature_factor,
 };
+use physics::viscosity::Viscosity;
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, OUTER_RACE};
 
@@ -48,84 +50,93 @@ impl BearingRun<'_> {
     }
 }
 
-impl List {
-    /// The hottest contact of balls and each race, and how often a ball dented it; nothing where balls roll always.
-    pub fn races(&mut self, run: &BearingRun) {
-        let Some(record) = run.races_of_balls() else {
-            return;
-        };
-        for (side, seen) in SIDES.into_iter().zip(&record.races) {
-            let RaceSeen { flash, dents, .. } = seen;
-            for (what, unit, value) in [
-                ("flash_temperature_rise", "K", flash.rise.value),
-                ("flash_time", "s", flash.rise.time),
-            ] {
-                self.number(&format!("{side}_{what}"), unit, Ok(value), &FLASH);
-            }
-            let count = *dents as f64;
-            self.number(&format!("{side}_denting_passages"), "", Ok(count), &DENTS);
-        }
-        let hottest = record.hottest().1.rise.value;
-        let index = Ok(hottest / STEEL_CHANGES);
-        self.number("skid_temperature_index", "1", index, &INDEX);
+results! {
+    /// The hottest contact of balls and each race, and how often a ball dented it.
+    pub(super) fn races(setup: &(), run: &RaceRecord) {
+        "inner_flash_temperature_rise": number "K", FLASH, "largest flash temperature of a ball contact at the inner race" => run.races[0].flash.rise.value;
+        "inner_flash_time": number "s", FLASH, "instant of this flash" => run.races[0].flash.rise.time;
+        "inner_denting_passages": number "", DENTS, "ball loads above the denting load at the inner race" => run.races[0].dents as f64;
+        "outer_flash_temperature_rise": number "K", FLASH, "largest flash temperature of a ball contact at the outer race" => run.races[1].flash.rise.value;
+        "outer_flash_time": number "s", FLASH, "instant of this flash" => run.races[1].flash.rise.time;
+        "outer_denting_passages": number "", DENTS, "ball loads above the denting load at the outer race" => run.races[1].dents as f64;
+        "skid_temperature_index": number "1", INDEX, "largest flash over that which tempers steel" => run.hottest().1.rise.value / STEEL_CHANGES;
     }
+}
 
-    /// What rolling fatigue takes of the life of the bearing; with its lubricant where its temperatures were followed, under a mean
-    /// load, N, at a mean speed, rad/s.
-    pub fn life_share(
-        &mut self,
-        bearing: &Bearing,
-        record: Option<&RaceRecord>,
-        lubricated: Option<(&Followed, f64, f64)>,
-    ) {
-        let rating = (bearing.dynamic_load_rating)
-            .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"));
-        let used = |(rating, record): (f64, &RaceRecord)| {
-            let [inner, outer] = &record.races;
-            rated(bearing, rating).by_point([&inner.sums, &outer.sums])
-        };
-        let none = || "the bearing has no balls".to_string();
-        let known = rating.and_then(|rating| Ok((rating, record.ok_or_else(none)?)));
-        let points = known.map(used);
-        let share = points.as_ref().map(used_by).map_err(String::clone);
-        self.number("life_share", "1", share.clone(), &LIFE);
-        let Some((followed, load, speed)) = lubricated else {
-            self.life_by_point("", points);
-            return self.drops_until(&share);
-        };
-        let known = || format!("bearing.static_load_rating or viscosity_points{NOT_GIVEN}");
-        let factor = (bearing.static_load_rating)
-            .zip(followed.part.oil)
-            .map(|(rating, oil)| {
-                let warmest = |node: usize| followed.warmth.peaks[node].0;
-                let viscosity = oil.held(warmest(LUBRICANT) + ICE_POINT);
-                let kappa = viscosity_ratio(followed.given, viscosity, speed);
-                let hot = warmest(INNER_RACE).max(warmest(OUTER_RACE));
-                life_factor(followed.given, rating, load, kappa, hot)
-            });
-        let factor = factor.ok_or_else(known);
-        let with = (share.clone()).and_then(|share| Ok(share / factor.clone()?));
-        self.number("life_share_with_lubricant", "1", with.clone(), &LUBRICATED);
-        let lasts = factor.unwrap_or(1.0);
-        let points = points
-            .map(|rings| rings.map(|ring| ring.into_iter().map(|damage| damage / lasts).collect()));
-        self.life_by_point("", points);
-        self.drops_until(&with.or(share));
+/// What rolling fatigue takes of the life of a bearing whose dynamic rating is given.
+pub(crate) struct Life {
+    /// By the load alone.
+    pub share: f64,
+    /// With the life factor of its lubricant.
+    pub with_lubricant: Result<f64, String>,
+    /// At the points of both rings, with that factor where it is known.
+    pub points: [Vec<f64>; 2],
+    /// Whether the run ended as planned, so that this is all that it takes.
+    pub is_all: bool,
+}
+
+impl Life {
+    /// Of a bearing with what its races have seen and the life factor of its lubricant, or why that is not known.
+    pub fn of(bearing: &Bearing, record: &RaceRecord, factor: Result<f64, String>) -> Option<Life> {
+        let [inner, outer] = &record.races;
+        let rated = rated(bearing, bearing.dynamic_load_rating?);
+        let points = rated.by_point([&inner.sums, &outer.sums]);
+        let share = used_by(&points);
+        let lasts = factor.clone().unwrap_or(1.0);
+        Some(Life {
+            share,
+            with_lubricant: factor.map(|factor| share / factor),
+            points: points.map(|ring| ring.into_iter().map(|damage| damage / lasts).collect()),
+            is_all: true,
+        })
     }
-
-    /// What it takes at each point of both rings, where it is known: drops of one bearing add up there.
-    pub fn life_by_point(&mut self, bearing: &str, points: Result<[Vec<f64>; 2], String>) {
-        for (side, points) in SIDES.into_iter().zip(points.into_iter().flatten()) {
-            let name = of_part(bearing, &format!("{side}_{LIFE_BY_POINT}"));
-            self.push(&name, "1", Value::List(points), &BY_POINT);
+    /// After how many of them so many bearings are left.
+    pub fn repeated(&self, survival: f64) -> Result<f64, String> {
+        let share = self.with_lubricant.as_ref().unwrap_or(&self.share);
+        match self.is_all {
+            true => drops(*share, survival),
+            false => Err(NOT_WHOLE.to_string()),
         }
     }
+}
 
-    /// After how many such drops bearings have failed by fatigue.
-    fn drops_until(&mut self, share: &Result<f64, String>) {
-        for (name, survival) in DROPS_UNTIL {
-            self.number(name, "", drops(share, survival), &DROPS);
-        }
+/// Why nothing is known of the life of a bearing.
+pub(crate) fn no_rating(rating: Option<f64>) -> Option<String> {
+    not_given("bearing.dynamic_load_rating", rating)
+}
+
+/// The life factor of the lubricant under a mean load, N, at a mean speed, rad/s.
+pub(crate) fn lubricant_factor(run: &Followed, load: f64, speed: f64) -> Result<f64, String> {
+    let of = run.heated;
+    let (rating, oil) = factor_data(&of).ok_or("no lubricant is known")?;
+    let warmest = |node: usize| run.warmth.peaks[node].0;
+    let kappa = viscosity_ratio(of.given, oil.held(warmest(LUBRICANT) + ICE_POINT), speed);
+    let hot = warmest(INNER_RACE).max(warmest(OUTER_RACE));
+    Ok(life_factor(of.given, rating, load, kappa, hot))
+}
+
+/// What that factor needs.
+fn factor_data(of: &Heated) -> Option<(f64, Viscosity)> {
+    of.bearing.static_load_rating.zip(of.part.oil)
+}
+
+fn no_factor(of: &Heated) -> Option<String> {
+    let keys = "bearing.static_load_rating or viscosity_points";
+    not_given(keys, factor_data(of))
+}
+
+results! {
+    /// What a drop takes of the life of a bearing, whose temperatures may be followed.
+    pub(crate) fn life(setup: &(Option<f64>, Option<Heated>), run: &Life) {
+        "life_share": number "1", LIFE, "share of the rating life that this run takes", unless no_rating(setup.0) => run.share;
+        "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant" when setup.1.is_some(), unless {
+            no_rating(setup.0).or(setup.1.as_ref().and_then(no_factor))
+        } => run.with_lubricant.clone();
+        "inner_life_share_by_point": list "1", BY_POINT, "share of life at each point of the inner ring" when setup.0.is_some() => run.points[0].clone();
+        "outer_life_share_by_point": list "1", BY_POINT, "share of life at each point of the outer ring" when setup.0.is_some() => run.points[1].clone();
+        "drops_until_one_percent_fail": number "", DROPS, "drops after which 1 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.99);
+        "drops_until_ten_percent_fail": number "", DROPS, "drops after which 10 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.9);
+        "drops_until_fifty_percent_fail": number "", DROPS, "drops after which 50 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.5);
     }
 }
 
@@ -136,15 +147,15 @@ const DROPS_UNTIL: [(&str, f64); 3] = [
     ("drops_until_fifty_percent_fail", 0.5),
 ];
 
-fn drops(share: &Result<f64, String>, survival: f64) -> Result<f64, String> {
-    match share.clone()? {
-        share if share > 0.0 => Ok(repetitions(share, survival)),
-        _ => Err("no ball loaded a race that turned".to_string()),
-    }
+fn drops(share: f64, survival: f64) -> Result<f64, String> {
+    let none = || "no ball loaded a race that turned".to_string();
+    (share > 0.0)
+        .then(|| repetitions(share, survival))
+        .ok_or_else(none)
 }
 
 /// Why a run that did not end as planned has no number of drops: what it takes of a bearing is not all known.
-pub(crate) const NOT_WHOLE: &str =
+const NOT_WHOLE: &str =
     "the run did not end as planned: what one takes is not all known, and may be the whole bearing";
 
 /// Takes the numbers of drops from a run that did not end as planned.
@@ -192,10 +203,8 @@ pub(crate) fn count_run_out(drop: &mut [Quantity], bearing: &str, run_out: &[Qua
     for (name, survival) in DROPS_UNTIL {
         let name = of_part(bearing, name);
         for quantity in drop.iter_mut().filter(|quantity| quantity.name == name) {
-            quantity.value = match drops(&share, survival) {
-                Ok(count) => Value::Number(count),
-                Err(why) => Value::None { why },
-            };
+            let share = share.clone();
+            quantity.value = share.and_then(|share| drops(share, survival)).into();
         }
     }
 }
@@ -255,7 +264,7 @@ const LIFE: Origin = Origin {
     valid: "Q below that of half the dynamic rating; without lubricant factor (0.1 to 50). Blows that dent count by \
             largest_indentation",
 };
-const BY_POINT: Origin = Origin {
+pub(crate) const BY_POINT: Origin = Origin {
     law: "S/(z 10⁶ Q_c³), S = Σ Q³ over the balls that pass a point; of the outer ring from the frame's x axis on, of the inner one from its angle 0 \
           at the release. life_share_with_lubricant, else life_share, is the mean of their powers 10/9 to the \
           power 9/10, of both rings",

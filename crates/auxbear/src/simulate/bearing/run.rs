@@ -1,10 +1,11 @@
 //! The bearing of a run: what it is made of, and where it stands in the rows.
 
-use crate::simulate::bearing::pressure::PressureFactors;
+use crate::simulate::bearing::pressure::{PressureFactors, Pressures};
 use model::bearing::BearingConstants;
 use model::motion::Motion;
+use model::system::layout::Layout;
 use model::system::race_record::RaceRecord;
-use model::system::sampling::Row;
+use model::system::sampling::{Peak, Row};
 use std::ops::Range;
 
 /// Motion of the races in a state of a system.
@@ -22,6 +23,16 @@ pub(crate) struct BearingRun<'a> {
     /// Probes of the largest pocket force and of the force at the land.
     pub cage_forces: [usize; 2],
     pub pressure_factors: PressureFactors,
+    /// Largest loads of a ball at the inner and the outer race.
+    pub loads: [Peak; 2],
+    /// Largest forces of pockets, or between balls without a cage, and at the land.
+    pub cage: [Peak; 2],
+    /// Name of its part.
+    pub part: &'a str,
+    /// Where everything stands in a state of the system.
+    pub layout: &'a Layout,
+    /// The state at the end.
+    pub end: &'a [f64],
     /// Motion of the races in a state of the system.
     pub motion: MotionAt<'a>,
     pub rows: Vec<Row<'a>>,
@@ -29,7 +40,19 @@ pub(crate) struct BearingRun<'a> {
     pub races: Option<&'a RaceRecord>,
 }
 
-impl<'a> BearingRun<'a> {
+impl BearingRun<'_> {
+    /// What a kind of heat has summed up at the end, J.
+    pub fn heat(&self, kind: &str) -> f64 {
+        (self.layout.heat_of(self.end, self.part, kind)).unwrap_or(0.0)
+    }
+    /// What the balls lost sliding on the inner and on the outer race, J.
+    pub fn slips(&self) -> [f64; 2] {
+        ["inner_ball_slip", "outer_ball_slip"].map(|kind| self.heat(kind))
+    }
+    /// Largest Hertz pressures.
+    pub fn pressures(&self) -> Pressures {
+        (self.pressure_factors).pressures(self.loads, self.cage[0])
+    }
     /// The bearing's own states in a state of the system.
     pub fn own<'s>(&self, state: &'s [f64]) -> &'s [f64] {
         &state[self.states.clone()]

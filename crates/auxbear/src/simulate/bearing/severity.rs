@@ -1,10 +1,10 @@
 //! How hard a run was on its bearing: safety of the ball loads, indentation, blows, warmth of the inner race.
 
-use crate::result::list::{List, Origin};
+use crate::result::list::Origin;
+use crate::result::list::results;
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::{BallMaterial, Bearing};
-use crate::simulate::bearing::quantities::End;
-use model::system::layout::of_part;
+use crate::simulate::bearing::run::BearingRun;
 use model::system::sampling::Peak;
 use physics::heat_exchange::line_holds;
 use physics::materials::BEARING_STEEL_SPECIFIC_HEAT;
@@ -27,11 +27,14 @@ const AT_THE_INNER_RACE: [&str; 4] = [
     "inner_ball_slip",
 ];
 
-/// Rise of the inner race, K, of which half of the heats at its surfaces is enough; none where it sits on a shaft.
-pub(crate) fn inner_race_rise(end: &End, bearing: &Bearing) -> Option<f64> {
-    let heat: f64 = AT_THE_INNER_RACE.iter().map(|kind| end.heat(kind)).sum();
+/// Rise of the inner race, K, of which half of the heats at its surfaces is enough, or why there is none.
+pub(crate) fn inner_race_rise(run: &BearingRun, bearing: &Bearing) -> Result<f64, String> {
+    let heat: f64 = AT_THE_INNER_RACE.iter().map(|kind| run.heat(kind)).sum();
     let capacity = bearing.inner_race_mass * BEARING_STEEL_SPECIFIC_HEAT;
-    (capacity > 0.0).then(|| 0.5 * heat / capacity)
+    let on_shaft = || "bearing.inner_race_mass is 0: the race sits on a shaft".to_string();
+    (capacity > 0.0)
+        .then(|| 0.5 * heat / capacity)
+        .ok_or_else(on_shaft)
 }
 
 /// A contact of rotor and race whose half-width under its largest force, m, is beyond the law of a line in a bore of a radius and with a radial
@@ -47,50 +50,35 @@ pub(crate) fn wide_line(half_width: f64, bore: f64, clearance: f64) -> Option<Wa
     (!line_holds(half_width, bore, clearance)).then(|| warning("AB2336", text))
 }
 
-impl List {
-    /// Safety of the largest ball load, and what it leaves behind. The largest loads at inner and outer race, N, the largest
-    /// pressure there, Pa.
-    pub fn ball_load_severity(&mut self, loads: [Peak; 2], pressure: f64, bearing: &Bearing) {
-        let safety = match pressure > 0.0 {
-            true => Ok(ball_load_safety(bearing.hertz_pressure_limit, pressure)),
-            false => Err("no ball was loaded".to_string()),
+results! {
+    /// Safety of the largest ball load, and what it leaves behind.
+    pub(super) fn of_ball_load(given: &Bearing, run: &BearingRun) {
+        "ball_load_safety": number "1", SAFETY, "load that dents over the largest ball load" => safety(run.pressures().races, given.hertz_pressure_limit);
+        "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" => {
+            indentation_index(run.pressures().races, given.hertz_pressure_limit)
         };
-        self.number("ball_load_safety", "1", safety, &SAFETY);
-        self.indentation_index("", pressure, bearing.hertz_pressure_limit);
-        self.number(
-            "largest_indentation",
-            "m",
-            indentation(loads, bearing),
-            &INDENTATION,
-        );
+        "largest_indentation": number "m", INDENTATION, "depth of the largest permanent indentation" => indentation(run.loads, given);
     }
+}
 
-    /// Load of the most loaded ball of a bearing over the load that dents, by its pressure and the limit of that, Pa.
-    pub fn indentation_index(&mut self, name: &str, pressure: f64, limit: f64) {
-        let index = match pressure > 0.0 {
-            true => 1.0 / ball_load_safety(limit, pressure),
-            false => 0.0,
-        };
-        let name = of_part(name, "indentation_index");
-        self.number(&name, "1", Ok(index), &INDENTATION_INDEX);
+/// Load that dents over that of the most loaded ball, by its pressure and the limit of that, Pa.
+fn safety(pressure: f64, limit: f64) -> Result<f64, String> {
+    match pressure > 0.0 {
+        true => Ok(ball_load_safety(limit, pressure)),
+        false => Err("no ball was loaded".to_string()),
     }
+}
 
-    /// Blows beyond a load at rest: the largest force of each contact, and that load, N.
-    pub fn blows(&mut self, peaks: impl Iterator<Item = f64>, load: f64) {
-        let index = match load > 0.0 {
-            true => Ok(peaks.map(|peak| (peak / load - 1.0).max(0.0)).sum()),
-            false => Err("no weight lies on this bearing".to_string()),
-        };
-        self.number("blow_index", "1", index, &BLOWS);
-    }
+/// Its inverse, which is 0 without a load.
+pub(crate) fn indentation_index(pressure: f64, limit: f64) -> f64 {
+    safety(pressure, limit).map_or(0.0, |safety| 1.0 / safety)
+}
 
-    /// What half of the heats at its surfaces warms the inner race by.
-    pub fn warming(&mut self, end: &End, bearing: &Bearing) {
-        let rise = inner_race_rise(end, bearing)
-            .ok_or_else(|| "bearing.inner_race_mass is 0: the race sits on a shaft".to_string());
-        let index = rise.clone().map(|rise| rise / HOT_RACE);
-        self.number("inner_race_rise_without_cooling", "K", rise, &RISE);
-        self.number("heat_index", "1", index, &HEAT_INDEX);
+/// Blows beyond a load at rest: the largest force of each contact, and that load, N.
+pub(crate) fn blows(peaks: impl Iterator<Item = f64>, load: f64) -> Result<f64, String> {
+    match load > 0.0 {
+        true => Ok(peaks.map(|peak| (peak / load - 1.0).max(0.0)).sum()),
+        false => Err("no weight lies on this bearing".to_string()),
     }
 }
 
@@ -130,22 +118,22 @@ const INDENTATION: Origin = Origin {
     source: "Palmgren (from memory: check before quoting); crates/physics/src/severity.rs",
     valid: "1e-5 to 1e-3 of D, 58 HRC and more, slow loading: impacts leave less; dents are not added up",
 };
-const INDENTATION_INDEX: Origin = Origin {
+pub(crate) const INDENTATION_INDEX: Origin = Origin {
     law: "1/ball_load_safety: load of the most loaded ball over the load that dents",
     source: "definition; H. Hertz 1881",
     valid: "1 is the limit; impacts dent less than loads at rest",
 };
-const HEAT_INDEX: Origin = Origin {
+pub(crate) const HEAT_INDEX: Origin = Origin {
     law: "inner_race_rise_without_cooling over 100 K",
     source: "rings keep their size up to 120 °C (NTN, NSK, Timken)",
     valid: "1 is the limit of common rings that start at 20 °C",
 };
-const BLOWS: Origin = Origin {
+pub(crate) const BLOWS: Origin = Origin {
     law: "Σ max(0, N/W − 1) over all contacts, N the largest force of each, W the share of the weight on this bearing",
     source: "definition; 0 for a rotor that lies still",
     valid: "compares drops of one machine; it is no limit by itself",
 };
-const RISE: Origin = Origin {
+pub(crate) const RISE: Origin = Origin {
     law: "half of the heats at bore and inner groove over 460 J/(kg K) times bearing.inner_race_mass",
     source: "crates/auxbear/src/simulate/bearing/severity.rs; steel 450 to 480 J/(kg K)",
     valid: "mean of a race that is not cooled, steel, runs longer than 0.1 s; surfaces are hotter. A rotor that slides fast takes more than \
@@ -155,14 +143,10 @@ const RISE: Origin = Origin {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::result::outcome::Value;
 
     #[test]
     fn a_rotor_that_lies_still_gives_no_blows() {
-        let mut list = List::default();
-        list.blows([80.0, 100.0].into_iter(), 100.0);
-        list.blows([150.0, 300.0].into_iter(), 100.0);
-        let values = list.quantities.iter().map(|one| one.value.clone());
-        assert!(values.eq([Value::Number(0.0), Value::Number(2.5)]));
+        assert_eq!(blows([80.0, 100.0].into_iter(), 100.0), Ok(0.0));
+        assert_eq!(blows([150.0, 300.0].into_iter(), 100.0), Ok(2.5));
     }
 }

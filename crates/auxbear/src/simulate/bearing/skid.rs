@@ -1,7 +1,7 @@
 //! Where balls slide on their races, found after a run from its rows.
 
-use crate::result::list::{List, Origin};
-use crate::result::outcome::Value;
+use crate::result::list::Origin;
+use crate::result::list::results;
 use crate::simulate::bearing::run::BearingRun;
 use model::bearing::{BearingConstants, PlanarConstants};
 
@@ -22,6 +22,8 @@ pub(crate) struct Skidding {
     skids: [usize; 2],
     /// Sliding power summed over time by ball, J: trapezoids between the rows.
     work: [Vec<f64>; 2],
+    /// The sliding heats of the ledger at both races, J.
+    heats: [f64; 2],
 }
 
 impl<'a> Skids<'a> {
@@ -40,6 +42,7 @@ impl<'a> Skids<'a> {
             judged: 0,
             skids: [0; 2],
             work: [(); 2].map(|()| vec![0.0; self.bearing.balls]),
+            heats: self.run.slips(),
         };
         let balls = self.bearing.balls;
         let mut before = None;
@@ -85,21 +88,31 @@ impl BearingRun<'_> {
 }
 
 impl Skidding {
-    /// Skid shares and sliding works as results; `heats` are the ledger's sliding heats at both races, J.
-    pub fn name(&self, list: &mut List, heats: [f64; 2]) {
-        for (race, side) in ["inner", "outer"].into_iter().enumerate() {
-            let none = || "no ball carried load at both races while the race turned".to_string();
-            let share = (self.judged > 0)
-                .then(|| self.skids[race] as f64 / self.judged as f64)
-                .ok_or_else(none);
-            list.number(&format!("{side}_skid_share"), "1", share, &SHARE);
-            // rows show how the ledger's heat is shared among the balls
-            let sum: f64 = self.work[race].iter().sum();
-            let scale = if sum > 0.0 { heats[race] / sum } else { 0.0 };
-            let by_ball = self.work[race].iter().map(|work| scale * work).collect();
-            let name = format!("{side}_sliding_work_by_ball");
-            list.push(&name, "J", Value::List(by_ball), &WORK);
-        }
+    /// Share of the loaded contacts of a race that skid.
+    fn share(&self, race: usize) -> Result<f64, String> {
+        let none = || "no ball carried load at both races while the race turned".to_string();
+        let share = self.skids[race] as f64 / self.judged as f64;
+        (self.judged > 0).then_some(share).ok_or_else(none)
+    }
+    /// The ledger's heat of a race shared among the balls as in the rows, J.
+    fn by_ball(&self, race: usize) -> Vec<f64> {
+        let sum: f64 = self.work[race].iter().sum();
+        let scale = if sum > 0.0 {
+            self.heats[race] / sum
+        } else {
+            0.0
+        };
+        self.work[race].iter().map(|work| scale * work).collect()
+    }
+}
+
+results! {
+    /// Where the balls slide.
+    pub(crate) fn skids(setup: &(), run: &Skidding) {
+        "inner_skid_share": number "1", SHARE, "share of loaded contacts at the inner race that skid" => run.share(0);
+        "inner_sliding_work_by_ball": list "J", WORK, "sliding work of each ball at the inner race" => run.by_ball(0);
+        "outer_skid_share": number "1", SHARE, "share of loaded contacts at the outer race that skid" => run.share(1);
+        "outer_sliding_work_by_ball": list "J", WORK, "sliding work of each ball at the outer race" => run.by_ball(1);
     }
 }
 

@@ -1,24 +1,62 @@
 //! Temperatures of a bearing: named results, columns, and what is too hot.
 
+use crate::result::list::results;
 use crate::result::list::{List, Origin, relative};
-use crate::result::outcome::{Value, Warning, warning};
+use crate::result::outcome::{Warning, warning};
 use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::feedback::{Follows, State};
 use crate::simulate::coast_down::build::ICE_POINT;
 use crate::simulate::coast_down::warnings::{away, beyond_data, first_loose, loose_ring, to_take};
-use model::bearing_heat::{WarmBearing, Warmth, kinds};
-use model::system::layout::of_part;
+use model::bearing_heat::{OfNodes, WarmBearing, Warmth, kinds};
 use thermal::bearing_network::{GROUNDS, NODES, PASSES};
 
-/// A bearing whose temperatures were followed.
-pub(crate) struct Followed<'a> {
+/// A bearing whose temperatures are followed, before a run.
+#[derive(Clone, Copy)]
+pub(crate) struct Heated<'a> {
     /// What is given of it.
     pub given: &'a Warm,
     /// It at the start.
     pub bearing: &'a Bearing,
     /// Its network.
     pub part: &'a WarmBearing,
+}
+
+impl<'a> Heated<'a> {
+    /// None where its temperatures are not followed.
+    pub fn of(
+        given: Option<&'a Warm>,
+        bearing: &'a Bearing,
+        part: Option<&'a WarmBearing>,
+    ) -> Option<Self> {
+        Some(Heated {
+            given: given?,
+            bearing,
+            part: part?,
+        })
+    }
+    fn follows(&self) -> Option<Follows> {
+        Follows::of(self.given, self.bearing)
+    }
+    /// Whether its clearance follows.
+    fn closes(&self) -> bool {
+        (self.follows().iter()).any(|follows| follows.closes(self.bearing))
+    }
+    /// Whether contact films keep heat.
+    fn has_films(&self) -> bool {
+        let state = self.bearing.lubricant_state.as_ref();
+        state.is_some_and(|state| state.films.is_some())
+    }
+    /// The nodes that are there: a full complement has no cage.
+    fn nodes(&self) -> impl Iterator<Item = (usize, &'static str)> {
+        (NODES.into_iter().enumerate()).filter(|(node, _)| self.part.network.has(*node))
+    }
+}
+
+/// A bearing whose temperatures were followed.
+pub(crate) struct Followed<'a> {
+    /// It before the run.
+    pub heated: Heated<'a>,
     /// What became of it.
     pub warmth: &'a Warmth,
     /// As which it was made last; none where nothing has moved.
@@ -27,197 +65,192 @@ pub(crate) struct Followed<'a> {
     pub broken: Option<&'a (f64, String)>,
 }
 
-impl<'a> Followed<'a> {
-    fn follows(&self) -> Option<Follows> {
-        Follows::of(self.given, self.bearing)
+impl Followed<'_> {
+    /// Smallest diametral clearance, m.
+    fn smallest_clearance(&self) -> f64 {
+        let at_start = self.heated.bearing.operating_diametral_clearance;
+        let (nodes, speed) = (&self.warmth.temperatures, self.warmth.spin());
+        let follows = self.heated.follows();
+        let at_end = follows.map(|follows| follows.clearance(nodes, speed));
+        let least = self.state.map_or(at_start, |state| state.least);
+        at_end.into_iter().fold(least.min(at_start), f64::min)
     }
-
-    /// Whether its clearance follows.
-    fn closes(&self) -> bool {
-        (self.follows().iter()).any(|follows| follows.closes(self.bearing))
+    /// When the clearance closed, s.
+    fn closing_time(&self) -> Result<f64, String> {
+        let why = match self.heated.bearing.operating_diametral_clearance < 0.0 {
+            true => "the balls are preloaded from the start",
+            false => "the bearing stays open",
+        };
+        (self.state.and_then(|state| state.closed)).ok_or_else(|| why.to_string())
     }
-
-    /// The nodes that are there: a full complement has no cage.
-    fn nodes(&self) -> impl Iterator<Item = (usize, &'static str)> {
-        (NODES.into_iter().enumerate()).filter(|(node, _)| self.part.network.has(*node))
+    /// The largest rate at which a disturbance of the temperatures grows, 1/s.
+    fn peak_growth(&self) -> Result<f64, String> {
+        let why = match self.heated.part.losses {
+            Some(_) => "the balls are not preloaded",
+            None => "only Palmgren's law says how a preload brakes",
+        };
+        let largest = self.warmth.growth.largest.map(|largest| largest.value);
+        largest.ok_or_else(|| why.to_string())
+    }
+    /// Heat that the bodies and the contact films keep, J.
+    fn stored(&self) -> f64 {
+        let bodies = self.heated.part.stored(&self.warmth.temperatures);
+        bodies.iter().sum::<f64>() + self.warmth.in_films
+    }
+    /// Heat made and not found again, over the heat made.
+    fn residual(&self) -> Result<f64, String> {
+        let left = self.warmth.made - self.stored() - self.warmth.given;
+        relative(left.abs(), self.warmth.made)
+    }
+    /// Heats made in, kept in and given to the surroundings by a node, J.
+    fn heats(&self, node: usize) -> [f64; 3] {
+        let made = self.warmth.flows.iter().map(|kind| kind[node]).sum();
+        let kept = self.heated.part.stored(&self.warmth.temperatures)[node];
+        [made, kept, self.warmth.given_from[node]]
+    }
+    /// What the bearing made over the nodes, by kinds, J: those of which it made any.
+    fn flows(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let all = kinds().zip(&self.warmth.flows);
+        let made = all.filter(|(_, flow)| flow.iter().any(|heat| *heat != 0.0));
+        made.map(|(kind, flow)| (kind, flow.to_vec())).collect()
+    }
+    /// Of a node with a limit, °C.
+    fn limited(&self, node: usize, limit: f64) -> Limited {
+        let held = self.warmth.held.as_deref();
+        let held = held.filter(|held| held.taken[node] > 0.0);
+        Limited {
+            start: self.heated.part.start,
+            peak: self.warmth.peaks[node].0,
+            limit,
+            passed: self.warmth.passed[node],
+            taken: held.map(|held| [held.most[node], held.taken[node]]),
+        }
+    }
+    /// Ends of the spans in which nodes are held, s, and the powers that are taken from each then, W.
+    fn held_course(&self) -> &[(f64, OfNodes)] {
+        self.warmth.held.as_ref().map_or(&[], |held| &held.course)
+    }
+    /// Powers to take over these spans from nodes that must be held, W.
+    fn powers_to_take(&self) -> Vec<(&'static str, Vec<f64>)> {
+        let held = self.warmth.held.as_deref();
+        let nodes = self.heated.nodes();
+        let needy = nodes.filter(|(node, _)| held.is_some_and(|held| held.taken[*node] > 0.0));
+        let course = self.held_course().iter();
+        let powers = |node: usize| course.clone().map(|(_, all)| all[node]).collect();
+        needy.map(|(node, name)| (name, powers(node))).collect()
     }
 }
 
 /// Names the results of a bearing.
-pub(crate) fn name(followed: &Followed, list: &mut List) {
-    let warmth = followed.warmth;
-    for (node, name) in followed.nodes() {
-        let (peak, _) = warmth.peaks[node];
-        let name = format!("peak_{name}_temperature");
-        list.number(&name, "K", Ok(peak + ICE_POINT), &PEAK);
+pub(crate) fn name(list: &mut List, setup: &Heated, run: Option<&Followed>) {
+    for (node, name) in setup.nodes() {
+        let peak = run.map(|run| run.warmth.peaks[node].0 + ICE_POINT);
+        list.named(&[name], |list| peaks(list, &(), peak.as_ref()));
     }
-    limits(followed, list);
-    let stored_in = followed.part.stored(&warmth.temperatures);
-    let stored: f64 = stored_in.iter().sum::<f64>() + warmth.in_films;
-    if followed.closes() {
-        let at_start = followed.bearing.operating_diametral_clearance;
-        let at_end = followed.follows();
-        let at_end =
-            (at_end.iter()).map(|follows| follows.clearance(&warmth.temperatures, warmth.spin()));
-        let least = followed.state.map_or(at_start, |state| state.least);
-        let least = at_end.fold(least.min(at_start), f64::min);
-        list.number("smallest_clearance", "m", Ok(least), &CLEARANCE);
-        let closed = followed.state.and_then(|state| state.closed);
-        let why = match at_start < 0.0 {
-            true => "the balls are preloaded from the start",
-            false => "the bearing stays open",
-        };
-        list.awaited(
-            "closing_time",
-            closed.ok_or_else(|| why.to_string()),
-            &CLEARANCE,
-        );
-        let growth = warmth.growth.largest.map(|largest| largest.value);
-        let growth = growth.ok_or_else(|| {
-            match followed.part.losses {
-                Some(_) => "the balls are not preloaded",
-                None => "only Palmgren's law says how a preload brakes",
-            }
-            .to_string()
-        });
-        list.peak_growth(growth);
-    }
-    list.number("heat_made", "J", Ok(warmth.made), &HEAT);
-    list.number("stored_heat", "J", Ok(stored), &HEAT);
-    if warmth.in_films != 0.0 {
-        list.number("stored_heat_in_films", "J", Ok(warmth.in_films), &FILMS);
-    }
-    list.number("heat_to_surroundings", "J", Ok(warmth.given), &HEAT);
-    let left = warmth.made - stored - warmth.given;
-    list.number(
-        "relative_heat_residual",
-        "1",
-        relative(left.abs(), warmth.made),
-        &RESIDUAL,
-    );
-    let made_in = |node: usize| warmth.flows.iter().map(|kind| kind[node]).sum();
-    for (node, _) in followed.nodes() {
-        list.node_heats(
-            "",
-            node,
-            [made_in(node), stored_in[node], warmth.given_from[node]],
-        );
-    }
-    list.conductances("", warmth.passes);
-    // what this bearing never makes is not listed
-    for (kind, flow) in kinds().zip(&warmth.flows) {
-        if flow.iter().any(|heat| *heat != 0.0) {
-            list.heat_by_node("", kind, flow);
+    for (node, name) in setup.nodes() {
+        if let Some(at) = setup.part.limits[node] {
+            let limited = run.map(|run| run.limited(node, at));
+            list.named(&[name], |list| limit(list, &(), limited.as_ref()));
         }
     }
+    let times = run.map(|run| run.held_course().iter().map(|(time, _)| *time).collect());
+    held_times(list, &(), times.as_ref());
+    list.each_found(run.map(Followed::powers_to_take), powers_to_take);
+    totals(list, setup, run);
+    for (node, name) in setup.nodes() {
+        let heats = run.map(|run| run.heats(node));
+        list.named(&[name], |list| node_heats(list, &node, heats.as_ref()));
+    }
+    conductances(list, run.map(|run| run.warmth.passes));
+    list.each_found(run.map(Followed::flows), heat_by_node);
 }
 
-/// When nodes passed their limits, and what had to be taken from them to hold those.
-fn limits(followed: &Followed, list: &mut List) {
-    let warmth = followed.warmth;
-    let held = warmth.held.as_deref();
-    for (node, name) in followed.nodes() {
-        let Some(limit) = followed.part.limits[node] else {
-            continue;
-        };
-        let taken = held.filter(|held| held.taken[node] > 0.0);
-        let taken = taken.map(|held| [held.most[node], held.taken[node]]);
-        let warmed = Warmed {
-            start: followed.part.start,
-            peak: warmth.peaks[node].0,
-            limit,
-        };
-        list.limit("", name, &warmed, warmth.passed[node], taken);
-    }
-    let spans = || held.iter().flat_map(|held| &held.course);
-    list.held_times(spans().map(|(time, _)| *time).collect());
-    for (node, name) in followed.nodes() {
-        if held.is_some_and(|held| held.taken[node] > 0.0) {
-            let powers = spans().map(|(_, powers)| powers[node]).collect();
-            list.powers_to_take("", name, powers);
-        }
-    }
-}
-
-/// How warm a node with a limit became, °C.
-pub(crate) struct Warmed {
+/// A node with a limit, °C.
+pub(crate) struct Limited {
     pub start: f64,
     pub peak: f64,
     pub limit: f64,
+    /// When it passes the limit, s.
+    pub passed: Option<f64>,
+    /// The largest power, W, and all the heat, J, to be taken to hold it.
+    pub taken: Option<[f64; 2]>,
 }
 
-impl List {
-    /// Of a node with a limit: how near it comes, and when it passes it, s; the largest power, W, and all the heat, J, to be taken to
-    /// hold it.
-    pub(crate) fn limit(
-        &mut self,
-        bearing: &str,
-        node: &str,
-        warmed: &Warmed,
-        passed: Option<f64>,
-        taken: Option<[f64; 2]>,
-    ) {
-        let Warmed { start, peak, limit } = warmed;
-        let of = |words: &str| of_part(bearing, &format!("{node}_{words}"));
-        let index = (peak - start) / (limit - start);
-        self.number(&of("temperature_index"), "1", Ok(index), &NEAR);
-        let never = || format!("it stays {:.1} K below its limit", limit - peak);
-        let passed = passed.ok_or_else(never);
+impl Limited {
+    fn passed(&self) -> Result<f64, String> {
+        let left = self.limit - self.peak;
+        (self.passed).ok_or_else(|| format!("it stays {left:.1} K below its limit"))
+    }
+    fn to_take(&self, which: usize) -> Result<f64, String> {
         let cooled = || "bodies beside it that are held keep it below its limit".to_string();
-        let why = passed.clone().err().unwrap_or_else(cooled);
-        let part = |which: usize| taken.map(|taken| taken[which]).ok_or_else(|| why.clone());
-        self.awaited(&of("limit_time"), passed, &LIMIT);
-        self.number(&of("heat_to_take"), "W", part(0), &TAKE);
-        self.number(&of("energy_to_take"), "J", part(1), &TAKE);
-    }
-    /// The largest rate at which a disturbance of the temperatures grows, 1/s.
-    pub(crate) fn peak_growth(&mut self, rate: Result<f64, String>) {
-        self.number("peak_growth_rate", "1/s", rate, &GROWTH);
-    }
-    /// The instants of those powers, s.
-    pub(crate) fn held_times(&mut self, times: Vec<f64>) {
-        self.push("held_times", "s", Value::List(times), &TAKE);
-    }
-    /// Power that must be taken from a node over these instants, W.
-    pub(crate) fn powers_to_take(&mut self, bearing: &str, node: &str, powers: Vec<f64>) {
-        let name = of_part(bearing, &format!("{node}_powers_to_take"));
-        self.push(&name, "W", Value::List(powers), &TAKE);
-    }
-    /// Heats made in, kept in and given to the surroundings by a node of a bearing, J.
-    pub(crate) fn node_heats(&mut self, bearing: &str, node: usize, [made, kept, given]: [f64; 3]) {
-        let mut add = |words: &str, heat: f64| {
-            let name = format!("{words}_{}", NODES[node]);
-            self.number(&of_part(bearing, &name), "J", Ok(heat), &AT_NODE);
-        };
-        add("heat_made_in", made);
-        add("stored_heat_in", kept);
-        if GROUNDS.contains(&node) {
-            add("heat_to_surroundings_from", given);
-        }
-    }
-    /// Least and largest conductance of each pass of a network, W/K.
-    pub(crate) fn conductances(&mut self, bearing: &str, passes: [[f64; 2]; PASSES.len()]) {
-        for (name, both) in PASSES.into_iter().zip(passes) {
-            let name = of_part(bearing, &format!("{name}_conductances"));
-            self.push(&name, "W/K", Value::List(both.to_vec()), &PASSED);
-        }
-    }
-    /// Heat of a kind over the nodes, J.
-    pub(crate) fn heat_by_node(&mut self, bearing: &str, kind: &str, flow: &[f64]) {
-        let name = of_part(bearing, &format!("{kind}_heat_by_node"));
-        self.push(&name, "J", Value::List(flow.to_vec()), &BY_NODE);
+        let taken = self.taken.map(|taken| taken[which]);
+        taken.ok_or_else(|| self.passed().err().unwrap_or_else(cooled))
     }
 }
 
-/// Names the work of rings that close on their balls, J.
-pub(crate) fn work_of_rings(work: f64, list: &mut List) {
-    list.number("work_of_warm_rings", "J", Ok(work), &RINGS);
+results! {
+    fn peaks(setup: &(), peak: &f64) {
+        "peak_*_temperature": number "K", PEAK, "highest temperature of this body" => *peak;
+    }
+    /// How near a node comes to its limit, and what holds it there.
+    pub(crate) fn limit(setup: &(), run: &Limited) {
+        "*_temperature_index": number "1", NEAR, "rise over that of the limit" => (run.peak - run.start) / (run.limit - run.start);
+        "*_limit_time": instant "s", LIMIT, "first time above the limit" => run.passed();
+        "*_heat_to_take": number "W", TAKE, "largest power to be taken to hold the limit" => run.to_take(0);
+        "*_energy_to_take": number "J", TAKE, "heat to be taken to hold the limit" => run.to_take(1);
+    }
+    /// Instants of the powers that are taken from held nodes.
+    pub(crate) fn held_times(setup: &(), times: &Vec<f64>) {
+        "held_times": list "s", TAKE, "instants of the powers to take" => times.clone();
+    }
+    /// Power that is taken from a held node.
+    pub(crate) fn powers_to_take(setup: &(), powers: &Vec<f64>) {
+        "*_powers_to_take": list "W", TAKE, "power to be taken to hold the limit, over held_times" => powers.clone();
+    }
+    fn totals(setup: &Heated, run: &Followed) {
+        "smallest_clearance": number "m", CLEARANCE, "smallest diametral clearance" when setup.closes() => run.smallest_clearance();
+        "closing_time": instant "s", CLEARANCE, "first time without clearance" when setup.closes() => run.closing_time();
+        "peak_growth_rate": number "1/s", GROWTH, "largest growth rate of a disturbance of the temperatures" when setup.closes() => run.peak_growth();
+        "heat_made": number "J", HEAT, "heat that losses make" => run.warmth.made;
+        "stored_heat": number "J", HEAT, "heat stored in all bodies" => run.stored();
+        "stored_heat_in_films": number "J", FILMS, "part of it in the contact films" when setup.has_films() => run.warmth.in_films;
+        "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" => run.warmth.given;
+        "relative_heat_residual": number "1", RESIDUAL, "residual of the heat balance over the heat made" => run.residual();
+    }
+    /// Heats made in, kept in and given to the surroundings by a node, J.
+    pub(crate) fn node_heats(node: &usize, run: &[f64; 3]) {
+        "heat_made_in_*": number "J", AT_NODE, "heat that losses make in this body" => run[0];
+        "stored_heat_in_*": number "J", AT_NODE, "heat stored in this body" => run[1];
+        "heat_to_surroundings_from_*": number "J", AT_NODE, "heat that this body gives to the surroundings" when GROUNDS.contains(node) => run[2];
+    }
+}
+
+/// Least and largest conductance of each pass of a network, W/K.
+pub(crate) fn conductances(list: &mut List, passes: Option<[[f64; 2]; PASSES.len()]>) {
+    for (k, name) in PASSES.into_iter().enumerate() {
+        let both = passes.map(|passes| passes[k]);
+        list.named(&[name], |list| conductance(list, &(), both.as_ref()));
+    }
+}
+
+results! {
+    fn conductance(setup: &(), both: &[f64; 2]) {
+        "*_conductances": list "W/K", PASSED, "least and largest conductance of this path" => both.to_vec();
+    }
+    /// Heat of one loss.
+    pub(crate) fn heat_by_node(setup: &(), flow: &Vec<f64>) {
+        "*_heat_by_node": list "J", BY_NODE, "heat of this loss in each body" => flow.clone();
+    }
+    /// Work of rings that close on their balls.
+    pub(crate) fn work_of_rings(setup: &(), work: &f64) {
+        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" => *work;
+    }
 }
 
 /// Temperatures over time.
 pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
-    let (part, warmth) = (followed.part, followed.warmth);
-    for (node, name) in followed.nodes() {
+    let (part, warmth) = (followed.heated.part, followed.warmth);
+    for (node, name) in followed.heated.nodes() {
         let words = name.replace('_', " ");
         table.add(
             &format!("{name}.temperature"),
@@ -230,8 +263,8 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
         let nodes = 0..NODES.len();
         nodes.map(|node| warmth.at(part, node, time)).collect()
     };
-    let bearing = followed.bearing;
-    let tilts = (followed.follows()).filter(|follows| follows.tilts(bearing));
+    let bearing = followed.heated.bearing;
+    let tilts = (followed.heated.follows()).filter(|follows| follows.tilts(bearing));
     if let Some(follows) = tilts {
         table.add(
             "bearing.contact_angle",
@@ -240,7 +273,7 @@ pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
             move |row| follows.contact_angle(bearing, &nodes_at(row.time)),
         );
     }
-    if let (true, Some(follows)) = (followed.closes(), followed.follows()) {
+    if let (true, Some(follows)) = (followed.heated.closes(), followed.heated.follows()) {
         let run = table.run;
         table.add(
             "bearing.clearance",
@@ -265,7 +298,7 @@ pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     list.extend(runs_away(followed).or_else(|| closed(followed)));
     list.extend(loose(followed));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
-    let oil = followed.part.oil.zip(followed.warmth.beyond_data);
+    let oil = followed.heated.part.oil.zip(followed.warmth.beyond_data);
     list.extend(oil.map(|(oil, found)| {
         let error = oil.error_at(found.farthest + ICE_POINT);
         (error, beyond_data(&oil, &found))
@@ -277,7 +310,7 @@ pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
 fn runs_away(followed: &Followed) -> Option<(f64, Warning)> {
     let growth = &followed.warmth.growth;
     let ((first, nodes), largest) = (growth.runs_away?, growth.largest?);
-    let changes = followed.follows()?.changes(&nodes);
+    let changes = followed.heated.follows()?.changes(&nodes);
     Some((largest.value, away([first, largest], growth.calm, changes)))
 }
 
@@ -304,16 +337,16 @@ fn loose(followed: &Followed) -> Option<(f64, Warning)> {
 
 /// What of a bearing does not follow its temperatures, though it is asked to.
 fn not_followed(followed: &Followed) -> Option<Warning> {
-    let feedback = followed.given.heat.feedback;
+    let feedback = followed.heated.given.heat.feedback;
     let text = match followed.broken {
         Some((time, why)) => format!(
             "From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}."
         ),
-        None if feedback == Feedback::Full && !followed.closes() => "The contact angle follows the temperatures, and the preload does not: it \
+        None if feedback == Feedback::Full && !followed.heated.closes() => "The contact angle follows the temperatures, and the preload does not: it \
              is that of springs. A rigid one rises as the inner ring warms."
             .to_string(),
         None if feedback != Feedback::None
-            && !(followed.follows().iter()).any(|follows| follows.thins(followed.bearing)) =>
+            && !(followed.heated.follows().iter()).any(|follows| follows.thins(followed.heated.bearing)) =>
         {
             "No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their \
              viscosities, are not given, or its law knows no viscosity."
@@ -325,9 +358,9 @@ fn not_followed(followed: &Followed) -> Option<Warning> {
 }
 
 fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
-    let hottest = followed.nodes().filter_map(|(node, name)| {
+    let hottest = followed.heated.nodes().filter_map(|(node, name)| {
         let (peak, time) = followed.warmth.peaks[node];
-        let above = peak - followed.part.limits[node]?;
+        let above = peak - followed.heated.part.limits[node]?;
         (above > 0.0).then_some((above, name, peak, time))
     });
     let hottest = hottest.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -369,12 +402,12 @@ const TAKE: Origin = Origin {
     valid: "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
             of a run-out all bearings together",
 };
-const GROWTH: Origin = Origin {
+pub(crate) const GROWTH: Origin = Origin {
     law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G − (∂G/∂T) T); above 0 a disturbance grows, 1/it is the time",
     source: "crates/thermal/src/steady_speed.rs; book/src/theory/heat.md",
     valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
 };
-const RINGS: Origin = Origin {
+pub(crate) const RINGS: Origin = Origin {
     law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",
     source: "content of the ledger before and after, crates/auxbear/src/simulate/bearing/feedback.rs",
     valid: "a source of the ledger; the heat that expands the rings is not made smaller by it",

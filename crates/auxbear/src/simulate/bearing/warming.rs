@@ -1,8 +1,9 @@
 //! How warm the one bearing of a run becomes, and what of it follows: of a spin-up, and of a test on a rig.
 
+use crate::result::list::List;
 use crate::scenario::{Bearing, Warm};
 use crate::simulate::bearing::feedback::{FollowedBearing, Renewals, State};
-use crate::simulate::bearing::warm::Followed;
+use crate::simulate::bearing::warm::{self, Followed, Heated};
 use model::bearing::{self, BearingConstants};
 use model::bearing_heat::{Seen, WarmBearing, Warmth};
 use model::heats::HEATS;
@@ -91,9 +92,7 @@ impl Warms for RigMachine {
 
 /// The network of a bearing while it runs.
 pub(crate) struct Warming<'a, M> {
-    given: &'a Warm,
-    bearing: &'a Bearing,
-    part: &'a WarmBearing,
+    heated: Heated<'a>,
     warmth: Warmth,
     followed: Option<FollowedBearing>,
     state: Option<State>,
@@ -109,13 +108,11 @@ impl<'a, M: Warms> Warming<'a, M> {
         bearing: &'a Bearing,
         part: Option<&'a WarmBearing>,
     ) -> Option<Self> {
-        let (given, part) = (given?, part?);
+        let heated = Heated::of(given, bearing, part)?;
         Some(Warming {
-            given,
-            bearing,
-            part,
-            warmth: Warmth::new(part, true),
-            followed: FollowedBearing::of(Some(given), bearing, Vec2::zero()),
+            heated,
+            warmth: Warmth::new(heated.part, true),
+            followed: FollowedBearing::of(given, bearing, Vec2::zero()),
             state: None,
             renewals: Renewals::default(),
             broken: None,
@@ -154,7 +151,7 @@ impl<'a, M: Warms> Warming<'a, M> {
             taken: None,
             impulse: None,
         };
-        self.warmth.take(self.part, &seen);
+        self.warmth.take(self.heated.part, &seen);
     }
 
     /// The machine at these temperatures; none where no law holds there.
@@ -181,12 +178,20 @@ impl<'a, M: Warms> Warming<'a, M> {
         }
     }
 
+    /// Names what it became, and the work of its rings; before a run what these are.
+    pub fn name(list: &mut List, heated: Option<Heated>, run: Option<&Self>) {
+        let Some(heated) = heated else {
+            return;
+        };
+        warm::name(list, &heated, run.map(Warming::followed).as_ref());
+        let work = run.map(|run| run.renewals.work_until(f64::INFINITY));
+        warm::work_of_rings(list, &(), work.as_ref());
+    }
+
     /// What has become of it.
     pub fn followed(&self) -> Followed<'_> {
         Followed {
-            given: self.given,
-            bearing: self.bearing,
-            part: self.part,
+            heated: self.heated,
             warmth: &self.warmth,
             state: self.state,
             broken: self.broken.as_ref(),

@@ -17,15 +17,21 @@ pub(crate) mod warnings;
 use crate::options::Options;
 use crate::problem::Problem;
 use crate::result::list::List;
-use crate::result::outcome::{Column, Members, Outcome, Picture, Stop, Work};
+use crate::result::outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 use crate::scenario::{CoastDown, Scenario};
-use crate::simulate::coast_down::build::{Built, ICE_POINT};
+use crate::simulate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::simulate::coast_down::course::{BEYOND, Course};
-use crate::simulate::coast_down::ran::Ran;
 use crate::simulate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
 use std::time::Instant;
 use thermal::coast_down::Endless;
+
+/// The results of a run-out, without values.
+pub(crate) fn results(built: &Built) -> Vec<Quantity> {
+    let mut list = List::default();
+    quantities::name(&mut list, &built.parts, None);
+    list.quantities
+}
 
 /// Computes it and names what it finds.
 pub(crate) fn run(
@@ -69,9 +75,9 @@ pub(crate) fn run(
         Ok(ran) => {
             outcome.stop = stop(&ran.free);
             let mut list = List::default();
-            quantities::name(&ran, &mut list);
-            outcome.quantities = list.ended_at(outcome.stop.time);
-            outcome.history = history(&ran);
+            quantities::name(&mut list, &built.parts, Some(&ran));
+            outcome.quantities = list.ended_at(Some(outcome.stop.time));
+            outcome.history = history(&built.parts, &ran.free.rows);
             outcome.warnings = warnings::of(&ran);
             outcome.work.steps = ran.free.state.steps as u64;
         }
@@ -133,9 +139,8 @@ pub(crate) fn stop(course: &Course) -> Stop {
     Stop { reason, time, text }
 }
 
-/// Columns over time.
-pub(crate) fn history(ran: &Ran) -> Vec<Column> {
-    let rows = &ran.free.rows;
+/// Columns over time of these bearings.
+pub(crate) fn history(parts: &[Part], rows: &[Row]) -> Vec<Column> {
     let mut columns = Vec::new();
     let mut add = |name: String, unit, meaning: String, value: &dyn Fn(&Row) -> f64| {
         columns.push(Column {
@@ -154,8 +159,8 @@ pub(crate) fn history(ran: &Ran) -> Vec<Column> {
         "speed of rotor and inner races".into(),
         &|row| row.speed,
     );
-    for (k, part) in ran.parts() {
-        for node in ran.nodes(k) {
+    for (k, part) in parts.iter().enumerate() {
+        for node in part.nodes(k) {
             let name = node.name();
             add(
                 of_part(&part.name, &format!("{name}.temperature")),
@@ -186,7 +191,7 @@ pub(crate) fn history(ran: &Ran) -> Vec<Column> {
         "heat made in all bearings".into(),
         &|row| row.speed * (row.moments[0] + row.moments[1]),
     );
-    for (k, part) in ran.parts() {
+    for (k, part) in parts.iter().enumerate() {
         add(
             of_part(&part.name, "bearing.clearance"),
             "m",

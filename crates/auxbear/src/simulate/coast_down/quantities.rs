@@ -1,13 +1,17 @@
 //! Every named result of a run-out with its law, source and valid range.
 
-use crate::result::list::{List, NOT_GIVEN, Origin, relative};
-use crate::simulate::bearing::races as shared;
-use crate::simulate::bearing::warm::Warmed;
+use crate::result::list::results;
+use crate::result::list::{List, Origin, not_given, relative};
+use crate::simulate::bearing::races::{self as shared, BY_POINT, Life, no_rating, used_by};
+use crate::simulate::bearing::severity::{INDENTATION_INDEX, indentation_index};
+use crate::simulate::bearing::warm::{
+    GROWTH, Limited, conductances, heat_by_node, held_times, limit, node_heats, powers_to_take,
+};
 use crate::simulate::coast_down::build::{ICE_POINT, Part, turns};
-use crate::simulate::coast_down::ran::Ran;
+use crate::simulate::coast_down::course::Course;
+use crate::simulate::coast_down::ran::{NodeOf, Ran};
 use crate::simulate::coast_down::rows::{BallsSeen, End, Row, RowOfBearing};
-use model::system::layout::of_part;
-use physics::life::{RatedBearing, add_points, passages_per_turn, repetitions};
+use physics::life::{RatedBearing, add_points, passages_per_turn};
 use std::f64::consts::TAU;
 use thermal::bearing_network::{INNER_RACE, LUBRICANT, NODES, OUTER_RACE, PASSES};
 use thermal::losses::Losses;
@@ -16,38 +20,235 @@ use thermal::warm_machine::{OF_BEARING, by_kind};
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
 
-/// Names the results.
-pub(crate) fn name(ran: &Ran, list: &mut List) {
-    motion(ran, list);
-    heats(ran, list);
-    for (k, _) in ran.parts() {
-        temperatures(ran, k, list);
+/// Names the results of a run-out on these bearings; without a run those of any.
+pub(crate) fn name(list: &mut List, parts: &[Part], run: Option<&Ran>) {
+    motion(list, &(), run);
+    for (k, part) in parts.iter().enumerate() {
+        list.of_part(&part.name, |list| heats(list, part, k, run));
     }
-    held(ran, list);
-    for (k, part) in ran.parts() {
-        clearance(ran, k, list);
-        let growth = ran.free.rows.iter().map(|row| row.growth);
+    balance(list, &(), run);
+    for (k, part) in parts.iter().enumerate() {
+        list.of_part(&part.name, |list| temperatures(list, part, k, run));
+    }
+    let times = |held: &Course| held.each(|row| row.time);
+    let held = run.map(|run| run.held.as_ref().map_or(Vec::new(), times));
+    held_times(list, &(), held.as_ref());
+    for (k, part) in parts.iter().enumerate() {
+        let powers = run.map(|run| run.powers_to_take(part, k));
+        list.of_part(&part.name, |list| list.each_found(powers, powers_to_take));
+    }
+    for (k, part) in parts.iter().enumerate() {
+        list.of_part(&part.name, |list| clearance(list, &(k, part), run));
         if k == 0 {
-            let most = growth.fold(f64::NEG_INFINITY, f64::max);
-            list.peak_growth(Ok(most));
+            growth(list, &(), run);
         }
-        life(ran, k, part, list);
+        let taken = run.and_then(|run| run.life(k, part));
+        list.of_part(&part.name, |list| {
+            viscosity(list, &(k, part), run);
+            life(list, part, taken.as_ref());
+        });
     }
 }
 
-fn motion(ran: &Ran, list: &mut List) {
-    let free = &ran.free;
-    let stands = match free.end {
-        End::Stands => Ok(free.state.time),
-        _ => Err("the rotor did not come to stand in this run".to_string()),
-    };
-    list.awaited("stop_time", stands, &STOP);
-    let all = pairs(&free.rows).map(|(_, _, turned)| turned).sum();
-    list.number("turns", "", Ok(all), &TURNS);
-    let first = &free.rows[0].moments;
-    list.number("start_moment", "N m", Ok(first.iter().sum()), &MOMENT);
-    let power = first.iter().sum::<f64>() * free.rows[0].speed;
-    list.number("start_power", "W", Ok(power), &MOMENT);
+fn heats(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
+    for node in part.nodes(k) {
+        let heats = run.map(|run| run.heats(part, node));
+        list.named(&[node.name()], |list| {
+            node_heats(list, &node.node, heats.as_ref())
+        });
+    }
+    conductances(list, run.map(|run| run.conductances(part, k)));
+    list.each_found(run.map(|run| run.heats_by_node(k)), heat_by_node);
+}
+
+fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
+    for node in part.nodes(k) {
+        let peak = run.map(|run| run.peak(node));
+        list.named(&[node.name()], |list| {
+            peaks(list, &(), peak.as_ref());
+            if let Some(at) = part.warm.limits()[node.node] {
+                limit(
+                    list,
+                    &(),
+                    run.map(|run| run.limited(part, node, at)).as_ref(),
+                );
+            }
+        });
+    }
+}
+
+results! {
+    fn motion(setup: &(), run: &Ran) {
+        "stop_time": instant "s", STOP, "time until the rotor stands" => match run.free.end {
+            End::Stands => Ok(run.free.state.time),
+            _ => Err("the rotor did not come to stand in this run".to_string()),
+        };
+        "turns": number "", TURNS, "turns of the rotor" => pairs(&run.free.rows).map(|(_, _, turned)| turned).sum::<f64>();
+        "start_moment": number "N m", MOMENT, "moment of all bearings and the gas at the start" => run.start_moment();
+        "start_power": number "W", MOMENT, "power of this moment" => run.start_moment() * run.free.rows[0].speed;
+        "rotor_energy": number "J", ENERGY, "kinetic energy of the rotor at the start" => run.built.energy;
+        "speed_dependent_heat": number "J", HEAT, "heat of the speed-dependent moments" => by_kind(&run.free.state.heats)[0];
+        "load_dependent_heat": number "J", HEAT, "heat of the load-dependent moments" => by_kind(&run.free.state.heats)[1];
+        "windage_heat": number "J", HEAT, "heat of the gas and of what else brakes the rotor" => by_kind(&run.free.state.heats)[2];
+        "stored_heat": number "J", HEAT, "heat stored in all bodies" => run.free.stored;
+    }
+    fn balance(setup: &(), run: &Ran) {
+        "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" => run.free.state.given;
+        "relative_heat_residual": number "1", RESIDUAL, "residual of the heat balance over the heat made" => {
+            let [speed_dependent, load_dependent, _] = by_kind(&run.free.state.heats);
+            let made = speed_dependent + load_dependent;
+            relative((made - run.free.stored - run.free.state.given).abs(), made)
+        };
+    }
+    fn peaks(setup: &(), peak: &(f64, f64)) {
+        "peak_*_temperature": number "K", PEAK, "highest temperature of this body" => peak.0 + ICE_POINT;
+        "peak_*_time": number "s", PEAK, "instant of this temperature" => peak.1;
+    }
+    fn clearance(of: &(usize, &Part), run: &Ran) {
+        "smallest_clearance": number "m", CLEARANCE, "smallest diametral clearance" => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
+        "closing_time": instant "s", CLEARANCE, "first time without clearance" => {
+            let closes = run.first(|row| -row.bearings[of.0].clearance);
+            closes.ok_or_else(|| "the bearing stays open".to_string())
+        };
+        "peak_ball_load": number "N", BALLS, "largest load of a ball" => run.most(of.0, RowOfBearing::largest_ball_load);
+        "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" => {
+            indentation_index(run.most(of.0, |row| row.largest_pressure), of.1.pressure_limit)
+        };
+    }
+    fn growth(setup: &(), run: &Ran) {
+        "peak_growth_rate": number "1/s", GROWTH, "largest growth rate of a disturbance of the temperatures" => {
+            run.free.rows.iter().map(|row| row.growth).fold(f64::NEG_INFINITY, f64::max)
+        };
+    }
+    fn viscosity(of: &(usize, &Part), run: &Ran) {
+        "smallest_viscosity_ratio": number "1", KAPPA, "viscosity ratio exceeded in 99 % of the turns" => {
+            let ratios = run.free.rows.iter().map(|row| viscosity_ratio(of.0, of.1, row));
+            least_of_turns(ratios.zip(turned(&run.free.rows)).collect())
+        };
+    }
+    /// What a run-out takes of the life of a bearing.
+    fn life(part: &Part, run: &Life) {
+        "life_share": number "1", LIFE, "share of the rating life that this run-out takes", unless no_rating(part.rating()) => run.share;
+        "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant", unless no_ratings(part) => {
+            run.with_lubricant.clone()
+        };
+        "inner_life_share_by_point": list "1", BY_POINT, "share of life at each point of the inner ring" when part.rating().is_some() => run.points[0].clone();
+        "outer_life_share_by_point": list "1", BY_POINT, "share of life at each point of the outer ring" when part.rating().is_some() => run.points[1].clone();
+        "runs_until_one_percent_fail": number "1", RUNS, "run-outs until 1 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.99);
+        "runs_until_ten_percent_fail": number "1", RUNS, "run-outs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
+        "runs_until_half_fail": number "1", RUNS, "run-outs until half of the bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
+    }
+}
+
+impl Part {
+    fn rating(&self) -> Option<f64> {
+        self.warm.dynamic_load_rating
+    }
+    /// Dynamic and static load rating, N.
+    fn ratings(&self) -> Option<(f64, f64)> {
+        self.rating().zip(self.warm.static_load_rating)
+    }
+}
+
+fn no_ratings(part: &Part) -> Option<String> {
+    let keys = "bearing.dynamic_load_rating or static_load_rating";
+    not_given(keys, part.ratings())
+}
+
+impl Ran<'_> {
+    /// The largest of a value of the rows of a bearing.
+    fn most(&self, k: usize, of: fn(&RowOfBearing) -> f64) -> f64 {
+        self.rows(k).map(of).fold(0.0, f64::max)
+    }
+    /// What it takes of the life of a bearing.
+    fn life(&self, k: usize, part: &Part) -> Option<Life> {
+        let points = used(self, k, part, part.rating()?, &|_, _| 1.0);
+        let factor = |still| move |row: &Row, load| life_factor(k, part, still, row, load);
+        let lubricated = (part.ratings())
+            .map(|(rating, still)| used(self, k, part, rating, &factor(still)))
+            .ok_or_else(|| no_ratings(part).unwrap_or_default());
+        Some(Life {
+            share: used_by(&points),
+            with_lubricant: lubricated.as_ref().map(used_by).map_err(String::clone),
+            points: lubricated.unwrap_or(points),
+            is_all: !self.free.end.leaves(),
+        })
+    }
+    /// Moment of all bearings and of what else brakes the rotor at the start, N m.
+    fn start_moment(&self) -> f64 {
+        self.free.rows[0].moments.iter().sum()
+    }
+    /// Heats made in, kept in and given to the surroundings by a node, J.
+    fn heats(&self, part: &Part, node: NodeOf) -> [f64; 3] {
+        let state = &self.free.state;
+        let rise = state.temperatures[node.place()] - self.built.warm_from[node.place()];
+        let kept = f64::from(self.built.sides) * part.network.capacities[node.node] * rise;
+        let [made, given] = [&state.at_nodes.made, &state.at_nodes.given];
+        [made[node.place()], kept, given[node.place()]]
+    }
+    /// Least and largest conductance of each pass of a bearing, W/K.
+    fn conductances(&self, part: &Part, k: usize) -> [[f64; 2]; PASSES.len()] {
+        let mut passes = [[f64::INFINITY, 0.0]; PASSES.len()];
+        for row in &self.free.rows {
+            let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
+            let own = &row.bearings[k];
+            let now = part.network.passes(own.landing, own.speed, temperatures);
+            for ([least, most], now) in passes.iter_mut().zip(now) {
+                (*least, *most) = (least.min(now), most.max(now));
+            }
+        }
+        passes
+    }
+    /// Heat of the losses of a bearing over its nodes, J; nothing after windows, whose heat is known by nodes alone.
+    fn heats_by_node(&self, k: usize) -> Vec<(&'static str, Vec<f64>)> {
+        if self.built.start.heats.iter().any(|heat| *heat != 0.0) {
+            return Vec::new();
+        }
+        let losses = self.built.losses(0.0);
+        let flow = |loss: usize| {
+            let share = |node| losses.share(loss, k * NODES.len() + node);
+            let heat = |node| self.free.state.heats[loss] * share(node);
+            (0..NODES.len()).map(heat).collect()
+        };
+        let first = OF_BEARING * k;
+        vec![
+            ("speed_dependent", flow(first)),
+            ("load_dependent", flow(first + 1)),
+        ]
+    }
+    /// Of a node with a limit, °C.
+    fn limited(&self, part: &Part, node: NodeOf, limit: f64) -> Limited {
+        let held = (self.held.as_ref()).filter(|held| held.taken[node.place()] > 0.0);
+        Limited {
+            start: part.warm.heat.start_temperature - ICE_POINT,
+            peak: self.peak(node).0,
+            limit,
+            passed: self.first(|row| row.temperatures[node.place()] - limit),
+            taken: held.map(|held| {
+                let most = held.powers(node).into_iter().fold(0.0, f64::max);
+                [most, held.taken[node.place()]]
+            }),
+        }
+    }
+    /// Powers to take over time from the nodes of a bearing that must be held, W.
+    fn powers_to_take(&self, part: &Part, k: usize) -> Vec<(&'static str, Vec<f64>)> {
+        let each = |held: &Course| {
+            let needy = part.nodes(k).filter(|node| held.taken[node.place()] > 0.0);
+            needy.map(|node| (node.name(), held.powers(node))).collect()
+        };
+        self.held.as_ref().map_or(Vec::new(), each)
+    }
+}
+
+impl Course {
+    /// A number of each of its rows.
+    fn each(&self, of: impl Fn(&Row) -> f64) -> Vec<f64> {
+        self.rows.iter().map(of).collect()
+    }
+    /// Power that is taken from a node over time, W.
+    fn powers(&self, node: NodeOf) -> Vec<f64> {
+        self.each(|row| row.taken[node.place()])
+    }
 }
 
 /// Turns of the rotor that each row stands for: half of those to its neighbours.
@@ -70,168 +271,6 @@ fn pairs(rows: &[Row]) -> impl Iterator<Item = (&Row, &Row, f64)> {
             turns(speed, pair[1].time - pair[0].time),
         )
     })
-}
-
-fn heats(ran: &Ran, list: &mut List) {
-    let free = &ran.free;
-    let heats = &free.state.heats;
-    let sides = f64::from(ran.built.sides);
-    list.number("rotor_energy", "J", Ok(ran.built.energy), &ENERGY);
-    // with what no law of a rolling bearing knows
-    let [speed_dependent, load_dependent, of_rotor] = by_kind(heats);
-    for (name, heat) in [
-        ("speed_dependent_heat", speed_dependent),
-        ("load_dependent_heat", load_dependent),
-        ("windage_heat", of_rotor),
-    ] {
-        list.number(name, "J", Ok(heat), &HEAT);
-    }
-    list.number("stored_heat", "J", Ok(free.stored), &HEAT);
-    for (k, part) in ran.parts() {
-        for node in ran.nodes(k) {
-            let before = ran.built.warm_from[node.place()];
-            let rise = free.state.temperatures[node.place()] - before;
-            let kept = sides * part.network.capacities[node.node] * rise;
-            let at = &free.state.at_nodes;
-            let [made, given] = [at.made[node.place()], at.given[node.place()]];
-            list.node_heats(&part.name, node.node, [made, kept, given]);
-        }
-        let mut passes = [[f64::INFINITY, 0.0]; PASSES.len()];
-        for row in &free.rows {
-            let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
-            let now =
-                (part.network).passes(row.bearings[k].landing, row.bearings[k].speed, temperatures);
-            for ([least, most], now) in passes.iter_mut().zip(now) {
-                (*least, *most) = (least.min(now), most.max(now));
-            }
-        }
-        list.conductances(&part.name, passes);
-        // windows have other losses, whose heat is known by nodes alone
-        if ran.built.start.heats.iter().any(|heat| *heat != 0.0) {
-            continue;
-        }
-        let losses = ran.built.losses(0.0);
-        for (loss, name) in ["speed_dependent", "load_dependent"]
-            .into_iter()
-            .enumerate()
-        {
-            let loss = OF_BEARING * k + loss;
-            let share = |node| losses.share(loss, k * NODES.len() + node);
-            let flow: Vec<f64> = (0..NODES.len())
-                .map(|node| heats[loss] * share(node))
-                .collect();
-            list.heat_by_node(&part.name, name, &flow);
-        }
-    }
-    list.number("heat_to_surroundings", "J", Ok(free.state.given), &HEAT);
-    let made = speed_dependent + load_dependent;
-    let left = made - free.stored - free.state.given;
-    list.number(
-        "relative_heat_residual",
-        "1",
-        relative(left.abs(), made),
-        &RESIDUAL,
-    );
-}
-
-fn temperatures(ran: &Ran, k: usize, list: &mut List) {
-    let part = &ran.built.parts[k].name;
-    for node in ran.nodes(k) {
-        let of = |words: &str| of_part(part, &words.replace('#', node.name()));
-        let (peak, at) = ran.peak(node);
-        list.number(&of("peak_#_temperature"), "K", Ok(peak + ICE_POINT), &PEAK);
-        list.number(&of("peak_#_time"), "s", Ok(at), &PEAK);
-        let Some(limit) = ran.limits[node.place()] else {
-            continue;
-        };
-        let passed = ran.first(|row| row.temperatures[node.place()] - limit);
-        let held = (ran.held.as_ref()).filter(|held| held.taken[node.place()] > 0.0);
-        let taken = held.map(|held| {
-            let rows = held.rows.iter();
-            let most = rows.map(|row| row.taken[node.place()]).fold(0.0, f64::max);
-            [most, held.taken[node.place()]]
-        });
-        let warmed = Warmed {
-            start: ran.built.parts[k].warm.heat.start_temperature - ICE_POINT,
-            peak,
-            limit,
-        };
-        list.limit(part, node.name(), &warmed, passed, taken);
-    }
-}
-
-/// The run-out whose nodes are held, which has times of its own.
-fn held(ran: &Ran, list: &mut List) {
-    let rows = || ran.held.iter().flat_map(|held| &held.rows);
-    let each = ran.parts().flat_map(|(k, _)| ran.nodes(k));
-    let needy = each.filter(|node| (ran.held.iter()).any(|held| held.taken[node.place()] > 0.0));
-    list.held_times(rows().map(|row| row.time).collect());
-    for node in needy {
-        let powers = rows().map(|row| row.taken[node.place()]).collect();
-        let part = &ran.built.parts[node.bearing].name;
-        list.powers_to_take(part, node.name(), powers);
-    }
-}
-
-fn clearance(ran: &Ran, k: usize, list: &mut List) {
-    let of = |words: &str| of_part(&ran.built.parts[k].name, words);
-    let least = ran.rows(k).map(|row| row.clearance);
-    let least = least.fold(f64::INFINITY, f64::min);
-    list.number(&of("smallest_clearance"), "m", Ok(least), &CLEARANCE);
-    let closes = ran.first(|row| -row.bearings[k].clearance);
-    let open = || "the bearing stays open".to_string();
-    list.awaited(&of("closing_time"), closes.ok_or_else(open), &CLEARANCE);
-    let most = |of: fn(&RowOfBearing) -> f64| ran.rows(k).map(of).fold(0.0, f64::max);
-    let load = most(RowOfBearing::largest_ball_load);
-    list.number(&of("peak_ball_load"), "N", Ok(load), &BALLS);
-    let part = &ran.built.parts[k];
-    let pressure = most(|row| row.largest_pressure);
-    list.indentation_index(&part.name, pressure, part.pressure_limit);
-}
-
-fn life(ran: &Ran, k: usize, part: &Part, list: &mut List) {
-    let of = |words: &str| of_part(&part.name, words);
-    let ratios = ran
-        .free
-        .rows
-        .iter()
-        .map(|row| viscosity_ratio(k, part, row));
-    let least = least_of_turns(ratios.zip(turned(&ran.free.rows)).collect());
-    list.number(&of("smallest_viscosity_ratio"), "1", Ok(least), &KAPPA);
-    let points = (part.warm.dynamic_load_rating)
-        .ok_or_else(|| format!("bearing.dynamic_load_rating{NOT_GIVEN}"))
-        .map(|rating| used(ran, k, part, rating, &|_, _| 1.0));
-    let whole =
-        |points: &Result<_, String>| points.as_ref().map(shared::used_by).map_err(String::clone);
-    let share = whole(&points);
-    list.number(&of("life_share"), "1", share.clone(), &LIFE);
-    let lubricated = (part.warm.dynamic_load_rating)
-        .zip(part.warm.static_load_rating)
-        .ok_or_else(|| format!("bearing.dynamic_load_rating or static_load_rating{NOT_GIVEN}"))
-        .map(|(rating, still)| {
-            used(ran, k, part, rating, &|row, load| {
-                life_factor(k, part, still, row, load)
-            })
-        });
-    list.number(
-        &of("life_share_with_lubricant"),
-        "1",
-        whole(&lubricated),
-        &LUBRICATED,
-    );
-    let lasting = whole(&lubricated).or(share);
-    list.life_by_point(&part.name, lubricated.or(points));
-    for (name, survival) in [
-        ("runs_until_one_percent_fail", 0.99),
-        ("runs_until_ten_percent_fail", 0.9),
-        ("runs_until_half_fail", 0.5),
-    ] {
-        let count = match ran.free.end.leaves() {
-            true => Err(shared::NOT_WHOLE.to_string()),
-            false => lasting.clone().map(|share| repetitions(share, survival)),
-        };
-        list.number(&of(name), "1", count, &RUNS);
-    }
 }
 
 /// Share of the turns that a smallest value leaves out: the last ones before the standstill, which no lubricant film carries.

@@ -63,6 +63,14 @@ impl NodeOf {
     }
 }
 
+impl Part {
+    /// The nodes of this bearing, by its place, that are there: a full complement has no cage.
+    pub fn nodes(&self, bearing: usize) -> impl Iterator<Item = NodeOf> {
+        let there = (0..NODES.len()).filter(|node| self.network.has(*node));
+        there.map(move |node| NodeOf { bearing, node })
+    }
+}
+
 impl Ran<'_> {
     /// Where another run-out goes on, at the end of this one: the last row is that of its first.
     pub fn start(&self) -> Start {
@@ -105,14 +113,6 @@ impl Ran<'_> {
     /// The bearings with their places.
     pub fn parts(&self) -> impl Iterator<Item = (usize, &Part)> {
         self.built.parts.iter().enumerate()
-    }
-
-    /// The nodes of a bearing that are there: a full complement has no cage.
-    pub fn nodes(&self, bearing: usize) -> impl Iterator<Item = NodeOf> {
-        let network = &self.built.parts[bearing].network;
-        (0..NODES.len())
-            .filter(|node| network.has(*node))
-            .map(move |node| NodeOf { bearing, node })
     }
 
     /// The hottest a node gets: temperature in °C and time.

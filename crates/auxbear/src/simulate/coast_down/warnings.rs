@@ -184,7 +184,7 @@ pub(crate) fn to_take(of: &str, most: f64, all: f64) -> String {
 fn limits(ran: &Ran) -> Option<Warning> {
     let nodes = ran
         .parts()
-        .flat_map(|(k, _)| ran.nodes(k))
+        .flat_map(|(k, part)| part.nodes(k))
         .filter_map(|node| {
             let limit = ran.limits[node.place()]?;
             let at = ran.first(|row| row.temperatures[node.place()] - limit)?;

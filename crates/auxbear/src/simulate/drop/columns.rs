@@ -15,12 +15,12 @@ use model::system::sampling::Row;
 
 /// All columns; `time` first.
 pub(crate) fn history(context: &Context) -> Vec<Column> {
-    let machine = context.machine;
-    let runs: Vec<_> = (context.parts().enumerate())
+    let machine = context.setup.machine;
+    let runs: Vec<_> = (context.setup.parts().enumerate())
         .map(|(k, _)| context.bearing(k))
         .collect();
     let mut columns = of_rotor(context, &runs[0]);
-    for (k, (part, run)) in context.parts().zip(&runs).enumerate() {
+    for (k, (part, run)) in context.setup.parts().zip(&runs).enumerate() {
         columns.extend(
             of_bearing(context, k, run)
                 .into_iter()
@@ -35,7 +35,7 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     let start = context.at_start();
     let mut table = Table::over(&runs[0]);
     table.flows(machine.layout(), |part| {
-        let k = context.parts().position(|name| name == part);
+        let k = context.setup.parts().position(|name| name == part);
         runs[k.unwrap_or(0)].bearing
     });
     table.energies(|row| Balance {
@@ -49,26 +49,26 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
 /// Columns of the rotor; any bearing has the rows.
 fn of_rotor(context: &Context, run: &BearingRun) -> Vec<Column> {
     let mut table = Table::over(run);
-    let since = match context.controlled() {
+    let since = match context.setup.controlled() {
         Some(_) => "time from the start of the run; the release is at release_time",
         None => "time after the release, which is the start of the run",
     };
     table.add("time", "s", since, |row| row.time);
-    if context.built.shaft.is_none() {
+    if context.setup.built.shaft.is_none() {
         node(&mut table, context, 0);
     }
     table.channel(
         "rotor.speed",
         "rad/s",
         "spin of the rotor",
-        context.machine.layout().rotor.spin(),
+        context.setup.machine.layout().rotor.spin(),
     );
     table.columns
 }
 
 /// The rotor at a bearing.
 fn node<'a>(table: &mut Table<'a>, context: &Context<'a>, k: usize) {
-    let machine = context.machine;
+    let machine = context.setup.machine;
     let centre = move |row: &Row| machine.node(k, row.state).position;
     for (name, meaning, part) in [
         (
@@ -91,9 +91,9 @@ fn node<'a>(table: &mut Table<'a>, context: &Context<'a>, k: usize) {
 
 /// Columns of one auxiliary bearing.
 fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
-    let at = context.machine.layout().bearings[k];
+    let at = context.setup.machine.layout().bearings[k];
     let mut table = Table::over(run);
-    if context.built.shaft.is_some() {
+    if context.setup.built.shaft.is_some() {
         node(&mut table, context, k);
     }
     table.inner_race(at.inner);
@@ -109,12 +109,12 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
         "outer race centre, from the line of levitation upwards",
         at.outer + 1,
     );
-    if context.given(k).bearing.is_some() {
+    if context.setup.given(k).bearing.is_some() {
         table.add(
             "bearing.cage.speed",
             "rad/s",
             "spin of the cage; without one the mean orbit speed of the balls",
-            |row| context.machine.cage_speed(k, row.state),
+            |row| context.setup.machine.cage_speed(k, row.state),
         );
     }
     table.probe(
@@ -158,7 +158,7 @@ fn of_bearing(context: &Context, k: usize, run: &BearingRun) -> Vec<Column> {
         warm::columns(&followed, &mut table);
     }
     // the model counts places from where the bearing stands
-    let datum = context.machine.constants.bearings[k].datum;
+    let datum = context.setup.machine.constants.bearings[k].datum;
     for column in &mut table.columns {
         let by = match column.name.rsplit('.').next() {
             Some("x") => datum.x,

@@ -2,8 +2,9 @@
 
 use crate::scenario::{AuxiliaryBearing, Drop, Shaft};
 use crate::simulate::bearing::feedback::Renewals;
+use crate::simulate::bearing::quantities::BearingSetup;
 use crate::simulate::bearing::run::BearingRun;
-use crate::simulate::bearing::warm::Followed;
+use crate::simulate::bearing::warm::{Followed, Heated};
 use crate::simulate::drop::build::Built;
 use crate::simulate::drop::ensemble::Finished;
 use crate::simulate::drop::feedback::Warmed;
@@ -12,33 +13,56 @@ use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
 
-/// Everything the pages that name results need to know.
-pub(crate) struct Context<'a> {
+/// A drop before its run.
+#[derive(Clone, Copy)]
+pub(crate) struct Setup<'a> {
     pub drop: &'a Drop,
     pub built: &'a Built,
     pub machine: &'a RotorMachine,
+}
+
+impl<'a> Setup<'a> {
+    /// The names of the bearings; one without a name where it is the only one.
+    pub fn parts(self) -> impl Iterator<Item = &'a str> {
+        let parts = self.machine.constants.bearings.iter();
+        parts.map(|part| part.name.as_str())
+    }
+    /// What the scenario says of a bearing.
+    pub fn given(self, bearing: usize) -> &'a AuxiliaryBearing {
+        &self.drop.auxiliary_bearings[bearing]
+    }
+    /// The rotor whose magnets have controllers that act in time.
+    pub fn controlled(self) -> Option<&'a Shaft> {
+        let shaft = self.drop.shaft.as_deref();
+        shaft.filter(|_| self.machine.controlled())
+    }
+    /// A bearing whose temperatures are followed.
+    pub fn heated(self, k: usize) -> Option<Heated<'a>> {
+        let given = self.given(k);
+        let part = self.machine.constants.bearings[k].warm.as_deref();
+        Heated::of(given.warm.as_deref(), given.bearing.as_ref()?, part)
+    }
+    /// The balls of a bearing; none of a bushing.
+    pub fn balls(self, k: usize) -> Option<BearingSetup<'a>> {
+        Some(BearingSetup {
+            given: self.given(k).bearing.as_ref()?,
+            constants: &self.machine.constants.bearings[k].bearing,
+            factors: &self.built.bearings[k].pressure_factors,
+        })
+    }
+}
+
+/// Everything the pages that name results need to know.
+pub(crate) struct Context<'a> {
+    pub setup: Setup<'a>,
     pub finished: &'a Finished,
     pub members: usize,
 }
 
 impl<'a> Context<'a> {
-    /// The names of the bearings; one without a name where it is the only one.
-    pub fn parts(&self) -> impl Iterator<Item = &'a str> {
-        let parts = self.machine.constants.bearings.iter();
-        parts.map(|part| part.name.as_str())
-    }
-    /// What the scenario says of a bearing.
-    pub fn given(&self, bearing: usize) -> &'a AuxiliaryBearing {
-        &self.drop.auxiliary_bearings[bearing]
-    }
-    /// The rotor whose magnets have controllers that act in time.
-    pub fn controlled(&self) -> Option<&'a Shaft> {
-        let shaft = self.drop.shaft.as_deref();
-        shaft.filter(|_| self.machine.controlled())
-    }
     /// When the first magnet, axis or all power is lost, s; none where the magnets keep it to the end.
     pub fn release_time(&self) -> Option<f64> {
-        match self.controlled() {
+        match self.setup.controlled() {
             Some(given) => self.finished.record.released.map(|_| given.power_lost),
             None => Some(0.0),
         }
@@ -51,21 +75,21 @@ impl<'a> Context<'a> {
     /// have it still.
     pub fn release_speed(&self) -> f64 {
         let lost = self.finished.record.released;
-        let spin = self.machine.layout().rotor.spin();
-        let now = self.controlled().map(|_| self.finished.ending.state[spin]);
-        lost.or(now).unwrap_or(self.drop.rotor.speed).abs()
+        let spin = self.setup.machine.layout().rotor.spin();
+        let now = self
+            .setup
+            .controlled()
+            .map(|_| self.finished.ending.state[spin]);
+        lost.or(now).unwrap_or(self.setup.drop.rotor.speed).abs()
     }
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]
     }
     /// A bearing whose temperatures were followed.
     pub fn followed(&self, k: usize) -> Option<Followed<'a>> {
-        let given = self.given(k);
         let warmed = self.finished.warmed.as_deref();
         Some(Followed {
-            given: given.warm.as_deref()?,
-            bearing: given.bearing.as_ref()?,
-            part: self.machine.constants.bearings[k].warm.as_deref()?,
+            heated: self.setup.heated(k)?,
             warmth: self.record(k).warmth.as_deref()?,
             state: warmed.and_then(|warmed| warmed.state(k)),
             broken: warmed.and_then(Warmed::broken),
@@ -74,11 +98,14 @@ impl<'a> Context<'a> {
     /// Energies and flows at the release.
     pub fn at_start(&self) -> (Content, Flows) {
         let start = &self.finished.start;
-        (self.machine.content(start), self.machine.flows(start))
+        (
+            self.setup.machine.content(start),
+            self.setup.machine.flows(start),
+        )
     }
     /// The same at an instant of the run; rings that have closed on their balls have done work.
     pub fn booked(&self, time: f64, content: Content, state: &[f64]) -> (Content, Flows) {
-        let found = (content, self.machine.flows(state));
+        let found = (content, self.setup.machine.flows(state));
         match self.renewals() {
             Some(renewals) => renewals.booked(time, found),
             None => found,
@@ -88,7 +115,9 @@ impl<'a> Context<'a> {
     pub fn balance(&self) -> Balance {
         let ending = &self.finished.ending;
         let renewals = self.renewals();
-        let machine = renewals.map_or(self.machine, |renewals| renewals.machine(self.machine));
+        let machine = renewals.map_or(self.setup.machine, |renewals| {
+            renewals.machine(self.setup.machine)
+        });
         let content = machine.content(&ending.state);
         Balance {
             start: self.at_start(),
@@ -101,19 +130,25 @@ impl<'a> Context<'a> {
         warmed.map(|warmed| &warmed.renewals)
     }
     pub fn bearing(&self, bearing: usize) -> BearingRun<'a> {
-        let at = self.machine.layout().bearings[bearing];
+        let (machine, record) = (self.setup.machine, self.record(bearing));
+        let at = machine.layout().bearings[bearing];
         BearingRun {
-            bearing: &self.machine.constants.bearings[bearing].bearing,
+            bearing: &machine.constants.bearings[bearing].bearing,
             states: at.own(),
             detail: at.detail,
             largest_loads: [probe::LARGEST_INNER_LOAD, probe::LARGEST_OUTER_LOAD]
                 .map(|kind| at.probe(kind)),
             cage_forces: [probe::LARGEST_POCKET_FORCE, probe::LAND_FORCE]
                 .map(|kind| at.probe(kind)),
-            pressure_factors: self.built.bearings[bearing].pressure_factors,
+            pressure_factors: self.setup.built.bearings[bearing].pressure_factors,
+            loads: [record.largest_inner_load, record.largest_outer_load],
+            cage: [record.largest_pocket_force, record.largest_land_force],
+            part: &machine.constants.bearings[bearing].name,
+            layout: machine.layout(),
+            end: &self.finished.ending.state,
             motion: Box::new(move |state| at.motion(state)),
             rows: self.finished.record.rows().collect(),
-            races: self.record(bearing).races.as_ref(),
+            races: record.races.as_ref(),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::problem::Problem;
 use crate::result::outcome::Single;
 use crate::scenario::{Drop, Scenario};
 use crate::simulate::drop::build::{self, Built};
-use crate::simulate::drop::context::Context;
+use crate::simulate::drop::context::{Context, Setup};
 use crate::simulate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::simulate::drop::feedback::Following;
 use crate::simulate::drop::members::{Kind, kind_of, share_lanes};
@@ -105,9 +105,11 @@ fn together(
     let named = |(k, finished): (&usize, &Finished)| {
         let one = &all[*k];
         let context = Context {
-            drop: &one.drop,
-            built: &one.built,
-            machine: &one.machine,
+            setup: Setup {
+                drop: &one.drop,
+                built: &one.built,
+                machine: &one.machine,
+            },
             finished,
             members: 1,
         };

@@ -1,11 +1,12 @@
 //! What a run shows of magnets whose controllers act in time, or whose currents decay.
 
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
 use crate::result::outcome::{Column, Stop, Warning, warning};
 use crate::scenario::Shaft;
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
-use crate::simulate::drop::context::Context;
+use crate::simulate::drop::context::{Context, Setup};
 use crate::simulate::ending;
 use levitation::Amplifier;
 use model::system::machine::record::AtLimit;
@@ -13,15 +14,17 @@ use model::system::machine::record::AtLimit;
 /// Share of the time with power at a limit from which on it is reported.
 const LONG_AT_LIMIT: f64 = 1e-4;
 
-/// Name of a value of an axis of a magnet: both axes of each stand in turn.
-fn of_axis(given: &Shaft, axis: usize, what: &str) -> String {
+/// An axis of a magnet by the name of that and its number: both axes of each stand in turn.
+fn of_axis(given: &Shaft, axis: usize) -> [String; 2] {
     let magnets = given.model.levitation.iter().flat_map(|own| &own.magnets);
-    let name = magnets.map(|(name, ..)| name).nth(axis / 2);
-    format!(
-        "magnet.{}.{what}_{}",
-        name.map_or("", String::as_str),
-        axis % 2 + 1
-    )
+    let name = magnets.map(|(name, ..)| name.clone()).nth(axis / 2);
+    [name.unwrap_or_default(), (axis % 2 + 1).to_string()]
+}
+
+/// Name of a value of an axis of a magnet.
+fn value_of(given: &Shaft, axis: usize, what: &str) -> String {
+    let [name, number] = of_axis(given, axis);
+    format!("magnet.{name}.{what}_{number}")
 }
 
 /// Share of its gap from which on a run that diverges does so at a magnet's pole.
@@ -31,10 +34,10 @@ const AT_POLE: f64 = 0.8;
 pub(crate) fn stop(context: &Context) -> Stop {
     let ending = &context.finished.ending;
     let mut stop = ending::stop(ending);
-    let shares = context.machine.towards_poles(&ending.state);
+    let shares = context.setup.machine.towards_poles(&ending.state);
     let nearest = (shares.iter().enumerate()).max_by(|a, b| a.1.total_cmp(b.1));
     let diverged = matches!(ending.stop, solve::Stop::Diverged { .. });
-    if let (Some((axis, share)), Some(given), true) = (nearest, &context.drop.shaft, diverged)
+    if let (Some((axis, share)), Some(given), true) = (nearest, &context.setup.drop.shaft, diverged)
         && *share > AT_POLE
     {
         stop.text = format!(
@@ -43,7 +46,7 @@ pub(crate) fn stop(context: &Context) -> Stop {
              that is stiffer or has a stop.",
             1e3 * ending.time,
             100.0 * share,
-            of_axis(given, axis, "axis")
+            value_of(given, axis, "axis")
         );
     }
     stop
@@ -55,36 +58,44 @@ pub(crate) fn kept() -> String {
 }
 
 /// Names what the controllers did.
-pub(crate) fn name(context: &Context, list: &mut List) {
-    let Some(given) = context.controlled() else {
+pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
+    let Some(given) = setup.controlled() else {
         return;
     };
-    let speed = context.finished.record.released.ok_or_else(kept);
-    let lost = speed.clone().map(|_| given.power_lost);
-    list.number("power_lost_at", "s", lost, &LOST);
-    list.number("speed_at_power_loss", "rad/s", speed, &LOST);
-    for (axis, peak) in context.finished.record.currents.iter().enumerate() {
-        let largest = Ok(peak.largest.value);
-        list.number(
-            &of_axis(given, axis, "largest_current"),
-            "A",
-            largest,
-            &CURRENT,
-        );
+    loss(list, given, run);
+    for (k, _) in setup.machine.axes().enumerate() {
+        let [name, number] = of_axis(given, k);
+        let largest = run.map(|run| run.finished.record.currents[k].largest.value);
+        list.named(&[&name, &number], |list| {
+            current(list, &(), largest.as_ref())
+        });
+    }
+}
+
+results! {
+    /// When the magnets lose their power.
+    fn loss(given: &Shaft, run: &Context) {
+        "power_lost_at": number "s", LOST, "instant at which the magnets lose their power" => {
+            run.finished.record.released.map(|_| given.power_lost).ok_or_else(kept)
+        };
+        "speed_at_power_loss": number "rad/s", LOST, "speed of the rotor at this instant" => run.finished.record.released.ok_or_else(kept);
+    }
+    fn current(setup: &(), largest: &f64) {
+        "magnet.*.largest_current_*": number "A", CURRENT, "largest control current of this axis" => *largest;
     }
 }
 
 /// Control currents of all axes.
 pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
-    let machine = context.machine;
-    let Some(given) = &context.drop.shaft else {
+    let machine = context.setup.machine;
+    let Some(given) = &context.setup.drop.shaft else {
         return Vec::new();
     };
     let mut table = Table::over(run);
     for (axis, own) in machine.axes().enumerate() {
         let angle = own.direction.y.atan2(own.direction.x).to_degrees();
         let meaning = format!("control current of the magnet's axis at {angle:.0} degrees from x");
-        let name = of_axis(given, axis, "current");
+        let name = value_of(given, axis, "current");
         table.add(&name, "A", &meaning, |row| {
             machine.currents(row.time, row.state)[axis]
         });
@@ -96,13 +107,13 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
 pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
     let currents = &context.finished.record.currents;
     let (axis, share, first) = longest(context, currents.iter().map(|peak| peak.limited))?;
-    let given = context.controlled()?;
+    let given = context.setup.controlled()?;
     let own = given.model.levitation.as_ref()?.levitation.actuators();
     let [least, most] = [own[axis].lowest_current, own[axis].largest_current];
     let text = format!(
         "{} reaches the limit of its coil ({} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says \
          of stability and response does not hold there.",
-        of_axis(given, axis, "current"),
+        value_of(given, axis, "current"),
         match -least == most {
             true => format!("{most:.3}"),
             false => format!("{least:.3} or {most:.3}"),
@@ -115,13 +126,13 @@ pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
 
 /// The axis whose amplifier was longest at its largest voltage.
 pub(crate) fn voltage_limited(context: &Context) -> Option<(f64, Warning)> {
-    let given = context.controlled()?;
+    let given = context.setup.controlled()?;
     let voltages = context.finished.record.voltages.iter();
     let (axis, share, first) = longest(context, voltages.copied())?;
     let text = format!(
         "{} reaches the largest of its amplifier ({}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the \
          controller wants it, and what the linear analysis says of stability and response does not hold there.",
-        of_axis(given, axis, "voltage"),
+        value_of(given, axis, "voltage"),
         largest_voltage(given, axis).map_or(String::new(), |volts| format!("{volts} V, ")),
         100.0 * share,
         1e3 * first
@@ -131,7 +142,7 @@ pub(crate) fn voltage_limited(context: &Context) -> Option<(f64, Warning)> {
 
 /// The axis that was longest at a limit, the share of the time with power, and since when, s.
 fn longest(context: &Context, limits: impl Iterator<Item = AtLimit>) -> Option<(usize, f64, f64)> {
-    let given = context.controlled()?;
+    let given = context.setup.controlled()?;
     let powered = given.power_lost.min(context.finished.ending.time);
     let longest = limits.enumerate();
     let (axis, own) = longest.max_by(|a, b| a.1.duration.total_cmp(&b.1.duration))?;
@@ -152,7 +163,7 @@ fn largest_voltage(given: &Shaft, axis: usize) -> Option<f64> {
 
 /// A rotor that touches its auxiliary bearings while it has its magnets.
 pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
-    let given = context.controlled()?;
+    let given = context.setup.controlled()?;
     let mut contacts = context.record(k).contacts.iter();
     let first = contacts.find(|contact| contact.start < given.power_lost)?;
     let text = format!(

@@ -36,14 +36,31 @@ use crate::result::outcome::{
 use crate::scenario::{Drop, Scenario};
 use crate::simulate::bearing::races::{LIFE_BY_POINT, without_count};
 use crate::simulate::drop::build::Built;
-use crate::simulate::drop::context::Context;
+use crate::simulate::drop::context::{Context, Setup};
 use crate::simulate::drop::ensemble::{Finished, Member, Plan};
 use crate::simulate::drop::members::Varied;
 use crate::simulate::drop::run_out::After;
 use crate::simulate::ending::settings_at;
 use crate::simulate::stepping::Stepping;
+use model::system::machine::RotorMachine;
 use rayon::prelude::*;
 use std::time::Instant;
+
+/// The results of a drop, without values.
+pub(crate) fn results(drop: &Drop, built: &Built) -> Vec<Quantity> {
+    let machine = RotorMachine::new(built.constants.clone());
+    let setup = Setup {
+        drop,
+        built,
+        machine: &machine,
+    };
+    let mut list = quantities::name(setup, None);
+    if drop.run_out.is_some() {
+        list.extend(run_out::results(setup));
+    }
+    list.extend(orders::named(setup.parts(), None));
+    list
+}
 
 /// Runs a drop.
 pub(crate) fn run(
@@ -75,9 +92,11 @@ pub(crate) fn run(
         None => (drop, built),
     };
     let context = |k: usize| Context {
-        drop: given(k).0,
-        built: given(k).1,
-        machine: &members[k].machine,
+        setup: Setup {
+            drop: given(k).0,
+            built: given(k).1,
+            machine: &members[k].machine,
+        },
         finished: &finished[k],
         members: count,
     };
@@ -128,7 +147,8 @@ pub(crate) fn run(
         }
     }
     let history = columns::history(first);
-    named.extend(orders::named(&history, first.counted_from(), first.parts()));
+    let counted = Some((history.as_slice(), first.counted_from()));
+    named.extend(orders::named(first.setup.parts(), counted));
     Outcome {
         system: scenario.system.name().word(),
         title: scenario
@@ -193,8 +213,8 @@ fn chaotic_from(scenario: &Scenario, drop: &Drop) -> Option<f64> {
 
 /// What pictures need of an auxiliary bearing.
 fn picture(context: &Context, k: usize) -> Picture {
-    let part = &context.machine.constants.bearings[k];
-    let given = context.given(k);
+    let part = &context.setup.machine.constants.bearings[k];
+    let given = context.setup.given(k);
     Picture {
         bearing: part.name.clone(),
         clearance: Some(given.contact.radial_air_clearance),
@@ -206,7 +226,7 @@ fn picture(context: &Context, k: usize) -> Picture {
 
 /// The contacts of all auxiliary bearings, in order.
 fn contacts(context: &Context) -> Vec<Contact> {
-    let mut all: Vec<Contact> = (context.parts().enumerate())
+    let mut all: Vec<Contact> = (context.setup.parts().enumerate())
         .flat_map(|(k, name)| {
             context.record(k).contacts.iter().map(move |c| Contact {
                 bearing: name.to_string(),

@@ -1,10 +1,11 @@
 //! What the parts of a mount did in a run.
 
-use crate::result::list::{List, Origin};
+use crate::result::list::Origin;
+use crate::result::list::results;
 use crate::result::outcome::{Warning, warning};
-use crate::scenario::Mount;
+use crate::scenario::drop::mount::MountParts;
 use crate::simulate::drop::context::Context;
-use model::system::machine::record::BearingRecord;
+use model::system::machine::bearing_record::MountPeaks;
 
 pub(super) const SOURCE: &str = "crates/model/src/mount/; book/src/theory/drop.md, mounts";
 
@@ -19,47 +20,16 @@ const HOUSING: Origin = Origin {
     valid: "a housing that carries one bearing, from its place under the weight at rest",
 };
 
-/// Names what the parts that are given did.
-pub(super) fn name(record: &BearingRecord, given: &Mount, list: &mut List) {
-    let (Some(peaks), given) = (&record.mount_parts, &given.parts) else {
-        return;
-    };
-    let stop = given.stop_gap.is_some();
-    let housing = given.housing_mass.is_some();
-    for (there, name, unit, peak, origin) in [
-        (
-            given.ring_stiffness.is_some(),
-            "peak_mount_ring_force",
-            "N",
-            peaks.ring,
-            &PART_FORCE,
-        ),
-        (
-            given.film_length.is_some(),
-            "peak_mount_film_force",
-            "N",
-            peaks.film,
-            &PART_FORCE,
-        ),
-        (stop, "peak_mount_stop_force", "N", peaks.stop, &PART_FORCE),
-        (
-            housing,
-            "max_housing_displacement",
-            "m",
-            peaks.housing_displacement,
-            &HOUSING,
-        ),
-        (
-            housing,
-            "max_housing_speed",
-            "m/s",
-            peaks.housing_speed,
-            &HOUSING,
-        ),
-    ] {
-        if there {
-            list.number(name, unit, Ok(peak.value), origin);
-        }
+results! {
+    /// What the parts that are given did.
+    pub(super) fn name(given: &MountParts, run: &MountPeaks) {
+        "peak_mount_ring_force": number "N", PART_FORCE, "largest force of the friction ring" when given.ring_stiffness.is_some() => run.ring.value;
+        "peak_mount_film_force": number "N", PART_FORCE, "largest force of the squeeze film" when given.film_length.is_some() => run.film.value;
+        "peak_mount_stop_force": number "N", PART_FORCE, "largest force of the hard stop" when given.stop_gap.is_some() => run.stop.value;
+        "max_housing_displacement": number "m", HOUSING, "largest displacement of the housing" when given.housing_mass.is_some() => {
+            run.housing_displacement.value
+        };
+        "max_housing_speed": number "m/s", HOUSING, "largest speed of the housing" when given.housing_mass.is_some() => run.housing_speed.value;
     }
 }
 
@@ -67,7 +37,7 @@ pub(super) fn name(record: &BearingRecord, given: &Mount, list: &mut List) {
 pub(super) fn stopped(context: &Context, k: usize) -> Option<(f64, Warning)> {
     let peaks = context.record(k).mount_parts.as_ref()?;
     let first = peaks.first_stop?;
-    let gap = context.given(k).mount.parts.stop_gap?;
+    let gap = context.setup.given(k).mount.parts.stop_gap?;
     let text = format!(
         "The mount hits its hard stop: the outer race closes the gap of {:.0} µm at {:.2} ms, and the stop carries up to {:.0} N at {:.2} ms. The \
          resilient part protects nothing then; a larger gap, a stiffer mount or more damping keeps them apart.",

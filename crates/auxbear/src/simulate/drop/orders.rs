@@ -6,8 +6,9 @@
 //! n > 0 turns as the rotor spins, 1 is unbalance, n < 0 runs backward. The phase is that of the rotor itself, so that lines stay
 //! lines while it slows down.
 
+use crate::result::list::results;
 use crate::result::list::{List, Origin};
-use crate::result::outcome::{Column, Quantity, Value};
+use crate::result::outcome::{Column, Quantity};
 use model::system::layout::of_part;
 use std::f64::consts::{PI, TAU};
 
@@ -32,57 +33,53 @@ struct Spectrum {
 
 /// Names the orders at every bearing from the columns of a run, with the instant of its release, s.
 pub(crate) fn named<'a>(
-    history: &[Column],
-    release: f64,
     parts: impl Iterator<Item = &'a str>,
+    run: Option<(&[Column], f64)>,
 ) -> Vec<Quantity> {
     let mut list = List::default();
     for part in parts {
-        let found = spectrum(history, part);
-        let lists =
-            |of: &dyn Fn(&Spectrum) -> Vec<f64>| Value::List(found.as_ref().map_or(Vec::new(), of));
-        list.push(
-            &of_part(part, "whirl_orders"),
-            "1",
-            lists(&|s| s.orders.clone()),
-            &ORDERS,
-        );
-        list.push(
-            &of_part(part, "whirl_order_times"),
-            "s",
-            lists(&|s| s.times.iter().map(|time| time - release).collect()),
-            &ORDERS,
-        );
-        list.push(
-            &of_part(part, "whirl_order_amplitudes"),
-            "m",
-            lists(&|s| s.amplitudes.clone()),
-            &ORDERS,
-        );
-        // lists, since members of repeated runs and studies keep no rows
-        let largest = |of: fn((f64, f64)) -> f64| {
-            lists(&|s| {
-                [1.0, -1.0]
-                    .iter()
-                    .filter_map(|sign| s.largest(*sign))
-                    .map(of)
-                    .collect()
-            })
-        };
-        list.push(
-            &of_part(part, "largest_whirl_orders"),
-            "1",
-            largest(|(order, _)| order),
-            &LAST,
-        );
-        list.push(
-            &of_part(part, "largest_whirl_amplitudes"),
-            "m",
-            largest(|(_, size)| size),
-            &LAST,
-        );
+        let found = run.map(|(history, release)| Orders {
+            spectrum: spectrum(history, part),
+            release,
+        });
+        list.of_part(part, |list| orders(list, &(), found.as_ref()));
     }
     list.quantities
+}
+
+/// Orders at a bearing; none of a run that is too short.
+struct Orders {
+    spectrum: Option<Spectrum>,
+    release: f64,
+}
+
+impl Orders {
+    fn list(&self, of: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<f64> {
+        self.spectrum.as_ref().map_or(Vec::new(), of)
+    }
+    /// Of the largest forward order and the largest backward one: lists, since members of repeated runs and studies keep no rows.
+    fn largest(&self, of: fn((f64, f64)) -> f64) -> Vec<f64> {
+        let both = |found: &Spectrum| {
+            [1.0, -1.0]
+                .iter()
+                .filter_map(|sign| found.largest(*sign))
+                .map(of)
+                .collect()
+        };
+        self.list(both)
+    }
+}
+
+results! {
+    fn orders(setup: &(), run: &Orders) {
+        "whirl_orders": list "1", ORDERS, "orders of the whirl" => run.list(|found| found.orders.clone());
+        "whirl_order_times": list "s", ORDERS, "middle of each window after the release" => {
+            run.list(|found| found.times.iter().map(|time| time - run.release).collect())
+        };
+        "whirl_order_amplitudes": list "m", ORDERS, "amplitude of each order in each window" => run.list(|found| found.amplitudes.clone());
+        "largest_whirl_orders": list "1", LAST, "largest forward and backward order at the end" => run.largest(|(order, _)| order);
+        "largest_whirl_amplitudes": list "m", LAST, "amplitudes of these orders" => run.largest(|(_, size)| size);
+    }
 }
 
 impl Spectrum {
@@ -229,7 +226,7 @@ mod tests {
             found.amplitudes.len(),
             found.orders.len() * found.times.len()
         );
-        let named = named(&history, 0.0, ["a"].into_iter());
+        let named = named(["a"].into_iter(), Some((&history, 0.0)));
         assert!(named.iter().any(|q| q.name == "a.largest_whirl_orders"));
         // too short for eight turns
         let short: Vec<Column> = (history.into_iter())

@@ -1,16 +1,23 @@
 //! Every named result of a drop with its law, source and valid range.
 
 use crate::catalogue::geometry::digits;
-use crate::result::list::{List, NOT_GIVEN, Origin, relative};
-use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::{StaticLoad, static_safety};
-use crate::scenario::axial_share;
-use crate::simulate::bearing::quantities::{End, LargestForces};
-use crate::simulate::bearing::warm;
-use crate::simulate::drop::context::Context;
+use crate::result::list::results;
+use crate::result::list::{List, Origin, not_given, relative};
+use crate::result::outcome::Quantity;
+use crate::result::static_safety::{no_safety, safety_under};
+use crate::scenario::{AuxiliaryBearing, Bearing, axial_share};
+use crate::simulate::bearing::quantities::balls;
+use crate::simulate::bearing::races::{Life, life, lubricant_factor};
+use crate::simulate::bearing::run::BearingRun;
+use crate::simulate::bearing::severity::{
+    BLOWS, HEAT_INDEX, HOT_RACE, RISE as RACE_RISE, blows, inner_race_rise,
+};
+use crate::simulate::bearing::warm::{self, RINGS};
+use crate::simulate::drop::context::{Context, Setup};
+use crate::simulate::drop::feedback::Following;
 use crate::simulate::drop::{magnets, mount_results, shaft_results, surfaces};
 use model::system::energy::Content;
-use model::system::layout::of_part;
+use model::system::machine::record::BearingRecord;
 use std::f64::consts::PI;
 
 const EQUATIONS: &str =
@@ -19,254 +26,227 @@ const CONTACT: &str = "Hunt and Crossley 1975, crates/model/src/contact.rs";
 const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
-/// Names the results of one member: those of each auxiliary bearing under its name, then those of the machine.
-pub(crate) fn name(context: &Context) -> Vec<Quantity> {
-    let ending = &context.finished.ending;
-    let state = &ending.state;
+/// Names the results of one member, without a run those of any: those of each auxiliary bearing under its name, then those of
+/// the machine.
+pub(crate) fn name(setup: Setup, run: Option<&Context>) -> Vec<Quantity> {
     let mut list = List::default();
-    for (k, part) in context.parts().enumerate() {
-        let mut own = List::default();
-        of_bearing(context, k, part, &mut own);
-        list.quantities
-            .extend(own.quantities.into_iter().map(|quantity| Quantity {
-                name: of_part(part, &quantity.name),
-                ..quantity
-            }));
+    for (k, part) in setup.parts().enumerate() {
+        list.of_part(part, |list| {
+            of_bearing(list, (setup, k), run.map(|run| Landed::of(run, k)).as_ref());
+        });
     }
-    shaft_results::name(context, &mut list);
-    let release = context.release_time().ok_or_else(magnets::kept);
-    list.number("release_time", "s", release, &RELEASE);
-    let axial = axial_share(context.drop.gravity.acceleration);
-    list.number("axial_gravity_share", "1", Ok(axial), &AXIAL_SHARE);
-    magnets::name(context, &mut list);
-    let spin = context.machine.layout().rotor.spin();
-    list.number("rotor_final_speed", "rad/s", Ok(state[spin]), &SPEED);
-    let heat = context.machine.flows(state).heat;
-    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
-    let planes = context.drop.rotor.planes as f64;
-    list.number(
-        "dissipated_energy_of_all_bearings",
-        "J",
-        Ok(planes * heat),
-        &ALL_BEARINGS,
-    );
-    if let Some(renewals) = context.renewals() {
-        warm::work_of_rings(renewals.work_until(f64::INFINITY), &mut list);
-    }
-    let balance = context.balance();
-    let ((stored, flowed), (now, by_now)) = (balance.start, balance.end);
-    let kinetic = |content: Content| content.translation + content.spin;
-    for (name, energy) in [
-        ("work_of_sources", by_now.work - flowed.work),
-        ("kinetic_energy_change", kinetic(now) - kinetic(stored)),
-        ("potential_energy_change", now.potential - stored.potential),
-        ("energy_balance_residual", balance.energy_residual()),
-    ] {
-        list.number(name, "J", Ok(energy), &BALANCE);
-    }
-    let (energy, momentum) = residuals(context);
-    list.number("energy_residual", "1", energy, &RESIDUAL);
-    list.number("angular_momentum_residual", "1", momentum, &RESIDUAL);
-    list.ended_at(ending.time)
+    shaft_results::name(&mut list, setup, run);
+    release(&mut list, &setup, run);
+    magnets::name(&mut list, setup, run);
+    energies(&mut list, &setup, run);
+    list.ended_at(run.map(|run| run.finished.ending.time))
 }
 
 /// Names the results of one auxiliary bearing.
-fn of_bearing(context: &Context, k: usize, part: &str, list: &mut List) {
-    let record = context.record(k);
-    let ending = &context.finished.ending;
-    let machine = context.machine;
-    let state = &ending.state;
-    let no_contact = || "rotor and inner race never touched in this run".to_string();
-    let release = context.counted_from();
-    let after = |time: f64| time - release;
-
-    // contacts
-    let first = record.contacts.first();
-    list.awaited(
-        "time_to_first_contact",
-        first.map(|c| after(c.start)).ok_or_else(no_contact),
-        &FIRST_CONTACT,
-    );
-    list.number(
-        "first_impact_force",
-        "N",
-        first.map(|c| c.peak_force).ok_or_else(no_contact),
-        &CONTACT_FORCE,
-    );
-    list.number(
-        "peak_contact_force",
-        "N",
-        record
-            .peak_contact_force()
-            .map(|p| p.value)
-            .ok_or_else(no_contact),
-        &CONTACT_FORCE,
-    );
-    list.number(
-        "contact_count",
-        "",
-        Ok(record.contacts.len() as f64),
-        &CONTACT_COUNT,
-    );
-    let starts = record.contacts.iter().map(|c| after(c.start)).collect();
-    list.push(
-        "contact_start_times",
-        "s",
-        Value::List(starts),
-        &CONTACT_STARTS,
-    );
-
-    // speeds
-    let never = |what: &str| match context.release_time() {
-        Some(_) => {
-            let time = digits(1e3 * after(ending.time));
-            format!("{what} was not reached in {time} ms after the release")
-        }
-        None => magnets::kept(),
-    };
-    let rolling = context.given(k).bearing.as_ref();
-    if rolling.is_some() {
-        list.rises(
-            "inner_race",
-            [
-                record.inner_race_time_to_50_percent(),
-                record.inner_race_time_to_95_percent(),
-                record.cage_time_to_95_percent(),
-            ]
-            .map(|time| time.map(after)),
-            [
-                never("half of the rotor's release speed"),
-                never("95 % of the rotor's release speed"),
-                never("95 % of the rolling cage speed of the rotor's release speed"),
-            ],
-            &RISE,
+fn of_bearing(list: &mut List, (setup, k): (Setup, usize), run: Option<&Landed>) {
+    let given = setup.given(k);
+    let constants = &setup.machine.constants.bearings[k];
+    contacts(list, &(), run);
+    if let Some(own) = setup.balls(k) {
+        spin_up(list, &(), run);
+        balls(list, &own, run.map(|run| &run.balls));
+        load(list, own.given, run);
+        let life_of = run.and_then(|run| run.life(own.given));
+        let rating = own.given.dynamic_load_rating;
+        life(list, &(rating, setup.heated(k)), life_of.as_ref());
+    }
+    mount_force(list, &(), run);
+    if constants.mount_parts.any() {
+        let peaks = run.and_then(|run| run.record.mount_parts.as_ref());
+        mount_results::name(list, &given.mount.parts, peaks);
+    }
+    motion(list, given, run);
+    if let Some(bearing) = &given.bearing {
+        warming(list, bearing, run);
+    }
+    rubbing(list, given, run);
+    surfaces::name(list, given, run.map(|run| run.record));
+    if let Some(heated) = setup.heated(k) {
+        warm::name(
+            list,
+            &heated,
+            run.and_then(|run| run.context.followed(k)).as_ref(),
         );
-        let race_speed = state[machine.layout().bearings[k].inner + 5];
-        for (name, speed) in [
-            ("inner_race_final_speed", race_speed),
-            ("cage_final_speed", machine.cage_speed(k, state)),
-        ] {
-            list.number(name, "rad/s", Ok(speed), &SPEED);
+    }
+}
+
+/// An auxiliary bearing after a run.
+struct Landed<'a> {
+    context: &'a Context<'a>,
+    k: usize,
+    record: &'a BearingRecord,
+    balls: BearingRun<'a>,
+}
+
+impl<'a> Landed<'a> {
+    fn of(context: &'a Context, k: usize) -> Self {
+        Landed {
+            context,
+            k,
+            record: context.record(k),
+            balls: context.bearing(k),
         }
     }
-
-    let end = End {
-        part,
-        layout: machine.layout(),
-        state,
-    };
-    let forces = LargestForces {
-        loads: [record.largest_inner_load, record.largest_outer_load],
-        cage: [record.largest_pocket_force, record.largest_land_force],
-    };
-    let run = context.bearing(k);
-    let load = record.largest_bearing_load.value;
-    if let Some(given) = rolling {
-        list.balls(&run, &forces, given, &end);
-        list.number("peak_bearing_load", "N", Ok(load), &LOAD);
-        let safety = static_safety(
-            &given.rated(),
-            &StaticLoad {
-                radial: load,
-                axial: given.axial_preload,
-                contact_angle: Some(given.contact_angle),
-            },
-        );
-        list.number("static_safety", "1", safety, &SAFETY);
-        let turns = record.turns;
-        let mean = (record.cubed_load_turns / turns).cbrt();
+    /// An instant from the release on, s.
+    fn after(&self, time: f64) -> f64 {
+        time - self.context.counted_from()
+    }
+    /// When a speed is reached after the release, s.
+    fn reached(&self, time: Option<f64>, what: &str) -> Result<f64, String> {
+        let never = || match self.context.release_time() {
+            Some(_) => {
+                let time = digits(1e3 * self.after(self.context.finished.ending.time));
+                format!("{what} was not reached in {time} ms after the release")
+            }
+            None => magnets::kept(),
+        };
+        time.map(|time| self.after(time)).ok_or_else(never)
+    }
+    /// What of a speed is per turn, of a rotor that turned once.
+    fn per_turn(&self, way: f64, turned: f64) -> Result<f64, String> {
+        let contact = &self.context.setup.given(self.k).contact;
+        match self.record.travel.turned >= 2.0 * PI {
+            true => Ok(way / (contact.radial_air_clearance * turned)),
+            false => Err("the rotor did not turn once".to_string()),
+        }
+    }
+    /// Cubic mean of the load on the bearing over the turns of its inner race, N.
+    fn mean_load(&self) -> Result<f64, String> {
+        let mean = (self.record.cubed_load_turns / self.record.turns).cbrt();
         let still = || "the inner race did not turn".to_string();
-        let followed = context.followed(k);
-        let speed = 2.0 * PI * turns / context.finished.ending.time;
-        let phase = (followed.as_ref()).filter(|_| turns > 0.0);
-        let phase = phase.map(|followed| (followed, mean, speed));
-        let mean = (turns > 0.0).then_some(mean).ok_or_else(still);
-        list.number("inner_race_turns", "", Ok(turns), &TURNS);
-        list.number("cubic_mean_load", "N", mean, &MEAN_LOAD);
-        list.life_share(given, record.races.as_ref(), phase);
+        (self.record.turns > 0.0).then_some(mean).ok_or_else(still)
     }
-    let force = record.largest_mount_force.value;
-    list.number("peak_mount_force", "N", Ok(force), &MOUNT_FORCE);
-
-    mount_results::name(record, &context.given(k).mount, list);
-
-    // displacements and whirl
-    list.number(
-        "max_rotor_race_displacement",
-        "m",
-        Ok(record.rotor_race_displacement.value),
-        &DISPLACEMENT,
-    );
-    list.number(
-        "max_rotor_displacement",
-        "m",
-        if record.contacts.is_empty() {
-            Err(no_contact())
-        } else {
-            Ok(record.rotor_displacement.value)
-        },
-        &ROTOR_DISPLACEMENT,
-    );
-    list.number(
-        "max_mount_displacement",
-        "m",
-        Ok(record.mount_displacement.value),
-        &MOUNT_DISPLACEMENT,
-    );
-    let turns = record.whirl_turns;
-    let forward = turns * machine.constants.speed.signum() > 0.0;
-    let direction = if turns.abs() < 1.0 {
-        "none"
-    } else if forward {
-        "forward"
-    } else {
-        "backward"
-    };
-    list.push(
-        "whirl_direction",
-        "",
-        Value::Text(direction.to_string()),
-        &WHIRL,
-    );
-    list.number("whirl_turns", "", Ok(turns), &WHIRL);
-    let (travel, clearance) = (
-        &record.travel,
-        context.given(k).contact.radial_air_clearance,
-    );
-    let still = || "the rotor did not turn once".to_string();
-    let of = |way: f64, turned: f64| {
-        let index = way / (clearance * turned);
-        (travel.turned >= 2.0 * PI)
-            .then_some(index)
-            .ok_or_else(still)
-    };
-    list.number("travel_index", "1", of(travel.longest, 2.0 * PI), &TRAVEL);
-    list.number(
-        "speed_index",
-        "1",
-        of(travel.way, travel.turned),
-        &SPEED_INDEX,
-    );
-    list.losses(&run, &end, &ENERGY);
-    let weight = context.drop.weight(k);
-    list.blows(record.contacts.iter().map(|c| c.peak_force), weight);
-    if let Some(given) = rolling {
-        list.warming(&end, given);
+    fn life(&self, given: &Bearing) -> Option<Life> {
+        let speed = 2.0 * PI * self.record.turns / self.context.finished.ending.time;
+        let followed = self.context.followed(self.k);
+        let factor = self.mean_load().and_then(|load| {
+            let unknown = || "its temperatures are not followed".to_string();
+            lubricant_factor(&followed.ok_or_else(unknown)?, load, speed)
+        });
+        Life::of(given, self.record.races.as_ref()?, factor)
     }
-    let contact = &context.given(k).contact;
-    let work = end.heat("rotor_race_friction");
-    list.number(
-        "rotor_race_friction_energy_per_area",
-        "J/m^2",
-        contact
-            .width
-            .map(|width| work / (PI * contact.bore_diameter * width))
-            .ok_or_else(|| format!("contact.width{NOT_GIVEN}")),
-        &PER_AREA,
-    );
-    surfaces::name(context, k, list);
-    if let Some(followed) = context.followed(k) {
-        warm::name(&followed, list);
+    fn whirl_direction(&self) -> &'static str {
+        let turns = self.record.whirl_turns;
+        match turns * self.context.setup.machine.constants.speed.signum() > 0.0 {
+            _ if turns.abs() < 1.0 => "none",
+            true => "forward",
+            false => "backward",
+        }
+    }
+}
+
+/// What exists of a rotor that touched the inner race.
+pub(super) fn touched<T>(value: Option<T>) -> Result<T, String> {
+    value.ok_or_else(|| "rotor and inner race never touched in this run".to_string())
+}
+
+results! {
+    fn contacts(setup: &(), run: &Landed) {
+        "time_to_first_contact": instant "s", FIRST_CONTACT, "first contact after the release" => {
+            touched(run.record.contacts.first().map(|first| run.after(first.start)))
+        };
+        "first_impact_force": number "N", CONTACT_FORCE, "largest normal force of the first contact" => {
+            touched(run.record.contacts.first().map(|first| first.peak_force))
+        };
+        "peak_contact_force": number "N", CONTACT_FORCE, "largest normal force between rotor and inner race" => {
+            touched(run.record.peak_contact_force().map(|peak| peak.value))
+        };
+        "contact_count": number "", CONTACT_COUNT, "number of contacts" => run.record.contacts.len() as f64;
+        "contact_start_times": list "s", CONTACT_STARTS, "begins of the contacts after the release" => {
+            run.record.contacts.iter().map(|contact| run.after(contact.start)).collect::<Vec<_>>()
+        };
+    }
+    fn spin_up(setup: &(), run: &Landed) {
+        "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" => {
+            run.reached(run.record.inner_race_time_to_50_percent(), "half of the rotor's release speed")
+        };
+        "inner_race_time_to_95_percent": instant "s", RISE, "time of the inner race to 95 % of the release speed" => {
+            run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the rotor's release speed")
+        };
+        "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
+            run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed of the rotor's release speed")
+        };
+        "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => {
+            run.balls.end[run.context.setup.machine.layout().bearings[run.k].inner + 5]
+        };
+        "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.context.setup.machine.cage_speed(run.k, run.balls.end);
+    }
+    fn load(given: &Bearing, run: &Landed) {
+        "peak_bearing_load": number "N", LOAD, "largest radial load on the bearing" => run.record.largest_bearing_load.value;
+        "static_safety": number "1", SAFETY, "static load rating over equivalent peak load", unless no_safety(given) => {
+            safety_under(run.record.largest_bearing_load.value, given)
+        };
+        "inner_race_turns": number "", TURNS, "turns of the inner race" => run.record.turns;
+        "cubic_mean_load": number "N", MEAN_LOAD, "cubic mean load over these turns" => run.mean_load();
+    }
+    fn mount_force(setup: &(), run: &Landed) {
+        "peak_mount_force": number "N", MOUNT_FORCE, "largest force of the mount on the housing" => run.record.largest_mount_force.value;
+    }
+    /// Displacements, whirl and what friction took.
+    fn motion(given: &AuxiliaryBearing, run: &Landed) {
+        "max_rotor_race_displacement": number "m", DISPLACEMENT, "largest distance of the rotor from the inner race's centre" => {
+            run.record.rotor_race_displacement.value
+        };
+        "max_rotor_displacement": number "m", ROTOR_DISPLACEMENT, "largest displacement of the rotor in contact" => {
+            touched(run.record.contacts.first().map(|_| run.record.rotor_displacement.value))
+        };
+        "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race" => run.record.mount_displacement.value;
+        "whirl_direction": text "", WHIRL, "direction of whirl" => run.whirl_direction();
+        "whirl_turns": number "", WHIRL, "net turns of whirl about the inner race" => run.record.whirl_turns;
+        "travel_index": number "1", TRAVEL, "longest way of the rotor in one turn over that of full whirl" => run.per_turn(run.record.travel.longest, 2.0 * PI);
+        "speed_index": number "1", SPEED_INDEX, "mean speed of the rotor's centre over that of full whirl" => {
+            run.per_turn(run.record.travel.way, run.record.travel.turned)
+        };
+        "rotor_race_friction_energy": number "J", ENERGY, "friction heat of rotor and inner race" => run.balls.heat("rotor_race_friction");
+        "ball_slip_energy": number "J", ENERGY, "sliding heat of the balls at both races" => run.balls.ball_slip();
+        "blow_index": number "1", BLOWS, "sum of all blows beyond the load at rest" => {
+            blows(run.record.contacts.iter().map(|contact| contact.peak_force), run.context.setup.drop.weight(run.k))
+        };
+    }
+    /// What half of the heats at its surfaces warms the inner race by.
+    fn warming(given: &Bearing, run: &Landed) {
+        "inner_race_rise_without_cooling": number "K", RACE_RISE, "rise of the inner race without cooling" => inner_race_rise(&run.balls, given);
+        "heat_index": number "1", HEAT_INDEX, "this rise over that of common rings" => inner_race_rise(&run.balls, given).map(|rise| rise / HOT_RACE);
+    }
+    fn rubbing(given: &AuxiliaryBearing, run: &Landed) {
+        "rotor_race_friction_energy_per_area": number "J/m^2", PER_AREA, "friction heat over the landing surface", unless {
+            not_given("contact.width", given.contact.width)
+        } => run.balls.heat("rotor_race_friction") / (PI * given.contact.bore_diameter * given.contact.width.unwrap_or(f64::NAN));
+    }
+    fn release(setup: &Setup, run: &Context) {
+        "release_time": number "s", RELEASE, "instant of the release" => run.release_time().ok_or_else(magnets::kept);
+        "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop.gravity.acceleration);
+    }
+    fn energies(setup: &Setup, run: &Context) {
+        "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
+        "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.heat();
+        "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop.rotor.planes as f64 * run.heat();
+        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" when Following::of(setup.drop).is_some() => {
+            run.renewals().map_or(0.0, |renewals| renewals.work_until(f64::INFINITY))
+        };
+        "work_of_sources": number "J", BALANCE, "work of sources" => run.balance().end.1.work - run.balance().start.1.work;
+        "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|content| content.translation + content.spin);
+        "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|content| content.potential);
+        "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.balance().energy_residual();
+        "energy_residual": number "1", RESIDUAL, "residual of the energy ledger over what is turned over" => residuals(run).0;
+        "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
+    }
+}
+
+impl Context<'_> {
+    /// Heat of all losses, J.
+    fn heat(&self) -> f64 {
+        self.setup.machine.flows(&self.finished.ending.state).heat
+    }
+    /// Change of an energy over the run, J.
+    fn change(&self, of: fn(Content) -> f64) -> f64 {
+        let balance = self.balance();
+        of(balance.end.0) - of(balance.start.0)
     }
 }
 
@@ -275,7 +255,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Largest residuals of the run, relative: (energy, angular momentum).
 pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
-    let machine = context.machine;
+    let machine = context.setup.machine;
     let record = &context.finished.record;
     let start = &context.finished.start;
     let balance = context.balance();

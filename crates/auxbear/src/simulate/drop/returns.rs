@@ -112,9 +112,9 @@ fn quiet(context: &Context, found: &Ran) -> f64 {
 
 /// Moment that friction of rotor and race carries, N m.
 fn carried(context: &Context, k: usize, part: &Part, row: &Row) -> f64 {
-    let contact = &context.machine.constants.bearings[k].contact;
+    let contact = &context.setup.machine.constants.bearings[k].contact;
     let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
-    friction(context.given(k), temperatures)
+    friction(context.setup.given(k), temperatures)
         * part.warm.radial_load
         * (contact.bore_radius - contact.radial_clearance)
 }

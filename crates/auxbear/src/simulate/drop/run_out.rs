@@ -3,7 +3,8 @@
 //! The spin that the run-out starts with is all the kinetic energy there is at the change, over the square of the speed: nothing is
 //! lost or made by it.
 
-use crate::result::list::{List, NOT_GIVEN, Origin};
+use crate::result::list::results;
+use crate::result::list::{List, Origin, not_given};
 use crate::result::outcome::{Quantity, Stop, Value, Warning};
 use crate::scenario::RunOut;
 use crate::simulate::bearing::races::count_run_out;
@@ -11,7 +12,7 @@ use crate::simulate::bearing::severity::STEEL_CHANGES;
 use crate::simulate::coast_down::build::{Built, Part, Start, part};
 use crate::simulate::coast_down::ran::{Ran, ran};
 use crate::simulate::coast_down::{self, history, quantities as of_run_out};
-use crate::simulate::drop::context::Context;
+use crate::simulate::drop::context::{Context, Setup};
 use crate::simulate::drop::returns::{self, Return, Returned};
 use crate::simulate::drop::went::{Change, Went, way};
 use crate::simulate::drop::window::Last;
@@ -43,7 +44,7 @@ pub(crate) struct After {
 
 /// Follows a drop until the rotor stands; none where that is not asked.
 pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> {
-    let end = context.drop.run_out.as_ref()?;
+    let end = context.setup.drop.run_out.as_ref()?;
     let ending = &context.finished.ending;
     let stop = ending::stop(ending);
     let rolls = ending.stop == solve::Stop::Halted(ROLLS);
@@ -78,7 +79,7 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         first,
         returned,
     };
-    let quantities = named(context, &found, &went);
+    let quantities = named(context.setup, &built.parts, Some((&found, &went)));
     if !goes_on {
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
@@ -98,9 +99,9 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
 
 /// Every result of a drop with those of what came after.
 pub(crate) fn quantities(context: &Context, after: Option<&After>) -> Vec<Quantity> {
-    let mut list = quantities::name(context);
+    let mut list = quantities::name(context.setup, Some(context));
     if let Some(after) = after {
-        for name in context.parts() {
+        for name in context.setup.parts() {
             count_run_out(&mut list, name, &after.quantities);
         }
         list.extend(after.quantities.iter().cloned());
@@ -143,34 +144,44 @@ fn without_values(mut quantities: Vec<Quantity>, why: &str) -> Vec<Quantity> {
     quantities
 }
 
-/// The machine of the run-out, from the state in which the drop ended.
-fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String> {
-    let (drop, machine) = (context.drop, context.machine);
-    let ending = &context.finished.ending;
-    let rotor = &machine.constants.rotor;
-    let sides = drop.rotor.planes;
-    let whole = f64::from(sides);
-    let mut parts: Vec<Part> = Vec::new();
-    let mut temperatures: Vec<f64> = Vec::new();
-    let (mut held, mut at_limits) = (Vec::new(), Vec::new());
-    let mut beyond_data = Vec::new();
-    for (k, name) in context.parts().enumerate() {
-        let given = context.given(k).warm.as_deref();
-        let (Some(warm), Some(warmth)) = (given, &context.record(k).warmth) else {
-            return Err("the temperatures of a bearing are not followed".to_string());
-        };
+/// Why there is no run-out of a bearing.
+const NOT_FOLLOWED: &str = "the temperatures of a bearing are not followed";
+
+/// The bearings of the run-out.
+fn parts(setup: Setup) -> Result<Vec<Part>, String> {
+    let of_bearing = |(k, name): (usize, &str)| {
+        let given = setup.given(k);
+        let warm = given.warm.as_deref().ok_or(NOT_FOLLOWED)?;
+        let sides = setup.drop.rotor.planes;
         let mut one = part(warm, name.to_string(), sides).map_err(|problem| problem.found)?;
-        let constants = &machine.constants.bearings[k];
+        let constants = &setup.machine.constants.bearings[k];
         let contact = &constants.contact;
         if let Some(warm) = &constants.warm {
             one.network.clone_from(&warm.network);
         }
-        one.load_direction = drop.gravity.direction;
+        one.load_direction = setup.drop.gravity.direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
-        if let Some(bearing) = &context.given(k).bearing {
+        if let Some(bearing) = &given.bearing {
             one.pressure_limit = bearing.hertz_pressure_limit;
         }
-        parts.push(one);
+        Ok(one)
+    };
+    setup.parts().enumerate().map(of_bearing).collect()
+}
+
+/// The machine of the run-out, from the state in which the drop ended.
+fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String> {
+    let (drop, machine) = (context.setup.drop, context.setup.machine);
+    let ending = &context.finished.ending;
+    let rotor = &machine.constants.rotor;
+    let sides = drop.rotor.planes;
+    let whole = f64::from(sides);
+    let parts = parts(context.setup)?;
+    let mut temperatures: Vec<f64> = Vec::new();
+    let (mut held, mut at_limits) = (Vec::new(), Vec::new());
+    let mut beyond_data = Vec::new();
+    for (k, part) in parts.iter().enumerate() {
+        let warmth = (context.record(k).warmth.as_ref()).ok_or(NOT_FOLLOWED)?;
         temperatures.extend(&warmth.temperatures);
         beyond_data.push(warmth.beyond_data);
         match &warmth.held {
@@ -179,7 +190,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
                 at_limits.extend(&own.temperatures);
             }
             None => {
-                held.push(Held::at(warm.limits().into_iter().collect()));
+                held.push(Held::at(part.warm.limits().into_iter().collect()));
                 at_limits.extend(&warmth.temperatures);
             }
         }
@@ -215,96 +226,92 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
     })
 }
 
+/// The results of the run-out of a drop, without values.
+pub(crate) fn results(setup: Setup) -> Vec<Quantity> {
+    let parts = parts(setup).unwrap_or_default();
+    named(setup, &parts, None)
+}
+
 /// The results under their names: those of the run-out, and its course over time.
-fn named(context: &Context, found: &Ran, went: &Went) -> Vec<Quantity> {
+fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Went)>) -> Vec<Quantity> {
     let mut list = List::default();
-    let first = &went.first;
-    let rolled = |value: f64| match first.never {
-        false => Ok(value),
-        true => Err("the rotor never lost only what laws of rolling say".to_string()),
-    };
-    list.awaited("start_time", rolled(first.time), &CHANGE);
-    list.number("start_speed", "rad/s", rolled(first.speed), &CHANGE);
-    let scatter = went.scatter();
-    list.number("windows", "", Ok(scatter.len() as f64), &WINDOWS);
-    let worst = scatter.iter().copied().fold(0.0, f64::max);
-    list.number("window_scatter", "1", Ok(worst), &WINDOWS);
-    list.number("change_of_model", "J", Ok(first.energy), &CHANGE);
-    for (k, (_, part)) in found.parts().enumerate() {
-        let peak = went.peak(k).ok_or("no windows ball by ball".to_string());
-        let name = of_part(&part.name, "peak_contact_force");
-        list.number(&name, "N", peak.map(|[force, ..]| force), &PEAK);
+    let went = run.map(|(_, went)| went);
+    change(&mut list, &(), went);
+    for (k, part) in parts.iter().enumerate() {
+        list.of_part(&part.name, |list| peaks(list, &k, went));
     }
-    for (k, (_, part)) in found.parts().enumerate() {
-        let rise = match context.given(k).contact.width {
-            Some(_) => went.hottest(k).ok_or("no windows ball by ball".to_string()),
-            None => Err(format!("contact.width{NOT_GIVEN}")),
-        };
-        let rise = rise.map(|[rise, _]| rise);
-        let name = of_part(&part.name, "contact_temperature_rise");
-        list.number(&name, "K", rise.clone(), &PATCH);
-        let name = of_part(&part.name, "contact_temperature_index");
-        let index = rise.map(|rise| rise / STEEL_CHANGES);
-        list.number(&name, "1", index, &PATCH_INDEX);
+    for (k, part) in parts.iter().enumerate() {
+        list.of_part(&part.name, |list| {
+            patch(list, &(k, setup.given(k).contact.width), went)
+        });
     }
-    of_run_out::name(found, &mut list);
-    let returned = &went.returned;
-    let of_returns = |of: fn(&Return) -> f64| returned.list.iter().map(of).collect();
-    for (name, unit, values, origin) in [
-        (
-            "return_times",
-            "s",
-            of_returns(|again| again.from[0]),
-            &RETURNS,
-        ),
-        (
-            "return_speeds",
-            "rad/s",
-            of_returns(|again| again.from[1]),
-            &RETURNS,
-        ),
-        (
-            "return_end_times",
-            "s",
-            of_returns(|again| again.to[0]),
-            &RETURNS,
-        ),
-        (
-            "return_changes_of_model",
-            "J",
-            of_returns(|again| again.change),
-            &RETURNS,
-        ),
-    ] {
-        list.push(name, unit, Value::List(values), origin);
-    }
-    let parts: Vec<&str> = (found.parts())
-        .map(|(_, part)| part.name.as_str())
-        .filter(|name| !name.is_empty())
-        .collect();
+    of_run_out::name(&mut list, parts, run.map(|(found, _)| found));
+    back(&mut list, &(), went);
     // those of a bearing keep its name before everything else
-    let split = |name: &str| -> (String, String) {
-        let own = parts
-            .iter()
-            .find_map(|part| Some((part, name.strip_prefix(*part)?.strip_prefix('.')?)));
-        match own {
-            Some((part, rest)) => (part.to_string(), rest.to_string()),
-            None => (String::new(), name.to_string()),
-        }
+    let under = |name: &str, word: &str| {
+        let named = parts.iter().filter(|part| !part.name.is_empty());
+        let mut own = named.filter_map(|part| {
+            let rest = name.strip_prefix(part.name.as_str())?.strip_prefix('.')?;
+            Some(of_part(&part.name, &format!("{word}.{rest}")))
+        });
+        own.next().unwrap_or_else(|| format!("{word}.{name}"))
     };
-    for column in history(found) {
-        let (part, rest) = split(&column.name);
-        let name = of_part(&part, &format!("{OVER_TIME}.{rest}"));
+    let rows = run.map_or(&[][..], |(found, _)| &found.free.rows);
+    for column in history(parts, rows) {
+        let name = under(&column.name, OVER_TIME);
         list.push(&name, column.unit, Value::List(column.values), &COURSE);
     }
-    let rename = |quantity: Quantity| {
-        let (part, rest) = split(&quantity.name);
-        Quantity {
-            name: of_part(&part, &format!("{RUN_OUT}.{rest}")),
-            ..quantity
+    for quantity in &mut list.quantities {
+        quantity.name = under(&quantity.name, RUN_OUT);
+    }
+    list.quantities
+}
+
+impl Went {
+    /// What exists where the rotor came to roll.
+    fn rolled(&self, value: f64) -> Result<f64, String> {
+        match self.first.never {
+            false => Ok(value),
+            true => Err("the rotor never lost only what laws of rolling say".to_string()),
         }
-    };
-    list.quantities.into_iter().map(rename).collect()
+    }
+    /// A value of each return.
+    fn returns(&self, of: fn(&Return) -> f64) -> Vec<f64> {
+        self.returned.list.iter().map(of).collect()
+    }
+}
+
+/// What exists where windows followed the motion.
+fn windowed(value: Option<f64>) -> Result<f64, String> {
+    value.ok_or_else(|| "no windows ball by ball".to_string())
+}
+
+results! {
+    fn change(setup: &(), run: &Went) {
+        "start_time": instant "s", CHANGE, "instant from which on the rotor rolls" => run.rolled(run.first.time);
+        "start_speed": number "rad/s", CHANGE, "speed of the rotor at this instant" => run.rolled(run.first.speed);
+        "windows": number "", WINDOWS, "number of windows ball by ball" => run.scatter().len() as f64;
+        "window_scatter": number "1", WINDOWS, "largest standard error of a window's power over it" => run.scatter().into_iter().fold(0.0, f64::max);
+        "change_of_model": number "J", CHANGE, "kinetic energy after the change less that before" => run.first.energy;
+    }
+    fn peaks(k: &usize, run: &Went) {
+        "peak_contact_force": number "N", PEAK, "largest contact force in the windows" => windowed(run.peak(*k).map(|[force, ..]| force));
+    }
+    fn patch(of: &(usize, Option<f64>), run: &Went) {
+        "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch in the windows", unless not_given("contact.width", of.1) => {
+            windowed(run.hottest(of.0).map(|[rise, _]| rise))
+        };
+        "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel", unless not_given("contact.width", of.1) => {
+            windowed(run.hottest(of.0).map(|[rise, _]| rise / STEEL_CHANGES))
+        };
+    }
+    /// Where the run-out went back from laws to windows.
+    fn back(setup: &(), run: &Went) {
+        "return_times": list "s", RETURNS, "begins of the returns to windows" => run.returns(|again| again.from[0]);
+        "return_speeds": list "rad/s", RETURNS, "speed of the rotor at these instants" => run.returns(|again| again.from[1]);
+        "return_end_times": list "s", RETURNS, "ends of the returns" => run.returns(|again| again.to[0]);
+        "return_changes_of_model": list "J", RETURNS, "kinetic energy after each return less that before" => run.returns(|again| again.change);
+    }
 }
 
 const CHANGE: Origin = Origin {

@@ -11,12 +11,12 @@ use crate::simulate::drop::went::Went;
 
 /// What windows and returns say, the gravest first.
 pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
-    let parts = context.parts().enumerate();
+    let parts = context.setup.parts().enumerate();
     let harder = parts.filter_map(|(k, name)| hits_harder(context, found, went, k, name));
     let early = ends_early(context, went);
     let whirl = early.into_iter().chain(whirls(went)).chain(scatters(went));
     let first = whirl.chain(leaves_rolling(went));
-    let parts = context.parts().enumerate();
+    let parts = context.setup.parts().enumerate();
     let hot = parts.filter_map(|(k, name)| gets_hot(went, k, name));
     first
         .chain(harder)
@@ -34,7 +34,7 @@ fn ends_early(context: &Context, went: &Went) -> Option<Warning> {
     let end = context.finished.ending.time;
     let lands = |k: usize| !context.record(k).contacts.is_empty();
     let text = match went.bounced.late.filter(|late| *late > LATE * end) {
-        _ if !(0..context.parts().count()).all(lands) => format!(
+        _ if !(0..context.setup.parts().count()).all(lands) => format!(
             "run.duration ends after {end:.4} s, before the rotor has landed on every bearing: its impacts are in none of these results. Give run.duration more."
         ),
         Some(late) => format!(

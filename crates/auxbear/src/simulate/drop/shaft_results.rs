@@ -1,136 +1,121 @@
 //! What a run shows of a bent rotor: its shape over time, and what is left of the clearances along it.
 
-use crate::result::drawing;
-use crate::result::list::{List, Origin};
-use crate::result::outcome::{Column, Value, Warning, warning};
+use crate::result::drawing::{self, GIVEN};
+use crate::result::list::results;
+use crate::result::list::{List, Origin, not_given};
+use crate::result::outcome::{Column, Warning, warning};
 use crate::scenario::{AuxiliaryBearing, RotorModel, Shaft};
 use crate::simulate::bearing::columns::Table;
 use crate::simulate::bearing::run::BearingRun;
-use crate::simulate::drop::context::Context;
-use crate::simulate::drop::shaft::BuiltShaft;
+use crate::simulate::drop::context::{Context, Setup};
+use crate::simulate::drop::shaft::{BuiltShaft, HeldMode};
 use physics::magnet::Magnet;
 
 /// The results that only a bent rotor has.
-pub(crate) fn name(context: &Context, list: &mut List) {
-    let (Some(given), Some(built)) = (&context.drop.shaft, &context.built.shaft) else {
+pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
+    let (Some(given), Some(built)) = (&setup.drop.shaft, &setup.built.shaft) else {
         return;
     };
     for node in named(given, built) {
-        let peak = context.finished.record.places[node.place];
-        let named = |what: &str| format!("node.{}.{what}", node.name);
-        list.number(
-            &named("largest_displacement"),
-            "m",
-            Ok(peak.value),
-            &DISPLACEMENT,
-        );
-        let left = node.clearance.map(|clearance| clearance - peak.value);
-        let none = || "rotor.node.clearance is not given".to_string();
-        list.number(
-            &named("least_distance"),
-            "m",
-            left.ok_or_else(none),
-            &DISTANCE,
-        );
+        let peak = run.map(|run| run.finished.record.places[node.place].value);
+        list.named(&[node.name], |list| place(list, &node, peak.as_ref()));
     }
-    let mass = given.properties().mass;
-    list.number("rotor_mass", "kg", Ok(mass), &BASIS);
-    let coordinates = &built.rotor.coordinates;
-    let bends = coordinates
-        .iter()
-        .map(|own| own.frequency)
-        .find(|omega| *omega > 0.0);
-    let none = || "the rotor does not bend".to_string();
-    list.number(
-        "first_bending_frequency",
-        "rad/s",
-        bends.ok_or_else(none),
-        &BASIS,
-    );
-    let highest = coordinates.last().map_or(0.0, |own| own.frequency);
-    list.number("highest_frequency", "rad/s", Ok(highest), &BASIS);
-    list.number("coordinates", "", Ok(coordinates.len() as f64), &BASIS);
-    let most = SHOWN * context.drop.rotor.speed.abs();
-    let held = built.held.iter();
-    let shown: Vec<_> = held.filter(|mode| mode.frequency.abs() <= most).collect();
-    let frequencies = shown.iter().map(|mode| mode.frequency).collect();
-    list.push(
-        "levitated_mode_frequencies",
-        "rad/s",
-        Value::List(frequencies),
-        &HELD,
-    );
-    let damping = shown.iter().map(|mode| mode.damping_ratio).collect();
-    list.push(
-        "levitated_mode_damping_ratios",
-        "",
-        Value::List(damping),
-        &HELD,
-    );
-    drawing::name(list, &given.model);
-    let rotor = &given.model.rotor;
-    let z = |nodes: &mut dyn Iterator<Item = usize>| -> Vec<f64> {
-        nodes.map(|node| rotor.nodes[node]).collect()
+    let bent = Bent {
+        given,
+        built,
+        speed: setup.drop.rotor.speed.abs(),
     };
-    let places = z(&mut built.places.iter().copied());
-    list.push("shape_positions", "m", Value::List(places), &drawing::GIVEN);
-    let bearings = z(&mut given.places.iter().map(|place| place.node));
-    list.push(
-        "bearing_positions",
-        "m",
-        Value::List(bearings),
-        &drawing::GIVEN,
-    );
-    for (axis, name) in ["bearing_offsets_x", "bearing_offsets_y"]
-        .into_iter()
-        .enumerate()
-    {
-        let offsets = given.places.iter().map(|place| place.misalignment[axis]);
-        list.push(name, "m", Value::List(offsets.collect()), &drawing::GIVEN);
-    }
-    along(list, context, given, built);
+    basis(list, &(), run.map(|_| &bent));
+    drawing::name(list, &given.model);
+    positions(list, &(), run.map(|_| &bent));
+    displacements(list, &(), run);
+    clearances_along(list, &(), run.map(|_| &bent));
 }
 
-/// How far the shaft goes along it, and what stands around it.
-fn along(list: &mut List, context: &Context, given: &Shaft, built: &BuiltShaft) {
-    let peaks = context.finished.record.places.iter();
-    let peaks = Value::List(peaks.map(|peak| peak.value).collect());
-    list.push("largest_displacements", "m", peaks, &DISPLACEMENT);
-    let around: Vec<Named> = named(given, built)
-        .chain(magnets(given, built))
-        .filter(|own| own.clearance.is_some())
-        .collect();
-    let names: Vec<&str> = around.iter().map(|own| own.name).collect();
-    list.push(
-        "clearance_names",
-        "",
-        Value::Text(names.join("\n")),
-        &drawing::GIVEN,
-    );
-    let at = around
-        .iter()
-        .map(|own| given.model.rotor.nodes[built.places[own.place]]);
-    list.push(
-        "clearance_positions",
-        "m",
-        Value::List(at.collect()),
-        &drawing::GIVEN,
-    );
-    let sizes = around.iter().filter_map(|own| own.clearance);
-    list.push(
-        "clearances",
-        "m",
-        Value::List(sizes.collect()),
-        &drawing::GIVEN,
-    );
+results! {
+    fn place(node: &Named, peak: &f64) {
+        "node.*.largest_displacement": number "m", DISPLACEMENT, "largest displacement of the shaft at this node" => *peak;
+        "node.*.least_distance": number "m", DISTANCE, "least distance left of the clearance at this node", unless {
+            not_given("rotor.node.clearance", node.clearance)
+        } => node.clearance.unwrap_or(f64::NAN) - *peak;
+    }
+    /// What the modes are.
+    fn basis(setup: &(), bent: &Bent) {
+        "rotor_mass": number "kg", BASIS, "mass of the rotor" => bent.given.properties().mass;
+        "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" => {
+            let mut bends = bent.frequencies().filter(|omega| *omega > 0.0);
+            bends.next().ok_or_else(|| "the rotor does not bend".to_string())
+        };
+        "highest_frequency": number "rad/s", BASIS, "highest frequency of a coordinate" => bent.frequencies().last().unwrap_or(0.0);
+        "coordinates": number "", BASIS, "number of coordinates" => bent.built.rotor.coordinates.len() as f64;
+        "levitated_mode_frequencies": list "rad/s", HELD, "frequencies of the rotor's modes on its magnets or supports" => bent.modes(|mode| mode.frequency);
+        "levitated_mode_damping_ratios": list "", HELD, "damping ratios of these modes" => bent.modes(|mode| mode.damping_ratio);
+    }
+    /// Where everything stands.
+    fn positions(setup: &(), bent: &Bent) {
+        "shape_positions": list "m", GIVEN, "places along the shaft at which its shape is known" => bent.z(bent.built.places.iter().copied());
+        "bearing_positions": list "m", GIVEN, "places of the auxiliary bearings" => bent.z(bent.given.places.iter().map(|place| place.node));
+        "bearing_offsets_x": list "m", GIVEN, "misalignments of the auxiliary bearings to the right" => bent.offsets(0);
+        "bearing_offsets_y": list "m", GIVEN, "misalignments of the auxiliary bearings upwards" => bent.offsets(1);
+    }
+    fn displacements(setup: &(), run: &Context) {
+        "largest_displacements": list "m", DISPLACEMENT, "largest displacement of the shaft at each of shape_positions" => {
+            run.finished.record.places.iter().map(|peak| peak.value).collect::<Vec<_>>()
+        };
+    }
+    /// What stands around the shaft.
+    fn clearances_along(setup: &(), bent: &Bent) {
+        "clearance_names": text "", GIVEN, "what stands around the shaft" => bent.around(|own| own.name).join("\n").as_str();
+        "clearance_positions": list "m", GIVEN, "its places" => bent.z(bent.around(|own| own.place).into_iter().map(|place| bent.built.places[place]));
+        "clearances": list "m", GIVEN, "its radial clearances" => bent.around(|own| own.clearance.unwrap_or(f64::NAN));
+    }
+}
+
+/// A rotor that bends.
+struct Bent<'a> {
+    given: &'a Shaft,
+    built: &'a BuiltShaft,
+    /// At the start, rad/s.
+    speed: f64,
+}
+
+impl<'a> Bent<'a> {
+    /// Of its coordinates, rad/s.
+    fn frequencies(&self) -> impl Iterator<Item = f64> {
+        let coordinates = self.built.rotor.coordinates.iter();
+        coordinates.map(|own| own.frequency)
+    }
+    /// A number of each mode near its speed on its magnets or supports.
+    fn modes(&self, of: fn(&HeldMode) -> f64) -> Vec<f64> {
+        let held = self.built.held.iter();
+        let shown = held.filter(|mode| mode.frequency.abs() <= SHOWN * self.speed);
+        shown.map(of).collect()
+    }
+    /// Positions of nodes, m.
+    fn z(&self, nodes: impl Iterator<Item = usize>) -> Vec<f64> {
+        nodes
+            .map(|node| self.given.model.rotor.nodes[node])
+            .collect()
+    }
+    /// Misalignments of the auxiliary bearings along an axis, m.
+    fn offsets(&self, axis: usize) -> Vec<f64> {
+        let places = self.given.places.iter();
+        places.map(|place| place.misalignment[axis]).collect()
+    }
+    /// Of each place along it with a clearance.
+    fn around<T>(&self, of: fn(&Named<'a>) -> T) -> Vec<T> {
+        let all = named(self.given, self.built).chain(magnets(self.given, self.built));
+        let around = all.filter(|own| own.clearance.is_some());
+        around.map(|own| of(&own)).collect()
+    }
 }
 
 /// Displacements along the shaft.
 pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
-    let (Some(given), Some(built)) = (&context.drop.shaft, &context.built.shaft) else {
+    let (Some(given), Some(built)) = (&context.setup.drop.shaft, &context.setup.built.shaft) else {
         return Vec::new();
     };
-    let machine = context.machine;
+    let machine = context.setup.machine;
     let mut table = Table::over(run);
     for (place, node) in built.places.iter().enumerate() {
         let z = 1e3 * given.model.rotor.nodes[*node];
@@ -148,7 +133,7 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
 
 /// Number of places whose clearance may be watched.
 pub(crate) fn clearances(context: &Context) -> usize {
-    match (&context.drop.shaft, &context.built.shaft) {
+    match (&context.setup.drop.shaft, &context.setup.built.shaft) {
         (Some(given), Some(built)) => named(given, built).chain(magnets(given, built)).count(),
         _ => 0,
     }
@@ -156,7 +141,10 @@ pub(crate) fn clearances(context: &Context) -> usize {
 
 /// A clearance along the shaft that a member uses up, and by how much.
 pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> {
-    let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    let (given, built) = (
+        context.setup.drop.shaft.as_ref()?,
+        context.setup.built.shaft.as_ref()?,
+    );
     let node = named(given, built).chain(magnets(given, built)).nth(node)?;
     let (peak, clearance) = (context.finished.record.places[node.place], node.clearance?);
     (peak.value >= clearance).then(|| {
@@ -177,7 +165,10 @@ const FEW_MODES: f64 = 10.0;
 
 /// Modes that are too few for impacts.
 pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
-    let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    let (given, built) = (
+        context.setup.drop.shaft.as_ref()?,
+        context.setup.built.shaft.as_ref()?,
+    );
     let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
     let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
     let needed = FEW_MODES * bends.max(context.release_speed());
@@ -201,13 +192,13 @@ const DEPTH: f64 = 1e-5;
 
 /// Contacts and mounts so stiff that the default number of modes was not shown to do.
 pub(crate) fn stiff(context: &Context) -> Option<Warning> {
-    let given = context.drop.shaft.as_ref()?;
+    let given = context.setup.drop.shaft.as_ref()?;
     let (contact, mount, cutoff) = COMPARED;
     let slope = |part: &AuxiliaryBearing| {
         let own = &part.contact;
         own.exponent * own.stiffness * DEPTH.powf(own.exponent - 1.0)
     };
-    let mut parts = context.drop.auxiliary_bearings.iter();
+    let mut parts = context.setup.drop.auxiliary_bearings.iter();
     let hard = parts.find(|part| slope(part) > contact || part.mount.stiffness > mount)?;
     (given.cutoff <= cutoff).then(|| {
         warning(
@@ -251,12 +242,15 @@ pub(crate) fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
 
 /// A mode of the levitated rotor near the speed at which it is released, with its amplification.
 pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
-    let (given, built) = (context.drop.shaft.as_ref()?, context.built.shaft.as_ref()?);
+    let (given, built) = (
+        context.setup.drop.shaft.as_ref()?,
+        context.setup.built.shaft.as_ref()?,
+    );
     // modes are those of the start: a rotor that runs up is released elsewhere
-    if context.controlled().is_some() {
+    if context.setup.controlled().is_some() {
         return None;
     }
-    let speed = context.drop.rotor.speed.abs();
+    let speed = context.setup.drop.rotor.speed.abs();
     let near = built.held.iter().filter(|mode| {
         mode.excited
             && (mode.frequency.abs() - speed).abs() < NEAR * speed
@@ -348,7 +342,7 @@ const BASIS: Origin = Origin {
 
 /// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
 pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
-    let given = context.drop.shaft.as_ref()?;
+    let given = context.setup.drop.shaft.as_ref()?;
     let z = given.model.rotor.nodes[given.places[k].node];
     let side = |at: f64| {
         let there = (given.model.pieces.iter()).map(|piece| &piece.layer);
@@ -362,7 +356,7 @@ pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
     let sides = [z - BESIDE, z + BESIDE].map(side);
     let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
     let shaft = shaft.fold(f64::INFINITY, f64::min);
-    let bore = context.given(k).contact.bore_diameter;
+    let bore = context.setup.given(k).contact.bore_diameter;
     (shaft.is_finite() && shaft > bore).then(|| {
         warning(
             "AB2033",

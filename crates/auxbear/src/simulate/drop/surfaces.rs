@@ -1,10 +1,15 @@
 //! Surfaces of rotor and inner race: what they are made of, how hot they became, what was worn off.
 
-use crate::result::list::{List, NOT_GIVEN, Origin};
-use crate::result::outcome::{Value, Warning, warning};
+use crate::result::list::results;
+use crate::result::list::{Origin, not_given};
+use crate::result::outcome::{Warning, warning};
+use crate::scenario::AuxiliaryBearing;
+use crate::scenario::drop::Contact;
 use crate::simulate::bearing::severity::{STEEL_CHANGES, wide_line};
 use crate::simulate::drop::context::Context;
+use crate::simulate::drop::quantities::touched;
 use model::surface_heat::SurfaceHeat;
+use model::system::machine::record::BearingRecord;
 use physics::heat_exchange::line_half_width;
 use physics::severity::wear_volume;
 use std::f64::consts::PI;
@@ -12,78 +17,54 @@ use std::f64::consts::PI;
 /// Time in the patch, s, from which on one place of the rotor is heated on its own.
 const STAYS: f64 = 5e-3;
 
-/// Names the results of the surfaces of a bearing.
-pub(crate) fn name(context: &Context, k: usize, list: &mut List) {
-    let record = context.record(k);
-    let contact = &context.given(k).contact;
-    let heat = record.heat.as_deref();
-    let of = |value: &dyn Fn(&SurfaceHeat) -> f64| {
-        let no_width = || format!("contact.width{NOT_GIVEN}");
-        let heat = heat.ok_or_else(no_width)?;
-        match record.contacts.is_empty() {
-            true => Err("rotor and inner race never touched in this run".to_string()),
-            false => Ok(value(heat)),
-        }
-    };
-    list.number(
-        "contact_temperature_rise",
-        "K",
-        of(&|heat| heat.contact.value),
-        &PATCH,
-    );
-    list.number(
-        "contact_temperature_index",
-        "1",
-        of(&|heat| heat.contact.value / STEEL_CHANGES),
-        &INDEX,
-    );
-    list.number(
-        "contact_temperature_time",
-        "s",
-        of(&|heat| heat.contact.time),
-        &PATCH,
-    );
-    let rises = record.contacts.iter().map(|contact| contact.peak_rise);
-    if heat.is_some() {
-        let rises = Value::List(rises.collect());
-        list.push("contact_temperature_rises", "K", rises, &PATCH);
+results! {
+    /// How hot the surfaces of a bearing became, and what was worn off.
+    pub(crate) fn name(given: &AuxiliaryBearing, run: &BearingRecord) {
+        "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch", unless no_width(given) => rubbed(run, |heat| heat.contact.value);
+        "contact_temperature_index": number "1", INDEX, "this rise over that which changes steel", unless no_width(given) => {
+            rubbed(run, |heat| heat.contact.value / STEEL_CHANGES)
+        };
+        "contact_temperature_time": number "s", PATCH, "instant of this rise", unless no_width(given) => rubbed(run, |heat| heat.contact.time);
+        "contact_temperature_rises": list "K", PATCH, "largest rise of the patch in each contact" when given.contact.width.is_some() => {
+            run.contacts.iter().map(|contact| contact.peak_rise).collect::<Vec<_>>()
+        };
+        "rotor_surface_rise": number "K", SURFACE, "largest rise of the rotor's surface", unless no_width(given) => rubbed(run, |heat| heat.surfaces[0].value);
+        "friction_heat_into_rotor": number "J", SHARE, "friction heat into the rotor", unless no_width(given) => rubbed(run, |heat| heat.taken()[0]);
+        "race_surface_rise": number "K", SURFACE, "largest rise of the race's surface", unless no_width(given) => rubbed(run, |heat| heat.surfaces[1].value);
+        "friction_heat_into_race": number "J", SHARE, "friction heat into the race", unless no_width(given) => rubbed(run, |heat| heat.taken()[1]);
+        "peak_pressure_times_speed": number "W/m^2", PRESSURE_SPEED, "largest nominal pressure times sliding speed", unless no_width(given) => {
+            rubbed(run, |heat| heat.pressure_speed.value)
+        };
+        "sliding_distance": number "m", DISTANCE, "distance slid by rotor and race", unless no_width(given) => rubbed(run, |heat| heat.distance);
+        "wear_depth": number "m", WEAR, "mean depth worn off", unless {
+            not_given("contact.surface.wear_coefficient", given.contact.wear_coefficient).or(no_width(given))
+        } => wear_depth(&given.contact, run);
     }
-    for (body, place) in [("rotor", 0), ("race", 1)] {
-        let rise = of(&|heat| heat.surfaces[place].value);
-        list.number(&format!("{body}_surface_rise"), "K", rise, &SURFACE);
-        let taken = of(&|heat| heat.taken()[place]);
-        list.number(&format!("friction_heat_into_{body}"), "J", taken, &SHARE);
-    }
-    let pressure_speed = of(&|heat| heat.pressure_speed.value);
-    list.number(
-        "peak_pressure_times_speed",
-        "W/m^2",
-        pressure_speed,
-        &PRESSURE_SPEED,
-    );
-    list.number(
-        "sliding_distance",
-        "m",
-        of(&|heat| heat.distance),
-        &DISTANCE,
-    );
+}
 
-    let coefficient = contact.wear_coefficient;
-    let coefficient =
-        coefficient.ok_or_else(|| format!("contact.surface.wear_coefficient{NOT_GIVEN}"));
-    let depth = |diameter: f64| {
-        let coefficient = coefficient.clone()?;
-        let rubbed = of(&|heat| heat.rubbed)?;
-        match contact.friction_coefficient > 0.0 {
-            true => {
-                let area = PI * diameter * contact.width.unwrap_or(f64::NAN);
-                // ∫N|u| dt: the distance slid under 1 N
-                Ok(wear_volume(coefficient, 1.0, rubbed) / area)
-            }
-            false => Err("without friction the ledger does not tell the sliding".to_string()),
-        }
-    };
-    list.number("wear_depth", "m", depth(contact.bore_diameter), &WEAR);
+fn no_width(given: &AuxiliaryBearing) -> Option<String> {
+    not_given("contact.width", given.contact.width)
+}
+
+/// What exists of surfaces that touched.
+fn rubbed(record: &BearingRecord, value: fn(&SurfaceHeat) -> f64) -> Result<f64, String> {
+    let heat = record
+        .heat
+        .as_deref()
+        .filter(|_| !record.contacts.is_empty());
+    touched(heat.map(value))
+}
+
+/// Mean depth worn off, m.
+fn wear_depth(contact: &Contact, record: &BearingRecord) -> Result<f64, String> {
+    let rubbed = rubbed(record, |heat| heat.rubbed)?;
+    let [coefficient, width] =
+        [contact.wear_coefficient, contact.width].map(|of| of.unwrap_or(f64::NAN));
+    match contact.friction_coefficient > 0.0 {
+        // ∫N|u| dt: the distance slid under 1 N
+        true => Ok(wear_volume(coefficient, 1.0, rubbed) / (PI * contact.bore_diameter * width)),
+        false => Err("without friction the ledger does not tell the sliding".to_string()),
+    }
 }
 
 /// Surfaces that became so hot, or were heated at one place so long, that their numbers do not hold.
@@ -92,7 +73,7 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
     let Some(heat) = record.heat.as_deref() else {
         return Vec::new();
     };
-    let constants = &context.machine.constants.bearings[k];
+    let constants = &context.setup.machine.constants.bearings[k];
     let contact = &constants.contact;
     let wide =
         (constants.surfaces.as_ref().zip(record.peak_contact_force())).and_then(|(own, peak)| {
@@ -118,7 +99,7 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
         );
         list.push((heat.longest_stay, warning("AB2302", text)));
     }
-    let layer = context.given(k).contact.rotor_layer();
+    let layer = context.setup.given(k).contact.rotor_layer();
     let first = context.record(k).contacts.first();
     let since = first.map_or(0.0, |first| heat.surfaces[0].time - first.start);
     if context.record(k).warmth.is_none() && since > layer.through() {

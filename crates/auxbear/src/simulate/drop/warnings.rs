@@ -4,7 +4,6 @@ use crate::result::assumptions::speed_rating;
 use crate::result::outcome::Warning;
 use crate::result::outcome::warning;
 use crate::scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
-use crate::simulate::bearing::quantities::End;
 use crate::simulate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::simulate::bearing::warm;
 use crate::simulate::bearing::warnings as shared;
@@ -24,7 +23,7 @@ const LARGEST_DAMPING: f64 = 0.5;
 
 /// What decides the steps of a drop.
 fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
-    method::asked(context.drop, context.machine.tangents())
+    method::asked(context.setup.drop, context.setup.machine.tangents())
 }
 
 /// A warning of one member, and how grave it is there.
@@ -80,8 +79,8 @@ pub(crate) fn of(
         true => &contexts[..1],
         false => contexts,
     };
-    let drop = context.drop;
-    let names: Vec<&str> = context.parts().collect();
+    let drop = context.setup.drop;
+    let names: Vec<&str> = context.setup.parts().collect();
     let each = |of: &dyn Fn(usize) -> Vec<Warning>| -> Vec<Warning> {
         let named = |(k, name): (usize, &&str)| {
             let mut list = of(k);
@@ -173,17 +172,12 @@ pub(crate) fn of(
     }));
     list.extend(shaft_results::few_modes(context));
     list.extend(shaft_results::stiff(context));
-    list.extend(
-        context
-            .built
-            .shaft
-            .iter()
-            .flat_map(|own| own.warnings.clone()),
-    );
+    let shafts = context.setup.built.shaft.iter();
+    list.extend(shafts.flat_map(|own| own.warnings.clone()));
     let shaft = drop.shaft.as_ref();
     list.extend(shaft.and_then(|own| shaft_results::against_spin(&own.model, drop.rotor.speed)));
-    let known = context.machine.tangents();
-    let stepping = method::stepping(drop, context.built, known);
+    let known = context.setup.machine.tangents();
+    let stepping = method::stepping(drop, context.setup.built, known);
     list.extend(asked(context).warnings(stepping.steps));
     if drop.rotor.planes > 1 {
         list.push(warning(
@@ -197,11 +191,11 @@ pub(crate) fn of(
     }
     list.extend(each(&|k| {
         let run = context.bearing(k);
-        let given = context.given(k).bearing.as_ref();
+        let given = context.setup.given(k).bearing.as_ref();
         let mut list = given.map_or(Vec::new(), |bearing| shared::films(&run, bearing));
         list.extend(shared::film_rise(&run));
         list.extend(given.map_or(Vec::new(), |bearing| {
-            shared::law_range(bearing, run.fastest(), context.drop.weight(k))
+            shared::law_range(bearing, run.fastest(), context.setup.drop.weight(k))
         }));
         let mut list = of_rows(contexts, list);
         list.extend(judged(machines, |member| {
@@ -222,7 +216,7 @@ pub(crate) fn of(
                 ),
             )
         });
-        let kind = (context.given(k).bearing.iter()).flat_map(shared::kind);
+        let kind = (context.setup.given(k).bearing.iter()).flat_map(shared::kind);
         late.into_iter().chain(kind).collect()
     }));
     if drop.rotor.first_bending_frequency.is_none() && drop.shaft.is_none() {
@@ -238,10 +232,10 @@ pub(crate) fn of(
     list.extend(shared::assumed(
         scenario,
         None,
-        context.given(0).bearing.as_ref(),
+        context.setup.given(0).bearing.as_ref(),
     ));
     list.extend(each(&|k| {
-        let given = context.given(k);
+        let given = context.setup.given(k);
         let own = Some(given.name.as_str()).filter(|name| !name.is_empty());
         let assumed =
             own.and_then(|name| shared::assumed(scenario, Some(name), given.bearing.as_ref()));
@@ -252,7 +246,7 @@ pub(crate) fn of(
 
 /// A rotor that runs round the bore against its spin.
 fn whirl(context: &Context, k: usize) -> Option<Graded> {
-    let back = -context.record(k).whirl_turns * context.machine.constants.speed.signum();
+    let back = -context.record(k).whirl_turns * context.setup.machine.constants.speed.signum();
     (back >= 1.0).then(|| {
         let text = format!(
             "Backward whirl: the rotor runs {back:.0} turns round the bore against its spin. Contact forces of this kind destroy \
@@ -264,7 +258,7 @@ fn whirl(context: &Context, k: usize) -> Option<Graded> {
 
 /// Speeds beyond those of the bearing and of its fit.
 fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
-    let Some(bearing) = &context.given(k).bearing else {
+    let Some(bearing) = &context.setup.given(k).bearing else {
         return Vec::new();
     };
     let speed = context.release_speed();
@@ -275,25 +269,25 @@ fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
 
 /// A load beyond what the axial preload holds.
 fn preload(context: &Context, k: usize) -> Option<Graded> {
-    let drop = context.drop;
+    let drop = context.setup.drop;
     let weight = drop.weight(k);
     let peak = context.record(k).peak_contact_force();
     let peak = peak.map(|peak| (peak.value, peak.time));
-    let bearing = context.given(k).bearing.as_ref()?;
+    let bearing = context.setup.given(k).bearing.as_ref()?;
     let warning = shared::preload_left("", bearing, ("weight", weight), peak)?;
     Some((peak.map_or(weight, |(force, _)| force.max(weight)), warning))
 }
 
 /// Balls that traction cannot turn.
 fn skids(context: &Context, k: usize) -> Option<Graded> {
-    let steady = context.built.bearings[k].steady.as_ref();
+    let steady = context.setup.built.bearings[k].steady.as_ref();
     let warning = shared::skids(steady)?;
     Some((steady.map_or(0.0, |steady| -steady.capacity), warning))
 }
 
 /// A rotor that bends where it is taken as rigid.
 fn bending(context: &Context) -> Option<Graded> {
-    let rotor = &context.drop.rotor;
+    let rotor = &context.setup.drop.rotor;
     let bending = rotor.first_bending_frequency?;
     let speed = rotor.speed.abs();
     let side = if bending < speed {
@@ -312,8 +306,8 @@ fn bending(context: &Context) -> Option<Graded> {
 
 /// Several bearings under a rotor that does not tilt.
 fn one_motion(context: &Context) -> Option<Warning> {
-    let count = context.drop.auxiliary_bearings.len();
-    (count > 1 && context.drop.shaft.is_none()).then(|| {
+    let count = context.setup.drop.auxiliary_bearings.len();
+    (count > 1 && context.setup.drop.shaft.is_none()).then(|| {
         warning(
             "AB1090",
             format!(
@@ -326,13 +320,11 @@ fn one_motion(context: &Context) -> Option<Warning> {
 
 /// Pressures and forces beyond what bearing and laws stand.
 fn loads(context: &Context, k: usize) -> Vec<Graded> {
-    let Some(bearing) = &context.given(k).bearing else {
+    let Some(bearing) = &context.setup.given(k).bearing else {
         return Vec::new();
     };
     let record = context.record(k);
-    let races = [record.largest_inner_load, record.largest_outer_load];
-    let factors = context.built.bearings[k].pressure_factors;
-    let pressures = factors.pressures(races, record.largest_pocket_force);
+    let pressures = context.bearing(k).pressures();
     let grade = |code| match code {
         "AB1070" => pressures.neighbours.unwrap_or(0.0),
         _ => pressures.races,
@@ -357,17 +349,16 @@ fn loads(context: &Context, k: usize) -> Vec<Graded> {
 
 /// An inner race that gets hot.
 fn hot(context: &Context, k: usize) -> Option<Graded> {
-    let end = End {
-        part: context.parts().nth(k)?,
-        layout: context.machine.layout(),
-        state: &context.finished.ending.state,
-    };
-    if context.given(k).warm.is_some() {
+    if context.setup.given(k).warm.is_some() {
         // its temperatures say more
         return None;
     }
-    let rise = inner_race_rise(&end, context.given(k).bearing.as_ref()?)
-        .filter(|rise| *rise > HOT_RACE)?;
+    let rise = inner_race_rise(
+        &context.bearing(k),
+        context.setup.given(k).bearing.as_ref()?,
+    )
+    .ok();
+    let rise = rise.filter(|rise| *rise > HOT_RACE)?;
     let text = format!(
         "Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run \
          does not follow them."
@@ -377,12 +368,12 @@ fn hot(context: &Context, k: usize) -> Option<Graded> {
 
 /// A contact law outside its range.
 fn damping(context: &Context, k: usize) -> Vec<Warning> {
-    let at = context.machine.layout().bearings[k];
+    let at = context.setup.machine.layout().bearings[k];
     let closing = (context.finished.record.rows())
         .filter(|row| row.probe[at.probe(PENETRATION)] > 0.0)
         .map(|row| row.probe[at.probe(PENETRATION_SPEED)].abs())
         .fold(0.0, f64::max);
-    let reached = context.given(k).contact.damping * closing;
+    let reached = context.setup.given(k).contact.damping * closing;
     let text = format!(
         "The damping of rotor and race reaches a·ḋ = {reached:.2}: the Hunt-Crossley law is meant for values well below 1."
     );
@@ -392,7 +383,7 @@ fn damping(context: &Context, k: usize) -> Vec<Warning> {
 
 /// What a ring that does not turn does to a rotor, and what is not followed of it.
 fn bushing(context: &Context, k: usize) -> Warning {
-    let friction = context.given(k).contact.friction_coefficient;
+    let friction = context.setup.given(k).contact.friction_coefficient;
     warning(
         "AB2330",
         format!(
@@ -406,7 +397,7 @@ fn bushing(context: &Context, k: usize) -> Warning {
 /// What the laws of a bearing leave open.
 fn of_bearing(scenario: &Scenario, contexts: &[Context], k: usize) -> Vec<Warning> {
     let context = &contexts[0];
-    let given = context.given(k);
+    let given = context.setup.given(k);
     let Some(bearing) = &given.bearing else {
         let mut touches = contexts.iter().map(|member| &member.record(k).contacts);
         let touches = touches.any(|contacts| !contacts.is_empty());

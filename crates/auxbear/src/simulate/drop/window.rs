@@ -130,7 +130,7 @@ impl Last {
     pub fn of(context: &Context) -> Self {
         let ending = &context.finished.ending;
         Last {
-            machine: Arc::new(context.machine.clone()),
+            machine: Arc::new(context.setup.machine.clone()),
             state: ending.state.clone(),
             time: ending.time,
         }
@@ -195,7 +195,7 @@ impl<'a> Way<'a> {
     /// The machine at the speed and the temperatures that the run-out has come to, in the motion it had, and how it is computed.
     fn condition(&mut self, built: &Built) -> Result<Plan<'a>, &'static str> {
         let speed = built.start.speed;
-        let drop = conditioned(self.context.drop, built);
+        let drop = conditioned(self.context.setup.drop, built);
         let made =
             build::drop(&drop).map_err(|_| "no machine could be built at these temperatures")?;
         let mut constants = made.constants.clone();
@@ -324,7 +324,7 @@ impl<'a> Way<'a> {
             let steady = model::bearing_heat::steady_moment(&heats);
             powers.extend([steady, heats.iter().sum::<f64>() - steady]);
             friction.push(state[layout.heat(at.rotor_race_friction())] / span);
-            let part = &self.context.machine.constants.bearings[k];
+            let part = &self.context.setup.machine.constants.bearings[k];
             let drag_factor = (part.bearing).drag_factor(&|own| state[at.own().start + own]);
             drag_factors.push(drag_factor);
             spins.push(state[at.inner + 5].abs());

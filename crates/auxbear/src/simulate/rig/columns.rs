@@ -77,7 +77,8 @@ pub(crate) fn history(context: &Context) -> Vec<Column> {
     );
     match (context.warming, context.bead) {
         (Some(warming), Some(bead)) => {
-            let Followed { part, warmth, .. } = warming.followed();
+            let Followed { heated, warmth, .. } = warming.followed();
+            let part = heated.part;
             table.add(rise, "K", of_bearing, move |row| {
                 warmth.at(part, OUTER_RACE, row.time) - part.start
             });

@@ -1,7 +1,6 @@
 //! What the pages that name results need to know.
 
 use crate::scenario::Rig;
-use crate::simulate::bearing::pressure::Pressures;
 use crate::simulate::bearing::run::BearingRun;
 use crate::simulate::bearing::warming::Warming;
 use crate::simulate::rig::build::Built;
@@ -12,6 +11,7 @@ use model::system::rig::layout::{
 };
 use model::system::rig::rate::race_motion;
 use model::system::rig::{Record, RigMachine};
+use model::system::sampling::Peak;
 use solve::Ending;
 
 /// Everything the pages that name results need to know.
@@ -48,14 +48,13 @@ impl<'a> Context<'a> {
         let machine = &self.built.machine;
         (self.warming).map_or(machine, |warming| warming.renewals.machine(machine))
     }
-    /// Largest Hertz pressures.
-    pub fn pressures(&self) -> Pressures {
-        let record = self.record;
-        let races = [record.largest_inner_load, record.largest_outer_load];
-        (self.built.pressure_factors).pressures(races, record.largest_pocket_force)
+    /// What must close between the start and the end.
+    pub fn whole_balance(&self) -> Balance {
+        let end = &self.ending.state;
+        self.balance(f64::INFINITY, self.machine_at_end().content(end), end)
     }
     pub fn bearing(&self) -> BearingRun<'a> {
-        let machine = &self.built.machine;
+        let (machine, record) = (&self.built.machine, self.record);
         BearingRun {
             bearing: &machine.constants.bearing,
             states: machine.layout().bearing(),
@@ -63,6 +62,11 @@ impl<'a> Context<'a> {
             largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
             cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
             pressure_factors: self.built.pressure_factors,
+            loads: [record.largest_inner_load, record.largest_outer_load],
+            cage: [record.largest_pocket_force, Peak::NONE],
+            part: "",
+            layout: machine.layout(),
+            end: &self.ending.state,
             motion: Box::new(race_motion),
             rows: self.record.rows().collect(),
             races: Some(&self.record.races),

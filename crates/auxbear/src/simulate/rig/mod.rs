@@ -18,7 +18,7 @@ mod thermocouple;
 pub(crate) mod warnings;
 
 use crate::options::Options;
-use crate::result::outcome::{Members, Outcome, Picture, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Quantity, Work};
 use crate::scenario::{Rig, RigProgram, Scenario};
 use crate::simulate::bearing::warm::Followed;
 use crate::simulate::bearing::warming::Warming;
@@ -34,6 +34,11 @@ use std::iter;
 use std::time::Instant;
 use thermal::bearing_network::OUTER_RACE;
 use thermocouple::Bead;
+
+/// The results of a test, without values.
+pub(crate) fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
+    quantities::name(rig, built, None)
+}
 
 /// Runs a test.
 pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
@@ -85,7 +90,7 @@ pub(crate) fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Optio
             .collect(),
     };
     let title = (scenario.title.clone()).unwrap_or_else(|| "Test on a rig".to_string());
-    let quantities = quantities::name(&context);
+    let quantities = quantities::name(rig, built, Some(&context));
     let rolling_cage_ratio = machine.constants.bearing.rolling_cage_ratio();
     Outcome {
         system: "rig",
@@ -139,11 +144,11 @@ const STANDING: f64 = 1e-3;
 
 /// The thermocouple on an outer race of a network.
 fn bead(rig: &Rig, warming: &Warming<RigMachine>) -> Bead {
-    let Followed { part, warmth, .. } = warming.followed();
+    let Followed { heated, warmth, .. } = warming.followed();
     let course = (warmth.course.iter()).map(|(time, nodes)| (*time, nodes[OUTER_RACE]));
     Bead::new(
         rig.temperature.lag,
-        iter::once((0.0, part.start)).chain(course),
+        iter::once((0.0, heated.part.start)).chain(course),
     )
 }
 

@@ -1,13 +1,15 @@
 //! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
 
+use crate::result::list::results;
 use crate::result::list::{List, Origin, relative};
-use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
-use crate::scenario::{Fidelity, RigProgram};
-use crate::simulate::bearing::warm::{self, Followed};
+use crate::result::outcome::Quantity;
+use crate::result::static_safety::{AT_THE_LOAD, no_safety, safety_under};
+use crate::scenario::{Fidelity, Rig, RigProgram};
+use crate::simulate::bearing::quantities::{BearingSetup, ball_loads, races_and_lubricant};
+use crate::simulate::bearing::warm::Heated;
 use crate::simulate::bearing::warming::Warming;
+use crate::simulate::rig::build::Built;
 use crate::simulate::rig::context::Context;
-use model::system::rig::RigMachine;
 use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };
@@ -16,191 +18,128 @@ use thermal::bearing_network::OUTER_RACE;
 const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
 
-/// Names the results.
-pub(crate) fn name(context: &Context) -> Vec<Quantity> {
+/// Names the results; without a run those of any.
+pub(crate) fn name(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Quantity> {
     let mut list = List::default();
-    engagement(&mut list, context);
-    moments(&mut list, context);
-    loads(&mut list, context);
-    energies(&mut list, context);
-    list.ended_at(context.ending.time)
-}
-
-fn engagement(list: &mut List, context: &Context) {
-    let (record, state) = (context.record, &context.ending.state);
-    let engages = match context.rig.program {
-        RigProgram::SpinUp { engage_at, .. } | RigProgram::RepeatAfterRest { engage_at, .. } => {
-            Ok(engage_at)
-        }
-        RigProgram::CoastDown { .. } | RigProgram::RampAndHold { .. } => {
-            Err("the clutch does not engage in this test".to_string())
-        }
+    motion(&mut list, rig, run);
+    let heated = Heated::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
+    Warming::name(&mut list, heated, run.and_then(|run| run.warming));
+    let bearing = BearingSetup {
+        given: &rig.bearing,
+        constants: &built.machine.constants.bearing,
+        factors: &built.pressure_factors,
     };
-    list.number("engagement_time", "s", engages.clone(), &ENGAGEMENT);
-    list.number(
-        "clutch_torque_rate",
-        "N m/s",
-        (context.built.torque_rate)
-            .ok_or_else(|| "the clutch does not engage in this test".to_string()),
-        &RATE,
-    );
-    let locked = engages.and_then(|_| {
-        record
-            .locked_at()
-            .ok_or_else(|| "the clutch still slips at the end".to_string())
-    });
-    list.number("clutch_lock_time", "s", locked, &ENGAGEMENT);
-    let against = 0.0 - record.deceleration.value;
-    list.number(
-        "peak_acceleration",
-        "rad/s^2",
-        Ok(match context.rig.program {
-            RigProgram::CoastDown { .. } => against,
-            _ => record.acceleration.value,
-        }),
-        &PEAK_ACCELERATION,
-    );
-    list.number(
-        "peak_deceleration",
-        "rad/s^2",
-        Ok(against),
-        &PEAK_DECELERATION,
-    );
-    let never = |share: f64| format!("{share} % of rig.speed was not reached");
-    list.rises(
-        "shaft",
-        [
-            record.shaft_time_to_50_percent(),
-            record.shaft_time_to_95_percent(),
-            record.cage_time_to_95_percent(),
-        ],
-        [never(50.0), never(95.0), never(95.0)],
-        &RISE,
-    );
-    for (name, speed) in [
-        ("shaft_final_speed", state[SHAFT + 1]),
-        ("flywheel_final_speed", state[FLYWHEEL + 1]),
-        ("cage_final_speed", probes(context)[CAGE_SPEED]),
-    ] {
-        list.number(name, "rad/s", Ok(speed), &SPEED);
+    let balls = run.map(Context::bearing);
+    ball_loads(&mut list, &bearing, balls.as_ref());
+    races_and_lubricant(&mut list, &bearing, balls.as_ref());
+    energies(&mut list, rig, run);
+    list.ended_at(run.map(|run| run.ending.time))
+}
+
+results! {
+    fn motion(rig: &Rig, run: &Context) {
+        "engagement_time": number "s", ENGAGEMENT, "instant at which the clutch engages" => run.rig.engages_at();
+        "clutch_torque_rate": number "N m/s", RATE, "rate of the torque that the clutch can carry" => run.built.torque_rate.ok_or_else(no_clutch);
+        "clutch_lock_time": number "s", ENGAGEMENT, "instant at which the clutch locks" => {
+            let slips = || "the clutch still slips at the end".to_string();
+            rig.engages_at().and_then(|_| run.record.locked_at().ok_or_else(slips))
+        };
+        "peak_acceleration": number "rad/s^2", PEAK_ACCELERATION, "largest acceleration of the shaft" => match rig.program {
+            RigProgram::CoastDown { .. } => 0.0 - run.record.deceleration.value,
+            _ => run.record.acceleration.value,
+        };
+        "peak_deceleration": number "rad/s^2", PEAK_DECELERATION, "largest deceleration of the shaft, below 0" => 0.0 - run.record.deceleration.value;
+        "shaft_time_to_50_percent": instant "s", RISE, "time to half of rig.speed" => run.record.shaft_time_to_50_percent().ok_or_else(|| never(50.0));
+        "shaft_time_to_95_percent": instant "s", RISE, "time to 95 % of rig.speed" => run.record.shaft_time_to_95_percent().ok_or_else(|| never(95.0));
+        "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
+            run.record.cage_time_to_95_percent().ok_or_else(|| never(95.0))
+        };
+        "shaft_final_speed": number "rad/s", SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT + 1];
+        "flywheel_final_speed": number "rad/s", SPEED, "speed of the flywheel at the end" => run.ending.state[FLYWHEEL + 1];
+        "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
+        "peak_clutch_torque": number "N m", PEAK_MOMENT, "largest torque of the clutch" => run.record.clutch_torque.value;
+        "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
+        "peak_outer_race_moment": number "N m", PEAK_MOMENT, "largest moment on the outer race" => run.record.outer_moment.value;
+        "inner_race_moment_at_end": number "N m", AT_END, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
+        "outer_race_moment_at_end": number "N m", AT_END, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
+        "law_moment_at_end": number "N m", AT_END, "moment of the friction law at the end" => run.probe(STEADY_MOMENT);
+        "cage_slip_at_end": number "1", SLIP, "mean cage slip over the last cage turn" => run.late_slip();
+        "peak_temperature_rise": number "K", TEMPERATURE, "largest rise of the outer race" => {
+            let of_network = run.warming.map(|warming| warming.followed());
+            of_network.map_or(run.record.temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
+        };
     }
-    for (name, peak) in [
-        ("peak_clutch_torque", record.clutch_torque),
-        ("peak_inner_race_moment", record.inner_moment),
-        ("peak_outer_race_moment", record.outer_moment),
-    ] {
-        list.number(name, "N m", Ok(peak.value), &PEAK_MOMENT);
+    fn energies(rig: &Rig, run: &Context) {
+        "static_safety": number "1", AT_THE_LOAD, "static load rating over equivalent static load", unless no_safety(&rig.bearing) => {
+            safety_under(run.rig.load.radial_load, &rig.bearing)
+        };
+        "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
+        "clutch_heat": number "J", ENERGY, "friction heat of the clutch" => run.heat(CLUTCH_HEAT);
+        "bearing_dissipated_energy": number "J", ENERGY, "heat of the losses in the bearing" => (0..CLUTCH_HEAT).map(|kind| run.heat(kind)).sum::<f64>();
+        "energy_residual": number "1", RESIDUAL, "residual of the energy ledger over what is turned over" => {
+            let balance = run.whole_balance();
+            relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
+        };
+        "angular_momentum_residual": number "N m s", MOMENTUM, "residual of the angular momentum of balls and cage" => {
+            run.built.machine.bearing_momentum_residual(run.start, &run.ending.state)
+        };
+        "clipped_channels": text "", CLIPPED, "channels with values beyond the converter" => run.clipped_channels().as_str();
     }
 }
 
-fn moments(list: &mut List, context: &Context) {
-    let record = context.record;
-    let probe = probes(context);
-    for (name, index) in [
-        ("inner_race_moment_at_end", INNER_MOMENT),
-        ("outer_race_moment_at_end", OUTER_MOMENT),
-        ("law_moment_at_end", STEADY_MOMENT),
-    ] {
-        list.number(name, "N m", Ok(probe[index]), &AT_END);
+fn no_clutch() -> String {
+    "the clutch does not engage in this test".to_string()
+}
+
+fn never(share: f64) -> String {
+    format!("{share} % of rig.speed was not reached")
+}
+
+impl Rig {
+    /// When the clutch engages, s.
+    fn engages_at(&self) -> Result<f64, String> {
+        match self.program {
+            RigProgram::SpinUp { engage_at, .. }
+            | RigProgram::RepeatAfterRest { engage_at, .. } => Ok(engage_at),
+            RigProgram::CoastDown { .. } | RigProgram::RampAndHold { .. } => Err(no_clutch()),
+        }
     }
-    let turns = context.ending.state[SHAFT + 1].abs() > 0.05 * context.rig.speed;
-    list.number(
-        "cage_slip_at_end",
-        "1",
-        match (context.rig.bearing.fidelity, turns) {
+}
+
+impl Context<'_> {
+    /// A probe at the end.
+    fn probe(&self, index: usize) -> f64 {
+        let machine = self.machine_at_end();
+        (machine.inspect(&self.mode, self.ending.time, &self.ending.state)).1[index]
+    }
+    /// A heat of the ledger at the end, J.
+    fn heat(&self, kind: usize) -> f64 {
+        self.ending.state[self.built.machine.layout().heat(kind)]
+    }
+    /// Cage slip over the last turn of the cage, or at the last instant where there was none.
+    fn late_slip(&self) -> Result<f64, String> {
+        let turns = self.ending.state[SHAFT + 1].abs() > 0.05 * self.rig.speed;
+        match (self.rig.bearing.fidelity, turns) {
             (Fidelity::Rolling, _) => {
                 Err("the rolling fidelity takes the balls to roll".to_string())
             }
             (Fidelity::Planar, false) => Err("the shaft hardly turns at the end".to_string()),
             (Fidelity::Planar, true) => {
-                Ok((record.last_cage_slip()).unwrap_or_else(|| probe[CAGE_SLIP]))
+                Ok((self.record.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP)))
             }
-        },
-        &SLIP,
-    );
-    let of_network = |warming: &Warming<RigMachine>| {
-        let Followed { part, warmth, .. } = warming.followed();
-        warmth.peaks[OUTER_RACE].0 - part.start
-    };
-    list.number(
-        "peak_temperature_rise",
-        "K",
-        Ok(context.warming.map_or(record.temperature.value, of_network)),
-        &TEMPERATURE,
-    );
-    if let Some(warming) = context.warming {
-        warm::name(&warming.followed(), list);
-        warm::work_of_rings(warming.renewals.work_until(f64::INFINITY), list);
+        }
     }
-}
-
-fn loads(list: &mut List, context: &Context) {
-    let (run, record) = (context.bearing(), context.record);
-    let loads = [record.largest_inner_load, record.largest_outer_load];
-    list.ball_loads(loads, &context.pressures(), &context.rig.bearing);
-    list.races(&run);
-    list.lubricant(&run, &context.ending.state);
-    let bearing = &context.rig.bearing;
-    let load = StaticLoad {
-        radial: context.rig.load.radial_load,
-        axial: bearing.axial_preload,
-        contact_angle: Some(bearing.contact_angle),
-    };
-    let safety = static_safety(&bearing.rated(), &load);
-    list.number("static_safety", "1", safety, &AT_THE_LOAD);
-}
-
-fn energies(list: &mut List, context: &Context) {
-    let machine = &context.built.machine;
-    let (start, end) = (context.start, &context.ending.state);
-    let layout = machine.layout();
-    let at_end = context.machine_at_end();
-    let balance = context.balance(f64::INFINITY, at_end.content(end), end);
-    list.number("dissipated_energy", "J", Ok(balance.heat()), &ENERGY);
-    list.number(
-        "clutch_heat",
-        "J",
-        Ok(end[layout.heat(CLUTCH_HEAT)]),
-        &ENERGY,
-    );
-    let of_bearing = (0..CLUTCH_HEAT).map(|index| end[layout.heat(index)]).sum();
-    list.number("bearing_dissipated_energy", "J", Ok(of_bearing), &ENERGY);
-    list.number(
-        "energy_residual",
-        "1",
-        relative(
-            balance.energy_residual(),
-            balance.heat().max(balance.work_size()),
-        ),
-        &RESIDUAL,
-    );
-    list.number(
-        "angular_momentum_residual",
-        "N m s",
-        Ok(machine.bearing_momentum_residual(start, end)),
-        &MOMENTUM,
-    );
-    list.push(
-        "clipped_channels",
-        "",
-        match context.clipped.as_slice() {
-            [] => Value::Text("none".to_string()),
-            clipped => Value::Text(
-                clipped
-                    .iter()
-                    .map(|(name, count)| format!("{name}: {count} values"))
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            ),
-        },
-        &CLIPPED,
-    );
-}
-
-/// The probes at the end.
-fn probes(context: &Context) -> Vec<f64> {
-    let machine = context.machine_at_end();
-    (machine.inspect(&context.mode, context.ending.time, &context.ending.state)).1
+    /// Channels of which values were clipped, with their number.
+    fn clipped_channels(&self) -> String {
+        let each = self.clipped.iter();
+        let told: Vec<String> = each
+            .map(|(name, count)| format!("{name}: {count} values"))
+            .collect();
+        match told.is_empty() {
+            true => "none".to_string(),
+            false => told.join(", "),
+        }
+    }
 }
 
 const ENGAGEMENT: Origin = Origin {

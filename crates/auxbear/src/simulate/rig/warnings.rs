@@ -64,7 +64,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(context.bearing().hot_skid().map(|(_, warning)| warning));
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    list.extend(shared::pressure(bearing, &context.pressures()));
+    list.extend(shared::pressure(bearing, &context.bearing().pressures()));
     list.extend(preload_of_rig(context.rig));
     list.extend(shared::film_rise(&context.bearing()));
     list.extend(shared::law_range(

@@ -49,6 +49,7 @@ impl<'a> Context<'a> {
         self.balance(f64::INFINITY, machine.content(state), state)
     }
     pub fn bearing(&self) -> BearingRun<'a> {
+        let record = self.record;
         BearingRun {
             bearing: &self.machine().constants.bearing,
             states: self.machine().layout().bearing(),
@@ -56,6 +57,11 @@ impl<'a> Context<'a> {
             largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
             cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
             pressure_factors: self.built.pressure_factors,
+            loads: [record.largest_inner_load, record.largest_outer_load],
+            cage: [record.largest_pocket_force, record.largest_land_force],
+            part: "",
+            layout: self.machine().layout(),
+            end: &self.ending.state,
             motion: Box::new(race_motion),
             rows: self.record.rows().collect(),
             races: Some(&self.record.races),

@@ -7,7 +7,7 @@ pub(crate) mod quantities;
 pub(crate) mod warnings;
 
 use crate::options::Options;
-use crate::result::outcome::{Members, Outcome, Picture, Work};
+use crate::result::outcome::{Members, Outcome, Picture, Quantity, Work};
 use crate::scenario::{Scenario, SpinUp};
 use crate::simulate::bearing::warming::Warming;
 use crate::simulate::ending::{settings_at, stop};
@@ -19,6 +19,11 @@ use model::system::spin_up::record::Record;
 use model::system::spin_up::simulate::simulate;
 use solve::{Ending, Flow, Observer, Step};
 use std::time::Instant;
+
+/// The results of a spin-up, without values.
+pub(crate) fn results(spin_up: &SpinUp, built: &Built) -> Vec<Quantity> {
+    quantities::name(spin_up, built, None)
+}
 
 /// Runs a spin-up.
 pub(crate) fn run(
@@ -40,7 +45,7 @@ pub(crate) fn run(
         ending: &ending,
         warming: warming.as_ref(),
     };
-    let quantities = quantities::name(&context);
+    let quantities = quantities::name(spin_up, built, Some(&context));
     Outcome {
         system: "spin_up",
         title: scenario

@@ -1,13 +1,17 @@
 //! Every named result of a spin-up with its law, source and valid range.
 
 use crate::catalogue::geometry::digits;
+use crate::result::list::results;
 use crate::result::list::{List, Origin, relative};
 use crate::result::outcome::{Quantity, Value};
-use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
-use crate::scenario::{Drive, Fidelity};
-use crate::simulate::bearing::quantities::{End, LargestForces};
-use crate::simulate::bearing::warm;
+use crate::result::static_safety::{AT_THE_LOAD, no_safety, safety_under};
+use crate::scenario::{Drive, Fidelity, SpinUp};
+use crate::simulate::bearing::quantities::{BearingSetup, balls};
+use crate::simulate::bearing::warm::Heated;
+use crate::simulate::bearing::warming::Warming;
+use crate::simulate::spin_up::build::Built;
 use crate::simulate::spin_up::context::Context;
+use model::system::outer_race::OuterRaceEnergy;
 use model::system::spin_up::layout::{
     CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };
@@ -24,252 +28,170 @@ const LOST_SPEED: f64 = 0.01;
 /// Share of the full speed below which a slip means nothing.
 const LEAST_SPEED: f64 = 0.05;
 
-/// Names the results.
-pub(crate) fn name(context: &Context) -> Vec<Quantity> {
+/// Names the results; without a run those of any.
+pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Vec<Quantity> {
     let mut list = List::default();
-    times(&mut list, context);
-    moments(&mut list, context);
-    slip(&mut list, context);
-    loads(&mut list, context);
-    energies(&mut list, context);
-    list.ended_at(context.ending.time)
-}
-
-fn times(list: &mut List, context: &Context) {
-    let (record, state) = (context.record, &context.ending.state);
-    let target = context.spin_up.target_speed();
-    let never = |what: &str, speed: f64| {
-        let instant = digits(1e3 * context.ending.time);
-        format!("{what} ({speed:.1} rad/s) was not reached in {instant} ms")
+    motion(&mut list, spin_up, run);
+    let bearing = BearingSetup {
+        given: &spin_up.bearing,
+        constants: &built.machine.constants.bearing,
+        factors: &built.pressure_factors,
     };
-    let rolling = target * context.machine().constants.bearing.rolling_cage_ratio();
-    list.rises(
-        "inner_race",
-        [
-            record.inner_race_time_to_50_percent(),
-            record.inner_race_time_to_95_percent(),
-            record.cage_time_to_95_percent(),
-        ],
-        [
-            never("half of the full speed", 0.5 * target),
-            never("95 % of the full speed", 0.95 * target),
-            never("95 % of the rolling cage speed", 0.95 * rolling),
-        ],
-        &RISE,
-    );
-    let rotor_speed = match context.spin_up.drive {
-        Drive::SlidingRotor { .. } => Ok(state[ROTOR + 1]),
-        Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
-    };
-    for (name, speed) in [
-        ("inner_race_final_speed", Ok(state[INNER + 5])),
-        ("cage_final_speed", Ok(probes(context)[CAGE_SPEED])),
-        ("rotor_final_speed", rotor_speed),
-    ] {
-        list.number(name, "rad/s", speed, &SPEED);
+    balls(&mut list, &bearing, run.map(Context::bearing).as_ref());
+    load(&mut list, spin_up, run);
+    let warm = spin_up.warm.as_deref();
+    let heated = Heated::of(warm, &spin_up.bearing, built.warm.as_deref());
+    Warming::name(&mut list, heated, run.and_then(|run| run.warming));
+    energies(&mut list, spin_up, run);
+    list.ended_at(run.map(|run| run.ending.time))
+}
+
+results! {
+    fn motion(spin_up: &SpinUp, run: &Context) {
+        "inner_race_time_to_50_percent": instant "s", RISE, "time to half of the full speed" => {
+            run.reached(run.record.inner_race_time_to_50_percent(), "half of the full speed", 0.5 * spin_up.target_speed())
+        };
+        "inner_race_time_to_95_percent": instant "s", RISE, "time to 95 % of the full speed" => {
+            run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the full speed", 0.95 * spin_up.target_speed())
+        };
+        "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
+            let rolling = spin_up.target_speed() * run.machine().constants.bearing.rolling_cage_ratio();
+            run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed", 0.95 * rolling)
+        };
+        "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => run.ending.state[INNER + 5];
+        "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
+        "rotor_final_speed": number "rad/s", SPEED, "speed of the sliding rotor at the end" => match spin_up.drive {
+            Drive::SlidingRotor { .. } => Ok(run.ending.state[ROTOR + 1]),
+            Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
+        };
+        "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
+        "peak_outer_race_moment": number "N m", PEAK_MOMENT, "largest moment on the outer race" => run.record.outer_moment.value;
+        "peak_drive_moment": number "N m", PEAK_MOMENT, "largest moment of the drive" => run.record.drive_moment.value;
+        "inner_race_moment_at_end": number "N m", INNER_RACE, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
+        "outer_race_moment_at_end": number "N m", OUTER_RACE, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
+        "law_moment_at_end": number "N m", LAW, "moment of the friction law at the end" => run.by_law(run.probe(STEADY_MOMENT));
+        "inner_race_mean_moment": number "N m", MEAN_MOMENT, "mean moment that resists the inner race" => run.late_means().map(|means| means.inner_moment);
+        "outer_race_mean_moment": number "N m", MEAN_MOMENT, "mean moment on the outer race" => run.late_means().map(|means| means.outer_moment);
+        "law_mean_moment": number "N m", LAW, "mean moment of the friction law" => {
+            run.by_law(()).and_then(|()| run.late_means()).map(|means| means.steady_moment)
+        };
+        "traction_capacity": number "1", CAPACITY, "largest traction moment over the steady moment" => {
+            run.by_law(run.built.steady.as_ref().map_or(f64::NAN, |steady| steady.capacity))
+        };
+        "cage_slip_at_end": number "1", SLIP, "cage slip at the end" => run.if_balls_slide().map(|()| run.probe(CAGE_SLIP));
+        "cage_mean_slip": number "1", SLIP, "mean cage slip at the final speed" => {
+            run.if_balls_slide().and_then(|()| run.late_means()).map(|means| means.cage_slip)
+        };
+        "balls_skid": text "", SKID, "whether and when the balls skid" => run.skid();
+    }
+    fn load(spin_up: &SpinUp, run: &Context) {
+        "static_safety": number "1", AT_THE_LOAD, "static load rating over equivalent static load", unless no_safety(&spin_up.bearing) => {
+            safety_under(run.spin_up.radial_load.largest_until(run.spin_up.run.duration), &spin_up.bearing)
+        };
+    }
+    fn energies(spin_up: &SpinUp, run: &Context) {
+        "rotor_race_friction_energy": number "J", ENERGY, "friction heat of rotor and inner race" => run.bearing().heat("rotor_race_friction");
+        "ball_slip_energy": number "J", ENERGY, "sliding heat of the balls at both races" => run.bearing().ball_slip();
+        "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
+        "bearing_dissipated_energy": number "J", ENERGY, "heat of the losses in the bearing" => run.energy().dissipated;
+        "outer_race_energy_printed": number "J", PRINTED, "dissipation by the outer race's moment, as printed" => run.energy().printed;
+        "outer_race_energy_corrected": number "J", CORRECTED, "dissipation by the outer race's moment, corrected" => run.energy().corrected;
+        "outer_race_energy_exact": number "J", EXACT, "dissipation by the outer race's moment, exact" => run.energy().exact;
+        "path_term": number "J", PATH, "path term of balls and cage" => run.energy().path;
+        "path_term_if_rolling": number "J", PATH, "path term if the balls roll all the way" => run.if_rolling(|forms| forms.least_path);
+        "path_term_if_spun_up_after": number "J", PATH, "path term if the balls are spun up after the race" => {
+            run.if_rolling(|forms| forms.path_behind_the_race)
+        };
+        "path_term_largest": number "J", PATH, "largest path term" => run.if_rolling(|forms| forms.largest_path);
+        "energy_residual": number "1", RESIDUAL, "residual of the energy ledger over what is turned over" => {
+            let balance = run.whole_balance();
+            relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
+        };
+        "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that at full speed" => {
+            let constants = &run.machine().constants;
+            let inertia = constants.race.inertia + constants.bearing.set().inner_inertia();
+            relative(run.whole_balance().angular_momentum_residual(), inertia * constants.target_speed.abs())
+        };
     }
 }
 
-fn moments(list: &mut List, context: &Context) {
-    let record = context.record;
-    let probe = probes(context);
-    for (name, value) in [
-        ("peak_inner_race_moment", record.inner_moment.value),
-        ("peak_outer_race_moment", record.outer_moment.value),
-        ("peak_drive_moment", record.drive_moment.value),
-    ] {
-        list.number(name, "N m", Ok(value), &PEAK_MOMENT);
+impl Context<'_> {
+    /// The instant at which a speed is reached, s.
+    fn reached(&self, time: Option<f64>, what: &str, speed: f64) -> Result<f64, String> {
+        let never = || {
+            let instant = digits(1e3 * self.ending.time);
+            format!("{what} ({speed:.1} rad/s) was not reached in {instant} ms")
+        };
+        time.ok_or_else(never)
     }
-    for (name, index, origin) in [
-        ("inner_race_moment_at_end", INNER_MOMENT, &INNER_RACE),
-        ("outer_race_moment_at_end", OUTER_MOMENT, &OUTER_RACE),
-    ] {
-        list.number(name, "N m", Ok(probe[index]), origin);
+    /// A probe at the end.
+    fn probe(&self, index: usize) -> f64 {
+        (self.machine().inspect(self.ending.time, &self.ending.state)).1[index]
     }
-    let no_law = || "bearing.moment.law is none".to_string();
-    let steady = context.built.steady.as_ref();
-    list.number(
-        "law_moment_at_end",
-        "N m",
-        steady.map(|_| probe[STEADY_MOMENT]).ok_or_else(no_law),
-        &LAW,
-    );
-    let means = late_means(context);
-    list.number(
-        "inner_race_mean_moment",
-        "N m",
-        means.clone().map(|means| means.inner_moment),
-        &MEAN_MOMENT,
-    );
-    list.number(
-        "outer_race_mean_moment",
-        "N m",
-        means.clone().map(|means| means.outer_moment),
-        &MEAN_MOMENT,
-    );
-    list.number(
-        "law_mean_moment",
-        "N m",
-        steady
-            .ok_or_else(no_law)
-            .and_then(|_| means.map(|means| means.steady_moment)),
-        &LAW,
-    );
-    list.number(
-        "traction_capacity",
-        "1",
-        steady.map(|steady| steady.capacity).ok_or_else(no_law),
-        &CAPACITY,
-    );
-}
-
-/// Means over the last turns of the cage at the final speed, or why there are none.
-fn late_means(context: &Context) -> Result<LateMeans, String> {
-    if context.ending.stop != solve::Stop::Finished {
-        return Err("the run ended early".to_string());
+    /// What exists where the bearing has a friction law.
+    fn by_law<T>(&self, value: T) -> Result<T, String> {
+        let steady = self.built.steady.as_ref().map(|_| value);
+        steady.ok_or_else(|| "bearing.moment.law is none".to_string())
     }
-    let speed = context.ending.state[INNER + 5];
-    context.record.late_means(speed).ok_or_else(|| {
-        let ratio = context.machine().constants.bearing.rolling_cage_ratio();
-        let turn = 2.0 * std::f64::consts::PI / (ratio * context.spin_up.target_speed()).abs();
-        format!(
-            "the race was at its final speed for less than a turn of the cage ({:.4} ms at full speed)",
-            1e3 * turn
-        )
-    })
-}
-
-/// Cage slip at the end: of the last turn of the cage, or of the last instant where there was none.
-fn late_slip(context: &Context) -> f64 {
-    (context.record.last_cage_slip()).unwrap_or_else(|| probes(context)[CAGE_SLIP])
-}
-
-fn slip(list: &mut List, context: &Context) {
-    let rolling = || "the rolling fidelity takes the balls to roll".to_string();
-    let planar = context.spin_up.bearing.fidelity == Fidelity::Planar;
-    let full = context.spin_up.target_speed().abs();
-    let fast = |speed: f64| speed.abs() > LEAST_SPEED * full;
-    // slip is relative to a speed: a race at rest has none
-    let turns = fast(context.ending.state[INNER + 5]);
-    let end = probes(context)[CAGE_SLIP];
-    list.number(
-        "cage_slip_at_end",
-        "1",
-        match (planar, turns) {
-            (true, true) => Ok(end),
-            (true, false) => Err("the inner race hardly turns at the end".to_string()),
-            (false, _) => Err(rolling()),
-        },
-        &SLIP,
-    );
-    list.number(
-        "cage_mean_slip",
-        "1",
-        match (planar, turns) {
-            (true, true) => late_means(context).map(|means| means.cage_slip),
-            (true, false) => Err("the inner race hardly turns at the end".to_string()),
-            (false, _) => Err(rolling()),
-        },
-        &SLIP,
-    );
-    let largest = context
-        .record
-        .rows()
-        .filter(|row| fast(row.state[INNER + 5]))
+    /// Means over the last turns of the cage at the final speed, or why there are none.
+    fn late_means(&self) -> Result<LateMeans, String> {
+        if self.ending.stop != solve::Stop::Finished {
+            return Err("the run ended early".to_string());
+        }
+        let speed = self.ending.state[INNER + 5];
+        self.record.late_means(speed).ok_or_else(|| {
+            let ratio = self.machine().constants.bearing.rolling_cage_ratio();
+            let turn = 2.0 * std::f64::consts::PI / (ratio * self.spin_up.target_speed()).abs();
+            format!(
+                "the race was at its final speed for less than a turn of the cage ({:.4} ms at full speed)",
+                1e3 * turn
+            )
+        })
+    }
+    /// Cage slip at the end: of the last turn of the cage, or of the last instant where there was none.
+    fn late_slip(&self) -> f64 {
+        (self.record.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP))
+    }
+    /// Whether a speed is one that slip may be compared with: a race at rest has none.
+    fn is_fast(&self, speed: f64) -> bool {
+        speed.abs() > LEAST_SPEED * self.spin_up.target_speed().abs()
+    }
+    /// Why balls have no slip at the end.
+    fn if_balls_slide(&self) -> Result<(), String> {
+        match self.spin_up.bearing.fidelity {
+            Fidelity::Rolling => Err("the rolling fidelity takes the balls to roll".to_string()),
+            Fidelity::Planar if self.is_fast(self.ending.state[INNER + 5]) => Ok(()),
+            Fidelity::Planar => Err("the inner race hardly turns at the end".to_string()),
+        }
+    }
+    /// Whether the balls skid, in words.
+    fn skid(&self) -> Value {
+        let slides = self.if_balls_slide();
+        if let (Fidelity::Rolling, Err(why)) = (self.spin_up.bearing.fidelity, &slides) {
+            return Value::None { why: why.clone() };
+        }
+        let rows = self.record.rows();
+        let fast = rows.filter(|row| self.is_fast(row.state[INNER + 5]));
         // a cage that runs ahead of rolling skids as well
-        .map(|row| row.probe[CAGE_SLIP].abs())
-        .fold(0.0, f64::max);
-    let word = if turns && late_slip(context).abs() > SKIDDING {
-        "still at the end"
-    } else if largest > SKIDDING {
-        "while the race speeds up"
-    } else {
-        "no"
-    };
-    list.push(
-        "balls_skid",
-        "",
-        if planar {
-            Value::Text(word.to_string())
+        let largest = fast
+            .map(|row| row.probe[CAGE_SLIP].abs())
+            .fold(0.0, f64::max);
+        if slides.is_ok() && self.late_slip().abs() > SKIDDING {
+            "still at the end".into()
+        } else if largest > SKIDDING {
+            "while the race speeds up".into()
         } else {
-            Value::None { why: rolling() }
-        },
-        &SKID,
-    );
-}
-
-fn end<'a>(context: &'a Context<'a>) -> End<'a> {
-    End {
-        part: "",
-        layout: context.machine().layout(),
-        state: &context.ending.state,
+            "no".into()
+        }
     }
-}
-
-fn loads(list: &mut List, context: &Context) {
-    let record = context.record;
-    let forces = LargestForces {
-        loads: [record.largest_inner_load, record.largest_outer_load],
-        cage: [record.largest_pocket_force, record.largest_land_force],
-    };
-    let bearing = &context.spin_up.bearing;
-    list.balls(&context.bearing(), &forces, bearing, &end(context));
-    let duration = context.spin_up.run.duration;
-    let load = StaticLoad {
-        radial: context.spin_up.radial_load.largest_until(duration),
-        axial: bearing.axial_preload,
-        contact_angle: Some(bearing.contact_angle),
-    };
-    let safety = static_safety(&bearing.rated(), &load);
-    list.number("static_safety", "1", safety, &AT_THE_LOAD);
-}
-
-fn energies(list: &mut List, context: &Context) {
-    let machine = context.machine();
-    let (start, state) = (context.start, &context.ending.state);
-    let balance = context.whole_balance();
-    let heat = balance.heat();
-    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
-        warm::name(&followed, list);
+    /// What the bearing dissipated by (21) and its other forms, J.
+    fn energy(&self) -> OuterRaceEnergy {
+        (self.machine()).outer_race_energy(self.start, &self.ending.state)
     }
-    if let Some(warming) = context.warming {
-        warm::work_of_rings(warming.renewals.work_until(f64::INFINITY), list);
+    /// A bound of the path term, J, or why it does not hold.
+    fn if_rolling(&self, bound: fn(&OuterRaceEnergy) -> f64) -> Result<f64, String> {
+        rolling_start_to_end(self).map(|()| bound(&self.energy()))
     }
-    list.losses(&context.bearing(), &end(context), &ENERGY);
-    list.number("dissipated_energy", "J", Ok(heat), &ENERGY);
-    let forms = machine.outer_race_energy(start, state);
-    for (name, value, origin) in [
-        ("bearing_dissipated_energy", forms.dissipated, &ENERGY),
-        ("outer_race_energy_printed", forms.printed, &PRINTED),
-        ("outer_race_energy_corrected", forms.corrected, &CORRECTED),
-        ("outer_race_energy_exact", forms.exact, &EXACT),
-        ("path_term", forms.path, &PATH),
-    ] {
-        list.number(name, "J", Ok(value), origin);
-    }
-    let premise = rolling_start_to_end(context);
-    for (name, value) in [
-        ("path_term_if_rolling", forms.least_path),
-        ("path_term_if_spun_up_after", forms.path_behind_the_race),
-        ("path_term_largest", forms.largest_path),
-    ] {
-        list.number(name, "J", premise.clone().map(|()| value), &PATH);
-    }
-    let set = machine.constants.bearing.set();
-    let inertia = machine.constants.race.inertia + set.inner_inertia();
-    let full = inertia * machine.constants.target_speed.abs();
-    list.number(
-        "energy_residual",
-        "1",
-        relative(balance.energy_residual(), heat.max(balance.work_size())),
-        &RESIDUAL,
-    );
-    list.number(
-        "angular_momentum_residual",
-        "1",
-        relative(balance.angular_momentum_residual(), full),
-        &RESIDUAL,
-    );
 }
 
 /// What (21) and the bounds of the path term take for granted: from rest the race only gains speed, and the balls roll
@@ -284,7 +206,7 @@ pub(crate) fn rolling_start_to_end(context: &Context) -> Result<(), String> {
         }
         fastest = fastest.max(speed);
     }
-    let slip = late_slip(context);
+    let slip = context.late_slip();
     if slip.abs() > SKIDDING {
         return Err(format!(
             "the balls do not roll at the end: cage slip {:.1} %",
@@ -292,14 +214,6 @@ pub(crate) fn rolling_start_to_end(context: &Context) -> Result<(), String> {
         ));
     }
     Ok(())
-}
-
-/// The probes at the end.
-fn probes(context: &Context) -> Vec<f64> {
-    let machine = context.machine();
-    machine
-        .inspect(context.ending.time, &context.ending.state)
-        .1
 }
 
 const RISE: Origin = Origin {

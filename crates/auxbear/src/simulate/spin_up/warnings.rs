@@ -57,10 +57,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(context.bearing().hot_skid().map(|(_, warning)| warning));
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    let (run, record) = (context.bearing(), context.record);
-    let races = [record.largest_inner_load, record.largest_outer_load];
-    let pressures = (run.pressure_factors).pressures(races, record.largest_pocket_force);
-    list.extend(shared::pressure(bearing, &pressures));
+    let run = context.bearing();
+    list.extend(shared::pressure(bearing, &run.pressures()));
     list.extend(shared::films(&run, bearing));
     list.extend(preload_of_spin_up(bearing, load));
     list.extend(shared::law_range(bearing, speed, load));
