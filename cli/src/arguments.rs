@@ -42,6 +42,14 @@ pub enum Command {
         #[arg(long, value_name = "PATH=VALUE")]
         set: Vec<String>,
     },
+    /// List the results that a run of a file finds, with units and meanings; run nothing
+    Results {
+        /// Scenario file
+        file: PathBuf,
+        /// Override a value of the file, e.g. bearing.name=6005; may be repeated
+        #[arg(long, value_name = "PATH=VALUE")]
+        set: Vec<String>,
+    },
     /// Write a commented starting file
     New {
         #[arg(help = format!("What to describe: {}", KINDS.join(", ")))]

@@ -11,6 +11,7 @@ mod import;
 mod limits;
 mod measured;
 mod progress;
+mod results;
 mod run;
 mod schema;
 mod service;
@@ -96,6 +97,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             console::print(&scenario.resolved.toml())?;
             console::warn(&machine.warnings());
         }
+        Command::Results { file, set } => results::perform(file, set)?,
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,
         Command::Report { directories, out } => report(directories, out.as_deref())?,
