@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: the reference drop, a bent rotor and one bearing beside what a user would write instead, in CPU time. Nothing is judged.
+//! `cargo xtask bench`: the reference drop, a flexible rotor and one bearing beside what a user would write instead, in CPU time. Nothing is judged.
 
 pub mod against;
 mod clock;

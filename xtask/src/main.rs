@@ -30,7 +30,7 @@ use std::process::ExitCode;
 const HELP: &str = "\
 cargo xtask check           all guards, then all tests; exit status 1 on any finding
 cargo xtask check --fast    the guards that build nothing of the product
-cargo xtask bench           drops, bent rotors and a bearing, beside others where there are some, in CPU time (benchmarks/README.md); minutes
+cargo xtask bench           drops, flexible rotors and a bearing, beside others where there are some, in CPU time (benchmarks/README.md); minutes
 cargo xtask bench PROGRAM   the same with a command that is built already
 cargo xtask bench --against COMMIT
                             this tree beside a commit, built beside it, in turns; minutes (benchmarks/README.md)

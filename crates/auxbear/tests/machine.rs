@@ -1,4 +1,4 @@
-//! A bent rotor that falls onto its auxiliary bearings: what a file says reaches the model, and what cannot be is refused.
+//! A flexible rotor that falls onto its auxiliary bearings: what a file says reaches the model, and what cannot be is refused.
 
 pub use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};

@@ -1,4 +1,4 @@
-//! What acts on a bent rotor before and after its release: seals, and supports that stay.
+//! What acts on a flexible rotor before and after its release: seals, and supports that stay.
 
 use crate::machine::{STIFF, number, ran};
 use auxbear::result::outcome::{Outcome, Value};

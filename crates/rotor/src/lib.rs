@@ -1,4 +1,4 @@
-//! The bent rotor: elements, matrices, modes, critical speeds, response to unbalance.
+//! The flexible rotor: elements, matrices, modes, critical speeds, response to unbalance.
 //!
 //! ```text
 //!        y                 node 0    1         2       3

@@ -1,4 +1,4 @@
-//! Bent rotors on two bearings, ball by ball: what a simulated second of a drop costs, alone and in lanes.
+//! Flexible rotors on two bearings, ball by ball: what a simulated second of a drop costs, alone and in lanes.
 
 use super::clock::median;
 use super::page::three;
@@ -24,7 +24,7 @@ impl Bench {
     /// Machines of all sizes at both accuracies.
     pub(super) fn machines(&mut self) -> Result<(), String> {
         self.page
-            .heading("Bent rotors on two bearings, ball by ball");
+            .heading("Flexible rotors on two bearings, ball by ball");
         self.page.line(&format!(
             "The first {SECONDS} s of each drop, medians of {RUNS} runs; in lanes {MEMBERS} machines at once, per machine."
         ));

@@ -1,4 +1,4 @@
-//! A bent rotor on linear supports beside a rotordynamics package, and one bearing beside a multibody package.
+//! A flexible rotor on linear supports beside a rotordynamics package, and one bearing beside a multibody package.
 
 use super::page::three;
 use super::peer::{EXUDYN, Peer, ROSS, number};

@@ -120,7 +120,7 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
         format!("the results are {}", all.join(", "))
     } else {
         format!(
-            "the name of one of the {} results is needed; summary.json of any such run lists them, e.g. {}",
+            "the name of one of the {} results is needed; auxbear results FILE lists them, e.g. {}",
             known.len(),
             known[0].name
         )

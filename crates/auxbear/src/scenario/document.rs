@@ -31,7 +31,7 @@ pub(crate) struct Document {
     pub(crate) vary: Vec<Written>,
     /// What results must hold: the keys of each limit.
     pub(crate) limits: Vec<Vec<Written>>,
-    /// Parts of a bent rotor.
+    /// Parts of a flexible rotor.
     pub(crate) parts: Vec<WrittenPart>,
 }
 

@@ -112,7 +112,7 @@ pub enum System {
     Rig(Box<Rig>),
     /// What measured tests tell.
     Identify(Box<Identify>),
-    /// A bent rotor.
+    /// A flexible rotor.
     Rotor(Box<RotorAnalysis>),
     /// A rotor that runs out on its warming bearings.
     CoastDown(Box<CoastDown>),

@@ -48,7 +48,7 @@ pub struct Resolved {
     vary: Vec<String>,
     /// What results must hold, a table each.
     limits: Vec<String>,
-    /// Parts of a bent rotor, a table each.
+    /// Parts of a flexible rotor, a table each.
     parts: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ impl Resolved {
             parts: Vec::new(),
         }
     }
-    /// The same with the parts of a bent rotor, each as a file has it.
+    /// The same with the parts of a flexible rotor, each as a file has it.
     pub(crate) fn of_parts(mut self, parts: Vec<String>) -> Resolved {
         self.parts = parts;
         self

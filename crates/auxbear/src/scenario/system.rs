@@ -29,9 +29,9 @@ pub enum SystemName {
     Rig,
     /// What measured tests tell of a bearing.
     Identify,
-    /// A bent rotor: modes, critical speeds, response to unbalance.
+    /// A flexible rotor: modes, critical speeds, response to unbalance.
     Rotor,
-    /// A bent rotor that is released onto its auxiliary bearings.
+    /// A flexible rotor that is released onto its auxiliary bearings.
     Machine,
     /// A rotor that runs out on its warming auxiliary bearings.
     CoastDown,

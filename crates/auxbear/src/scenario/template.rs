@@ -34,8 +34,10 @@ pub fn template(kind: &str) -> Option<String> {
         SystemName::Signals => "Speed, torque and cage speed from a measurement.",
         SystemName::Rig => "A test on a rig, and the raw file of its logger.",
         SystemName::Identify => "What measured tests show of a bearing.",
-        SystemName::Rotor => "Modes, critical speeds and response to unbalance of a bent rotor.",
-        SystemName::Machine => "A bent rotor drops onto its auxiliary bearings.",
+        SystemName::Rotor => {
+            "Modes, critical speeds and response to unbalance of a flexible rotor."
+        }
+        SystemName::Machine => "A flexible rotor drops onto its auxiliary bearings.",
         SystemName::CoastDown => "A rotor runs out on its auxiliary bearings, which warm.",
         SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
     };
@@ -74,7 +76,7 @@ pub fn template(kind: &str) -> Option<String> {
     Some(out.trim_end().to_string() + "\n")
 }
 
-/// Parts of a bent rotor: the keys of each kind once, and the parts of the example.
+/// Parts of a flexible rotor: the keys of each kind once, and the parts of the example.
 fn describe_parts(out: &mut String, system: SystemName) {
     for kind in PARTS {
         comment(out, kind.doc);

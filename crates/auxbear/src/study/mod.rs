@@ -120,7 +120,7 @@ impl Study {
                     Code::UnknownQuantity,
                     &file.file,
                     format!("\"{name}\", which is no number among the results of this scenario"),
-                    "the name of a result is needed; summary.json of any such run lists them",
+                    "the name of a result is needed; auxbear results FILE lists them",
                 );
                 let problem = problem.at(*place).on_key(key);
                 return Err(Box::new(problem.with_hint(did_you_mean(name, names))));

@@ -112,7 +112,7 @@ fn unbalanced(path: &str) -> &'static str {
     }
 }
 
-/// A bent rotor.
+/// A flexible rotor.
 fn rotor() -> String {
     "format = \"auxbear.scenario/1\"\nsystem = \"rotor\"\n\
      [rotor]\nspeed = \"9000 rpm\"\n\

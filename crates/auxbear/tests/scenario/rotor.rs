@@ -1,4 +1,4 @@
-//! A bent rotor: its tables, what is refused, what an analysis finds.
+//! A flexible rotor: its tables, what is refused, what an analysis finds.
 
 pub(super) use crate::outcomes::number;
 use auxbear::result::outcome::{Outcome, Value};

@@ -248,7 +248,7 @@ pub struct RotorContent {
     pub translation: f64,
     /// Kinetic energy of spin, that of tilt and spin together in it, J.
     pub spin: f64,
-    /// Of the bent shaft, J.
+    /// Of the flexible shaft, J.
     pub elastic: f64,
     /// Of its weight, J.
     pub weight: f64,

@@ -1,4 +1,4 @@
-//! A machine with a bent rotor and its mirror image at the y axis: every rate of a random state is the image of the other's.
+//! A machine with a flexible rotor and its mirror image at the y axis: every rate of a random state is the image of the other's.
 
 use crate::machines::bent::{NODES, Shaft, bent, shaft};
 use crate::machines::{Random, vec2};

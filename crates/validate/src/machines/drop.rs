@@ -1,4 +1,4 @@
-//! The drop of a bent rotor from its magnets onto its bearings: one run against an ensemble, within its spread and the floors that
+//! The drop of a flexible rotor from its magnets onto its bearings: one run against an ensemble, within its spread and the floors that
 //! the file states.
 
 use super::given::{Coordinates, index, machine};

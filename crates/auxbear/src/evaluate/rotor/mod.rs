@@ -1,4 +1,4 @@
-//! A bent rotor: mass properties, modes, critical speeds, response to unbalance, sag, stiffness map.
+//! A flexible rotor: mass properties, modes, critical speeds, response to unbalance, sag, stiffness map.
 //!
 //! The computations stand in the crate `rotor`; here they are asked for, named and turned into columns. Nothing is integrated.
 //!

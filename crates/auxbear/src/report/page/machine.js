@@ -1,4 +1,4 @@
-// A bent rotor on its auxiliary bearings: the rotor to scale, and its shape as time goes by.
+// A flexible rotor on its auxiliary bearings: the rotor to scale, and its shape as time goes by.
 
 const SHAPE_WAYS = [["y", "up [µm]"], ["x", "to the right [µm]"]];
 

@@ -33,7 +33,7 @@ impl Context<'_> {
             if let Some(bearing) = &part.bearing {
                 own.perturbed_balls(drop, bearing)?;
             }
-            // what a bent rotor does on its magnets is known when they are computed
+            // what a flexible rotor does on its magnets is known when they are computed
             if drop.shaft.is_none() {
                 own.levitated_orbit(drop, part, drop.share(k))?;
             }

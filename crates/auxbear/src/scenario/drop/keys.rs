@@ -31,7 +31,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     Section::new("gravity", "Weight of the rotor.", FALLING),
     Section {
         path: "levitation",
-        doc: "The magnetic bearing. Of a drop, at one plane while it is on: a linear spring and damper that also carries the weight, switched off at time 0. Of a bent rotor: its magnets, sensors and controllers.",
+        doc: "The magnetic bearing. Of a drop, at one plane while it is on: a linear spring and damper that also carries the weight, switched off at time 0. Of a flexible rotor: its magnets, sensors and controllers.",
         systems: &[SystemName::Drop, SystemName::Rotor, SystemName::Machine],
     },
     Section::new("contact", "Contact of the rotor with the bore of the inner race.", FALLING),

@@ -245,7 +245,7 @@ impl Drop {
         self.rotor.mass * self.gravity.acceleration * self.share(bearing)
     }
 
-    /// A bent rotor with the values of each auxiliary bearing.
+    /// A flexible rotor with the values of each auxiliary bearing.
     pub(crate) fn of_shaft(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
         let shaft = Shaft::of(document, all)?;
         let whole = shaft.properties();

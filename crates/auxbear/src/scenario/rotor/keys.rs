@@ -1,4 +1,4 @@
-//! The part of the table of keys that says what is asked of a bent rotor.
+//! The part of the table of keys that says what is asked of a flexible rotor.
 
 use crate::scenario::key::{Key, Kind, Range, Section};
 use crate::scenario::system::SystemName;
@@ -9,7 +9,7 @@ const ROTOR: &[SystemName] = &[SystemName::Rotor];
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[Section::new("analysis", "What is computed of the rotor: speeds, modes, margins.", ROTOR)];
 
-/// What is asked of a bent rotor; its own keys stand with those of the rotor that falls.
+/// What is asked of a flexible rotor; its own keys stand with those of the rotor that falls.
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
     Key::new("analysis.speed_from", Kind::Quantity("rad/s"), "0 rpm", "Lowest speed of the diagrams.").not_negative().default("0 rpm", "from standstill"),

@@ -1,4 +1,4 @@
-//! A bent rotor with what carries it, and what is asked of it.
+//! A flexible rotor with what carries it, and what is asked of it.
 
 pub(crate) mod build;
 mod grade;
@@ -18,7 +18,7 @@ pub use levitation::LevitationModel;
 use problem::{Code, Problem};
 use units::number_text;
 
-/// The kinds of parts of a bent rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
+/// The kinds of parts of a flexible rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
 pub fn parts_of_rotors() -> impl Iterator<Item = (String, &'static [Key])> {
     part_keys::PARTS.iter().map(|kind| (kind.path(), kind.keys))
 }

@@ -1,4 +1,4 @@
-//! The keys of the parts of a bent rotor: arrays of tables `[[rotor.section]]`, `[[levitation.magnet]]` and so on.
+//! The keys of the parts of a flexible rotor: arrays of tables `[[rotor.section]]`, `[[levitation.magnet]]` and so on.
 
 use crate::scenario::key::{Key, Kind, Range};
 

@@ -152,3 +152,8 @@ impl<'a> Context<'a> {
         }
     }
 }
+
+/// What exists of a rotor that touched the inner race.
+pub(super) fn touched<T>(value: Option<T>) -> Result<T, String> {
+    value.ok_or_else(|| "rotor and inner race never touched in this run".to_string())
+}

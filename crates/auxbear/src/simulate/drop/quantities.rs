@@ -13,7 +13,7 @@ use crate::simulate::bearing::severity::{
     BLOWS, HEAT_INDEX, HOT_RACE, RISE as RACE_RISE, blows, inner_race_rise,
 };
 use crate::simulate::bearing::warm::{self, RINGS};
-use crate::simulate::drop::context::{Context, Setup};
+use crate::simulate::drop::context::{Context, Setup, touched};
 use crate::simulate::drop::feedback::Following;
 use crate::simulate::drop::{magnets, mount_results, shaft_results, surfaces};
 use model::system::energy::Content;
@@ -138,11 +138,6 @@ impl<'a> Landed<'a> {
             false => "backward",
         }
     }
-}
-
-/// What exists of a rotor that touched the inner race.
-pub(super) fn touched<T>(value: Option<T>) -> Result<T, String> {
-    value.ok_or_else(|| "rotor and inner race never touched in this run".to_string())
 }
 
 results! {

@@ -1,4 +1,4 @@
-//! From a bent rotor to the coordinates of the model, and the motion in which it is released.
+//! From a flexible rotor to the coordinates of the model, and the motion in which it is released.
 
 use crate::catalogue::geometry::millimetres;
 use crate::problem::{Code, Problem};
@@ -19,7 +19,7 @@ use physics::magnet::Magnet;
 use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
 use std::cmp::Ordering;
 
-/// A bent rotor in the coordinates of the model.
+/// A flexible rotor in the coordinates of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BuiltShaft {
     /// The rotor.
@@ -76,7 +76,7 @@ impl BuiltShaft {
     }
 }
 
-/// Builds a bent rotor.
+/// Builds a flexible rotor.
 pub(crate) fn build(
     drop: &Drop,
     shaft: &Shaft,

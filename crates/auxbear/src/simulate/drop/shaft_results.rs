@@ -1,4 +1,4 @@
-//! What a run shows of a bent rotor: its shape over time, and what is left of the clearances along it.
+//! What a run shows of a flexible rotor: its shape over time, and what is left of the clearances along it.
 
 use crate::result::drawing::{self, GIVEN};
 use crate::result::list::results;
@@ -11,7 +11,7 @@ use crate::simulate::drop::context::{Context, Setup};
 use crate::simulate::drop::shaft::{BuiltShaft, HeldMode};
 use physics::magnet::Magnet;
 
-/// The results that only a bent rotor has.
+/// The results that only a flexible rotor has.
 pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     let (Some(given), Some(built)) = (&setup.drop.shaft, &setup.built.shaft) else {
         return;

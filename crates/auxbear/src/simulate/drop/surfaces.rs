@@ -7,7 +7,7 @@ use crate::scenario::AuxiliaryBearing;
 use crate::scenario::drop::Contact;
 use crate::simulate::bearing::severity::{STEEL_CHANGES, wide_line};
 use crate::simulate::drop::context::Context;
-use crate::simulate::drop::quantities::touched;
+use crate::simulate::drop::context::touched;
 use model::surface_heat::SurfaceHeat;
 use model::system::machine::record::BearingRecord;
 use physics::heat_exchange::line_half_width;
