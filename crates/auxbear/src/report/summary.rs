@@ -361,6 +361,7 @@ mod tests {
             value,
             unit: "N",
             meaning: "",
+            headline: false,
             law: "",
             source: "",
             valid: "",

@@ -5,13 +5,15 @@
 //!       /// Contacts of a bearing.
 //!       pub(crate) fn contacts(setup: &Bearing, run: &BearingRun) {
 //!           "time_to_first_contact": instant "s", FIRST_CONTACT, "first touch after the release" => run.first_contact();
-//!           "peak_contact_force": number "N", CONTACT_FORCE, "largest normal force" when setup.rolling() => run.peak_force();
+//!           "peak_contact_force": number "N" headline, CONTACT_FORCE, "largest normal force" when setup.rolling() => run.peak_force();
 //!       }
 //!   }
 //! ```
 //! A block may hold several tables. Each becomes a function `contacts(list, setup, run)`. With a run it lists the values; without one it lists the same
 //! names, units and meanings, which is how results are known before a run. Whether a row is there follows from the setup alone
 //! (`when`), and so does the reason of a result that no such run has (`unless`, an `Option<String>`).
+//!
+//! A row that is `headline` is among the results that a run prints.
 //!
 //! Kinds of rows: `number`, `instant` (a number that the run waits for), `list`, `text`. Each `*` of a name stands for what
 //! [`List::named`] puts there: the number of a critical speed, the name of a node.
@@ -38,6 +40,8 @@ pub(crate) struct Declared {
     pub origin: &'static Origin,
     /// What it is, in a few words.
     pub meaning: &'static str,
+    /// Whether it is among those that are looked at first.
+    pub headline: bool,
 }
 
 /// Kinds of values.
@@ -57,7 +61,7 @@ pub(crate) enum Kind {
 /// Tables of results as functions; see the head of this file.
 macro_rules! results {
     ($($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {
-        $($name:literal : $kind:ident $unit:literal, $origin:expr, $meaning:literal $(when $there:expr)? $(, unless $why:expr)? => $value:expr;)*
+        $($name:literal : $kind:ident $unit:literal $($headline:ident)?, $origin:expr, $meaning:literal $(when $there:expr)? $(, unless $why:expr)? => $value:expr;)*
     })*) => {
         $($(#[$doc])*
         $vis fn $table(list: &mut $crate::result::list::List, $setup: &$of, after: Option<&$after>) {
@@ -69,6 +73,10 @@ macro_rules! results {
                     unit: $unit,
                     origin: &$origin,
                     meaning: $meaning,
+                    headline: {
+                        const WORDS: &[&str] = &[$(stringify!($headline))?];
+                        !WORDS.is_empty()
+                    },
                 };
                 if true $(&& $there)? {
                     let absent: Option<String> = None$(.or($why))?;
@@ -152,10 +160,13 @@ impl List {
             Kind::list => Value::List(Vec::new()),
             Kind::text => Value::Text(BEFORE_THE_RUN.to_string()),
         });
+        // one of many that is not there is no news
+        let is_missed = !declared.name.contains('*') || value.why_absent().is_none();
         self.push(&name, declared.unit, value, declared.origin);
         if let Some(last) = self.quantities.last_mut() {
             last.meaning = declared.meaning;
             last.awaited = declared.kind == Kind::instant;
+            last.headline = declared.headline && is_missed;
         }
     }
     /// Adds results whose names have something in the place of each `*`.
@@ -202,6 +213,7 @@ impl List {
             value,
             unit,
             meaning: "",
+            headline: false,
             law: origin.law,
             source: origin.source,
             valid: origin.valid,

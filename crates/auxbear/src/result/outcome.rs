@@ -84,6 +84,8 @@ pub struct Quantity {
     pub unit: &'static str,
     /// What it is, in a few words.
     pub meaning: &'static str,
+    /// Whether it is among those that are looked at first.
+    pub headline: bool,
     /// The law or definition it comes from.
     pub law: &'static str,
     /// Source of that law.

@@ -58,7 +58,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 
 results! {
     fn verdict(asked: &Asked, run: &Found) {
-        "explanation": text "", VERDICT, "explanation that the tests support" => run.verdict().map(conclusion);
+        "explanation": text "" headline, VERDICT, "explanation that the tests support" => run.verdict().map(conclusion);
         "explanation_slip_limit": text "", VERDICT, "slip that counts as rolling" => run.verdict().map(|_| slip_limits(run));
     }
 
@@ -67,8 +67,8 @@ results! {
     }
 
     fn explained(asked: &Asked, run: &Found) {
-        "explanation_parameters": text "", VERDICT, "parameters of the most probable explanation" => run.verdict().map(explanation_parameters);
-        "explanation_fit_probability": number "1", FIT, "probability of a fit at least as bad" => {
+        "explanation_parameters": text "" headline, VERDICT, "parameters of the most probable explanation" => run.verdict().map(explanation_parameters);
+        "explanation_fit_probability": number "1" headline, FIT, "probability of a fit at least as bad" => {
             let none = || "it fits nowhere in the range of its parameters".to_string();
             run.verdict().and_then(|verdict| verdict.best().fit.map(|fit| fit.probability).ok_or_else(none))
         };
@@ -77,7 +77,7 @@ results! {
     }
 
     fn best_form(asked: &Asked, run: &Found) {
-        "steady_moment_form": text "", EVIDENCE, "most probable form of the steady moment" => run.moment().map(|moment| word(moment.best().form));
+        "steady_moment_form": text "" headline, EVIDENCE, "most probable form of the steady moment" => run.moment().map(|moment| word(moment.best().form));
     }
 
     fn form_probability(form: &Form, run: &Found) {
@@ -113,8 +113,8 @@ results! {
     }
 
     fn rotor(asked: &Asked, run: &Found) {
-        "rotor_friction_coefficient": number "1", ROTOR, "mean coefficient of friction" => run.rotor().map(|rotor| rotor.mean().friction.value);
-        "rotor_friction_coefficient_deviation": number "1", ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);
+        "rotor_friction_coefficient": number "1" headline, ROTOR, "mean coefficient of friction" => run.rotor().map(|rotor| rotor.mean().friction.value);
+        "rotor_friction_coefficient_deviation": number "1" headline, ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);
         "rotor_friction_slips": list "m/s", ROTOR, "slips of rotor and race" => run.over_slip(|p| p.slip.value);
         "rotor_friction_slip_deviations": list "m/s", ROTOR, "their standard deviations" => run.over_slip(|p| p.slip.deviation);
         "rotor_friction_coefficients": list "1", ROTOR, "coefficient of friction at these" => run.over_slip(|p| p.friction.value);

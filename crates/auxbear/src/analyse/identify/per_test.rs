@@ -21,23 +21,23 @@ pub(crate) struct OfTest {
 results! {
     /// The results of one test.
     pub(crate) fn table(of: &OfTest, run: &TestFound) {
-        "test_*.name": text "", TEST, "name of the test" => run.name.as_str();
+        "test_*.name": text "" headline, TEST, "name of the test" => run.name.as_str();
         "test_*.radial_load": number "N", TEST, "weight on the bearing" => run.measurement.load;
         "test_*.engagement_time": number "s", ENGAGED, "when the quick change of speed begins" => {
             run.measurement.engagement.ok_or_else(|| "no quick change was found".to_string())
         };
-        "test_*.peak_acceleration": number "rad/s^2", TEST, "largest acceleration" => run.peak_acceleration.value;
+        "test_*.peak_acceleration": number "rad/s^2" headline, TEST, "largest acceleration" => run.peak_acceleration.value;
         "test_*.peak_acceleration_deviation": number "rad/s^2", TEST, "its standard deviation" => run.peak_acceleration.deviation;
-        "test_*.excess_torque_settled": number "N m", EXCESS, "t_O - M shortly after the engagement" => run.settled_excess().map(|u| u.value);
-        "test_*.excess_torque_settled_deviation": number "N m", EXCESS, "its standard deviation" => run.settled_excess().map(|u| u.deviation);
-        "test_*.excess_torque_at_end": number "N m", EXCESS, "t_O - M at the end of the hold" => run.excess_at_end().map(|u| u.value);
-        "test_*.excess_torque_at_end_deviation": number "N m", EXCESS, "its standard deviation" => run.excess_at_end().map(|u| u.deviation);
+        "test_*.excess_torque_settled": number "N m" headline, EXCESS, "t_O - M shortly after the engagement" => run.settled_excess().map(|u| u.value);
+        "test_*.excess_torque_settled_deviation": number "N m" headline, EXCESS, "its standard deviation" => run.settled_excess().map(|u| u.deviation);
+        "test_*.excess_torque_at_end": number "N m" headline, EXCESS, "t_O - M at the end of the hold" => run.excess_at_end().map(|u| u.value);
+        "test_*.excess_torque_at_end_deviation": number "N m" headline, EXCESS, "its standard deviation" => run.excess_at_end().map(|u| u.deviation);
         "test_*.torque_to_roll_within_3_5_s": number "N m", ROLLING_UP, "net torque that would bring balls and cage to rolling in 3.5 s" => {
             let rolling = SpinUpEnergy { set: of.set, final_speed: run.measurement.fastest(), outer_moment_work: 0.0 };
             rolling.final_angular_momentum() / FALL
         };
-        "test_*.dissipated_energy": number "J", ENERGY, "energy dissipated in the spin-up, as well as it is known" => run.best_energy().map(|u| u.value);
-        "test_*.dissipated_energy_deviation": number "J", ENERGY, "its standard deviation" => run.best_energy().map(|u| u.deviation);
+        "test_*.dissipated_energy": number "J" headline, ENERGY, "energy dissipated in the spin-up, as well as it is known" => run.best_energy().map(|u| u.value);
+        "test_*.dissipated_energy_deviation": number "J" headline, ENERGY, "its standard deviation" => run.best_energy().map(|u| u.deviation);
         "test_*.dissipated_energy_printed": number "J", ENERGY, "by (21) as printed" => run.energy().map(|d| d.printed.value);
         "test_*.dissipated_energy_printed_deviation": number "J", ENERGY, "its standard deviation" => run.energy().map(|d| d.printed.deviation);
         "test_*.dissipated_energy_corrected": number "J", ENERGY, "by (21) corrected" => run.energy().map(|d| d.corrected.value);
@@ -50,7 +50,7 @@ results! {
             run.dissipation.as_ref().map(|d| d.window.1 - run.measurement.begin()).map_err(Clone::clone)
         };
         "test_*.printed_form": text "", ENERGY, "verdict on (21) as printed" => run.energy().map(|found| found.printed_verdict());
-        "test_*.slip_probability": number "1", SLIP, "largest probability of a slip of the cage" when of.cage => run.slip_probability();
+        "test_*.slip_probability": number "1" headline, SLIP, "largest probability of a slip of the cage" when of.cage => run.slip_probability();
         "test_*.rolling_established_at": number "s", ROLLS, "time after the engagement from which on the cage rolls" when of.cage => run.rolling_established();
         "test_*.skid_probability": number "1", SKID, "probability that balls skid" => run.skid_probability();
     }

@@ -30,7 +30,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 
 results! {
     fn file(asked: &Asked, run: &Found) {
-        "channels": text "", FILE, "channels of the file with unit, number of values and rate" => asked.channels();
+        "channels": text "" headline, FILE, "channels of the file with unit, number of values and rate" => asked.channels();
         "file_notes": text "", FILE, "what to know of the file" => match asked.notes.as_slice() {
             [] => "none".to_string(),
             notes => notes.join("; "),
@@ -40,8 +40,8 @@ results! {
     fn speed(asked: &Asked, run: &Found) {
         "speed_noise": number "rad/s", CHANNEL, "noise of one value of the channel" when asked.holds_speed() => run.channel().map(|c| c.noise);
         "speed_step": number "rad/s", CHANNEL, "smallest step of the channel" when asked.holds_speed() => run.channel().map(|c| c.step);
-        "pulse_count": number "", PULSES, "number of pulses" => run.pulses().map(|pulses| pulses.times.len() as f64);
-        "pulses_repaired_share": number "1", PULSES, "share of pulses that were missing or double" => run.pulses().map(|pulses| pulses.repaired);
+        "pulse_count": number "" headline, PULSES, "number of pulses" => run.pulses().map(|pulses| pulses.times.len() as f64);
+        "pulses_repaired_share": number "1" headline, PULSES, "share of pulses that were missing or double" => run.pulses().map(|pulses| pulses.repaired);
         "pickup_silent_from": list "s", SILENT, "beginnings of the gaps in the signal" => run.over_gaps(|gap| gap.from);
         "pickup_silent_to": list "s", SILENT, "ends of the gaps in the signal" => run.over_gaps(|gap| gap.to);
         "pulse_timing_factor": number "1", SPEED, "scatter of the pulses over that stated" => {
@@ -49,12 +49,12 @@ results! {
         };
         "largest_mark_error_share_of_pitch": number "1", PITCH, "largest error of a mark over the pitch" => run.shaft().and_then(|s| s.largest_mark_error());
         "mean_speed": number "rad/s", SPEED, "mean speed of the record" => run.shaft().map(|s| s.mean_speed());
-        "peak_speed": number "rad/s", SPEED, "largest speed" => run.shaft().map(|s| s.fastest.speed);
+        "peak_speed": number "rad/s" headline, SPEED, "largest speed" => run.shaft().map(|s| s.fastest.speed);
         "peak_speed_deviation": number "rad/s", SPEED, "its standard deviation" => run.shaft().map(|s| s.fastest.speed_uncertainty());
-        "peak_acceleration": number "rad/s^2", PEAK_ACCELERATION, "largest acceleration" => run.shaft().map(|s| s.peak.acceleration);
-        "peak_acceleration_deviation": number "rad/s^2", SPEED, "its standard deviation" => run.shaft().map(|s| s.peak.acceleration_uncertainty());
+        "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration" => run.shaft().map(|s| s.peak.acceleration);
+        "peak_acceleration_deviation": number "rad/s^2" headline, SPEED, "its standard deviation" => run.shaft().map(|s| s.peak.acceleration_uncertainty());
         "time_of_peak_acceleration": number "s", SPEED, "when the acceleration is largest" => run.shaft().map(|s| s.peak.time);
-        "engagement_time": number "s", CHANGE, "when the quick change of speed begins" => run.change().map(|c| c.engagement.0);
+        "engagement_time": number "s" headline, CHANGE, "when the quick change of speed begins" => run.change().map(|c| c.engagement.0);
         "engagement_time_deviation": number "s", CHANGE, "its standard deviation" => run.change().map(|c| c.engagement.1);
         "change_end_time": number "s", CHANGE, "when the quick change of speed ends" => run.change_end().map(|end| end.0);
         "change_end_time_deviation": number "s", CHANGE, "its standard deviation" => run.change_end().map(|end| end.1);
@@ -69,15 +69,15 @@ results! {
     }
 
     fn torque(asked: &Asked, run: &Found) {
-        "sensor_frequency": number "Hz", SENSOR, "natural frequency of the sensor" => run.sensor().map(|s| s.frequency.value);
+        "sensor_frequency": number "Hz" headline, SENSOR, "natural frequency of the sensor" => run.sensor().map(|s| s.frequency.value);
         "sensor_frequency_deviation": number "Hz", SENSOR, "its standard deviation" => run.sensor().map(|s| s.frequency.deviation);
         "sensor_damping_ratio": number "1", SENSOR, "damping ratio of the sensor" => run.sensor().map(|s| s.damping_ratio.value);
         "sensor_damping_ratio_deviation": number "1", SENSOR, "its standard deviation" => run.sensor().map(|s| s.damping_ratio.deviation);
-        "peak_torque": number "N m", TORQUE, "largest torque" => run.whole_torque().map(|t| at_largest(&t.torque, &t.torque));
+        "peak_torque": number "N m" headline, TORQUE, "largest torque" => run.whole_torque().map(|t| at_largest(&t.torque, &t.torque));
         "peak_torque_deviation": number "N m", TORQUE, "its standard deviation" => run.whole_torque().map(|t| at_largest(&t.torque, &t.deviation));
         "time_of_peak_torque": number "s", TORQUE, "when the torque is largest" => run.whole_torque().map(|t| at_largest(&t.torque, &t.time));
-        "median_torque_deviation": number "N m", TORQUE, "median of the standard deviation of the torque" => run.whole_torque().map(|t| median(&t.deviation));
-        "largest_synchronous_disturbance": number "N m", TORQUE, "largest disturbance once a turn" => {
+        "median_torque_deviation": number "N m" headline, TORQUE, "median of the standard deviation of the torque" => run.whole_torque().map(|t| median(&t.deviation));
+        "largest_synchronous_disturbance": number "N m" headline, TORQUE, "largest disturbance once a turn" => {
             run.whole_torque().map(|t| at_largest(&t.disturbance, &t.disturbance))
         };
         "disturbance_power": number "1", TORQUE, "power of the speed with which the disturbance grows" => run.inverted().map(|t| t.disturbance_power);
@@ -92,8 +92,8 @@ results! {
     }
 
     fn cage(asked: &Asked, run: &Found) {
-        "median_cage_slip": number "1", CAGE, "median of the slip of the cage" => run.cage(|c| median(&c.slip));
-        "median_cage_slip_deviation": number "1", CAGE, "median of its standard deviation" => run.cage(|c| median(&c.slip_deviation));
+        "median_cage_slip": number "1" headline, CAGE, "median of the slip of the cage" => run.cage(|c| median(&c.slip));
+        "median_cage_slip_deviation": number "1" headline, CAGE, "median of its standard deviation" => run.cage(|c| median(&c.slip_deviation));
         "cage_slip_at_end": number "1", CAGE, "slip of the cage at the end" => run.cage(|c| last(&c.slip));
         "cage_slip_at_end_deviation": number "1", CAGE, "its standard deviation" => run.cage(|c| last(&c.slip_deviation));
         "cage_speed_at_end": number "rad/s", CAGE, "speed of the cage at the end" => run.cage(|c| last(&c.speed));

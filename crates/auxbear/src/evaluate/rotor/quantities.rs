@@ -59,8 +59,8 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 
 results! {
     fn body(asked: &Asked, run: &Found) {
-        "mass": number "kg", BODY, "mass of the rotor" => rotor::properties(asked.rotor()).mass;
-        "mass_centre": number "m", BODY, "position of its centre of mass" => rotor::properties(asked.rotor()).centre;
+        "mass": number "kg" headline, BODY, "mass of the rotor" => rotor::properties(asked.rotor()).mass;
+        "mass_centre": number "m" headline, BODY, "position of its centre of mass" => rotor::properties(asked.rotor()).centre;
         "polar_inertia": number "kg m^2", BODY, "polar moment of inertia" => rotor::properties(asked.rotor()).polar;
         "transverse_inertia": number "kg m^2", BODY, "transverse moment of inertia" => rotor::properties(asked.rotor()).transverse;
         "length": number "m", BODY, "length from the first node to the last" => asked.length();
@@ -69,31 +69,31 @@ results! {
     }
 
     fn criticals(asked: &Asked, run: &Found) {
-        "first_critical_speed": number "rad/s", CRITICAL, "lowest critical speed that is not of backward whirl" => run.first_critical();
+        "first_critical_speed": number "rad/s" headline, CRITICAL, "lowest critical speed that is not of backward whirl" => run.first_critical();
         "critical_speeds": list "rad/s", CRITICAL, "critical speeds" => run.criticals.iter().map(|one| one.speed).collect::<Vec<_>>();
         "critical_whirls": text "", CRITICAL, "sense of whirl at each of them" => run.whirls();
     }
 
     fn critical(asked: &Asked, run: &Critical) {
-        "critical_*.speed": number "rad/s", CRITICAL, "critical speed" => run.speed;
+        "critical_*.speed": number "rad/s" headline, CRITICAL, "critical speed" => run.speed;
         "critical_*.damping_ratio": number "", MODE, "damping ratio of the mode there" => run.mode.damping_ratio();
-        "critical_*.amplification": number "", AMPLIFICATION, "amplification factor of the mode there" => amplification(run);
-        "critical_*.separation": number "", SEPARATION, "separation margin to the operating speeds" => {
+        "critical_*.amplification": number "" headline, AMPLIFICATION, "amplification factor of the mode there" => amplification(run);
+        "critical_*.separation": number "" headline, SEPARATION, "separation margin to the operating speeds" => {
             Some(asked.separation(run)).filter(|share| share.is_finite()).ok_or_else(|| "the operating speeds are standstill".to_string())
         };
-        "critical_*.verdict": text "", SEPARATION, "verdict on its margin" when asked.analysis.separation_margin.is_some() => asked.verdict(run);
+        "critical_*.verdict": text "" headline, SEPARATION, "verdict on its margin" when asked.analysis.separation_margin.is_some() => asked.verdict(run);
     }
 
     fn stability(asked: &Asked, run: &Found) {
-        "separation_verdict": text "", SEPARATION, "verdict on all critical speeds", unless asked.no_margin() => asked.whole_verdict(run);
-        "first_unstable_speed": number "rad/s", STABILITY, "lowest speed at which a motion grows" => asked.first_unstable(run);
+        "separation_verdict": text "" headline, SEPARATION, "verdict on all critical speeds", unless asked.no_margin() => asked.whole_verdict(run);
+        "first_unstable_speed": number "rad/s" headline, STABILITY, "lowest speed at which a motion grows" => asked.first_unstable(run);
     }
 
     fn bending(asked: &Asked, run: &Found) {
         "free_bending_frequencies": list "rad/s", MODE, "natural frequencies of bending of the free rotor at rest" => {
             asked.bending().map(|k| asked.full.frequencies[k]).collect::<Vec<_>>()
         };
-        "first_bending_frequency": number "rad/s", MODE, "lowest of them" => {
+        "first_bending_frequency": number "rad/s" headline, MODE, "lowest of them" => {
             asked.bending().next().map(|k| asked.full.frequencies[k]).ok_or_else(|| "a rotor without elements does not bend".to_string())
         };
     }
@@ -114,11 +114,11 @@ results! {
     }
 
     fn response(of: &Shown, run: &Found) {
-        "*.peak_amplitude": number "m", RESPONSE, "largest response to unbalance, half the longer axis" when !of.is_force() => of.amplitude(run, of.peak(run));
-        "*.peak_amplitude": number "N", RESPONSE, "largest force under unbalance, half the longer axis" when of.is_force() => of.amplitude(run, of.peak(run));
-        "*.peak_speed": number "rad/s", RESPONSE, "speed at which it is largest" => of.peak(run).map(|one| one.speed).ok_or_else(|| no_response(run));
-        "*.rated_amplitude": number "m", RESPONSE, "response to unbalance at the rated speed" when !of.is_force() => of.amplitude(run, of.rated(run));
-        "*.rated_amplitude": number "N", RESPONSE, "force under unbalance at the rated speed" when of.is_force() => of.amplitude(run, of.rated(run));
+        "*.peak_amplitude": number "m" headline, RESPONSE, "largest response to unbalance, half the longer axis" when !of.is_force() => of.amplitude(run, of.peak(run));
+        "*.peak_amplitude": number "N" headline, RESPONSE, "largest force under unbalance, half the longer axis" when of.is_force() => of.amplitude(run, of.peak(run));
+        "*.peak_speed": number "rad/s" headline, RESPONSE, "speed at which it is largest" => of.peak(run).map(|one| one.speed).ok_or_else(|| no_response(run));
+        "*.rated_amplitude": number "m" headline, RESPONSE, "response to unbalance at the rated speed" when !of.is_force() => of.amplitude(run, of.rated(run));
+        "*.rated_amplitude": number "N" headline, RESPONSE, "force under unbalance at the rated speed" when of.is_force() => of.amplitude(run, of.rated(run));
     }
 
     fn deflection(asked: &Asked, run: &Response) {
@@ -129,12 +129,12 @@ results! {
     }
 
     fn sag(asked: &Asked, run: &Found) {
-        "largest_sag": number "m", SAG, "largest sag under weight" => asked.sag(run).map(|all| all.into_iter().fold(0.0, f64::max));
+        "largest_sag": number "m" headline, SAG, "largest sag under weight" => asked.sag(run).map(|all| all.into_iter().fold(0.0, f64::max));
         "sag": list "m", SAG, "sag of each node under weight" => asked.sag(run);
     }
 
     fn support_load(of: &(&Asked, usize), run: &Found) {
-        "load.*": number "N", SAG, "weight that a support carries" => of.0.support_load(run, of.1);
+        "load.*": number "N" headline, SAG, "weight that a support carries" => of.0.support_load(run, of.1);
     }
 
     fn map(asked: &Asked, run: &Found) {
@@ -147,8 +147,8 @@ results! {
     }
 
     fn reduction(asked: &Asked, run: &Found) {
-        "coordinates": number "", REDUCTION, "number of coordinates kept" => asked.within.basis.len() as f64;
-        "reduction_error": number "", REDUCTION, "largest relative error of eigenvalues that this makes" => {
+        "coordinates": number "" headline, REDUCTION, "number of coordinates kept" => asked.within.basis.len() as f64;
+        "reduction_error": number "" headline, REDUCTION, "largest relative error of eigenvalues that this makes" => {
             run.reduction_error.ok_or_else(|| "all coordinates are kept".to_string())
         };
         "receptance_error": number "", REDUCTION, "largest relative error of receptances that this makes" => {

@@ -66,7 +66,7 @@ pub(crate) fn ball_loads(list: &mut List, setup: &BearingSetup, run: Option<&Bea
 results! {
     fn loads(setup: &BearingSetup, run: &BearingRun) {
         "peak_ball_load": number "N", BALL_LOAD, "largest load of a ball" => run.loads[0].value.max(run.loads[1].value);
-        "peak_hertz_pressure": number "Pa", PRESSURE, "largest Hertz pressure between ball and race" => run.pressures().races;
+        "peak_hertz_pressure": number "Pa" headline, PRESSURE, "largest Hertz pressure between ball and race" => run.pressures().races;
         "peak_ball_ball_pressure": number "Pa", PRESSURE, "largest Hertz pressure between two balls" when setup.factors.neighbours.is_some() => {
             run.pressures().neighbours.unwrap_or(0.0)
         };

@@ -195,8 +195,8 @@ results! {
     /// How near a node comes to its limit, and what holds it there.
     pub(crate) fn limit(setup: &(), run: &Limited) {
         "*_temperature_index": number "1", NEAR, "rise over that of the limit" => (run.peak - run.start) / (run.limit - run.start);
-        "*_limit_time": instant "s", LIMIT, "first time above the limit" => run.passed();
-        "*_heat_to_take": number "W", TAKE, "largest power to be taken to hold the limit" => run.to_take(0);
+        "*_limit_time": instant "s" headline, LIMIT, "first time above the limit" => run.passed();
+        "*_heat_to_take": number "W" headline, TAKE, "largest power to be taken to hold the limit" => run.to_take(0);
         "*_energy_to_take": number "J", TAKE, "heat to be taken to hold the limit" => run.to_take(1);
     }
     /// Instants of the powers that are taken from held nodes.

@@ -79,14 +79,14 @@ fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
 
 results! {
     fn motion(setup: &(), run: &Ran) {
-        "stop_time": instant "s", STOP, "time until the rotor stands" => match run.free.end {
+        "stop_time": instant "s" headline, STOP, "time until the rotor stands" => match run.free.end {
             End::Stands => Ok(run.free.state.time),
             _ => Err("the rotor did not come to stand in this run".to_string()),
         };
         "turns": number "", TURNS, "turns of the rotor" => pairs(&run.free.rows).map(|(_, _, turned)| turned).sum::<f64>();
         "start_moment": number "N m", MOMENT, "moment of all bearings and the gas at the start" => run.start_moment();
-        "start_power": number "W", MOMENT, "power of this moment" => run.start_moment() * run.free.rows[0].speed;
-        "rotor_energy": number "J", ENERGY, "kinetic energy of the rotor at the start" => run.built.energy;
+        "start_power": number "W" headline, MOMENT, "power of this moment" => run.start_moment() * run.free.rows[0].speed;
+        "rotor_energy": number "J" headline, ENERGY, "kinetic energy of the rotor at the start" => run.built.energy;
         "speed_dependent_heat": number "J", HEAT, "heat of the speed-dependent moments" => by_kind(&run.free.state.heats)[0];
         "load_dependent_heat": number "J", HEAT, "heat of the load-dependent moments" => by_kind(&run.free.state.heats)[1];
         "windage_heat": number "J", HEAT, "heat of the gas and of what else brakes the rotor" => by_kind(&run.free.state.heats)[2];
@@ -94,19 +94,19 @@ results! {
     }
     fn balance(setup: &(), run: &Ran) {
         "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" => run.free.state.given;
-        "relative_heat_residual": number "1", RESIDUAL, "residual of the heat balance over the heat made" => {
+        "relative_heat_residual": number "1" headline, RESIDUAL, "residual of the heat balance over the heat made" => {
             let [speed_dependent, load_dependent, _] = by_kind(&run.free.state.heats);
             let made = speed_dependent + load_dependent;
             relative((made - run.free.stored - run.free.state.given).abs(), made)
         };
     }
     fn peaks(setup: &(), peak: &(f64, f64)) {
-        "peak_*_temperature": number "K", PEAK, "highest temperature of this body" => peak.0 + ICE_POINT;
+        "peak_*_temperature": number "K" headline, PEAK, "highest temperature of this body" => peak.0 + ICE_POINT;
         "peak_*_time": number "s", PEAK, "instant of this temperature" => peak.1;
     }
     fn clearance(of: &(usize, &Part), run: &Ran) {
-        "smallest_clearance": number "m", CLEARANCE, "smallest diametral clearance" => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
-        "closing_time": instant "s", CLEARANCE, "first time without clearance" => {
+        "smallest_clearance": number "m" headline, CLEARANCE, "smallest diametral clearance" => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
+        "closing_time": instant "s" headline, CLEARANCE, "first time without clearance" => {
             let closes = run.first(|row| -row.bearings[of.0].clearance);
             closes.ok_or_else(|| "the bearing stays open".to_string())
         };
@@ -116,7 +116,7 @@ results! {
         };
     }
     fn growth(setup: &(), run: &Ran) {
-        "peak_growth_rate": number "1/s", GROWTH, "largest growth rate of a disturbance of the temperatures" => {
+        "peak_growth_rate": number "1/s" headline, GROWTH, "largest growth rate of a disturbance of the temperatures" => {
             run.free.rows.iter().map(|row| row.growth).fold(f64::NEG_INFINITY, f64::max)
         };
     }
@@ -128,14 +128,14 @@ results! {
     }
     /// What a run-out takes of the life of a bearing.
     fn life(part: &Part, run: &Life) {
-        "life_share": number "1", LIFE, "share of the rating life that this run-out takes", unless no_rating(part.rating()) => run.share;
+        "life_share": number "1" headline, LIFE, "share of the rating life that this run-out takes", unless no_rating(part.rating()) => run.share;
         "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant", unless no_ratings(part) => {
             run.with_lubricant.clone()
         };
         "inner_life_share_by_point": list "1", BY_POINT, "share of life at each point of the inner ring" when part.rating().is_some() => run.points[0].clone();
         "outer_life_share_by_point": list "1", BY_POINT, "share of life at each point of the outer ring" when part.rating().is_some() => run.points[1].clone();
         "runs_until_one_percent_fail": number "1", RUNS, "run-outs until 1 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.99);
-        "runs_until_ten_percent_fail": number "1", RUNS, "run-outs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
+        "runs_until_ten_percent_fail": number "1" headline, RUNS, "run-outs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
         "runs_until_half_fail": number "1", RUNS, "run-outs until half of the bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
     }
 }

@@ -142,16 +142,16 @@ impl<'a> Landed<'a> {
 
 results! {
     fn contacts(setup: &(), run: &Landed) {
-        "time_to_first_contact": instant "s", FIRST_CONTACT, "first contact after the release" => {
+        "time_to_first_contact": instant "s" headline, FIRST_CONTACT, "first contact after the release" => {
             touched(run.record.contacts.first().map(|first| run.after(first.start)))
         };
-        "first_impact_force": number "N", CONTACT_FORCE, "largest normal force of the first contact" => {
+        "first_impact_force": number "N" headline, CONTACT_FORCE, "largest normal force of the first contact" => {
             touched(run.record.contacts.first().map(|first| first.peak_force))
         };
-        "peak_contact_force": number "N", CONTACT_FORCE, "largest normal force between rotor and inner race" => {
+        "peak_contact_force": number "N" headline, CONTACT_FORCE, "largest normal force between rotor and inner race" => {
             touched(run.record.peak_contact_force().map(|peak| peak.value))
         };
-        "contact_count": number "", CONTACT_COUNT, "number of contacts" => run.record.contacts.len() as f64;
+        "contact_count": number "" headline, CONTACT_COUNT, "number of contacts" => run.record.contacts.len() as f64;
         "contact_start_times": list "s", CONTACT_STARTS, "begins of the contacts after the release" => {
             run.record.contacts.iter().map(|contact| run.after(contact.start)).collect::<Vec<_>>()
         };
@@ -160,7 +160,7 @@ results! {
         "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" => {
             run.reached(run.record.inner_race_time_to_50_percent(), "half of the rotor's release speed")
         };
-        "inner_race_time_to_95_percent": instant "s", RISE, "time of the inner race to 95 % of the release speed" => {
+        "inner_race_time_to_95_percent": instant "s" headline, RISE, "time of the inner race to 95 % of the release speed" => {
             run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the rotor's release speed")
         };
         "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
@@ -191,7 +191,7 @@ results! {
             touched(run.record.contacts.first().map(|_| run.record.rotor_displacement.value))
         };
         "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race" => run.record.mount_displacement.value;
-        "whirl_direction": text "", WHIRL, "direction of whirl" => run.whirl_direction();
+        "whirl_direction": text "" headline, WHIRL, "direction of whirl" => run.whirl_direction();
         "whirl_turns": number "", WHIRL, "net turns of whirl about the inner race" => run.record.whirl_turns;
         "travel_index": number "1", TRAVEL, "longest way of the rotor in one turn over that of full whirl" => run.per_turn(run.record.travel.longest, 2.0 * PI);
         "speed_index": number "1", SPEED_INDEX, "mean speed of the rotor's centre over that of full whirl" => {
@@ -219,7 +219,7 @@ results! {
     }
     fn energies(setup: &Setup, run: &Context) {
         "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
-        "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.heat();
+        "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
         "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop.rotor.planes as f64 * run.heat();
         "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" when Following::of(setup.drop).is_some() => {
             run.renewals().map_or(0.0, |renewals| renewals.work_until(f64::INFINITY))
@@ -228,7 +228,7 @@ results! {
         "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|content| content.translation + content.spin);
         "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|content| content.potential);
         "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.balance().energy_residual();
-        "energy_residual": number "1", RESIDUAL, "residual of the energy ledger over what is turned over" => residuals(run).0;
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" => residuals(run).0;
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
     }
 }

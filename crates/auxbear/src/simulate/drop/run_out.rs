@@ -288,7 +288,7 @@ fn windowed(value: Option<f64>) -> Result<f64, String> {
 
 results! {
     fn change(setup: &(), run: &Went) {
-        "start_time": instant "s", CHANGE, "instant from which on the rotor rolls" => run.rolled(run.first.time);
+        "start_time": instant "s" headline, CHANGE, "instant from which on the rotor rolls" => run.rolled(run.first.time);
         "start_speed": number "rad/s", CHANGE, "speed of the rotor at this instant" => run.rolled(run.first.speed);
         "windows": number "", WINDOWS, "number of windows ball by ball" => run.scatter().len() as f64;
         "window_scatter": number "1", WINDOWS, "largest standard error of a window's power over it" => run.scatter().into_iter().fold(0.0, f64::max);

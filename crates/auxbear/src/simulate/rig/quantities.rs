@@ -38,13 +38,13 @@ pub(crate) fn name(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Quant
 
 results! {
     fn motion(rig: &Rig, run: &Context) {
-        "engagement_time": number "s", ENGAGEMENT, "instant at which the clutch engages" => run.rig.engages_at();
-        "clutch_torque_rate": number "N m/s", RATE, "rate of the torque that the clutch can carry" => run.built.torque_rate.ok_or_else(no_clutch);
-        "clutch_lock_time": number "s", ENGAGEMENT, "instant at which the clutch locks" => {
+        "engagement_time": number "s" headline, ENGAGEMENT, "instant at which the clutch engages" => run.rig.engages_at();
+        "clutch_torque_rate": number "N m/s" headline, RATE, "rate of the torque that the clutch can carry" => run.built.torque_rate.ok_or_else(no_clutch);
+        "clutch_lock_time": number "s" headline, ENGAGEMENT, "instant at which the clutch locks" => {
             let slips = || "the clutch still slips at the end".to_string();
             rig.engages_at().and_then(|_| run.record.locked_at().ok_or_else(slips))
         };
-        "peak_acceleration": number "rad/s^2", PEAK_ACCELERATION, "largest acceleration of the shaft" => match rig.program {
+        "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration of the shaft" => match rig.program {
             RigProgram::CoastDown { .. } => 0.0 - run.record.deceleration.value,
             _ => run.record.acceleration.value,
         };
@@ -54,17 +54,17 @@ results! {
         "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
             run.record.cage_time_to_95_percent().ok_or_else(|| never(95.0))
         };
-        "shaft_final_speed": number "rad/s", SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT + 1];
+        "shaft_final_speed": number "rad/s" headline, SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT + 1];
         "flywheel_final_speed": number "rad/s", SPEED, "speed of the flywheel at the end" => run.ending.state[FLYWHEEL + 1];
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
-        "peak_clutch_torque": number "N m", PEAK_MOMENT, "largest torque of the clutch" => run.record.clutch_torque.value;
+        "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.record.clutch_torque.value;
         "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
-        "peak_outer_race_moment": number "N m", PEAK_MOMENT, "largest moment on the outer race" => run.record.outer_moment.value;
+        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" => run.record.outer_moment.value;
         "inner_race_moment_at_end": number "N m", AT_END, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
         "outer_race_moment_at_end": number "N m", AT_END, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
         "law_moment_at_end": number "N m", AT_END, "moment of the friction law at the end" => run.probe(STEADY_MOMENT);
-        "cage_slip_at_end": number "1", SLIP, "mean cage slip over the last cage turn" => run.late_slip();
-        "peak_temperature_rise": number "K", TEMPERATURE, "largest rise of the outer race" => {
+        "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" => run.late_slip();
+        "peak_temperature_rise": number "K" headline, TEMPERATURE, "largest rise of the outer race" => {
             let of_network = run.warming.map(|warming| warming.followed());
             of_network.map_or(run.record.temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
         };
@@ -75,15 +75,15 @@ results! {
         };
         "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
         "clutch_heat": number "J", ENERGY, "friction heat of the clutch" => run.heat(CLUTCH_HEAT);
-        "bearing_dissipated_energy": number "J", ENERGY, "heat of the losses in the bearing" => (0..CLUTCH_HEAT).map(|kind| run.heat(kind)).sum::<f64>();
-        "energy_residual": number "1", RESIDUAL, "residual of the energy ledger over what is turned over" => {
+        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" => (0..CLUTCH_HEAT).map(|kind| run.heat(kind)).sum::<f64>();
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" => {
             let balance = run.whole_balance();
             relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
         };
-        "angular_momentum_residual": number "N m s", MOMENTUM, "residual of the angular momentum of balls and cage" => {
+        "angular_momentum_residual": number "N m s" headline, MOMENTUM, "residual of the angular momentum of balls and cage" => {
             run.built.machine.bearing_momentum_residual(run.start, &run.ending.state)
         };
-        "clipped_channels": text "", CLIPPED, "channels with values beyond the converter" => run.clipped_channels().as_str();
+        "clipped_channels": text "" headline, CLIPPED, "channels with values beyond the converter" => run.clipped_channels().as_str();
     }
 }
 
