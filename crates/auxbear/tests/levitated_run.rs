@@ -1,7 +1,7 @@
 //! Magnets whose controllers act in time: they keep what the linear analysis says, lose it with their power, and end at their limits.
 
-use auxbear::result::graveness::graveness;
 use auxbear::result::outcome::Outcome;
+use auxbear::result::severity::severity;
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 
@@ -138,7 +138,7 @@ fn amplifiers_end_at_their_largest_voltage_and_the_run_says_so() {
     ] {
         assert!(text.contains(words), "{text}");
     }
-    assert_eq!(graveness("AB2036"), graveness("AB2034"));
+    assert_eq!(severity("AB2036"), severity("AB2034"));
 }
 
 /// A mount too soft for the magnets' negative stiffness lets the rotor come to a pole: the run keeps what it has and names it.

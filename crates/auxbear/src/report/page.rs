@@ -418,7 +418,7 @@ mod tests {
         let codes: Vec<&str> = lines.filter_map(|line| line.get(4..10)).collect();
         assert!(codes.contains(&"AB1015") && codes.contains(&"AB1096"));
         for code in codes.into_iter().chain(["AB2030"]) {
-            assert_eq!(crate::result::graveness::graveness(code), 0, "{code}");
+            assert_eq!(crate::result::severity::severity(code), 0, "{code}");
         }
     }
 

@@ -2,10 +2,10 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
-use crate::result::graveness::graveness;
 use crate::result::outcome::{
     self, Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Value, Warning,
 };
+use crate::result::severity::severity;
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -322,7 +322,7 @@ fn limit(judged: &Judged) -> Held<'_> {
 fn warning(warning: &Warning) -> Message<'_> {
     Message {
         code: warning.code,
-        graveness: graveness(warning.code),
+        graveness: severity(warning.code),
         text: &warning.text,
     }
 }

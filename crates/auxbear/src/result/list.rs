@@ -16,7 +16,7 @@
 //! A row that is `headline` is among the results that a run prints.
 //!
 //! Kinds of rows: `number`, `instant` (a number that the run waits for), `list`, `text`. Each `*` of a name stands for what
-//! [`List::named`] puts there: the number of a critical speed, the name of a node.
+//! `List::named` puts there: the number of a critical speed, the name of a node.
 
 use crate::result::outcome::{Quantity, Value};
 

@@ -2,8 +2,8 @@
 
 pub(crate) mod assumptions;
 pub(crate) mod drawing;
-pub mod graveness;
 pub mod limits;
 pub mod list;
 pub mod outcome;
+pub mod severity;
 pub(crate) mod static_safety;

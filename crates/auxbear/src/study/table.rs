@@ -1,7 +1,7 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::result::graveness::{graveness, graver};
 use crate::result::outcome::{Quantity, Value, Warning};
+use crate::result::severity::{more_severe, severity};
 use problem::explain;
 use std::collections::BTreeMap;
 
@@ -64,7 +64,7 @@ pub struct Warned {
 impl Warned {
     /// Whether it says no more than what is left out or assumed.
     pub fn is_remark(&self) -> bool {
-        graveness(&self.code) > 1
+        severity(&self.code) > 1
     }
 
     /// Which of so many members have it, in words.
@@ -153,7 +153,7 @@ impl Table {
         self
     }
 
-    /// What members warn of, the gravest first.
+    /// What members warn of, the most severe first.
     pub fn warned(&self) -> Vec<Warned> {
         let of = |column: &Column| {
             let code = column.name.strip_prefix(WARNING)?;
@@ -169,7 +169,7 @@ impl Table {
             })
         };
         let mut list: Vec<Warned> = self.columns.iter().filter_map(of).collect();
-        list.sort_by(|a, b| graver(&a.code, &b.code));
+        list.sort_by(|a, b| more_severe(&a.code, &b.code));
         list
     }
 

@@ -8,7 +8,7 @@ use crate::scenario::{BearingType, DRAWN_ON, Moment, Scenario, drawn_on};
 use physics::friction::Friction;
 use physics::friction_range::{OperatingPoint, farthest};
 
-/// All warnings, the gravest first.
+/// All warnings, the most severe first.
 pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
     let torque = asked.torque;
     let mut list = Vec::new();

@@ -293,7 +293,7 @@ function spreadOrigin(run) {
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 
-// How grave a warning is: 0 the result is that of another machine, or destruction; 3 inputs that were assumed.
+// How severe a warning is: 0 the result is that of another machine, or destruction; 3 inputs that were assumed.
 const ASSUMED = "AB1013";
 
 function graveness({ graveness }) {
@@ -339,7 +339,7 @@ function assumedItem(runs) {
   );
 }
 
-// Each warning once, the gravest first; with several runs or bearings it names those that have it.
+// Each warning once, the most severe first; with several runs or bearings it names those that have it.
 function warningBox(runs) {
   const found = new Map();
   const add = (run, code, text, warning = {}) => {

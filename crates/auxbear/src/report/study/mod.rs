@@ -48,7 +48,7 @@ pub struct Done {
     pub answer: Answer,
     /// Members that did not end as planned.
     pub failed: usize,
-    /// What they warn of, the gravest first.
+    /// What they warn of, the most severe first.
     pub warned: Vec<Warned>,
     /// Whether all members are there.
     pub complete: bool,

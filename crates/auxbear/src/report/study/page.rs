@@ -5,8 +5,8 @@ use super::cells::{amount, rows, scaled, short};
 use super::{parallel, ranking};
 use crate::report::page::{STYLE, escape_text as plain};
 use crate::report::picture::{Panel, line, text};
-use crate::result::graveness::graveness;
 use crate::result::outcome::Verdict;
+use crate::result::severity::severity;
 use crate::scenario::{Limit, Side};
 use crate::study::Study;
 use crate::study::answer::{Answer, Sensitivity};
@@ -78,7 +78,7 @@ fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
 fn warned(table: &Table) -> String {
     let all = table.members.len();
     let row = |warned: &Warned| {
-        let class = match graveness(&warned.code) {
+        let class = match severity(&warned.code) {
             0 => " class=\"grave\"",
             _ => "",
         };
@@ -93,7 +93,7 @@ fn warned(table: &Table) -> String {
     match list.is_empty() {
         true => list,
         false => format!(
-            "<div class=\"warnings\"><strong>What the runs warn of, the gravest first; run a member alone for its text</strong><ul>\n{list}</ul></div>\n"
+            "<div class=\"warnings\"><strong>What the runs warn of, the most severe first; run a member alone for its text</strong><ul>\n{list}</ul></div>\n"
         ),
     }
 }

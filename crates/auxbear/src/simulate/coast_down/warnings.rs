@@ -1,4 +1,4 @@
-//! What the user should know before trusting a run-out, the gravest first.
+//! What the user should know before trusting a run-out, the most severe first.
 
 use crate::result::assumptions;
 use crate::result::outcome::{Warning, warning};

@@ -9,7 +9,7 @@ use crate::simulate::drop::context::Context;
 use crate::simulate::drop::returns::Return;
 use crate::simulate::drop::went::Went;
 
-/// What windows and returns say, the gravest first.
+/// What windows and returns say, the most severe first.
 pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
     let parts = context.setup.parts().enumerate();
     let harder = parts.filter_map(|(k, name)| hits_harder(context, found, went, k, name));

@@ -29,17 +29,17 @@ fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
 /// A warning of one member, and how grave it is there.
 type Graded = (f64, Warning);
 
-/// Judges every member: a warning of any of them once, as the one has it where it is gravest, with the number of those that have it.
+/// Judges every member: a warning of any of them once, as the one has it where it is most severe, with the number of those that have it.
 fn judged(contexts: &[Context], of: impl Fn(&Context) -> Vec<Graded>) -> Vec<Warning> {
     let mut found: Vec<(usize, usize, Graded)> = Vec::new();
     for (k, context) in contexts.iter().enumerate() {
         for (grade, warning) in of(context) {
             let mut known = found.iter_mut();
             match known.find(|(.., (_, other))| other.code == warning.code) {
-                Some((count, member, gravest)) => {
+                Some((count, member, worst)) => {
                     *count += 1;
-                    if grade > gravest.0 {
-                        (*member, *gravest) = (k, (grade, warning));
+                    if grade > worst.0 {
+                        (*member, *worst) = (k, (grade, warning));
                     }
                 }
                 None => found.push((1, k, (grade, warning))),
@@ -67,7 +67,7 @@ fn of_rows(contexts: &[Context], mut list: Vec<Warning>) -> Vec<Warning> {
     list
 }
 
-/// All warnings of a run, the gravest first; `contexts` are its members.
+/// All warnings of a run, the most severe first; `contexts` are its members.
 pub(crate) fn of(
     scenario: &Scenario,
     contexts: &[Context],

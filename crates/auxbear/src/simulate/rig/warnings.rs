@@ -17,7 +17,7 @@ const FEWEST_SAMPLES: f64 = 4.0;
 /// By how much the peak acceleration may miss the wanted one without a word.
 const MISSED: f64 = 0.01;
 
-/// All warnings of a run, the gravest first.
+/// All warnings of a run, the most severe first.
 pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
     let bearing = &context.rig.bearing;
     let mut list = Vec::new();

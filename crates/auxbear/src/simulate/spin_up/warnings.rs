@@ -35,7 +35,7 @@ fn creeps(bearing: &Bearing, speed: f64) -> Option<Warning> {
     })
 }
 
-/// All warnings of a run, the gravest first.
+/// All warnings of a run, the most severe first.
 pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
     let bearing = &context.spin_up.bearing;
     let mut list = Vec::new();

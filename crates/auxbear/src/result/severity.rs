@@ -1,4 +1,4 @@
-//! How grave a warning is: few of them decide whether a result may be used at all.
+//! How severe a warning is: few of them decide whether a result may be used at all.
 
 use std::cmp::Ordering;
 
@@ -19,8 +19,8 @@ const REMARKS: &[&str] = &[
 /// Inputs that were assumed: every run has some.
 const ASSUMED: &str = "AB1013";
 
-/// 0 the gravest, 3 the least; 1 is what no list names.
-pub fn graveness(code: &str) -> u8 {
+/// 0 the most severe, 3 the least; 1 is what no list names.
+pub fn severity(code: &str) -> u8 {
     match code {
         ASSUMED => 3,
         code if GRAVE.contains(&code) => 0,
@@ -29,7 +29,7 @@ pub fn graveness(code: &str) -> u8 {
     }
 }
 
-/// The graver first, then by the code.
-pub fn graver(a: &str, b: &str) -> Ordering {
-    graveness(a).cmp(&graveness(b)).then_with(|| a.cmp(b))
+/// The more severe first, then by the code.
+pub fn more_severe(a: &str, b: &str) -> Ordering {
+    severity(a).cmp(&severity(b)).then_with(|| a.cmp(b))
 }
