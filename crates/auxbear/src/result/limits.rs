@@ -35,7 +35,8 @@ const MOST_NAMES: usize = 8;
 /// where these are not known before the run. A `*` in the name of one stands for what the run finds.
 pub(crate) fn check(limits: &[Limit], known: &[Quantity]) -> Result<(), Box<Problem>> {
     for limit in limits {
-        let named = |known: &&Quantity| is_name(&known.name, &limit.quantity);
+        let named =
+            |known: &&Quantity| is_name(&known.name, &limit.quantity) || is_among(limit, known);
         let Some(quantity) = known.iter().find(named) else {
             return Err(unknown(limit, known));
         };
@@ -84,6 +85,27 @@ pub(crate) fn check(limits: &[Limit], known: &[Quantity]) -> Result<(), Box<Prob
         }
     }
     Ok(())
+}
+
+/// Each limit of a pattern as limits of all results that it stands for.
+pub(crate) fn named(limits: &[Limit], known: &[Quantity]) -> Vec<Limit> {
+    let each = |limit: &Limit| {
+        let among = known.iter().filter(|known| is_among(limit, known));
+        let own: Vec<Limit> = among.map(|known| limit.of(&known.name)).collect();
+        match own.is_empty() {
+            true => vec![limit.clone()],
+            false => own,
+        }
+    };
+    limits.iter().flat_map(each).collect()
+}
+
+/// Whether a limit of a pattern holds for a result: `*.x` stands for x of each bearing, and of the only one.
+fn is_among(limit: &Limit, known: &Quantity) -> bool {
+    let pattern = limit.quantity.as_str();
+    let is_number = matches!(known.value, Value::Number(_) | Value::None { .. });
+    let fits = is_name(pattern, &known.name) || pattern.strip_prefix("*.") == Some(&known.name);
+    pattern.contains('*') && is_number && fits
 }
 
 /// Whether a listed name stands for this one: each `*` of it is one or more characters without a point.
@@ -158,6 +180,7 @@ pub(crate) fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
             false => judged,
         }
     };
+    let limits = named(limits, &outcome.quantities);
     limits.iter().map(judged).collect()
 }
 

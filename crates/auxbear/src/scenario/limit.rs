@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! [[limit]]
-//! quantity = "drive_end.peak_contact_force"   # a name of summary.json
+//! quantity = "drive_end.peak_contact_force"   # a result; "*.peak_contact_force" is that of every bearing
 //! most = "5 kN"                               # or least
 //! share = 0.95                                # of the members of a repeated run; 1 unless given
 //! ```
@@ -85,6 +85,14 @@ const SYNONYMS: [(&[&str], &str); 2] = [
 ];
 
 impl Limit {
+    /// The same of another result.
+    pub(crate) fn of(&self, quantity: &str) -> Limit {
+        Limit {
+            quantity: quantity.to_string(),
+            ..self.clone()
+        }
+    }
+
     /// The limit as a file has it.
     pub(crate) fn toml(&self) -> String {
         let share = match self.share {

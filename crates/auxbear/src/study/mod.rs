@@ -89,11 +89,15 @@ impl Study {
     ///
     /// # Errors
     /// What is wrong with scenario, limits or results.
-    pub fn new(file: StudyFile) -> Result<Study, Box<Problem>> {
+    pub fn new(mut file: StudyFile) -> Result<Study, Box<Problem>> {
         let machine = run::build(&file.scenario)?;
         let mut known = machine.results();
-        // what only a run tells is told by one with the values as given
-        if known.iter().any(|known| known.name.contains('*')) {
+        // numbers that only a run names are named by one with the values as given
+        let number = |value: &Value| matches!(value, Value::Number(_) | Value::None { .. });
+        if known
+            .iter()
+            .any(|known| known.name.contains('*') && number(&known.value))
+        {
             let never = AtomicBool::new(false);
             known = machine.run(&Options::unwatched(&never)).quantities;
         }
@@ -103,6 +107,8 @@ impl Study {
             problem.file.clone_from(&file.file);
             problem
         })?;
+        file.limits = limits::named(&file.limits, &known);
+        file.scenario.limits = limits::named(&file.scenario.limits, &known);
         let rank = file
             .rank
             .iter()

@@ -110,6 +110,35 @@ fn members_too_few_for_the_share_do_not_decide() {
 }
 
 #[test]
+fn a_star_is_every_bearing_and_the_only_one() {
+    const LIMIT: &str = "[[limit]]\nquantity = \"*.first_impact_force\"\nleast = \"1 N\"\n";
+    let names = |text: &str| -> Vec<String> {
+        let limits = judged(text, &[]);
+        assert!(limits.iter().all(|held| held.verdict == Verdict::Pass));
+        limits.into_iter().map(|held| held.limit.quantity).collect()
+    };
+    let two = names(&format!("{HEAD}{TWINS}\n{LIMIT}"));
+    assert_eq!(
+        two,
+        [
+            "drive_end.first_impact_force",
+            "other_end.first_impact_force"
+        ]
+    );
+    assert_eq!(names(&format!("{HEAD}\n{LIMIT}")), ["first_impact_force"]);
+    let none = LIMIT.replace("impact_force", "impact_forse");
+    let scenario = read(&format!("{HEAD}{TWINS}\n{none}"), &[]).unwrap();
+    let message = build(&scenario).err().unwrap().to_string();
+    assert!(
+        message.contains("Did you mean \"drive_end.first_impact_force\""),
+        "{message}"
+    );
+    let wrong = LIMIT.replace("1 N", "1 mm");
+    let scenario = read(&format!("{HEAD}{TWINS}\n{wrong}"), &[]).unwrap();
+    assert_eq!(build(&scenario).err().unwrap().code, Code::WrongDimension);
+}
+
+#[test]
 fn one_of_several_bearings_has_its_own() {
     let text = format!(
         "{HEAD}{TWINS}\n[[limit]]\nquantity = \"drive_end.first_impact_force\"\nleast = \"1 N\"\n"
