@@ -35,8 +35,9 @@ const MOST_NAMES: usize = 8;
 /// where these are not known before the run. A `*` in the name of one stands for what the run finds.
 pub(crate) fn check(limits: &[Limit], known: &[Quantity]) -> Result<(), Box<Problem>> {
     for limit in limits {
-        let named =
-            |known: &&Quantity| is_name(&known.name, &limit.quantity) || is_among(limit, known);
+        let named = |known: &&Quantity| {
+            is_name(&known.name, &limit.quantity) || fits(&limit.quantity, known)
+        };
         let Some(quantity) = known.iter().find(named) else {
             return Err(unknown(limit, known));
         };
@@ -90,7 +91,7 @@ pub(crate) fn check(limits: &[Limit], known: &[Quantity]) -> Result<(), Box<Prob
 /// Each limit of a pattern as limits of all results that it stands for.
 pub(crate) fn named(limits: &[Limit], known: &[Quantity]) -> Vec<Limit> {
     let each = |limit: &Limit| {
-        let among = known.iter().filter(|known| is_among(limit, known));
+        let among = known.iter().filter(|known| fits(&limit.quantity, known));
         let own: Vec<Limit> = among.map(|known| limit.of(&known.name)).collect();
         match own.is_empty() {
             true => vec![limit.clone()],
@@ -100,12 +101,11 @@ pub(crate) fn named(limits: &[Limit], known: &[Quantity]) -> Vec<Limit> {
     limits.iter().flat_map(each).collect()
 }
 
-/// Whether a limit of a pattern holds for a result: `*.x` stands for x of each bearing, and of the only one.
-fn is_among(limit: &Limit, known: &Quantity) -> bool {
-    let pattern = limit.quantity.as_str();
+/// Whether a pattern stands for a number among the results: `*.x` for x of each bearing, and of the only one.
+pub(crate) fn fits(pattern: &str, known: &Quantity) -> bool {
     let is_number = matches!(known.value, Value::Number(_) | Value::None { .. });
-    let fits = is_name(pattern, &known.name) || pattern.strip_prefix("*.") == Some(&known.name);
-    pattern.contains('*') && is_number && fits
+    let is_named = is_name(pattern, &known.name) || pattern.strip_prefix("*.") == Some(&known.name);
+    pattern.contains('*') && is_number && is_named
 }
 
 /// Whether a listed name stands for this one: each `*` of it is one or more characters without a point.

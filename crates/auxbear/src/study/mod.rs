@@ -17,7 +17,7 @@ use crate::result::limits;
 use crate::result::outcome::{Quantity, Value};
 use crate::run::{self, Options};
 use crate::scenario::{Scenario, StudyFile};
-use problem::Problem;
+use problem::{Place, Problem};
 use rayon::prelude::*;
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
@@ -109,6 +109,16 @@ impl Study {
         })?;
         file.limits = limits::named(&file.limits, &known);
         file.scenario.limits = limits::named(&file.scenario.limits, &known);
+        let each = |(name, place): &(String, Place)| -> Vec<(String, Place)> {
+            let among = known.iter().filter(|known| limits::fits(name, known));
+            let own: Vec<_> = among.map(|known| (known.name.clone(), *place)).collect();
+            if own.is_empty() {
+                vec![(name.clone(), *place)]
+            } else {
+                own
+            }
+        };
+        file.results = file.results.iter().flat_map(each).collect();
         let rank = file
             .rank
             .iter()
