@@ -1,16 +1,16 @@
 //! What the page needs to draw a rotor to scale, as lists.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::scenario::RotorModel;
 use rotor::{Layer, Place};
 
-/// What the scenario says.
-pub(crate) const GIVEN: Origin = Origin {
-    law: "",
-    source: "the scenario",
-    valid: "",
-};
+origins! {
+    /// What the scenario says.
+    pub(crate) GIVEN: law "",
+        source "the scenario",
+        valid "";
+}
 
 /// Positions, diameters and names of all parts.
 pub(crate) fn name(list: &mut List, model: &RotorModel) {

@@ -58,6 +58,19 @@ pub(crate) enum Kind {
     text,
 }
 
+/// Origins by their names, each with its law, source and valid range.
+macro_rules! origins {
+    ($($(#[$doc:meta])* $vis:vis $name:ident: law $law:expr, source $source:expr, valid $valid:expr;)*) => {
+        $($(#[$doc])*
+        $vis const $name: $crate::result::list::Origin = $crate::result::list::Origin {
+            law: $law,
+            source: $source,
+            valid: $valid,
+        };)*
+    };
+}
+pub(crate) use origins;
+
 /// Tables of results as functions; see the head of this file.
 macro_rules! results {
     ($($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {

@@ -1,6 +1,6 @@
 //! The static safety of a bearing, in every system that loads one.
 
-use crate::result::list::{NOT_GIVEN, Origin};
+use crate::result::list::{NOT_GIVEN, origins};
 use crate::scenario::{Bearing, RatedBearing};
 use physics::static_load::{equivalent_static_load, static_load_factors};
 
@@ -52,9 +52,9 @@ fn equivalent(rated: &RatedBearing, load: &StaticLoad) -> Result<f64, String> {
     Ok(equivalent_static_load([radial, axial], on_radius, on_axis))
 }
 
-/// Of a load that is given.
-pub(crate) const AT_THE_LOAD: Origin = Origin {
-    law: "s0 = C0/P0, P0 = max(F_r, X0 F_r + Y0 F_a) of the largest load that is given",
-    source: "ISO 76 (from memory), crates/physics/src/static_load.rs",
-    valid: "a single row, or the rows to which the rating belongs; dents of 1e-4 of a ball's diameter at s0 = 1",
-};
+origins! {
+    /// Of a load that is given.
+    pub(crate) AT_THE_LOAD: law "s0 = C0/P0, P0 = max(F_r, X0 F_r + Y0 F_a) of the largest load that is given",
+        source "ISO 76 (from memory), crates/physics/src/static_load.rs",
+        valid "a single row, or the rows to which the rating belongs; dents of 1e-4 of a ball's diameter at s0 = 1";
+}

@@ -2,7 +2,7 @@
 
 use crate::options::Options;
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::{Quantity, Single, Value};
 use crate::scenario::{Scenario, Shaft, System};
 use crate::simulate::drop::each;
@@ -90,8 +90,8 @@ results! {
     }
 }
 
-const CHANGE: Origin = Origin {
-    law: "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
-    source: "crates/auxbear/src/run/cutoff.rs",
-    valid: "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic",
-};
+origins! {
+    CHANGE: law "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
+        source "crates/auxbear/src/run/cutoff.rs",
+        valid "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic";
+}

@@ -5,7 +5,7 @@ use crate::analyse::identify::found::{Found, rolling_set};
 use crate::analyse::identify::per_test::{self, OfTest};
 use crate::analyse::identify::read::{Asked, Test};
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::Quantity;
 use identify::coasting::Windage;
 use identify::explain::{self, Candidate, Conclusion, Explanation, Verdict};
@@ -310,58 +310,38 @@ impl Found {
     }
 }
 
-const VERDICT: Origin = Origin {
-    law: "posterior probability among seven explanations: ln Z = w ln L(θ*) + ln p(θ*) + (k/2) ln 2π - ½ ln det H, w = N_eff/N; no odds beyond exp(N_eff); decided from identify.explanations.decide_at on",
-    source: "Kass and Raftery 1995 (Laplace's method), crates/identify/src/evidence.rs",
-    valid: "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs",
-};
-const FIT: Origin = Origin {
-    law: "probability of a χ² of data and parameters at least as large, where the explanation is true with parameters drawn from its priors",
-    source: "crates/identify/src/explain/mod.rs",
-    valid: "of the most probable explanation; below 0.1 % none of these fits; near 1 where the bands of the signals are wider than their errors",
-};
-const MEANS: Origin = Origin {
-    law: "N_eff = N/(1 + 2 Σ r_j), r_j autocorrelation of what the most probable explanation leaves of N means",
-    source: "crates/identify/src/evidence.rs",
-    valid: "errors that the tests share (zero, scale, level of M) are taken out before",
-};
-const NEXT: Origin = Origin {
-    law: "expected reduction of the entropy over the explanations",
-    source: "crates/identify/src/explain/next_test.rs",
-    valid: "an approximation: each candidate is predicted by draws of each explanation that is left",
-};
-const EVIDENCE: Origin = Origin {
-    law: "ln Z = w ln L(θ*) + ln p(θ*) + (k/2) ln 2π - ½ ln det H of each form, w = N_eff/N; no odds beyond exp(N_eff)",
-    source: "Kass and Raftery 1995 (Laplace's method), crates/identify/src/evidence.rs",
-    valid: "between the smallest and the largest speed of the slow tests",
-};
-const WORTH: Origin = Origin {
-    law: "N_eff = N/(1 + 2 Σ r_j), r_j autocorrelation of what the most probable form leaves of N means",
-    source: "crates/identify/src/evidence.rs",
-    valid: "few where what is left of the best form changes as slowly as the curve itself",
-};
-const CURVE: Origin = Origin {
-    law: "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",
-    source: "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
-    valid: "between the smallest and the largest speed of the slow tests; parameters correlate, the curve counts",
-};
-const WINDAGE: Origin = Origin {
-    law: "what brakes the shaft without the bearing, at the speeds of the steady moment; it is no part of M",
-    source: "crates/identify/src/coasting.rs",
-    valid: "the same shaft, gas and other bearings in both runs",
-};
-const COAST_DOWN: Origin = Origin {
-    law: "means of speed and torque over equal parts of each slow test",
-    source: "the measurement",
-    valid: "the torque with the inertia of balls and cage in it, as measured",
-};
-const MAP: Origin = Origin {
-    law: "F = F0(Ω) + F1(Ω)|Ω̇| by a Gaussian process over all tests where the balls are known to roll",
-    source: "crates/identify/src/loss/map.rs",
-    valid: "where data are near (known = 1): they give F there to within a quarter of M over its arm, whatever F is",
-};
-const ROTOR: Origin = Origin {
-    law: "μ = (I_I Ω̇ + t_I)/(R_0 W) over whole turns of the rotor, at the mean slip u = (R_0 - c0) ω - R_0 Ω of each",
-    source: "the source paper, (18); crates/identify/src/rotor_friction.rs",
-    valid: "while the rotor slides and lies on the race with the weight given",
-};
+origins! {
+    VERDICT: law "posterior probability among seven explanations: ln Z = w ln L(θ*) + ln p(θ*) + (k/2) ln 2π - ½ ln det H, w = N_eff/N; no odds beyond exp(N_eff); decided from identify.explanations.decide_at on",
+        source "Kass and Raftery 1995 (Laplace's method), crates/identify/src/evidence.rs",
+        valid "the explanations listed, one at a time, with the priors of crates/identify/src/explain/prior.rs";
+    FIT: law "probability of a χ² of data and parameters at least as large, where the explanation is true with parameters drawn from its priors",
+        source "crates/identify/src/explain/mod.rs",
+        valid "of the most probable explanation; below 0.1 % none of these fits; near 1 where the bands of the signals are wider than their errors";
+    MEANS: law "N_eff = N/(1 + 2 Σ r_j), r_j autocorrelation of what the most probable explanation leaves of N means",
+        source "crates/identify/src/evidence.rs",
+        valid "errors that the tests share (zero, scale, level of M) are taken out before";
+    NEXT: law "expected reduction of the entropy over the explanations",
+        source "crates/identify/src/explain/next_test.rs",
+        valid "an approximation: each candidate is predicted by draws of each explanation that is left";
+    EVIDENCE: law "ln Z = w ln L(θ*) + ln p(θ*) + (k/2) ln 2π - ½ ln det H of each form, w = N_eff/N; no odds beyond exp(N_eff)",
+        source "Kass and Raftery 1995 (Laplace's method), crates/identify/src/evidence.rs",
+        valid "between the smallest and the largest speed of the slow tests";
+    WORTH: law "N_eff = N/(1 + 2 Σ r_j), r_j autocorrelation of what the most probable form leaves of N means",
+        source "crates/identify/src/evidence.rs",
+        valid "few where what is left of the best form changes as slowly as the curve itself";
+    CURVE: law "M(Ω) of the most probable form, with the band of its noise, zero, form and scale",
+        source "Kass and Raftery 1995 (marginal likelihood), crates/identify/src/moment/mod.rs",
+        valid "between the smallest and the largest speed of the slow tests; parameters correlate, the curve counts";
+    WINDAGE: law "what brakes the shaft without the bearing, at the speeds of the steady moment; it is no part of M",
+        source "crates/identify/src/coasting.rs",
+        valid "the same shaft, gas and other bearings in both runs";
+    COAST_DOWN: law "means of speed and torque over equal parts of each slow test",
+        source "the measurement",
+        valid "the torque with the inertia of balls and cage in it, as measured";
+    MAP: law "F = F0(Ω) + F1(Ω)|Ω̇| by a Gaussian process over all tests where the balls are known to roll",
+        source "crates/identify/src/loss/map.rs",
+        valid "where data are near (known = 1): they give F there to within a quarter of M over its arm, whatever F is";
+    ROTOR: law "μ = (I_I Ω̇ + t_I)/(R_0 W) over whole turns of the rotor, at the mean slip u = (R_0 - c0) ω - R_0 Ω of each",
+        source "the source paper, (18); crates/identify/src/rotor_friction.rs",
+        valid "while the rotor slides and lies on the race with the weight given";
+}

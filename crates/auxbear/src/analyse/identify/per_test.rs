@@ -1,7 +1,7 @@
 //! Named results of one test with acceleration.
 
 use crate::analyse::identify::found::TestFound;
-use crate::result::list::Origin;
+use crate::result::list::origins;
 use crate::result::list::results;
 use identify::Measurement;
 use identify::loss::Loss;
@@ -116,48 +116,32 @@ impl TestFound {
     }
 }
 
-const TEST: Origin = Origin {
-    law: "as measured by the signals of the test",
-    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed/mod.rs",
-    valid: "see auxbear signals of its file",
-};
-const ENGAGED: Origin = Origin {
-    law: "when the quick change of the speed begins, in the time of the file; other times of a test count from here",
-    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed/mod.rs",
-    valid: "see auxbear signals of its file",
-};
-const EXCESS: Origin = Origin {
-    law: "mean of t_O - M, 0.2 to 0.4 s after the engagement, or over the last 0.5 s at full speed",
-    source: "crates/identify/src/loss/mod.rs",
-    valid: "the deviation is that of one value: errors close in time are shared",
-};
-const ROLLING_UP: Origin = Origin {
-    law: "L0/3.5 s, L0 = R² Ω0 [N m_b (½ + 0.3 s) + ½ m_c (1+s)]: net torque that brings balls and cage to rolling speed in the time in which the source paper's torque fell",
-    source: "crates/physics/src/spin_up_energy.rs",
-    valid: "compare it with the fall of the torque: balls that still speed up would need traction and drag to agree this closely",
-};
-const ENERGY: Origin = Origin {
-    law: "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated or the verdict, else the middle of a range: of balls that roll at the end, or of any slip where the verdict does not exclude it",
-    source: "the source paper, (21), and its correction; crates/identify/src/dissipation.rs",
-    valid: "from the engagement until the final speed is reached",
-};
-const UNTIL: Origin = Origin {
-    law: "when 99 % of the largest speed is reached, counted from the engagement",
-    source: "crates/identify/src/dissipation.rs",
-    valid: "engagement_time is in the time of the file",
-};
-const ROLLS: Origin = Origin {
-    law: "from when on |S| above 1 % stays less likely than not, counted from the engagement",
-    source: "Harris 2001, section 8 (kinematics), crates/identify/src/slip.rs",
-    valid: "needs a cage signal; engagement_time is in the time of the file",
-};
-const SLIP: Origin = Origin {
-    law: "S = 1 - 2(1+s)ω_c/Ω; the largest probability of |S| above 1 % at any time",
-    source: "Harris 2001, section 8 (kinematics), crates/identify/src/slip.rs",
-    valid: "needs a cage signal",
-};
-const SKID: Origin = Origin {
-    law: "spin of the balls from (4), (5), (7) with F ≥ 0",
-    source: "the source paper, (4), (5) and (7); crates/identify/src/skid.rs",
-    valid: "shortly after the engagement, as long as the torque shows it, with the lubricant in the state of the slow tests: a grease that starts low looks like skid",
-};
+origins! {
+    TEST: law "as measured by the signals of the test",
+        source "Bierman 1977 (filter and smoother), crates/measure/src/speed/mod.rs",
+        valid "see auxbear signals of its file";
+    ENGAGED: law "when the quick change of the speed begins, in the time of the file; other times of a test count from here",
+        source "Bierman 1977 (filter and smoother), crates/measure/src/speed/mod.rs",
+        valid "see auxbear signals of its file";
+    EXCESS: law "mean of t_O - M, 0.2 to 0.4 s after the engagement, or over the last 0.5 s at full speed",
+        source "crates/identify/src/loss/mod.rs",
+        valid "the deviation is that of one value: errors close in time are shared";
+    ROLLING_UP: law "L0/3.5 s, L0 = R² Ω0 [N m_b (½ + 0.3 s) + ½ m_c (1+s)]: net torque that brings balls and cage to rolling speed in the time in which the source paper's torque fell",
+        source "crates/physics/src/spin_up_energy.rs",
+        valid "compare it with the fall of the torque: balls that still speed up would need traction and drag to agree this closely";
+    ENERGY: law "D = ∫t_O Ω dt + ∫Ω dL - Δ(KE + U) with a cage signal; (21) as printed, corrected; without a cage signal the corrected form where rolling is stated or the verdict, else the middle of a range: of balls that roll at the end, or of any slip where the verdict does not exclude it",
+        source "the source paper, (21), and its correction; crates/identify/src/dissipation.rs",
+        valid "from the engagement until the final speed is reached";
+    UNTIL: law "when 99 % of the largest speed is reached, counted from the engagement",
+        source "crates/identify/src/dissipation.rs",
+        valid "engagement_time is in the time of the file";
+    ROLLS: law "from when on |S| above 1 % stays less likely than not, counted from the engagement",
+        source "Harris 2001, section 8 (kinematics), crates/identify/src/slip.rs",
+        valid "needs a cage signal; engagement_time is in the time of the file";
+    SLIP: law "S = 1 - 2(1+s)ω_c/Ω; the largest probability of |S| above 1 % at any time",
+        source "Harris 2001, section 8 (kinematics), crates/identify/src/slip.rs",
+        valid "needs a cage signal";
+    SKID: law "spin of the balls from (4), (5), (7) with F ≥ 0",
+        source "the source paper, (4), (5) and (7); crates/identify/src/skid.rs",
+        valid "shortly after the engagement, as long as the torque shows it, with the lubricant in the state of the slow tests: a grease that starts low looks like skid";
+}

@@ -5,7 +5,7 @@ use crate::analyse::signals::asked::{Asked, median};
 use crate::analyse::signals::found::Found;
 use crate::analyse::signals::torque::{Faulty, faulty};
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::Quantity;
 use crate::scenario::PickupKind;
 
@@ -138,73 +138,47 @@ impl Asked {
     }
 }
 
-const FILE: Origin = Origin {
-    law: "as stated in the file",
-    source: "the measurement file, crates/recording/src/file",
-    valid: "as far as the file could be read",
-};
-const PULSES: Origin = Origin {
-    law: "crossings of the middle between the two levels of the signal; gaps are counted, doubles are left out",
-    source: "crates/measure/src/pulse",
-    valid: "pulses of one wheel that turns forward",
-};
-const CHANNEL: Origin = Origin {
-    law: "noise of one value by likelihood, or as stated; the smallest step between values",
-    source: "crates/measure/src/speed/channel",
-    valid: "noise that changes from value to value",
-};
-const SILENT: Origin = Origin {
-    law: "intervals in which six marks or more passed unseen, or the signal is missing; speeds in between follow from both sides, and no extreme is taken there",
-    source: "crates/measure/src/pulse/gap.rs",
-    valid: "a shaft that does not brake and speed up again unseen",
-};
-const PITCH: Origin = Origin {
-    law: "largest error of a mark, from revolutions at even speed, over the pitch",
-    source: "crates/measure/src/pulse/pitch.rs",
-    valid: "an error of the wheel that does not change; a ripple once a turn is taken for one",
-};
-const SPEED: Origin = Origin {
-    law: "smoothing spline of the seventh degree through the pulses, or of a speed through what its instrument makes of it, as stiff as their likelihood asks for; deviation: standard",
-    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed; bands compared with 400 synthetic records in crates/measure/tests/speed_coverage.rs",
-    valid: "one quick change in the record; no ripple quicker than two marks can show",
-};
-const PEAK_ACCELERATION: Origin = Origin {
-    law: "largest acceleration within the quick change in the direction in which it changes the speed; where there is none, the largest of the record by size; with its sign",
-    source: SPEED.source,
-    valid: SPEED.valid,
-};
-const CHANGE: Origin = Origin {
-    law: "knots of the spline at which acceleration or its rate may jump, by likelihood",
-    source: "Bierman 1977 (filter and smoother), crates/measure/src/speed",
-    valid: "one quick change in the record",
-};
-const FAULTS: Origin = Origin {
-    law: "values held at the highest or lowest value, held longer than the noise allows, or not there",
-    source: "Bennett 1948 (rounding), crates/measure/src/converter.rs",
-    valid: "a channel with noise of its own",
-};
-const SENSOR: Origin = Origin {
-    law: "ÿ + 2ζω ẏ + ω² y = ω² (T + d), as given or from its free response",
-    source: "Golub and Pereyra 1973, Newey and West 1987, crates/measure/src/torque_sensor/response.rs",
-    valid: "one degree of freedom, small swings",
-};
-const TORQUE: Origin = Origin {
-    law: "torque, zero and disturbance once a turn jointly, by smoothing of an unknown input; deviation: standard",
-    source: "crates/measure/src/torque_sensor/inversion.rs",
-    valid: "a sensor of one degree of freedom with frequency and damping known to their deviations",
-};
-const DESIGN: Origin = Origin {
-    law: "root mean square error of the torque after the engagement, of the reading and of its inversion, by simulated tests",
-    source: "crates/measure/src/torque_sensor/design.rs",
-    valid: "a linear sensor that is known exactly, with the decay, noise and disturbance of the one there is",
-};
-const SPECTRUM: Origin = Origin {
-    law: "mean of overlapping Hann segments; amplitude of a sine, peak",
-    source: "Welch 1967, crates/measure/src/spectrum",
-    valid: "lines that stand still for a segment; a changing speed smears them",
-};
-const CAGE: Origin = Origin {
-    law: "slip = 1 - cage speed/(rolling ratio times shaft speed); the deviation from rolling is smoothed; deviation: standard",
-    source: "Viterbi 1967, Baum et al. 1970, crates/measure/src/cage_speed",
-    valid: "a cage that does not turn backwards; the ratio as given",
-};
+origins! {
+    FILE: law "as stated in the file",
+        source "the measurement file, crates/recording/src/file",
+        valid "as far as the file could be read";
+    PULSES: law "crossings of the middle between the two levels of the signal; gaps are counted, doubles are left out",
+        source "crates/measure/src/pulse",
+        valid "pulses of one wheel that turns forward";
+    CHANNEL: law "noise of one value by likelihood, or as stated; the smallest step between values",
+        source "crates/measure/src/speed/channel",
+        valid "noise that changes from value to value";
+    SILENT: law "intervals in which six marks or more passed unseen, or the signal is missing; speeds in between follow from both sides, and no extreme is taken there",
+        source "crates/measure/src/pulse/gap.rs",
+        valid "a shaft that does not brake and speed up again unseen";
+    PITCH: law "largest error of a mark, from revolutions at even speed, over the pitch",
+        source "crates/measure/src/pulse/pitch.rs",
+        valid "an error of the wheel that does not change; a ripple once a turn is taken for one";
+    SPEED: law "smoothing spline of the seventh degree through the pulses, or of a speed through what its instrument makes of it, as stiff as their likelihood asks for; deviation: standard",
+        source "Bierman 1977 (filter and smoother), crates/measure/src/speed; bands compared with 400 synthetic records in crates/measure/tests/speed_coverage.rs",
+        valid "one quick change in the record; no ripple quicker than two marks can show";
+    PEAK_ACCELERATION: law "largest acceleration within the quick change in the direction in which it changes the speed; where there is none, the largest of the record by size; with its sign",
+        source SPEED.source,
+        valid SPEED.valid;
+    CHANGE: law "knots of the spline at which acceleration or its rate may jump, by likelihood",
+        source "Bierman 1977 (filter and smoother), crates/measure/src/speed",
+        valid "one quick change in the record";
+    FAULTS: law "values held at the highest or lowest value, held longer than the noise allows, or not there",
+        source "Bennett 1948 (rounding), crates/measure/src/converter.rs",
+        valid "a channel with noise of its own";
+    SENSOR: law "ÿ + 2ζω ẏ + ω² y = ω² (T + d), as given or from its free response",
+        source "Golub and Pereyra 1973, Newey and West 1987, crates/measure/src/torque_sensor/response.rs",
+        valid "one degree of freedom, small swings";
+    TORQUE: law "torque, zero and disturbance once a turn jointly, by smoothing of an unknown input; deviation: standard",
+        source "crates/measure/src/torque_sensor/inversion.rs",
+        valid "a sensor of one degree of freedom with frequency and damping known to their deviations";
+    DESIGN: law "root mean square error of the torque after the engagement, of the reading and of its inversion, by simulated tests",
+        source "crates/measure/src/torque_sensor/design.rs",
+        valid "a linear sensor that is known exactly, with the decay, noise and disturbance of the one there is";
+    SPECTRUM: law "mean of overlapping Hann segments; amplitude of a sine, peak",
+        source "Welch 1967, crates/measure/src/spectrum",
+        valid "lines that stand still for a segment; a changing speed smears them";
+    CAGE: law "slip = 1 - cage speed/(rolling ratio times shaft speed); the deviation from rolling is smoothed; deviation: standard",
+        source "Viterbi 1967, Baum et al. 1970, crates/measure/src/cage_speed",
+        valid "a cage that does not turn backwards; the ratio as given";
+}

@@ -4,7 +4,7 @@ use crate::analyse::signals::asked::{Asked, median, sampled};
 use crate::analyse::signals::found::Found;
 use crate::analyse::signals::unit::unit_in_si;
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use identify::steady_curve::SteadyCurve;
 
 /// Names the results; what was not asked for has none.
@@ -82,38 +82,26 @@ impl Asked {
     }
 }
 
-const CONVERTER: Origin = Origin {
-    law: "values at the limits of the range; rounding noise step/√12 over the noise of the channel, largest of all channels",
-    source: "Bennett 1948 (rounding), crates/measure/src/converter.rs; noise: median of fourth differences",
-    valid: "equal steps of the converter; a signal that is smooth from value to value but for its noise",
-};
-const ORDERS: Origin = Origin {
-    law: "signal = mean + Σ (a cos kθ + b sin kθ) + rest, a and b smooth; amplitude √(a² + b²), peak; median over time",
-    source: "Vold and Leuridan 1993, crates/measure/src/order",
-    valid: "amplitudes that change slower than the bandwidth; orders above twice the bandwidth",
-};
-const SPECTROGRAM: Origin = Origin {
-    law: "amplitude of Hann segments, in whole dB below the largest (20 log10 of the ratio), column after column; -80 and less is -80",
-    source: "Welch 1967, windows after Harris 1978, crates/measure/src/spectrum",
-    valid: "a picture: the largest of neighbouring lines and segments stands for them",
-};
-const INERTIA: Origin = Origin {
-    law: "as given; m g a T²/4π² - m a² (pendulum); m g d² T²/16π² l (two strings); ΔM/(α₁ - α₀) (known torque)",
-    source: "crates/measure/src/inertia.rs",
-    valid: "small swings, light damping; everything that coasts takes part",
-};
-const STEADY: Origin = Origin {
-    law: "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns, or as an instrument shows it, less the windage where it is known; deviation: standard, of the inertia included",
-    source: "Eilers and Marx 1996, crates/identify/src/steady_curve; bands in crates/identify/tests/steady_curve.rs",
-    valid: "one passage over the speeds; inertial: all that brakes what coasts, other bearings and air included",
-};
-const WINDAGE: Origin = Origin {
-    law: "what brakes the shaft without the bearing, a + b Ω + c Ω² as given or -I dΩ/dt of a run without it; it is taken out of the inertial torque",
-    source: "crates/identify/src/coasting.rs",
-    valid: "the same shaft, gas and other bearings in both runs",
-};
-const COMPARED: Origin = Origin {
-    law: "mean difference over the common speeds; chance of so large a difference between equal curves",
-    source: "Satterthwaite 1946, crates/identify/src/steady_curve/compare.rs",
-    valid: "independent errors of the two curves",
-};
+origins! {
+    CONVERTER: law "values at the limits of the range; rounding noise step/√12 over the noise of the channel, largest of all channels",
+        source "Bennett 1948 (rounding), crates/measure/src/converter.rs; noise: median of fourth differences",
+        valid "equal steps of the converter; a signal that is smooth from value to value but for its noise";
+    ORDERS: law "signal = mean + Σ (a cos kθ + b sin kθ) + rest, a and b smooth; amplitude √(a² + b²), peak; median over time",
+        source "Vold and Leuridan 1993, crates/measure/src/order",
+        valid "amplitudes that change slower than the bandwidth; orders above twice the bandwidth";
+    SPECTROGRAM: law "amplitude of Hann segments, in whole dB below the largest (20 log10 of the ratio), column after column; -80 and less is -80",
+        source "Welch 1967, windows after Harris 1978, crates/measure/src/spectrum",
+        valid "a picture: the largest of neighbouring lines and segments stands for them";
+    INERTIA: law "as given; m g a T²/4π² - m a² (pendulum); m g d² T²/16π² l (two strings); ΔM/(α₁ - α₀) (known torque)",
+        source "crates/measure/src/inertia.rs",
+        valid "small swings, light damping; everything that coasts takes part";
+    STEADY: law "direct: smooth curve through torque over speed; inertial: -I dΩ/dt of a smooth curve through the speed of whole turns, or as an instrument shows it, less the windage where it is known; deviation: standard, of the inertia included",
+        source "Eilers and Marx 1996, crates/identify/src/steady_curve; bands in crates/identify/tests/steady_curve.rs",
+        valid "one passage over the speeds; inertial: all that brakes what coasts, other bearings and air included";
+    WINDAGE: law "what brakes the shaft without the bearing, a + b Ω + c Ω² as given or -I dΩ/dt of a run without it; it is taken out of the inertial torque",
+        source "crates/identify/src/coasting.rs",
+        valid "the same shaft, gas and other bearings in both runs";
+    COMPARED: law "mean difference over the common speeds; chance of so large a difference between equal curves",
+        source "Satterthwaite 1946, crates/identify/src/steady_curve/compare.rs",
+        valid "independent errors of the two curves";
+}

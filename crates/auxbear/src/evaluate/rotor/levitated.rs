@@ -3,7 +3,7 @@
 use crate::problem::Problem;
 use crate::result::drawing::GIVEN;
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::Warning;
 use crate::scenario::{LevitationModel, RotorAnalysis, RotorModel};
 use crate::simulate::levitated::{at_rest, failed, holds, rise, warnings};
@@ -326,26 +326,20 @@ impl OpenLoop<'_> {
 }
 
 const LINEAR: &str = "small motion about the static position under weight, of a pair with its slopes there; samples as a delay, no limit of current and voltage";
-const POLES: Origin = Origin {
-    law: "eigenvalues of rotor, magnets, amplifiers, controller, delay and sensors as one system; Im λ > 0 turns with positive spin",
-    source: "crates/levitation/src/closed_loop.rs",
-    valid: LINEAR,
-};
-const SENSITIVITY: Origin = Origin {
-    law: "S = 1/(1 + L) of one axis with all others closed; zones A below 3, B below 4, C below 5, D",
-    source: "crates/levitation/src/sensitivity.rs; ISO 14839-3 (zones and band from memory, to be verified)",
-    valid: LINEAR,
-};
-const STATIC: Origin = Origin {
-    law: "k_i C(0) - k_s of an axis about the static position; position and currents under weight with the full force law; share by which k_s there exceeds that of equal biases in the centre",
-    source: "crates/levitation/src/response.rs",
-    valid: "a rotor at rest",
-};
-const TURNING: Origin = Origin {
-    law: "synchronous response of the closed loop at the rated speed; amplitude",
-    source: "crates/levitation/src/response.rs",
-    valid: LINEAR,
-};
+origins! {
+    POLES: law "eigenvalues of rotor, magnets, amplifiers, controller, delay and sensors as one system; Im λ > 0 turns with positive spin",
+        source "crates/levitation/src/closed_loop.rs",
+        valid LINEAR;
+    SENSITIVITY: law "S = 1/(1 + L) of one axis with all others closed; zones A below 3, B below 4, C below 5, D",
+        source "crates/levitation/src/sensitivity.rs; ISO 14839-3 (zones and band from memory, to be verified)",
+        valid LINEAR;
+    STATIC: law "k_i C(0) - k_s of an axis about the static position; position and currents under weight with the full force law; share by which k_s there exceeds that of equal biases in the centre",
+        source "crates/levitation/src/response.rs",
+        valid "a rotor at rest";
+    TURNING: law "synchronous response of the closed loop at the rated speed; amplitude",
+        source "crates/levitation/src/response.rs",
+        valid LINEAR;
+}
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use crate::evaluate::rotor::asked::{Asked, Found, Motion, sense, support_label};
 use crate::evaluate::rotor::levitated;
 use crate::result::drawing::{self, GIVEN};
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::Quantity;
 use rotor::{C64, Critical, Mode, Response, Whirl};
 
@@ -391,58 +391,38 @@ impl Asked {
 
 const RANGE: &str =
     "small motion of a round shaft; no torsion, no axial motion, no stress stiffening";
-const BODY: Origin = Origin {
-    law: "sums over elements and disks of their mass matrices in rigid motion",
-    source: "crates/rotor/src/properties.rs",
-    valid: "supports and housings do not count; inertias about the mass centre",
-};
-const ELEMENT: Origin = Origin {
-    law: "two-node Timoshenko elements with consistent mass, Cowper's shear coefficient",
-    source: "crates/rotor/src/element.rs; Cowper 1966",
-    valid: RANGE,
-};
-const MODE: Origin = Origin {
-    law: "λ of λ²M + λ(D_e + D_i - jΩG) + K - jΩD_i with supports; damping ratio -Re λ/|λ|",
-    source: "crates/rotor/src/modes.rs",
-    valid: RANGE,
-};
-const CRITICAL: Origin = Origin {
-    law: "|Im λ(Ω)| = Ω, searched between the speeds of the diagram",
-    source: "crates/rotor/src/campbell.rs",
-    valid: RANGE,
-};
-const AMPLIFICATION: Origin = Origin {
-    law: "1/(2ζ) of the mode at its critical speed",
-    source: "a single mode; the width of a peak of the response gives nearly the same",
-    valid: "modes that stand apart, ζ below 0.3",
-};
-const SEPARATION: Origin = Origin {
-    law: "distance from the operating speeds over the nearer one; 0 within them; verdict against analysis.separation_margin",
-    source: "the user's limits, in the manner of API 617",
-    valid: "backward ones get no verdict where every support treats all directions alike: unbalance does not drive them",
-};
-const STABILITY: Origin = Origin {
-    law: "the lowest speed at which an eigenvalue, whirling or not, has Re λ above round-off; between two speeds of the diagram to 1e-9",
-    source: "crates/rotor/src/campbell.rs",
-    valid: "linear supports and seals",
-};
-const RESPONSE: Origin = Origin {
-    law: "(K - jΩD_i - Ω²M + jΩ(D_e + D_i - jΩG)) Q = Σ u Ω² e^{jδ}; half the longer axis of the orbit",
-    source: "crates/rotor/src/response.rs",
-    valid: "speeds of the diagram and points close to critical speeds, peaks by search between them; linear supports",
-};
-const SAG: Origin = Origin {
-    law: "K q = weight, with the stiffness of the supports at the rated speed",
-    source: "crates/rotor/src/response.rs",
-    valid: "a rotor at rest; seals do not carry",
-};
-const MAP: Origin = Origin {
-    law: "K x = Ω²(M ∓ G)x with one stiffness for all supports",
-    source: "crates/rotor/src/stiffness_map.rs",
-    valid: "undamped; seals left out, mounts of housings as they are",
-};
-const REDUCTION: Origin = Origin {
-    law: "free modes up to analysis.cutoff, residual flexibility at supports, seals, unbalances and of gyroscopic moments",
-    source: "crates/rotor/src/basis.rs; Rubin 1975 (from memory)",
-    valid: "modes shown and eigenvalues at the highest speed against all coordinates; receptances of the free rotor at rest",
-};
+origins! {
+    BODY: law "sums over elements and disks of their mass matrices in rigid motion",
+        source "crates/rotor/src/properties.rs",
+        valid "supports and housings do not count; inertias about the mass centre";
+    ELEMENT: law "two-node Timoshenko elements with consistent mass, Cowper's shear coefficient",
+        source "crates/rotor/src/element.rs; Cowper 1966",
+        valid RANGE;
+    MODE: law "λ of λ²M + λ(D_e + D_i - jΩG) + K - jΩD_i with supports; damping ratio -Re λ/|λ|",
+        source "crates/rotor/src/modes.rs",
+        valid RANGE;
+    CRITICAL: law "|Im λ(Ω)| = Ω, searched between the speeds of the diagram",
+        source "crates/rotor/src/campbell.rs",
+        valid RANGE;
+    AMPLIFICATION: law "1/(2ζ) of the mode at its critical speed",
+        source "a single mode; the width of a peak of the response gives nearly the same",
+        valid "modes that stand apart, ζ below 0.3";
+    SEPARATION: law "distance from the operating speeds over the nearer one; 0 within them; verdict against analysis.separation_margin",
+        source "the user's limits, in the manner of API 617",
+        valid "backward ones get no verdict where every support treats all directions alike: unbalance does not drive them";
+    STABILITY: law "the lowest speed at which an eigenvalue, whirling or not, has Re λ above round-off; between two speeds of the diagram to 1e-9",
+        source "crates/rotor/src/campbell.rs",
+        valid "linear supports and seals";
+    RESPONSE: law "(K - jΩD_i - Ω²M + jΩ(D_e + D_i - jΩG)) Q = Σ u Ω² e^{jδ}; half the longer axis of the orbit",
+        source "crates/rotor/src/response.rs",
+        valid "speeds of the diagram and points close to critical speeds, peaks by search between them; linear supports";
+    SAG: law "K q = weight, with the stiffness of the supports at the rated speed",
+        source "crates/rotor/src/response.rs",
+        valid "a rotor at rest; seals do not carry";
+    MAP: law "K x = Ω²(M ∓ G)x with one stiffness for all supports",
+        source "crates/rotor/src/stiffness_map.rs",
+        valid "undamped; seals left out, mounts of housings as they are";
+    REDUCTION: law "free modes up to analysis.cutoff, residual flexibility at supports, seals, unbalances and of gyroscopic moments",
+        source "crates/rotor/src/basis.rs; Rubin 1975 (from memory)",
+        valid "modes shown and eigenvalues at the highest speed against all coordinates; receptances of the free rotor at rest";
+}

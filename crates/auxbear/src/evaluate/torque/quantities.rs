@@ -1,7 +1,7 @@
 //! Every named result of a torque computation with its law, source and valid range.
 
 use crate::evaluate::torque::asked::{Asked, Moments, law_of};
-use crate::result::list::{List, Origin, results};
+use crate::result::list::{List, origins, results};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
 use crate::scenario::Lubricant;
@@ -166,58 +166,38 @@ impl Lubricated<'_> {
 
 const ROLLING: &str = "rolling balls, concentric races";
 
-const GIVEN: Origin = Origin {
-    law: "",
-    source: "the scenario",
-    valid: "",
-};
-const VISCOSITY: Origin = Origin {
-    law: "lg lg(ν + 0.7) = A - B lg T through two points [mm²/s, K], where it is not given",
-    source: "ASTM D341, Ubbelohde and Walther (from memory)",
-    valid: "0.21 to 2e7 mm²/s; sure half the span of the two points beyond them, at most 30 K, drawn on farther out (AB2313)",
-};
-const FRICTION: Origin = Origin {
-    law: "M = M0 + M1 by bearing.moment.law, or by the law named",
-    source: "Palmgren 1959, SKF General Catalogue (edition 6000), or the curve given: by the law named; crates/physics/src",
-    valid: "where the law holds; a warning says where it is left",
-};
-const POWER: Origin = Origin {
-    law: "M Ω of the steady moment M = M0 + M1",
-    source: FRICTION.source,
-    valid: "balls that roll at an even speed; all of it becomes heat in the bearing",
-};
-const STARTING: Origin = Origin {
-    law: "M_start = G_sl μ_bl + M_seal",
-    source: "SKF General Catalogue (edition 6000), p. 103",
-    valid: "20 to 30 °C; it acts in no run: every law fades to 0 at rest",
-};
-const INNER_INERTIA: Origin = Origin {
-    law: "J_I Ω̇, J_I = (7/20 N m_b + ¼ m_c) R²",
-    source: "the source paper (10), (14), (19)",
-    valid: ROLLING,
-};
-const OUTER_INERTIA: Origin = Origin {
-    law: "-J_O Ω̇, J_O = (1+2s)(3/20 N m_b + ¼ m_c) R²",
-    source: "the source paper (11), (15)",
-    valid: ROLLING,
-};
-const ARM: Origin = Origin {
-    law: "(1+2s) R/(2(1+s))",
-    source: "the source paper (10), (11), (14), (15)",
-    valid: "any acceleration; F is the sum over the balls",
-};
-const LOSS: Origin = Origin {
-    law: "arm F(Ω, |Ω̇|), arm = (1+2s) R/(2(1+s))",
-    source: "the source paper (10), (11); F is bearing.acceleration_loss",
-    valid: ROLLING,
-};
-const INNER: Origin = Origin {
-    law: "t_I = M + J_I Ω̇ + arm F",
-    source: "the source paper (10), (14)",
-    valid: ROLLING,
-};
-const OUTER: Origin = Origin {
-    law: "t_O = M - J_O Ω̇ + arm F",
-    source: "the source paper (11), (15)",
-    valid: ROLLING,
-};
+origins! {
+    GIVEN: law "",
+        source "the scenario",
+        valid "";
+    VISCOSITY: law "lg lg(ν + 0.7) = A - B lg T through two points [mm²/s, K], where it is not given",
+        source "ASTM D341, Ubbelohde and Walther (from memory)",
+        valid "0.21 to 2e7 mm²/s; sure half the span of the two points beyond them, at most 30 K, drawn on farther out (AB2313)";
+    FRICTION: law "M = M0 + M1 by bearing.moment.law, or by the law named",
+        source "Palmgren 1959, SKF General Catalogue (edition 6000), or the curve given: by the law named; crates/physics/src",
+        valid "where the law holds; a warning says where it is left";
+    POWER: law "M Ω of the steady moment M = M0 + M1",
+        source FRICTION.source,
+        valid "balls that roll at an even speed; all of it becomes heat in the bearing";
+    STARTING: law "M_start = G_sl μ_bl + M_seal",
+        source "SKF General Catalogue (edition 6000), p. 103",
+        valid "20 to 30 °C; it acts in no run: every law fades to 0 at rest";
+    INNER_INERTIA: law "J_I Ω̇, J_I = (7/20 N m_b + ¼ m_c) R²",
+        source "the source paper (10), (14), (19)",
+        valid ROLLING;
+    OUTER_INERTIA: law "-J_O Ω̇, J_O = (1+2s)(3/20 N m_b + ¼ m_c) R²",
+        source "the source paper (11), (15)",
+        valid ROLLING;
+    ARM: law "(1+2s) R/(2(1+s))",
+        source "the source paper (10), (11), (14), (15)",
+        valid "any acceleration; F is the sum over the balls";
+    LOSS: law "arm F(Ω, |Ω̇|), arm = (1+2s) R/(2(1+s))",
+        source "the source paper (10), (11); F is bearing.acceleration_loss",
+        valid ROLLING;
+    INNER: law "t_I = M + J_I Ω̇ + arm F",
+        source "the source paper (10), (14)",
+        valid ROLLING;
+    OUTER: law "t_O = M - J_O Ω̇ + arm F",
+        source "the source paper (11), (15)",
+        valid ROLLING;
+}

@@ -1,6 +1,6 @@
 //! The films between balls and races, reported after a run from its rows.
 
-use crate::result::list::Origin;
+use crate::result::list::origins;
 use crate::result::list::results;
 use crate::result::outcome::{Value, Warning, warning};
 use crate::scenario::{Bearing, Traction as TractionChoice};
@@ -215,11 +215,11 @@ results! {
     }
 }
 
-const FILM: Origin = Origin {
-    law: "minimum or central film of elliptical contacts in four regimes with inlet shear heating, crates/physics/src/film.rs; \
+origins! {
+    FILM: law "minimum or central film of elliptical contacts in four regimes with inlet shear heating, crates/physics/src/film.rs; \
           loaded contacts in those rows of the history in which the race turns at half its fastest speed or more; lambda is \
           the minimum film over the composite roughness",
-    source: "B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264; D. E. Brewe, B. J. Hamrock, C. M. Taylor, \
+        source "B. J. Hamrock, D. Dowson, J. Lubr. Technol. 99 (1977) 264; D. E. Brewe, B. J. Hamrock, C. M. Taylor, \
              J. Lubr. Technol. 101 (1979) 231",
-    valid: "flooded films that follow load and speed at once: near zero where a ball does not roll; a race that starts has none yet",
-};
+        valid "flooded films that follow load and speed at once: near zero where a ball does not roll; a race that starts has none yet";
+}

@@ -1,7 +1,7 @@
 //! Results that several systems have: first rises, ball loads, lubricant, cage, heats.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::scenario::Bearing;
 use crate::simulate::bearing::pressure::PressureFactors;
 use crate::simulate::bearing::run::BearingRun;
@@ -119,29 +119,21 @@ impl BearingRun<'_> {
     }
 }
 
-const LUBRICANT: Origin = Origin {
-    law: "first-order states of grease and films, factor on the speed-dependent part of the steady moment",
-    source: "Barnes 1997 (thixotropy), crates/physics/src/lubricant_state.rs; the parameters are the scenario's",
-    valid: "film rises of some 20 K; speeds of one order",
-};
-const CAGE_FORCE: Origin = Origin {
-    law: "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the ends of the steps",
-    source: "Hunt and Crossley 1975, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
-    valid: "stiffness and damping as given; pocket impacts are often chaotic: repeat the run",
-};
-const CAGE_FRICTION: Origin = Origin {
-    law: "time integral of friction force times sliding speed in pockets, at the land, or between balls",
-    source: "energy ledger, crates/model/src/system/machine/ledger.rs and spin_up/ledger.rs",
-    valid: "dry friction with the coefficients given",
-};
-const BALL_LOAD: Origin = Origin {
-    law: "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
+origins! {
+    LUBRICANT: law "first-order states of grease and films, factor on the speed-dependent part of the steady moment",
+        source "Barnes 1997 (thixotropy), crates/physics/src/lubricant_state.rs; the parameters are the scenario's",
+        valid "film rises of some 20 K; speeds of one order";
+    CAGE_FORCE: law "P = max(0, k p(1 + a ṗ)) of pockets and land, Hertz between balls; largest at the ends of the steps",
+        source "Hunt and Crossley 1975, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
+        valid "stiffness and damping as given; pocket impacts are often chaotic: repeat the run";
+    CAGE_FRICTION: law "time integral of friction force times sliding speed in pockets, at the land, or between balls",
+        source "energy ledger, crates/model/src/system/machine/ledger.rs and spin_up/ledger.rs",
+        valid "dry friction with the coefficients given";
+    BALL_LOAD: law "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
           over balls and races at the steps; in drops also, near the record, on dense output between them",
-    source: "Hertz 1881 with viscoelastic damping, crates/physics/src/contact.rs",
-    valid: "elastic contact; pure radial load",
-};
-const PRESSURE: Origin = Origin {
-    law: "p_max = 3Q/(2πab) of the largest ball load, exact elliptic integrals",
-    source: "Hertz 1881, crates/physics/src/hertz.rs; the share is the largest of both kinds of contact, each by its own limit: bearing.hertz_pressure_limit, bearing.full_complement.hertz_pressure_limit",
-    valid: "elastic contact, groove curvatures as given",
-};
+        source "Hertz 1881 with viscoelastic damping, crates/physics/src/contact.rs",
+        valid "elastic contact; pure radial load";
+    PRESSURE: law "p_max = 3Q/(2πab) of the largest ball load, exact elliptic integrals",
+        source "Hertz 1881, crates/physics/src/hertz.rs; the share is the largest of both kinds of contact, each by its own limit: bearing.hertz_pressure_limit, bearing.full_complement.hertz_pressure_limit",
+        valid "elastic contact, groove curvatures as given";
+}

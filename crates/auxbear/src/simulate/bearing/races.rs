@@ -1,7 +1,7 @@
 //! What the races have seen of their balls: flashes where balls skid, dents, rolling fatigue.
 
 use crate::result::list::results;
-use crate::result::list::{Origin, not_given};
+use crate::result::list::{not_given, origins};
 use crate::result::outcome::{Quantity, Value, Warning, warning};
 use crate::scenario::{Bearing, Warm};
 use crate::simulate::bearing::run::BearingRun;
@@ -240,47 +240,35 @@ fn rated(bearing: &Bearing, rating: f64) -> RatedBearing {
 }
 
 const FILE: &str = "crates/model/src/system/race_record.rs";
-const FLASH: Origin = Origin {
-    law: "largest 1.19 q b/(G_ball + G_race) over all balls, q = μQ|u|/(πab), G = ½ k √(π(B + Pe)), Pe = |U| b/(2α): flash of both \
+origins! {
+    FLASH: law "largest 1.19 q b/(G_ball + G_race) over all balls, q = μQ|u|/(πab), G = ½ k √(π(B + Pe)), Pe = |U| b/(2α): flash of both \
           surfaces above their own means, and its time",
-    source: "J. C. Jaeger 1942, H. Blok 1937, crates/physics/src/flash.rs, crates/model/src/system/race_record.rs",
-    valid: "within 4 % of Hertz's ellipse that moves steadily, where the motion is known: it scatters by 7 % with run.tolerance, by a third with the unbalance angle; of the ends of steps, where slip times the root of the load is the largest so far, and of eight looks a turn; what the \
-            law of traction is off, the flash is off; asperities are hotter, and traction does not follow it",
-};
-const INDEX: Origin = Origin {
-    law: "the larger flash of both races over 500 K",
-    source: "above about 500 °C steel is tempered and its surface smears; an order",
-    valid: "as inner_flash_temperature_rise",
-};
-const DENTS: Origin = Origin {
-    law: "how often the load of a ball rose above that of bearing.hertz_pressure_limit",
-    source: FILE,
-    valid: "eight looks a turn, more where loads change: a load that rises and falls between two looks is not counted; hertz_pressure_share_of_limit misses none",
-};
-const LIFE: Origin = Origin {
-    law: "Σ Q³ of the balls that pass each point of both rings over the rating loads of ISO/TS 16281, to the power 10/9: share of the \
+        source "J. C. Jaeger 1942, H. Blok 1937, crates/physics/src/flash.rs, crates/model/src/system/race_record.rs",
+        valid "within 4 % of Hertz's ellipse that moves steadily, where the motion is known: it scatters by 7 % with run.tolerance, by a third with the unbalance angle; of the ends of steps, where slip times the root of the load is the largest so far, and of eight looks a turn; what the \
+            law of traction is off, the flash is off; asperities are hotter, and traction does not follow it";
+    INDEX: law "the larger flash of both races over 500 K",
+        source "above about 500 °C steel is tempered and its surface smears; an order",
+        valid "as inner_flash_temperature_rise";
+    DENTS: law "how often the load of a ball rose above that of bearing.hertz_pressure_limit",
+        source FILE,
+        valid "eight looks a turn, more where loads change: a load that rises and falls between two looks is not counted; hertz_pressure_share_of_limit misses none";
+    LIFE: law "Σ Q³ of the balls that pass each point of both rings over the rating loads of ISO/TS 16281, to the power 10/9: share of the \
           life L10, which 10 % of bearings do not reach",
-    source: "book/src/theory/heat.md; crates/physics/src/life.rs, crates/model/src/system/race_record.rs",
-    valid: "Q below that of half the dynamic rating; without lubricant factor (0.1 to 50). Blows that dent count by \
-            largest_indentation",
-};
-pub(crate) const BY_POINT: Origin = Origin {
-    law: "S/(z 10⁶ Q_c³), S = Σ Q³ over the balls that pass a point; of the outer ring from the frame's x axis on, of the inner one from its angle 0 \
+        source "book/src/theory/heat.md; crates/physics/src/life.rs, crates/model/src/system/race_record.rs",
+        valid "Q below that of half the dynamic rating; without lubricant factor (0.1 to 50). Blows that dent count by \
+            largest_indentation";
+    pub(crate) BY_POINT: law "S/(z 10⁶ Q_c³), S = Σ Q³ over the balls that pass a point; of the outer ring from the frame's x axis on, of the inner one from its angle 0 \
           at the release. life_share_with_lubricant, else life_share, is the mean of their powers 10/9 to the \
           power 9/10, of both rings",
-    source: "book/src/theory/heat.md; crates/physics/src/life.rs",
-    valid: "as life_share; of repeated runs the mean of the members. Drops of one bearing add up point by point (auxbear service)",
-};
-const DROPS: Origin = Origin {
-    law: "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
+        source "book/src/theory/heat.md; crates/physics/src/life.rs",
+        valid "as life_share; of repeated runs the mean of the members. Drops of one bearing add up point by point (auxbear service)";
+    DROPS: law "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
           life_share. A drop until standstill counts with its run-out, added at the points of both rings",
-    source: "Weibull, slope 10/9; book/src/theory/heat.md",
-    valid: "rolling fatigue alone; of a run-out its windows count as they find the balls; an order, never a promise: single bearings scatter 50 to 1",
-};
-const LUBRICATED: Origin = Origin {
-    law: "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \
+        source "Weibull, slope 10/9; book/src/theory/heat.md",
+        valid "rolling fatigue alone; of a run-out its windows count as they find the balls; an order, never a promise: single bearings scatter 50 to 1";
+    LUBRICATED: law "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \
           warmest lubricant at the mean speed, C_u = C0/22",
-    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
-    valid: "one phase, what was computed ball by ball, P without preload; below κ = 0.1 no factor holds, and 0.1 is taken; heat.contamination decides within a \
-            factor of ten",
-};
+        source "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
+        valid "one phase, what was computed ball by ball, P without preload; below κ = 0.1 no factor holds, and 0.1 is taken; heat.contamination decides within a \
+            factor of ten";
+}

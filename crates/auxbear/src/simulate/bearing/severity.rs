@@ -1,6 +1,6 @@
 //! How hard a run was on its bearing: safety of the ball loads, indentation, blows, warmth of the inner race.
 
-use crate::result::list::Origin;
+use crate::result::list::origins;
 use crate::result::list::results;
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::{BallMaterial, Bearing};
@@ -108,37 +108,27 @@ fn indentation([inner, outer]: [Peak; 2], bearing: &Bearing) -> Result<f64, Stri
     }
 }
 
-const SAFETY: Origin = Origin {
-    law: "(p_limit/p)³ = Q_limit/Q of the most loaded ball, p_limit = bearing.hertz_pressure_limit",
-    source: "H. Hertz 1881; crates/physics/src/severity.rs",
-    valid: "elastic contact; below 1 balls and races are dented. Hybrid bearings: the limit of steel unless another is given",
-};
-const INDENTATION: Origin = Origin {
-    law: "5.25e-19 Pa⁻² (Q/D²)² (1 − 1/(2f))/(1 ∓ γ) D of the largest ball load, the deeper race; ball and race together",
-    source: "Palmgren (from memory: check before quoting); crates/physics/src/severity.rs",
-    valid: "1e-5 to 1e-3 of D, 58 HRC and more, slow loading: impacts leave less; dents are not added up",
-};
-pub(crate) const INDENTATION_INDEX: Origin = Origin {
-    law: "1/ball_load_safety: load of the most loaded ball over the load that dents",
-    source: "definition; H. Hertz 1881",
-    valid: "1 is the limit; impacts dent less than loads at rest",
-};
-pub(crate) const HEAT_INDEX: Origin = Origin {
-    law: "inner_race_rise_without_cooling over 100 K",
-    source: "rings keep their size up to 120 °C (NTN, NSK, Timken)",
-    valid: "1 is the limit of common rings that start at 20 °C",
-};
-pub(crate) const BLOWS: Origin = Origin {
-    law: "Σ max(0, N/W − 1) over all contacts, N the largest force of each, W the share of the weight on this bearing",
-    source: "definition; 0 for a rotor that lies still",
-    valid: "compares drops of one machine; it is no limit by itself",
-};
-pub(crate) const RISE: Origin = Origin {
-    law: "half of the heats at bore and inner groove over 460 J/(kg K) times bearing.inner_race_mass",
-    source: "crates/auxbear/src/simulate/bearing/severity.rs; steel 450 to 480 J/(kg K)",
-    valid: "mean of a race that is not cooled, steel, runs longer than 0.1 s; surfaces are hotter. A rotor that slides fast takes more than \
-            half. The steady moment, clearance and viscosity do not follow it",
-};
+origins! {
+    SAFETY: law "(p_limit/p)³ = Q_limit/Q of the most loaded ball, p_limit = bearing.hertz_pressure_limit",
+        source "H. Hertz 1881; crates/physics/src/severity.rs",
+        valid "elastic contact; below 1 balls and races are dented. Hybrid bearings: the limit of steel unless another is given";
+    INDENTATION: law "5.25e-19 Pa⁻² (Q/D²)² (1 − 1/(2f))/(1 ∓ γ) D of the largest ball load, the deeper race; ball and race together",
+        source "Palmgren (from memory: check before quoting); crates/physics/src/severity.rs",
+        valid "1e-5 to 1e-3 of D, 58 HRC and more, slow loading: impacts leave less; dents are not added up";
+    pub(crate) INDENTATION_INDEX: law "1/ball_load_safety: load of the most loaded ball over the load that dents",
+        source "definition; H. Hertz 1881",
+        valid "1 is the limit; impacts dent less than loads at rest";
+    pub(crate) HEAT_INDEX: law "inner_race_rise_without_cooling over 100 K",
+        source "rings keep their size up to 120 °C (NTN, NSK, Timken)",
+        valid "1 is the limit of common rings that start at 20 °C";
+    pub(crate) BLOWS: law "Σ max(0, N/W − 1) over all contacts, N the largest force of each, W the share of the weight on this bearing",
+        source "definition; 0 for a rotor that lies still",
+        valid "compares drops of one machine; it is no limit by itself";
+    pub(crate) RISE: law "half of the heats at bore and inner groove over 460 J/(kg K) times bearing.inner_race_mass",
+        source "crates/auxbear/src/simulate/bearing/severity.rs; steel 450 to 480 J/(kg K)",
+        valid "mean of a race that is not cooled, steel, runs longer than 0.1 s; surfaces are hotter. A rotor that slides fast takes more than \
+            half. The steady moment, clearance and viscosity do not follow it";
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! Where balls slide on their races, found after a run from its rows.
 
-use crate::result::list::Origin;
+use crate::result::list::origins;
 use crate::result::list::results;
 use crate::simulate::bearing::run::BearingRun;
 use model::bearing::{BearingConstants, PlanarConstants};
@@ -116,14 +116,12 @@ results! {
     }
 }
 
-const SHARE: Origin = Origin {
-    law: "share of the contacts of loaded balls, in the rows of the history with a turning race, whose slip exceeds 5 % of the \
+origins! {
+    SHARE: law "share of the contacts of loaded balls, in the rows of the history with a turning race, whose slip exceeds 5 % of the \
           rolling speed Ω R/2",
-    source: "definition; slips of crates/model/src/bearing/ball.rs",
-    valid: "as fine as run.output_interval",
-};
-const WORK: Origin = Origin {
-    law: "time integral of traction times slip at each ball: the ledger's heat of the race, shared as in the rows",
-    source: "energy ledger, and crates/model/src/bearing/ball.rs in the rows",
-    valid: "the sum is exact, its split as fine as run.output_interval",
-};
+        source "definition; slips of crates/model/src/bearing/ball.rs",
+        valid "as fine as run.output_interval";
+    WORK: law "time integral of traction times slip at each ball: the ledger's heat of the race, shared as in the rows",
+        source "energy ledger, and crates/model/src/bearing/ball.rs in the rows",
+        valid "the sum is exact, its split as fine as run.output_interval";
+}

@@ -1,7 +1,7 @@
 //! Temperatures of a bearing: named results, columns, and what is too hot.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin, relative};
+use crate::result::list::{List, origins, relative};
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::{Bearing, Feedback, Warm};
 use crate::simulate::bearing::columns::Table;
@@ -379,71 +379,47 @@ fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
     hottest.map(told)
 }
 
-const PEAK: Origin = Origin {
-    law: "C Ṫ = P + Σ G (T_other − T), P the heats of the ledger over the nodes",
-    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; book/src/theory/heat.md",
-    valid: "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
-            factor of two. What of the motion follows: heat.feedback",
-};
-const LIMIT: Origin = Origin {
-    law: "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
-    source: "makers' catalogues",
-    valid: "as the temperatures",
-};
-const NEAR: Origin = Origin {
-    law: "(T_peak − T_start)/(T_limit − T_start) of the node, T_start = heat.start_temperature",
-    source: "makers' catalogues",
-    valid: "1 is the limit; bodies of one temperature each, whose rises are right within a factor of two where conductances were not given",
-};
-const TAKE: Origin = Origin {
-    law: "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \
+origins! {
+    PEAK: law "C Ṫ = P + Σ G (T_other − T), P the heats of the ledger over the nodes",
+        source "crates/model/src/bearing_heat.rs, crates/thermal/src/bearing_network.rs; book/src/theory/heat.md",
+        valid "bodies of one temperature: from about 0.1 s on; in whirl and first contact the surfaces are hotter. Conductances within a \
+            factor of two. What of the motion follows: heat.feedback";
+    LIMIT: law "first time at which the node is above heat.race_limit, heat.cage_limit or heat.lubricant_limit",
+        source "makers' catalogues",
+        valid "as the temperatures";
+    NEAR: law "(T_peak − T_start)/(T_limit − T_start) of the node, T_start = heat.start_temperature",
+        source "makers' catalogues",
+        valid "1 is the limit; bodies of one temperature each, whose rises are right within a factor of two where conductances were not given";
+    TAKE: law "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \
           sum. By the heats of this run, or by a second run-out",
-    source: "crates/thermal/src/held.rs; book/src/theory/heat.md",
-    valid: "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
-            of a run-out all bearings together",
-};
-pub(crate) const GROWTH: Origin = Origin {
-    law: "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G − (∂G/∂T) T); above 0 a disturbance grows, 1/it is the time",
-    source: "crates/thermal/src/steady_speed.rs; book/src/theory/heat.md",
-    valid: "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger",
-};
-pub(crate) const RINGS: Origin = Origin {
-    law: "change of the elastic energy of balls and rings when their clearance follows the temperatures",
-    source: "content of the ledger before and after, crates/auxbear/src/simulate/bearing/feedback.rs",
-    valid: "a source of the ledger; the heat that expands the rings is not made smaller by it",
-};
-const CLEARANCE: Origin = Origin {
-    law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
-    source: "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/bearing/feedback.rs; book/src/theory/heat.md",
-    valid: "rings free to grow, each of one temperature: from about 0.1 s on",
-};
-const HEAT: Origin = Origin {
-    law: "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes, with what contact films keep; ∫G (T − T_ambient) dt",
-    source: "crates/model/src/bearing_heat.rs",
-    valid: "of one of equal bearings",
-};
-const FILMS: Origin = Origin {
-    law: "C Θ of the contact films: what of their heat balls and races have not received yet; a part of stored_heat",
-    source: "crates/model/src/bearing/lubricant_state.rs, crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
-    valid: "as heat_made",
-};
-const AT_NODE: Origin = Origin {
-    law: "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
-    source: "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
-    valid: "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes",
-};
-const PASSED: Origin = Origin {
-    law: "least and largest conductance of the way: as given, or a rough line, gas between surfaces and in the open, radiation",
-    source: "crates/thermal/src/passage.rs, crates/physics/src/air.rs; book/src/theory/heat.md",
-    valid: "at the ends of spans or steps, by the mean force of the rotor on the race in them; within a factor of two",
-};
-const BY_NODE: Origin = Origin {
-    law: "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",
-    source: "shares of crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
-    valid: "as heat_made: of each loss the sum is the ledger's, less what contact films keep of it, the shares are constants or follow the state",
-};
-const RESIDUAL: Origin = Origin {
-    law: "|heat made − stored − given away| over the heat made",
-    source: "energy balance",
-    valid: "rounding",
-};
+        source "crates/thermal/src/held.rs; book/src/theory/heat.md",
+        valid "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
+            of a run-out all bearings together";
+    pub(crate) GROWTH: law "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G − (∂G/∂T) T); above 0 a disturbance grows, 1/it is the time",
+        source "crates/thermal/src/steady_speed.rs; book/src/theory/heat.md",
+        valid "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger";
+    pub(crate) RINGS: law "change of the elastic energy of balls and rings when their clearance follows the temperatures",
+        source "content of the ledger before and after, crates/auxbear/src/simulate/bearing/feedback.rs",
+        valid "a source of the ledger; the heat that expands the rings is not made smaller by it";
+    CLEARANCE: law "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
+        source "crates/thermal/src/clearance.rs, crates/auxbear/src/simulate/bearing/feedback.rs; book/src/theory/heat.md",
+        valid "rings free to grow, each of one temperature: from about 0.1 s on";
+    HEAT: law "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes, with what contact films keep; ∫G (T − T_ambient) dt",
+        source "crates/model/src/bearing_heat.rs",
+        valid "of one of equal bearings";
+    FILMS: law "C Θ of the contact films: what of their heat balls and races have not received yet; a part of stored_heat",
+        source "crates/model/src/bearing/lubricant_state.rs, crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
+        valid "as heat_made";
+    AT_NODE: law "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
+        source "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
+        valid "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes";
+    PASSED: law "least and largest conductance of the way: as given, or a rough line, gas between surfaces and in the open, radiation",
+        source "crates/thermal/src/passage.rs, crates/physics/src/air.rs; book/src/theory/heat.md",
+        valid "at the ends of spans or steps, by the mean force of the rotor on the race in them; within a factor of two";
+    BY_NODE: law "heat of one loss of the ledger in rotor, inner race, balls, cage, lubricant, outer race, housing, rotor core and mount, in this order",
+        source "shares of crates/model/src/bearing_heat.rs; book/src/theory/heat.md",
+        valid "as heat_made: of each loss the sum is the ledger's, less what contact films keep of it, the shares are constants or follow the state";
+    RESIDUAL: law "|heat made − stored − given away| over the heat made",
+        source "energy balance",
+        valid "rounding";
+}

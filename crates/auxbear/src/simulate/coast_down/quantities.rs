@@ -1,7 +1,7 @@
 //! Every named result of a run-out with its law, source and valid range.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin, not_given, relative};
+use crate::result::list::{List, not_given, origins, relative};
 use crate::simulate::bearing::races::{self as shared, BY_POINT, Life, no_rating, used_by};
 use crate::simulate::bearing::severity::{INDENTATION_INDEX, indentation_index};
 use crate::simulate::bearing::warm::{
@@ -367,70 +367,46 @@ fn used(
     bearing.by_point([&inner, &outer])
 }
 
-const STOP: Origin = Origin {
-    law: "I Ω̇ = −n (M0(ν(T), Ω) + M1(ΣQ)) − c_w Ω², to coast_down.stop_speed",
-    source: "crates/thermal/src/coast_down.rs; book/src/theory/heat.md",
-    valid: "the rotor rolls on its bearings: no whirl, no lost contact, no resonance",
-};
-const TURNS: Origin = Origin {
-    law: "∫Ω dt/2π",
-    source: "definition",
-    valid: "as stop_time",
-};
-const MOMENT: Origin = Origin {
-    law: "M = n (M0 + M1) + c_w Ω² of all bearings at the start, cold; power M Ω",
-    source: "Palmgren, as in the theory of the steady moment",
-    valid: "as stop_time",
-};
-const ENERGY: Origin = Origin {
-    law: "½ I Ω²",
-    source: "definition",
-    valid: "always",
-};
-const HEAT: Origin = Origin {
-    law: "kinetic energy lost in each step over the losses by their powers; C ΔT of all nodes; ∫G (T − T_ambient) dt",
-    source: "crates/thermal/src/coast_down.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
-    valid: "all bearings together; the heat of the gas leaves with it",
-};
-const RESIDUAL: Origin = Origin {
-    law: "|heat made in the bearings − stored − given away| over the heat made",
-    source: "energy balance",
-    valid: "rounding",
-};
-const PEAK: Origin = Origin {
-    law: "C Ṫ = P + Σ G (T_other − T)",
-    source: "crates/thermal/src/bearing_network.rs; book/src/theory/heat.md",
-    valid: "bodies of one temperature; conductances of contacts and seats within a factor of two",
-};
-const CLEARANCE: Origin = Origin {
-    law: "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b − 2u(Ω)",
-    source: "crates/thermal/src/clearance.rs; book/src/theory/heat.md",
-    valid: "rings free to grow, each of one temperature",
-};
-const BALLS: Origin = Origin {
-    law: "Q = K (δ cos φ − P_d/2)^1.5 with Σ Q cos φ = load; on the outer race m_b (d_m/2) ω_c² more",
-    source: "crates/physics/src/load_zone.rs",
-    valid: "quasi-static, one ball on the load line",
-};
-const KAPPA: Origin = Origin {
-    law: "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above; exceeded in 99 % of the turns",
-    source: "ISO 281:2007 (from memory)",
-    valid: "the last turns before the standstill are left out: no film carries them; below 0.1 no life factor holds",
-};
-const LUBRICATED: Origin = Origin {
-    law: "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22, P the radial load that presses the balls as hard as load and \
+origins! {
+    STOP: law "I Ω̇ = −n (M0(ν(T), Ω) + M1(ΣQ)) − c_w Ω², to coast_down.stop_speed",
+        source "crates/thermal/src/coast_down.rs; book/src/theory/heat.md",
+        valid "the rotor rolls on its bearings: no whirl, no lost contact, no resonance";
+    TURNS: law "∫Ω dt/2π",
+        source "definition",
+        valid "as stop_time";
+    MOMENT: law "M = n (M0 + M1) + c_w Ω² of all bearings at the start, cold; power M Ω",
+        source "Palmgren, as in the theory of the steady moment",
+        valid "as stop_time";
+    ENERGY: law "½ I Ω²",
+        source "definition",
+        valid "always";
+    HEAT: law "kinetic energy lost in each step over the losses by their powers; C ΔT of all nodes; ∫G (T − T_ambient) dt",
+        source "crates/thermal/src/coast_down.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
+        valid "all bearings together; the heat of the gas leaves with it";
+    RESIDUAL: law "|heat made in the bearings − stored − given away| over the heat made",
+        source "energy balance",
+        valid "rounding";
+    PEAK: law "C Ṫ = P + Σ G (T_other − T)",
+        source "crates/thermal/src/bearing_network.rs; book/src/theory/heat.md",
+        valid "bodies of one temperature; conductances of contacts and seats within a factor of two";
+    CLEARANCE: law "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b − 2u(Ω)",
+        source "crates/thermal/src/clearance.rs; book/src/theory/heat.md",
+        valid "rings free to grow, each of one temperature";
+    BALLS: law "Q = K (δ cos φ − P_d/2)^1.5 with Σ Q cos φ = load; on the outer race m_b (d_m/2) ω_c² more",
+        source "crates/physics/src/load_zone.rs",
+        valid "quasi-static, one ball on the load line";
+    KAPPA: law "κ = ν/ν₁, ν₁ = 45000 n^−0.83 d_m^−½ below 1000/min, 4500 n^−½ d_m^−½ above; exceeded in 99 % of the turns",
+        source "ISO 281:2007 (from memory)",
+        valid "the last turns before the standstill are left out: no film carries them; below 0.1 no life factor holds";
+    LUBRICATED: law "as life_share, each phase over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of its hotter race; C_u = C0/22, P the radial load that presses the balls as hard as load and \
           preload do",
-    source: "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
-    valid: "below κ = 0.1 no factor holds, and 0.1 is taken; e_C = heat.contamination decides within a factor of ten",
-};
-const RUNS: Origin = Origin {
-    law: "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
+        source "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
+        valid "below κ = 0.1 no factor holds, and 0.1 is taken; e_C = heat.contamination decides within a factor of ten";
+    RUNS: law "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
           life_share",
-    source: "Weibull, slope 10/9; book/src/theory/heat.md",
-    valid: "as life_share",
-};
-const LIFE: Origin = Origin {
-    law: "Σ turns Q³ at each place of both rings, centrifugal load of the balls on the outer one included, over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",
-    source: "crates/physics/src/life.rs; book/src/theory/heat.md",
-    valid: "rolling fatigue alone, without lubricant factor (0.1 to 50); an order, never a promise: single bearings scatter 50 to 1",
-};
+        source "Weibull, slope 10/9; book/src/theory/heat.md",
+        valid "as life_share";
+    LIFE: law "Σ turns Q³ at each place of both rings, centrifugal load of the balls on the outer one included, over the rating loads of ISO/TS 16281, to the power 10/9; Weibull",
+        source "crates/physics/src/life.rs; book/src/theory/heat.md",
+        valid "rolling fatigue alone, without lubricant factor (0.1 to 50); an order, never a promise: single bearings scatter 50 to 1";
+}

@@ -1,7 +1,7 @@
 //! What a run shows of magnets whose controllers act in time, or whose currents decay.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::{Column, Stop, Warning, warning};
 use crate::scenario::Shaft;
 use crate::simulate::bearing::columns::Table;
@@ -174,13 +174,11 @@ pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
     Some((given.power_lost - first.start, warning("AB2035", text)))
 }
 
-const LOST: Origin = Origin {
-    law: "levitation.power_lost_at, and the spin of the rotor then; speeds of inner races are compared with it",
-    source: "crates/model/src/system/machine/record.rs",
-    valid: "all magnets at once; sensors and controllers stand still from then on",
-};
-const CURRENT: Origin = Origin {
-    law: "largest size of the control current, at the end of each step while the magnets have power and after",
-    source: "crates/model/src/magnets.rs, crates/levitation/src/levitation.rs",
-    valid: "force law, limits, delay or samples as given; no saturation of iron, no eddy currents, no noise",
-};
+origins! {
+    LOST: law "levitation.power_lost_at, and the spin of the rotor then; speeds of inner races are compared with it",
+        source "crates/model/src/system/machine/record.rs",
+        valid "all magnets at once; sensors and controllers stand still from then on";
+    CURRENT: law "largest size of the control current, at the end of each step while the magnets have power and after",
+        source "crates/model/src/magnets.rs, crates/levitation/src/levitation.rs",
+        valid "force law, limits, delay or samples as given; no saturation of iron, no eddy currents, no noise";
+}

@@ -1,6 +1,6 @@
 //! What the parts of a mount did in a run.
 
-use crate::result::list::Origin;
+use crate::result::list::origins;
 use crate::result::list::results;
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::drop::mount::MountParts;
@@ -9,16 +9,14 @@ use model::system::machine::bearing_record::MountPeaks;
 
 pub(super) const SOURCE: &str = "crates/model/src/mount/; book/src/theory/drop.md, mounts";
 
-const PART_FORCE: Origin = Origin {
-    law: "largest size of the force between outer race and housing in this part alone, at the steps and, near the record, on dense output",
-    source: SOURCE,
-    valid: "as the part: crates/model/src/mount/",
-};
-const HOUSING: Origin = Origin {
-    law: "largest |h| and |dh/dt| of the housing, at the steps and, near the record, on dense output",
-    source: SOURCE,
-    valid: "a housing that carries one bearing, from its place under the weight at rest",
-};
+origins! {
+    PART_FORCE: law "largest size of the force between outer race and housing in this part alone, at the steps and, near the record, on dense output",
+        source SOURCE,
+        valid "as the part: crates/model/src/mount/";
+    HOUSING: law "largest |h| and |dh/dt| of the housing, at the steps and, near the record, on dense output",
+        source SOURCE,
+        valid "a housing that carries one bearing, from its place under the weight at rest";
+}
 
 results! {
     /// What the parts that are given did.

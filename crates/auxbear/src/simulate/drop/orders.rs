@@ -7,7 +7,7 @@
 //! lines while it slows down.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin};
+use crate::result::list::{List, origins};
 use crate::result::outcome::{Column, Quantity};
 use model::system::layout::of_part;
 use std::f64::consts::{PI, TAU};
@@ -168,16 +168,14 @@ fn spectrum(history: &[Column], part: &str) -> Option<Spectrum> {
     })
 }
 
-const ORDERS: Origin = Origin {
-    law: "|Σ w z e^(−jnφ)|/Σ w of the orbit at the bearing in windows of eight turns (Hann), n from −3 to 3; amplitudes window by window, its middle in time after the release",
-    source: "definition; crates/auxbear/src/simulate/drop/orders.rs",
-    valid: "from the rows of the history: what is quicker than half their rate folds down",
-};
-const LAST: Origin = Origin {
-    law: "the largest amplitude of the last window and its order: forward, then backward, whose orders are negative",
-    source: "crates/auxbear/src/simulate/drop/orders.rs",
-    valid: "as whirl_orders; orders are told apart from 0.25 on",
-};
+origins! {
+    ORDERS: law "|Σ w z e^(−jnφ)|/Σ w of the orbit at the bearing in windows of eight turns (Hann), n from −3 to 3; amplitudes window by window, its middle in time after the release",
+        source "definition; crates/auxbear/src/simulate/drop/orders.rs",
+        valid "from the rows of the history: what is quicker than half their rate folds down";
+    LAST: law "the largest amplitude of the last window and its order: forward, then backward, whose orders are negative",
+        source "crates/auxbear/src/simulate/drop/orders.rs",
+        valid "as whirl_orders; orders are told apart from 0.25 on";
+}
 
 #[cfg(test)]
 mod tests {

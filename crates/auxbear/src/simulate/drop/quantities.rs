@@ -2,7 +2,7 @@
 
 use crate::catalogue::geometry::digits;
 use crate::result::list::results;
-use crate::result::list::{List, Origin, not_given, relative};
+use crate::result::list::{List, not_given, origins, relative};
 use crate::result::outcome::Quantity;
 use crate::result::static_safety::{no_safety, safety_under};
 use crate::scenario::{AuxiliaryBearing, Bearing, axial_share};
@@ -285,125 +285,79 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
     )
 }
 
-const TURNS: Origin = Origin {
-    law: "∫|ω_i| dt/2π",
-    source: "definition",
-    valid: "from the start of the run to the end of what is computed ball by ball",
-};
-const MEAN_LOAD: Origin = Origin {
-    law: "(∫W³ dn/n)^(1/3), W the load on the bearing, n the turns of the inner race",
-    source: "ISO 281; crates/model/src/system/machine/bearing_record.rs",
-    valid: "as inner_race_turns; balls that preload each other are not counted in W",
-};
-const TRAVEL: Origin = Origin {
-    law: "longest way of the rotor's centre against the inner race in one turn of the rotor, over 2π c0",
-    source: "definition; crates/model/src/system/machine/travel.rs",
-    valid: "0 of a rotor that lies still, 1 of a whirl around the whole gap once a turn; 64 points a turn, over the whole run",
-};
-const SPEED_INDEX: Origin = Origin {
-    law: "mean speed of the rotor's centre against the inner race over c0 times the mean spin",
-    source: "definition; crates/model/src/system/machine/travel.rs",
-    valid: "as travel_index",
-};
-const RELEASE: Origin = Origin {
-    law: "first instant, from the start of the run, at which a magnet, an axis or all power is lost",
-    source: "levitation.power_lost_at; 0 where the run begins with the release",
-    valid: "column time and instants in messages count from the start of the run; results of contacts, spin-up and whirl from here",
-};
-const AXIAL_SHARE: Origin = Origin {
-    law: "sqrt(1 - (g/g0)^2), g = gravity.acceleration across the shaft, g0 = 9.80665 m/s^2",
-    source: "geometry; 0 from 9.76 m/s^2 on, the weakest gravity on Earth",
-    valid: "shafts that stand; motion along the shaft is not in the run",
-};
-const FIRST_CONTACT: Origin = Origin {
-    law: "gap d = |C - c_i| - c0 closes, after the release; gravity and the levitated orbit's speed then",
-    source: EVENT,
-    valid: "negative of a rotor that touches before the release; from the start of the run where nothing is released",
-};
-const CONTACT_STARTS: Origin = Origin {
-    law: "begins of contact after the release, d = 0 rising",
-    source: EVENT,
-    valid: "as time_to_first_contact; late contacts may be chaotic: repeat the run",
-};
-const CONTACT_FORCE: Origin = Origin {
-    law: "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
-    source: CONTACT,
-    valid: "stiffness, exponent and damping of the landing surfaces as given; late impacts may be chaotic: repeat the run",
-};
-const CONTACT_COUNT: Origin = Origin {
-    law: "begins of contact, d = 0 rising; one that lasts to the end is included",
-    source: EVENT,
-    valid: "late contacts may be chaotic: repeat the run",
-};
-const RISE: Origin = Origin {
-    law: "first instant after the release at which the speed reaches the level; levels refer to the rotor's speed at release",
-    source: EQUATIONS,
-    valid: "constant friction coefficient between rotor and race; friction of the bearing only as its fidelity has it",
-};
-const SPEED: Origin = Origin {
-    law: "angular momentum of each body about its axis",
-    source: EQUATIONS,
-    valid: "coasting is as true as the friction of the bearing: bearing.moment, ball by ball also slip and oil in the inlets",
-};
-const DISPLACEMENT: Origin = Origin {
-    law: "largest |C - c_i|, where its rate changes sign",
-    source: EVENT,
-    valid: "below a tenth of the bearing's size",
-};
-const MOUNT_DISPLACEMENT: Origin = Origin {
-    law: "largest |c_o|, at the steps and, near the record, on dense output between them",
-    source: EQUATIONS,
-    valid: "below a tenth of the bearing's size",
-};
-const ROTOR_DISPLACEMENT: Origin = Origin {
-    law: "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
-    source: EVENT,
-    valid: "compare it with seals and other air gaps at this plane",
-};
-const WHIRL: Origin = Origin {
-    law: "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
-    source: "definition",
-    valid: "a rotor that bends may whirl backward where a rigid one does not: system = \"machine\"",
-};
-const ENERGY: Origin = Origin {
-    law: "time integral of friction force times sliding speed, and of every other loss",
-    source: LEDGER,
-    valid: "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it",
-};
-const BALANCE: Origin = Origin {
-    law: "work_of_sources = kinetic_energy_change + potential_energy_change + dissipated_energy + energy_balance_residual",
-    source: LEDGER,
-    valid: "rotor and all bearings that are computed, over the whole run; sources below zero take energy out; of identical planes that of one",
-};
-const ALL_BEARINGS: Origin = Origin {
-    law: "dissipated_energy times rotor.planes: of bearings computed one by one it is their sum already",
-    source: LEDGER,
-    valid: "heat of bearings, mounts and landing surfaces; nothing is cooled or warmed by it",
-};
-const LOAD: Origin = Origin {
-    law: "largest size of the sum of all ball forces on the outer race, at the steps and near the largest ball load between them",
-    source: EQUATIONS,
-    valid: "radial plane; a preload that all balls share evenly cancels in the sum",
-};
-const SAFETY: Origin = Origin {
-    law: "s0 = C0/P0, P0 = max(F_r, X0 F_r + Y0 F_a) with F_r = peak_bearing_load and F_a = bearing.axial_preload",
-    source: "ISO 76 (from memory), crates/physics/src/static_load.rs",
-    valid: "assumes that a short peak dents as a load at rest, and the usual share of the most loaded ball: peak_hertz_pressure says what that ball carries",
-};
-const MOUNT_FORCE: Origin = Origin {
-    law: "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
-    source: mount_results::SOURCE,
-    valid: "force of the outer race on its housing",
-};
-const PER_AREA: Origin = Origin {
-    law: "rotor_race_friction_energy/(π D b), bore D, contact.width b",
-    source: LEDGER,
-    valid: "mean over the bore, of both surfaces together: without whirl one place of it takes most",
-};
-const RESIDUAL: Origin = Origin {
-    law: "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \
+origins! {
+    TURNS: law "∫|ω_i| dt/2π",
+        source "definition",
+        valid "from the start of the run to the end of what is computed ball by ball";
+    MEAN_LOAD: law "(∫W³ dn/n)^(1/3), W the load on the bearing, n the turns of the inner race",
+        source "ISO 281; crates/model/src/system/machine/bearing_record.rs",
+        valid "as inner_race_turns; balls that preload each other are not counted in W";
+    TRAVEL: law "longest way of the rotor's centre against the inner race in one turn of the rotor, over 2π c0",
+        source "definition; crates/model/src/system/machine/travel.rs",
+        valid "0 of a rotor that lies still, 1 of a whirl around the whole gap once a turn; 64 points a turn, over the whole run";
+    SPEED_INDEX: law "mean speed of the rotor's centre against the inner race over c0 times the mean spin",
+        source "definition; crates/model/src/system/machine/travel.rs",
+        valid "as travel_index";
+    RELEASE: law "first instant, from the start of the run, at which a magnet, an axis or all power is lost",
+        source "levitation.power_lost_at; 0 where the run begins with the release",
+        valid "column time and instants in messages count from the start of the run; results of contacts, spin-up and whirl from here";
+    AXIAL_SHARE: law "sqrt(1 - (g/g0)^2), g = gravity.acceleration across the shaft, g0 = 9.80665 m/s^2",
+        source "geometry; 0 from 9.76 m/s^2 on, the weakest gravity on Earth",
+        valid "shafts that stand; motion along the shaft is not in the run";
+    FIRST_CONTACT: law "gap d = |C - c_i| - c0 closes, after the release; gravity and the levitated orbit's speed then",
+        source EVENT,
+        valid "negative of a rotor that touches before the release; from the start of the run where nothing is released";
+    CONTACT_STARTS: law "begins of contact after the release, d = 0 rising",
+        source EVENT,
+        valid "as time_to_first_contact; late contacts may be chaotic: repeat the run";
+    CONTACT_FORCE: law "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
+        source CONTACT,
+        valid "stiffness, exponent and damping of the landing surfaces as given; late impacts may be chaotic: repeat the run";
+    CONTACT_COUNT: law "begins of contact, d = 0 rising; one that lasts to the end is included",
+        source EVENT,
+        valid "late contacts may be chaotic: repeat the run";
+    RISE: law "first instant after the release at which the speed reaches the level; levels refer to the rotor's speed at release",
+        source EQUATIONS,
+        valid "constant friction coefficient between rotor and race; friction of the bearing only as its fidelity has it";
+    SPEED: law "angular momentum of each body about its axis",
+        source EQUATIONS,
+        valid "coasting is as true as the friction of the bearing: bearing.moment, ball by ball also slip and oil in the inlets";
+    DISPLACEMENT: law "largest |C - c_i|, where its rate changes sign",
+        source EVENT,
+        valid "below a tenth of the bearing's size";
+    MOUNT_DISPLACEMENT: law "largest |c_o|, at the steps and, near the record, on dense output between them",
+        source EQUATIONS,
+        valid "below a tenth of the bearing's size";
+    ROTOR_DISPLACEMENT: law "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
+        source EVENT,
+        valid "compare it with seals and other air gaps at this plane";
+    WHIRL: law "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
+        source "definition",
+        valid "a rotor that bends may whirl backward where a rigid one does not: system = \"machine\"";
+    ENERGY: law "time integral of friction force times sliding speed, and of every other loss",
+        source LEDGER,
+        valid "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it";
+    BALANCE: law "work_of_sources = kinetic_energy_change + potential_energy_change + dissipated_energy + energy_balance_residual",
+        source LEDGER,
+        valid "rotor and all bearings that are computed, over the whole run; sources below zero take energy out; of identical planes that of one";
+    ALL_BEARINGS: law "dissipated_energy times rotor.planes: of bearings computed one by one it is their sum already",
+        source LEDGER,
+        valid "heat of bearings, mounts and landing surfaces; nothing is cooled or warmed by it";
+    LOAD: law "largest size of the sum of all ball forces on the outer race, at the steps and near the largest ball load between them",
+        source EQUATIONS,
+        valid "radial plane; a preload that all balls share evenly cancels in the sum";
+    SAFETY: law "s0 = C0/P0, P0 = max(F_r, X0 F_r + Y0 F_a) with F_r = peak_bearing_load and F_a = bearing.axial_preload",
+        source "ISO 76 (from memory), crates/physics/src/static_load.rs",
+        valid "assumes that a short peak dents as a load at rest, and the usual share of the most loaded ball: peak_hertz_pressure says what that ball carries";
+    MOUNT_FORCE: law "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
+        source mount_results::SOURCE,
+        valid "force of the outer race on its housing";
+    PER_AREA: law "rotor_race_friction_energy/(π D b), bore D, contact.width b",
+        source LEDGER,
+        valid "mean over the bore, of both surfaces together: without whirl one place of it takes most";
+    RESIDUAL: law "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \
           momentum over that of the inner races at the speed of the rotor, at the release or the end, or over the impulse from outside where that is more; of bearings that are never touched energy \
           over that of their inner races at this speed",
-    source: LEDGER,
-    valid: "a measure of the integration error; it falls with run.tolerance",
-};
+        source LEDGER,
+        valid "a measure of the integration error; it falls with run.tolerance";
+}

@@ -4,7 +4,7 @@
 //! lost or made by it.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin, not_given};
+use crate::result::list::{List, not_given, origins};
 use crate::result::outcome::{Quantity, Stop, Value, Warning};
 use crate::scenario::RunOut;
 use crate::simulate::bearing::races::count_run_out;
@@ -314,41 +314,29 @@ results! {
     }
 }
 
-const CHANGE: Origin = Origin {
-    law: "windows ball by ball lose what laws of rolling say within 2 % and press with less than 1.5 of the load at rest: two, or one after the rotor has pressed on every inner race, rotor and race, and cage, \
+origins! {
+    CHANGE: law "windows ball by ball lose what laws of rolling say within 2 % and press with less than 1.5 of the load at rest: two, or one after the rotor has pressed on every inner race, rotor and race, and cage, \
           within 1 % of rolling, for 20 turns of every cage; kinetic energy, temperatures and speed go on as they are",
-    source: "crates/model/src/system/machine/bearing_record.rs; book/src/theory/heat.md",
-    valid: "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window",
-};
-const WINDOWS: Origin = Origin {
-    law: "while the rotor does not roll: mean heats over 80 turns at held speed, 5 to 19 % slower from window to window; the largest standard error \
+        source "crates/model/src/system/machine/bearing_record.rs; book/src/theory/heat.md",
+        valid "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window";
+    WINDOWS: law "while the rotor does not roll: mean heats over 80 turns at held speed, 5 to 19 % slower from window to window; the largest standard error \
           of a window's power over it",
-    source: "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
-    valid: "what happens at a speed has forgotten how it came there",
-};
-const PEAK: Origin = Origin {
-    law: "the largest contact force of the windows' batches, each 10 turns or 0.2 s",
-    source: "crates/auxbear/src/simulate/drop/windows.rs",
-    valid: "a sample: windows are 5 to 19 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest",
-};
-const PATCH: Origin = Origin {
-    law: "the largest rise of the patch of rotor and race in a batch of a window, over surfaces as warm as the hotter body when it begins, above the start",
-    source: "crates/model/src/surface_heat.rs; crates/auxbear/src/simulate/drop/window.rs",
-    valid: "as contact_temperature_rise, and a lower bound: the surfaces of a batch have 10 turns or 0.2 s to warm",
-};
-const PATCH_INDEX: Origin = Origin {
-    law: "run_out.contact_temperature_rise over 500 K",
-    source: "tempering and transformation of bearing steel, rounded down",
-    valid: "1: the surface of steel changes; other materials and coatings have limits of their own",
-};
-const RETURNS: Origin = Origin {
-    law: "back from laws to windows ball by ball where the motion, followed ball by ball each 1.5 % of speed on the way of the laws, loses 3 % more or less than they \
+        source "crates/auxbear/src/simulate/drop/windows.rs; book/src/theory/heat.md",
+        valid "what happens at a speed has forgotten how it came there";
+    PEAK: law "the largest contact force of the windows' batches, each 10 turns or 0.2 s",
+        source "crates/auxbear/src/simulate/drop/windows.rs",
+        valid "a sample: windows are 5 to 19 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest";
+    PATCH: law "the largest rise of the patch of rotor and race in a batch of a window, over surfaces as warm as the hotter body when it begins, above the start",
+        source "crates/model/src/surface_heat.rs; crates/auxbear/src/simulate/drop/window.rs",
+        valid "as contact_temperature_rise, and a lower bound: the surfaces of a batch have 10 turns or 0.2 s to warm";
+    PATCH_INDEX: law "run_out.contact_temperature_rise over 500 K",
+        source "tempering and transformation of bearing steel, rounded down",
+        valid "1: the surface of steel changes; other materials and coatings have limits of their own";
+    RETURNS: law "back from laws to windows ball by ball where the motion, followed ball by ball each 1.5 % of speed on the way of the laws, loses 3 % more or less than they \
           say or presses with 1.9 of the load at rest; until two windows agree with the laws",
-    source: "crates/auxbear/src/simulate/drop/returns.rs; crates/auxbear/src/simulate/drop/glide.rs; book/src/theory/heat.md",
-    valid: "as run_out.windows; changes: ½IΩ² of the laws that go on less kinetic energy of the motion, which bounces",
-};
-const COURSE: Origin = Origin {
-    law: "the run-out over run_out.over_time.time",
-    source: "crates/thermal/src/coast_down.rs",
-    valid: "as run_out.stop_time",
-};
+        source "crates/auxbear/src/simulate/drop/returns.rs; crates/auxbear/src/simulate/drop/glide.rs; book/src/theory/heat.md",
+        valid "as run_out.windows; changes: ½IΩ² of the laws that go on less kinetic energy of the motion, which bounces";
+    COURSE: law "the run-out over run_out.over_time.time",
+        source "crates/thermal/src/coast_down.rs",
+        valid "as run_out.stop_time";
+}

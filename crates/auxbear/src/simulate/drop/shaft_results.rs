@@ -2,7 +2,7 @@
 
 use crate::result::drawing::{self, GIVEN};
 use crate::result::list::results;
-use crate::result::list::{List, Origin, not_given};
+use crate::result::list::{List, not_given, origins};
 use crate::result::outcome::{Column, Warning, warning};
 use crate::scenario::{AuxiliaryBearing, RotorModel, Shaft};
 use crate::simulate::bearing::columns::Table;
@@ -318,27 +318,21 @@ fn magnets<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = 
     })
 }
 
-const DISPLACEMENT: Origin = Origin {
-    law: "largest distance of the rotor's axis from the line of levitation, at 64 points a turn",
-    source: "crates/model/src/system/machine/record.rs",
-    valid: "small tilt; modes up to rotor.cutoff with residual flexibility",
-};
-const DISTANCE: Origin = Origin {
-    law: "clearance of the node less its largest displacement; negative: the rotor reaches what stands there",
-    source: "crates/model/src/system/machine/record.rs",
-    valid: "what stands around the rotor is centred on the line of levitation and touches nothing else",
-};
-const HELD: Origin = Origin {
-    law: "eigenvalues of the rotor on its magnets with their controllers, or on its supports, at the speed of the release, up to three \
+origins! {
+    DISPLACEMENT: law "largest distance of the rotor's axis from the line of levitation, at 64 points a turn",
+        source "crates/model/src/system/machine/record.rs",
+        valid "small tilt; modes up to rotor.cutoff with residual flexibility";
+    DISTANCE: law "clearance of the node less its largest displacement; negative: the rotor reaches what stands there",
+        source "crates/model/src/system/machine/record.rs",
+        valid "what stands around the rotor is centred on the line of levitation and touches nothing else";
+    HELD: law "eigenvalues of the rotor on its magnets with their controllers, or on its supports, at the speed of the release, up to three \
           times that speed; positive turns with the spin",
-    source: "crates/levitation/src/closed_loop.rs, crates/rotor/src/modes.rs",
-    valid: "small motion; samples as a delay; on unequal supports without magnets both ways round stand as positive",
-};
-const BASIS: Origin = Origin {
-    law: "free modes up to rotor.cutoff with the residual flexibility of every place that carries something (Rubin)",
-    source: "Rubin 1975 (from memory), crates/rotor/src/basis.rs",
-    valid: "a higher rotor.cutoff shows what is left out",
-};
+        source "crates/levitation/src/closed_loop.rs, crates/rotor/src/modes.rs",
+        valid "small motion; samples as a delay; on unequal supports without magnets both ways round stand as positive";
+    BASIS: law "free modes up to rotor.cutoff with the residual flexibility of every place that carries something (Rubin)",
+        source "Rubin 1975 (from memory), crates/rotor/src/basis.rs",
+        valid "a higher rotor.cutoff shows what is left out";
+}
 
 /// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
 pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {

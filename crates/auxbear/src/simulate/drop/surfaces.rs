@@ -1,7 +1,7 @@
 //! Surfaces of rotor and inner race: what they are made of, how hot they became, what was worn off.
 
 use crate::result::list::results;
-use crate::result::list::{Origin, not_given};
+use crate::result::list::{not_given, origins};
 use crate::result::outcome::{Warning, warning};
 use crate::scenario::AuxiliaryBearing;
 use crate::scenario::drop::Contact;
@@ -116,40 +116,28 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
 
 const FILE: &str =
     "crates/model/src/surface_heat.rs; heat flow: crates/thermal/src/rubbing_contact.rs";
-const PATCH: Origin = Origin {
-    law: "rise of both surfaces in the patch of a Hertz line contact, mean over the patch at its hottest edge: surface layers and flash, \
+origins! {
+    PATCH: law "rise of both surfaces in the patch of a Hertz line contact, mean over the patch at its hottest edge: surface layers and flash, \
           friction heat divided so that both sides are equally hot",
-    source: FILE,
-    valid: "30 % by the width of the patch; a factor 2 where tilt or wear has changed its shape; asperities are hotter; chaotic after \
-            several contacts, within a factor of 2 (--repeat)",
-};
-const INDEX: Origin = Origin {
-    law: "contact_temperature_rise over 500 K",
-    source: "tempering and transformation of bearing steel, rounded down",
-    valid: "1: the surface of steel changes; other materials and coatings have limits of their own",
-};
-const SURFACE: Origin = Origin {
-    law: "largest rise of the surface, averaged over its track: the arc of that body between the smallest and the largest angle of contact",
-    source: FILE,
-    valid: "with heat.network, or until the rotor's layer is warm throughout (AB2331); chaotic after several contacts, within a factor of 2 (--repeat)",
-};
-const SHARE: Origin = Origin {
-    law: "friction heat that went into this body; both add to rotor_race_friction_energy",
-    source: FILE,
-    valid: "as contact_temperature_rise",
-};
-const PRESSURE_SPEED: Origin = Origin {
-    law: "largest N |u|/(2 R L), nominal pressure times sliding speed",
-    source: "crates/model/src/surface_heat.rs",
-    valid: "at steps; a measure of makers of landing sleeves, not a pressure of the contact",
-};
-const DISTANCE: Origin = Origin {
-    law: "∫|u| dt while rotor and race touch",
-    source: "crates/model/src/surface_heat.rs",
-    valid: "of the drop ball by ball; windows of a run-out after it are reported by AB2318",
-};
-const WEAR: Origin = Origin {
-    law: "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient",
-    source: "Archard, by the friction heat over the coefficient of its instant; crates/physics/src/severity.rs",
-    valid: "volume worn off both bodies together, spread evenly; k is uncertain by decades; of the drop ball by ball, not of a run-out after it",
-};
+        source FILE,
+        valid "30 % by the width of the patch; a factor 2 where tilt or wear has changed its shape; asperities are hotter; chaotic after \
+            several contacts, within a factor of 2 (--repeat)";
+    INDEX: law "contact_temperature_rise over 500 K",
+        source "tempering and transformation of bearing steel, rounded down",
+        valid "1: the surface of steel changes; other materials and coatings have limits of their own";
+    SURFACE: law "largest rise of the surface, averaged over its track: the arc of that body between the smallest and the largest angle of contact",
+        source FILE,
+        valid "with heat.network, or until the rotor's layer is warm throughout (AB2331); chaotic after several contacts, within a factor of 2 (--repeat)";
+    SHARE: law "friction heat that went into this body; both add to rotor_race_friction_energy",
+        source FILE,
+        valid "as contact_temperature_rise";
+    PRESSURE_SPEED: law "largest N |u|/(2 R L), nominal pressure times sliding speed",
+        source "crates/model/src/surface_heat.rs",
+        valid "at steps; a measure of makers of landing sleeves, not a pressure of the contact";
+    DISTANCE: law "∫|u| dt while rotor and race touch",
+        source "crates/model/src/surface_heat.rs",
+        valid "of the drop ball by ball; windows of a run-out after it are reported by AB2318";
+    WEAR: law "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient",
+        source "Archard, by the friction heat over the coefficient of its instant; crates/physics/src/severity.rs",
+        valid "volume worn off both bodies together, spread evenly; k is uncertain by decades; of the drop ball by ball, not of a run-out after it";
+}

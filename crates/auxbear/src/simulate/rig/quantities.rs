@@ -1,7 +1,7 @@
 //! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
 
 use crate::result::list::results;
-use crate::result::list::{List, Origin, relative};
+use crate::result::list::{List, origins, relative};
 use crate::result::outcome::Quantity;
 use crate::result::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use crate::scenario::{Fidelity, Rig, RigProgram};
@@ -142,73 +142,47 @@ impl Context<'_> {
     }
 }
 
-const ENGAGEMENT: Origin = Origin {
-    law: "engaged as the program says; locked where flywheel and shaft first turn at the same speed",
-    source: "crates/model/src/system/rig/clutch.rs",
-    valid: "the instant of locking is found on the dense output of the step",
-};
-const RATE: Origin = Origin {
-    law: "rise of the torque that the clutch can carry: as given, or found for the wanted peak acceleration",
-    source: "crates/model/src/system/rig/ramp.rs",
-    valid: "found with balls that roll; balls that skid take a little less of the shaft",
-};
-const PEAK_ACCELERATION: Origin = Origin {
-    law: "largest acceleration of the shaft in the direction of its turning while the test brings it up; of a coast-down, that of its slowing; as peak_acceleration of measured signals",
-    source: EQUATIONS,
-    valid: "at the ends of the steps, which include the locking",
-};
-const PEAK_DECELERATION: Origin = Origin {
-    law: "largest acceleration of the shaft against its turning, below 0: the release, the running out",
-    source: EQUATIONS,
-    valid: "at the ends of the steps, which include the release",
-};
-const RISE: Origin = Origin {
-    law: "first instant at which the speed reaches the level of rig.speed",
-    source: EQUATIONS,
-    valid: "time counts from the start of the test",
-};
-const SPEED: Origin = Origin {
-    law: "angular momentum of each body about its axis",
-    source: EQUATIONS,
-    valid: "stiff shaft and clutch",
-};
-const PEAK_MOMENT: Origin = Origin {
-    law: "largest size of the moment at the ends of the steps",
-    source: EQUATIONS,
-    valid: "what happened; the arm swings and the logger adds noise",
-};
-const AT_END: Origin = Origin {
-    law: "t_I on the shaft, t_O on the outer race, and M(Ω, W) of the law, at the last instant",
-    source: EQUATIONS,
-    valid: "a single instant",
-};
-const SLIP: Origin = Origin {
-    law: "S = 1 - 2(1+s)ω_c/Ω, mean over the last cage turn",
-    source: "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
-    valid: "as it happened; what a sensor measures has its own band",
-};
-const TEMPERATURE: Origin = Origin {
-    law: "of the outer race: C Ṫ = heats of the bearing - G T of one node, or of the network where heat.network = \"on\"",
-    source: EQUATIONS,
-    valid: "one node: the moment does not depend on it unless bearing.lubricant_state says so; network: heat.feedback",
-};
-const ENERGY: Origin = Origin {
-    law: "time integral of every loss: force or couple times the relative speed",
-    source: LEDGER,
-    valid: "from the start of the test to its end",
-};
-const RESIDUAL: Origin = Origin {
-    law: "what the ledger misses at the end, over max(heat, works)",
-    source: LEDGER,
-    valid: "a measure of the integration error; it falls with run.tolerance",
-};
-const MOMENTUM: Origin = Origin {
-    law: "∫(t_I - t_O - t_g + moments of weights and of forces off the centre) dt - ΔL of balls and cage",
-    source: LEDGER,
-    valid: "zero but for errors: t_I - t_O = dL/dt on the concentric rig",
-};
-const CLIPPED: Origin = Origin {
-    law: "values beyond the range of the converter",
-    source: "crates/auxbear/src/simulate/rig/chain.rs",
-    valid: "the raw file holds the end of the range there",
-};
+origins! {
+    ENGAGEMENT: law "engaged as the program says; locked where flywheel and shaft first turn at the same speed",
+        source "crates/model/src/system/rig/clutch.rs",
+        valid "the instant of locking is found on the dense output of the step";
+    RATE: law "rise of the torque that the clutch can carry: as given, or found for the wanted peak acceleration",
+        source "crates/model/src/system/rig/ramp.rs",
+        valid "found with balls that roll; balls that skid take a little less of the shaft";
+    PEAK_ACCELERATION: law "largest acceleration of the shaft in the direction of its turning while the test brings it up; of a coast-down, that of its slowing; as peak_acceleration of measured signals",
+        source EQUATIONS,
+        valid "at the ends of the steps, which include the locking";
+    PEAK_DECELERATION: law "largest acceleration of the shaft against its turning, below 0: the release, the running out",
+        source EQUATIONS,
+        valid "at the ends of the steps, which include the release";
+    RISE: law "first instant at which the speed reaches the level of rig.speed",
+        source EQUATIONS,
+        valid "time counts from the start of the test";
+    SPEED: law "angular momentum of each body about its axis",
+        source EQUATIONS,
+        valid "stiff shaft and clutch";
+    PEAK_MOMENT: law "largest size of the moment at the ends of the steps",
+        source EQUATIONS,
+        valid "what happened; the arm swings and the logger adds noise";
+    AT_END: law "t_I on the shaft, t_O on the outer race, and M(Ω, W) of the law, at the last instant",
+        source EQUATIONS,
+        valid "a single instant";
+    SLIP: law "S = 1 - 2(1+s)ω_c/Ω, mean over the last cage turn",
+        source "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
+        valid "as it happened; what a sensor measures has its own band";
+    TEMPERATURE: law "of the outer race: C Ṫ = heats of the bearing - G T of one node, or of the network where heat.network = \"on\"",
+        source EQUATIONS,
+        valid "one node: the moment does not depend on it unless bearing.lubricant_state says so; network: heat.feedback";
+    ENERGY: law "time integral of every loss: force or couple times the relative speed",
+        source LEDGER,
+        valid "from the start of the test to its end";
+    RESIDUAL: law "what the ledger misses at the end, over max(heat, works)",
+        source LEDGER,
+        valid "a measure of the integration error; it falls with run.tolerance";
+    MOMENTUM: law "∫(t_I - t_O - t_g + moments of weights and of forces off the centre) dt - ΔL of balls and cage",
+        source LEDGER,
+        valid "zero but for errors: t_I - t_O = dL/dt on the concentric rig";
+    CLIPPED: law "values beyond the range of the converter",
+        source "crates/auxbear/src/simulate/rig/chain.rs",
+        valid "the raw file holds the end of the range there";
+}

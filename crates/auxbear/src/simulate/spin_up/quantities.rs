@@ -2,7 +2,7 @@
 
 use crate::catalogue::geometry::digits;
 use crate::result::list::results;
-use crate::result::list::{List, Origin, relative};
+use crate::result::list::{List, origins, relative};
 use crate::result::outcome::{Quantity, Value};
 use crate::result::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use crate::scenario::{Drive, Fidelity, SpinUp};
@@ -216,84 +216,54 @@ pub(crate) fn rolling_start_to_end(context: &Context) -> Result<(), String> {
     Ok(())
 }
 
-const RISE: Origin = Origin {
-    law: "first instant at which the speed reaches the level; full speed is that of the rotor, the final one of the drive, or drive.reference_speed",
-    source: EQUATIONS,
-    valid: "constant friction coefficient between rotor and race",
-};
-const SPEED: Origin = Origin {
-    law: "angular momentum of each body about its axis",
-    source: EQUATIONS,
-    valid: "the outer race stands",
-};
-const PEAK_MOMENT: Origin = Origin {
-    law: "largest size of the moment at the ends of the steps",
-    source: EQUATIONS,
-    valid: "moments on the inner race t_I, on the outer race t_O, of the drive; a step of speed needs an impulse besides",
-};
-const INNER_RACE: Origin = Origin {
-    law: "t_I = Σ(R T_I + m_i), what the inner race feels against its rotation",
-    source: EQUATIONS,
-    valid: "a single instant; balls passing the load make it ripple",
-};
-const OUTER_RACE: Origin = Origin {
-    law: "t_O: everything the outer race receives; t_I - t_O = dL/dt of balls and cage on a concentric rig",
-    source: EQUATIONS,
-    valid: "a single instant; the reaction that a torque arm measures",
-};
-const LAW: Origin = Origin {
-    law: "M(Ω, W) of bearing.moment.law, unscaled",
-    source: "crates/physics/src/friction.rs and the law's own page",
-    valid: "the law's own range; leaving it is a warning of the run",
-};
-const MEAN_MOMENT: Origin = Origin {
-    law: "mean of t_I or t_O over cage turns: the later half of those at the end in which the speed stayed within 1 %",
-    source: EQUATIONS,
-    valid: "free of the ripple of passing balls; a steady moment once t_I and t_O agree",
-};
-const CAPACITY: Origin = Origin {
-    law: "μ_max R ΣQ_i / M at full speed under the last load",
-    source: "crates/model/src/system/spin_up/capacity.rs",
-    valid: "above 1.2 the balls roll in a steady run and t_I = t_O = M within 2 %; below they must skid",
-};
-const SLIP: Origin = Origin {
-    law: "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
-    source: "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
-    valid: "pockets let the cage lead and lag a little from instant to instant",
-};
-const SKID: Origin = Origin {
-    law: "cage slip above 2 % in the mean of the last cage turn, or at any row above 5 % of the full speed",
-    source: "definition",
-    valid: "rows of the history",
-};
-const ENERGY: Origin = Origin {
-    law: "time integral of friction force times sliding speed, and of every other loss",
-    source: LEDGER,
-    valid: "nothing is cooled or warmed by it",
-};
-const PRINTED: Origin = Origin {
-    law: "D = (1+2s)∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
-    source: "the source paper, (21) as printed",
-    valid: "nowhere: its integral must not bear the factor 1+2s; shown for comparison",
-};
-const CORRECTED: Origin = Origin {
-    law: "D = ∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
-    source: "the source paper, (21), corrected; crates/model/src/system/spin_up/ledger.rs",
-    valid: "from rest, balls that roll all the way; wrong by up to half of L0 Ω0 where they skid",
-};
-const EXACT: Origin = Origin {
-    law: "D = ∫(t_O + t_g)Ω dt + ∫Ω dL - Δ(KE + U)",
-    source: "balance of energy and angular momentum of balls and cage, crates/model/src/system/spin_up/ledger.rs",
-    valid: "any skidding; needs the speed of the cage, or the path term as an uncertainty",
-};
-const PATH: Origin = Origin {
-    law: "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race, \
+origins! {
+    RISE: law "first instant at which the speed reaches the level; full speed is that of the rotor, the final one of the drive, or drive.reference_speed",
+        source EQUATIONS,
+        valid "constant friction coefficient between rotor and race";
+    SPEED: law "angular momentum of each body about its axis",
+        source EQUATIONS,
+        valid "the outer race stands";
+    PEAK_MOMENT: law "largest size of the moment at the ends of the steps",
+        source EQUATIONS,
+        valid "moments on the inner race t_I, on the outer race t_O, of the drive; a step of speed needs an impulse besides";
+    INNER_RACE: law "t_I = Σ(R T_I + m_i), what the inner race feels against its rotation",
+        source EQUATIONS,
+        valid "a single instant; balls passing the load make it ripple";
+    OUTER_RACE: law "t_O: everything the outer race receives; t_I - t_O = dL/dt of balls and cage on a concentric rig",
+        source EQUATIONS,
+        valid "a single instant; the reaction that a torque arm measures";
+    LAW: law "M(Ω, W) of bearing.moment.law, unscaled",
+        source "crates/physics/src/friction.rs and the law's own page",
+        valid "the law's own range; leaving it is a warning of the run";
+    MEAN_MOMENT: law "mean of t_I or t_O over cage turns: the later half of those at the end in which the speed stayed within 1 %",
+        source EQUATIONS,
+        valid "free of the ripple of passing balls; a steady moment once t_I and t_O agree";
+    CAPACITY: law "μ_max R ΣQ_i / M at full speed under the last load",
+        source "crates/model/src/system/spin_up/capacity.rs",
+        valid "above 1.2 the balls roll in a steady run and t_I = t_O = M within 2 %; below they must skid";
+    SLIP: law "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
+        source "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
+        valid "pockets let the cage lead and lag a little from instant to instant";
+    SKID: law "cage slip above 2 % in the mean of the last cage turn, or at any row above 5 % of the full speed",
+        source "definition",
+        valid "rows of the history";
+    ENERGY: law "time integral of friction force times sliding speed, and of every other loss",
+        source LEDGER,
+        valid "nothing is cooled or warmed by it";
+    PRINTED: law "D = (1+2s)∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
+        source "the source paper, (21) as printed",
+        valid "nowhere: its integral must not bear the factor 1+2s; shown for comparison";
+    CORRECTED: law "D = ∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
+        source "the source paper, (21), corrected; crates/model/src/system/spin_up/ledger.rs",
+        valid "from rest, balls that roll all the way; wrong by up to half of L0 Ω0 where they skid";
+    EXACT: law "D = ∫(t_O + t_g)Ω dt + ∫Ω dL - Δ(KE + U)",
+        source "balance of energy and angular momentum of balls and cage, crates/model/src/system/spin_up/ledger.rs",
+        valid "any skidding; needs the speed of the cage, or the path term as an uncertainty";
+    PATH: law "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race, \
           ½ (1+s)(N m_b + m_c) R² Ω0² where they spin with the race and orbit last",
-    source: "crates/physics/src/spin_up_energy.rs",
-    valid: "the bounds: from rest, a race that only gains speed and leads its balls, balls that roll at the end",
-};
-const RESIDUAL: Origin = Origin {
-    law: "what the ledger misses at the end, over max(heat, works); momentum over that of race, balls and cage at full speed",
-    source: LEDGER,
-    valid: "a measure of the integration error; it falls with run.tolerance",
-};
+        source "crates/physics/src/spin_up_energy.rs",
+        valid "the bounds: from rest, a race that only gains speed and leads its balls, balls that roll at the end";
+    RESIDUAL: law "what the ledger misses at the end, over max(heat, works); momentum over that of race, balls and cage at full speed",
+        source LEDGER,
+        valid "a measure of the integration error; it falls with run.tolerance";
+}
