@@ -3,7 +3,7 @@
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
 use crate::result::outcome::{
-    self, Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Value, Warning,
+    Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Warning, Work,
 };
 use crate::result::severity::severity;
 use crate::scenario::{Provenance, ResolvedValue, Scenario};
@@ -21,7 +21,7 @@ pub(super) fn write(
     writer: impl Write,
     scenario: &Scenario,
     outcome: &Outcome,
-    stop: &outcome::Stop,
+    stop: &Stop,
 ) -> Result<(), serde_json::Error> {
     let mut writer = BufWriter::new(writer);
     serde_json::to_writer_pretty(&mut writer, &told(scenario, outcome, stop, usize::MAX))?;
@@ -39,7 +39,7 @@ pub(super) fn of_page(scenario: &Scenario, outcome: &Outcome) -> Result<String, 
 fn told<'a>(
     scenario: &'a Scenario,
     outcome: &'a Outcome,
-    stop: &'a outcome::Stop,
+    stop: &'a Stop,
     most: usize,
 ) -> Summary<'a> {
     let quantities = outcome
@@ -53,15 +53,11 @@ fn told<'a>(
         title: &outcome.title,
         version: env!("CARGO_PKG_VERSION"),
         complete: stop.complete(),
-        stop: Stop {
-            reason: stop.reason,
-            time_s: finite(stop.time),
-            text: &stop.text,
-        },
+        stop,
         quantities: Named(quantities.collect()),
         limits: outcome.limits.iter().map(limit).collect(),
         warnings: outcome.warnings.iter().map(warning).collect(),
-        contacts: outcome.contacts.iter().map(contact).collect(),
+        contacts: &outcome.contacts,
         inputs: scenario.resolved.values.iter().map(input).collect(),
         members: First(&outcome.members, members.min(most)),
         members_total: (members > most).then_some(members),
@@ -75,19 +71,12 @@ fn told<'a>(
                 )
             })
             .collect(),
-        first: drawn(&outcome.pictures[0]),
+        first: &outcome.pictures[0],
         auxiliary_bearings: match outcome.pictures.as_slice() {
-            [_] => Vec::new(),
-            several => several.iter().map(drawn).collect(),
+            [_] => &[],
+            several => several,
         },
-        work: Work {
-            members: outcome.work.members,
-            steps: outcome.work.steps,
-            rejected: outcome.work.rejected,
-            rate_calls: outcome.work.rate_calls,
-            wall_s: finite(outcome.work.seconds),
-            method: outcome.work.method,
-        },
+        work: &outcome.work,
     }
 }
 
@@ -111,12 +100,12 @@ struct Summary<'a> {
     title: &'a str,
     version: &'static str,
     complete: bool,
-    stop: Stop<'a>,
+    stop: &'a Stop,
     quantities: Named<'a, Found<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     limits: Vec<Held<'a>>,
     warnings: Vec<Message<'a>>,
-    contacts: Vec<Touch>,
+    contacts: &'a [Contact],
     inputs: Vec<Input<'a>>,
     #[serde(skip_serializing_if = "First::is_empty")]
     members: First<'a>,
@@ -128,11 +117,11 @@ struct Summary<'a> {
     drawn: Vec<Named<'a, &'a str>>,
     /// Of the first bearing.
     #[serde(flatten)]
-    first: Drawn<'a>,
+    first: &'a Picture,
     /// Of each bearing, where there are several.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    auxiliary_bearings: Vec<Drawn<'a>>,
-    work: Work,
+    #[serde(skip_serializing_if = "<[Picture]>::is_empty")]
+    auxiliary_bearings: &'a [Picture],
+    work: &'a Work,
 }
 
 /// The first so many members as objects, of which one exists at a time.
@@ -148,25 +137,6 @@ impl Serialize for First<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq((0..self.1).map(|k| Named(self.0.member(k).collect())))
     }
-}
-
-/// What pictures need of a bearing.
-#[derive(Serialize)]
-struct Drawn<'a> {
-    #[serde(rename = "name", skip_serializing_if = "str::is_empty")]
-    bearing: &'a str,
-    clearance_radius_m: Option<f64>,
-    #[serde(rename = "hertz_pressure_limit_Pa")]
-    hertz_pressure_limit_pa: Option<f64>,
-    rolling_cage_ratio: Option<f64>,
-    ball_count: usize,
-}
-
-#[derive(Serialize)]
-struct Stop<'a> {
-    reason: &'static str,
-    time_s: Option<f64>,
-    text: &'a str,
 }
 
 #[derive(Serialize)]
@@ -228,42 +198,11 @@ struct Message<'a> {
 }
 
 #[derive(Serialize)]
-struct Touch {
-    #[serde(skip_serializing_if = "String::is_empty")]
-    auxiliary_bearing: String,
-    start_s: Option<f64>,
-    end_s: Option<f64>,
-    #[serde(rename = "peak_force_N")]
-    peak_force: Option<f64>,
-    peak_time_s: Option<f64>,
-}
-
-#[derive(Serialize)]
 struct Input<'a> {
     path: String,
     value: &'a str,
     mark: &'static str,
     note: String,
-}
-
-#[derive(Serialize)]
-struct Work {
-    members: usize,
-    steps: u64,
-    rejected: u64,
-    rate_calls: u64,
-    wall_s: Option<f64>,
-    method: Option<&'static str>,
-}
-
-fn drawn(picture: &Picture) -> Drawn<'_> {
-    Drawn {
-        bearing: &picture.bearing,
-        clearance_radius_m: picture.clearance.and_then(finite),
-        hertz_pressure_limit_pa: picture.pressure_limit.and_then(finite),
-        rolling_cage_ratio: finite(picture.rolling_cage_ratio),
-        ball_count: picture.balls,
-    }
 }
 
 fn finite(value: f64) -> Option<f64> {
@@ -324,16 +263,6 @@ fn warning(warning: &Warning) -> Message<'_> {
         code: warning.code,
         graveness: severity(warning.code),
         text: &warning.text,
-    }
-}
-
-fn contact(contact: &Contact) -> Touch {
-    Touch {
-        auxiliary_bearing: contact.bearing.clone(),
-        start_s: finite(contact.start),
-        end_s: contact.end.and_then(finite),
-        peak_force: finite(contact.peak_force),
-        peak_time_s: finite(contact.peak_time),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a simulation hands over: quantities, history, contacts, warnings. Plain data, SI.
 
 use crate::scenario::Limit;
+use serde::Serialize;
 
 const NOT_FINITE: &str = "what was computed is not a finite number";
 
@@ -272,17 +273,22 @@ pub struct Column {
 }
 
 /// One contact of rotor and inner race.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contact {
     /// Name of the auxiliary bearing; empty where it is the only one.
+    #[serde(rename = "auxiliary_bearing", skip_serializing_if = "String::is_empty")]
     pub bearing: String,
     /// Begin, s.
+    #[serde(rename = "start_s")]
     pub start: f64,
     /// End, s; none where it lasts to the end of the run.
+    #[serde(rename = "end_s")]
     pub end: Option<f64>,
     /// Largest normal force, N.
+    #[serde(rename = "peak_force_N")]
     pub peak_force: f64,
     /// Its instant, s.
+    #[serde(rename = "peak_time_s")]
     pub peak_time: f64,
 }
 
@@ -353,11 +359,12 @@ impl Verdict {
 }
 
 /// How a run ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stop {
     /// `finished`, `still turning`, `interrupted`, `diverged`, `step limit`, `left the model`, `not answered` or `not written`.
     pub reason: &'static str,
     /// Time of the last state, s.
+    #[serde(rename = "time_s")]
     pub time: f64,
     /// One sentence.
     pub text: String,
@@ -376,7 +383,7 @@ impl Stop {
 }
 
 /// Work of a run, all members together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Work {
     /// Machines simulated.
     pub members: usize,
@@ -387,23 +394,28 @@ pub struct Work {
     /// Evaluations of the right-hand side.
     pub rate_calls: u64,
     /// Wall-clock time, s.
+    #[serde(rename = "wall_s")]
     pub seconds: f64,
     /// Method of the time integration; none where nothing moves.
     pub method: Option<&'static str>,
 }
 
 /// Numbers of a bearing that only the pictures need.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Picture {
     /// Name of the bearing; empty where it is the only one.
+    #[serde(rename = "name", skip_serializing_if = "String::is_empty")]
     pub bearing: String,
     /// Radius of the clearance circle, m; none where no rotor moves in the bore.
+    #[serde(rename = "clearance_radius_m")]
     pub clearance: Option<f64>,
     /// Limit of the Hertz pressure, Pa.
+    #[serde(rename = "hertz_pressure_limit_Pa")]
     pub pressure_limit: Option<f64>,
     /// Cage speed per inner race speed when the balls roll.
     pub rolling_cage_ratio: f64,
     /// Number of balls.
+    #[serde(rename = "ball_count")]
     pub balls: usize,
 }
 
