@@ -3,7 +3,7 @@
 use crate::console;
 use crate::run::listen;
 use auxbear::problem::Problem;
-use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::scenario::{BuiltIn, STUDY_FORMAT, Scenario, StudyFile};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -11,7 +11,11 @@ use std::path::Path;
 const PATTERNS: &str = "\n* stands for a number or name that only the run or its data decide.\n";
 
 pub fn perform(file: &Path, sets: &[String]) -> Result<(), Box<Problem>> {
-    let scenario = Scenario::read(file, sets, &BuiltIn)?;
+    // of a study its scenario
+    let scenario = match Scenario::read(file, sets, &BuiltIn) {
+        Err(problem) if problem.found.contains(STUDY_FORMAT) => StudyFile::read(file)?.scenario,
+        read => read?,
+    };
     listen(false);
     let results = auxbear::run::build(&scenario)?.results();
     let longest = |of: &dyn Fn(usize) -> usize| (0..results.len()).map(of).max().unwrap_or(0);

@@ -175,9 +175,14 @@ impl List {
         });
         // one of many that is not there is no news
         let is_missed = !declared.name.contains('*') || value.why_absent().is_none();
-        self.push(&name, declared.unit, value, declared.origin);
+        self.push(
+            &name,
+            declared.unit,
+            declared.meaning,
+            value,
+            declared.origin,
+        );
         if let Some(last) = self.quantities.last_mut() {
-            last.meaning = declared.meaning;
             last.awaited = declared.kind == Kind::instant;
             last.headline = declared.headline && is_missed;
         }
@@ -220,12 +225,19 @@ impl List {
         }
     }
     /// Adds a result whose name and unit a column has.
-    pub fn push(&mut self, name: &str, unit: &'static str, value: Value, origin: &Origin) {
+    pub fn push(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        meaning: &'static str,
+        value: Value,
+        origin: &Origin,
+    ) {
         self.quantities.push(Quantity {
             name: name.to_string(),
             value,
             unit,
-            meaning: "",
+            meaning,
             headline: false,
             law: origin.law,
             source: origin.source,

@@ -259,7 +259,13 @@ fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Went)>) -> Vec<Quanti
     let rows = run.map_or(&[][..], |(found, _)| &found.free.rows);
     for column in history(parts, rows) {
         let name = under(&column.name, OVER_TIME);
-        list.push(&name, column.unit, Value::List(column.values), &COURSE);
+        list.push(
+            &name,
+            column.unit,
+            "course during the coast-down",
+            Value::List(column.values),
+            &COURSE,
+        );
     }
     for quantity in &mut list.quantities {
         quantity.name = under(&quantity.name, RUN_OUT);
