@@ -188,7 +188,7 @@ fn wrong_values_are_refused_where_they_stand() {
         (
             "width = \"-15 mm\"",
             Code::OutOfRange,
-            ["-15 mm", "above 0 m"],
+            ["-15 mm", "above 0"],
         ),
         (
             "width = true",

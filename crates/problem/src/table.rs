@@ -75,23 +75,22 @@ impl<S> Table<S> {
 
     /// Fills in defaults; refuses what lacks a key, or has one beside another that excludes it or takes its effect.
     fn complete(&mut self) -> Result<(), Box<Problem>> {
-        for key in self.keys {
-            let (name, is_given) = (key.name(), self.known.contains_key(key.name()));
-            if let Some((word, other)) = self.without_effect(key) {
-                let fallback = match key.presence {
-                    Presence::Default(fallback) => {
-                        Some(self.reader(name).fall_back(key, &fallback)?)
-                    }
-                    _ => None,
-                };
-                let says_otherwise = fallback.map(|known| known.value)
-                    != self.known.get(name).map(|known| known.value.clone());
-                if is_given && says_otherwise {
+        // whether a key has an effect depends on what is given, not on defaults
+        let effects: Vec<_> = (self.keys.iter())
+            .map(|key| self.without_effect(key))
+            .collect();
+        for (key, effect) in self.keys.iter().zip(effects) {
+            let given = self.known.get(key.name());
+            if let Some((word, other)) = effect {
+                let says = given.map(|known| &known.value);
+                if says.is_some()
+                    && says != self.fallen_back(key)?.map(|known| known.value).as_ref()
+                {
                     let allowed = format!("it is used only {word} {other}");
                     let found = "a key that has no effect";
                     return Err(Box::new(self.problem(
                         Code::UnusedKey,
-                        name,
+                        key.name(),
                         found,
                         allowed,
                     )));
@@ -99,25 +98,38 @@ impl<S> Table<S> {
                 continue;
             }
             let other = key.excludes.and_then(|path| path.rsplit('.').next());
-            if let Some(other) = other.filter(|other| is_given && self.known.contains_key(other)) {
+            if let Some(other) =
+                other.filter(|other| given.is_some() && self.known.contains_key(other))
+            {
                 let found = format!("this and {other}, which give the same thing");
                 let allowed = "one of the two is needed";
-                return Err(Box::new(self.problem(Code::Conflict, name, found, allowed)));
+                return Err(Box::new(self.problem(
+                    Code::Conflict,
+                    key.name(),
+                    found,
+                    allowed,
+                )));
             }
-            match key.presence {
-                _ if is_given => {}
-                Presence::Required => {
-                    let problem = self.problem(Code::MissingKey, name, "no value", key.needed());
-                    return Err(Box::new(problem));
-                }
-                Presence::Default(fallback) => {
-                    let known = self.reader(name).fall_back(key, &fallback)?;
-                    self.known.insert(name, known);
-                }
-                _ => {}
+            if given.is_some() {
+                continue;
+            }
+            if key.presence == Presence::Required {
+                let problem = self.problem(Code::MissingKey, key.name(), "no value", key.needed());
+                return Err(Box::new(problem));
+            }
+            if let Some(known) = self.fallen_back(key)? {
+                self.known.insert(key.name(), known);
             }
         }
         Ok(())
+    }
+
+    /// The default of a key, where it has one.
+    fn fallen_back(&self, key: &Key<S>) -> Result<Option<Known>, Box<Problem>> {
+        let Presence::Default(fallback) = key.presence else {
+            return Ok(None);
+        };
+        self.reader(key.name()).fall_back(key, &fallback).map(Some)
     }
 
     /// The other key that takes the effect of a key, and in which way; none where it has one.

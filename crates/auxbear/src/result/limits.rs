@@ -136,7 +136,11 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
         .filter(|known| known.rsplit('.').next() == Some(last))
         .collect();
     near.truncate(3);
-    let hint = question(&near).or_else(|| did_you_mean(name, names()));
+    let lasts = || names().map(|known| known.rsplit('.').next().unwrap_or(known));
+    let hint = question(&near).or_else(|| match name.starts_with('*') {
+        true => did_you_mean(last, lasts()),
+        false => did_you_mean(name, names()),
+    });
     let allowed = if known.len() <= MOST_NAMES {
         let all: Vec<&str> = names().collect();
         format!("the results are {}", all.join(", "))

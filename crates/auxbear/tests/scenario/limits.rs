@@ -130,7 +130,7 @@ fn a_star_is_every_bearing_and_the_only_one() {
     let scenario = read(&format!("{HEAD}{TWINS}\n{none}"), &[]).unwrap();
     let message = build(&scenario).err().unwrap().to_string();
     assert!(
-        message.contains("Did you mean \"drive_end.first_impact_force\""),
+        message.contains("Did you mean \"first_impact_force\""),
         "{message}"
     );
     let wrong = LIMIT.replace("1 N", "1 mm");
