@@ -39,14 +39,13 @@ limit = [{ quantity = "mode_1.frequency", least = "1 rad/s" }]
 """
 
 
-def test_ctrl_c_ends_a_check():
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+def test_a_check_of_limits_analyses_nothing():
+    # the analysis of this rotor takes a minute; the names of its results are known without it
     begin = time.monotonic()
-    threading.Timer(0.5, _thread.interrupt_main).start()
-    with pytest.raises(KeyboardInterrupt):
-        auxbear.Scenario.parse(ROTOR).check()
-    signal.signal(signal.SIGINT, before)
-    assert time.monotonic() - begin < 3.0
+    assert isinstance(auxbear.Scenario.parse(ROTOR).check(), list)
+    assert time.monotonic() - begin < 5.0
+    with pytest.raises(auxbear.Problem, match="mode_"):
+        auxbear.Scenario.parse(ROTOR.replace("mode_1.frequency", "mode_1.frequenzy")).check()
 
 
 def test_progress_is_told_and_may_end_a_run():

@@ -140,16 +140,16 @@ mod tests {
         assert_eq!(
             lines(
                 "scenario.rs",
-                "use crate::{\n    problem::{Code, Problem},\n    run,\n};"
+                "use crate::{\n    options::{Options, start_pool},\n    run,\n};"
             ),
             [1]
         );
-        assert_eq!(lines("scenario.rs", "use super::validate;"), [1]);
+        assert_eq!(lines("scenario.rs", "use super::import;"), [1]);
         assert_eq!(
-            lines("scenario/read.rs", "use super::super::validate;"),
+            lines("scenario/read.rs", "use super::super::import;"),
             [1]
         );
-        assert_eq!(lines("scenario/mod.rs", "use super::validate;"), [1]);
+        assert_eq!(lines("scenario/mod.rs", "use super::import;"), [1]);
     }
 
     #[test]
