@@ -140,15 +140,12 @@ mod tests {
         assert_eq!(
             lines(
                 "scenario.rs",
-                "use crate::{\n    options::{Options, start_pool},\n    run,\n};"
+                "use crate::{\n    scenario::{BuiltIn, Scenario},\n    run,\n};"
             ),
             [1]
         );
         assert_eq!(lines("scenario.rs", "use super::import;"), [1]);
-        assert_eq!(
-            lines("scenario/read.rs", "use super::super::import;"),
-            [1]
-        );
+        assert_eq!(lines("scenario/read.rs", "use super::super::import;"), [1]);
         assert_eq!(lines("scenario/mod.rs", "use super::import;"), [1]);
     }
 
