@@ -149,7 +149,9 @@ pub fn write() -> ExitCode {
 fn written() -> Result<(), String> {
     let repository = Repository::open()?;
     let program = shipped::build_in(&repository, "test").map_err(|lines| lines.join("\n"))?;
-    let folder = std::env::temp_dir().join(format!("auxbear-golden-{}", std::process::id()));
+    // the same each time: resolved files have paths in it
+    let folder = std::env::temp_dir().join("auxbear-golden");
+    let _ = std::fs::remove_dir_all(&folder);
     // what differs from the values before is what this is called for
     scenarios::run_all(&repository, &program, &folder);
     let runs = folder.join("runs");
