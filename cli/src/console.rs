@@ -1,8 +1,8 @@
 //! Printing that outlives its reader: a closed pipe ends the output, not the program.
 
+use auxbear::outcome::Warning;
 use auxbear::problem::Problem;
 use auxbear::report::directory::failed;
-use auxbear::result::outcome::Warning;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use crate::console;
 use crate::digits::readable;
-use auxbear::result::outcome::{Judged, Outcome};
+use auxbear::outcome::{Judged, Outcome};
 
 /// The verdicts as a table; nothing where there are none.
 pub fn text(outcome: &Outcome) -> String {

@@ -2,7 +2,7 @@
 
 use crate::digits::readable;
 use crate::{console, limits, torque_tables};
-use auxbear::result::outcome::{Outcome, Quantity, Value};
+use auxbear::outcome::{Outcome, Quantity, Value};
 use std::f64::consts::PI;
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use crate::digits::four_digits;
 use crate::{console, limits};
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::units;
 use std::path::Path;
 

@@ -2,9 +2,9 @@
 
 use crate::problem::raised;
 use crate::table::{Column, Table};
+use auxbear::outcome::{self, Quantity, Value};
 use auxbear::report::directory::{page_run, summary_text, write};
 use auxbear::report::page;
-use auxbear::result::outcome::{self, Quantity, Value};
 use auxbear::scenario::Scenario;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyList, PyString};

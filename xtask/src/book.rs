@@ -157,10 +157,7 @@ fn unlisted(summary: &str, pages: &[(&str, String)]) -> Vec<String> {
 
 /// Every code in the source.
 fn codes(repository: &Repository) -> BTreeSet<String> {
-    let files = ["crates/auxbear/src/", "crates/problem/src/code.rs"];
-    let files = files
-        .iter()
-        .flat_map(|folder| repository.below(folder, ".rs"));
+    let files = (repository.below("crates/", ".rs")).filter(|file| file.contains("/src/"));
     let texts = files.filter_map(|file| repository.text(file));
     texts.flat_map(|text| codes_in(&text)).collect()
 }

@@ -2,8 +2,8 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    advisories, architecture, book, circles, documentation, licences, module_order, python,
-    scenarios, source_text, suites, toolchain,
+    advisories, architecture, book, documentation, licences, python, scenarios, source_text,
+    suites, toolchain,
 };
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -23,9 +23,7 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 10] = [
-    ("module order", module_order::check),
-    ("no circles", circles::check),
+const FAST: [Guard; 8] = [
     ("architecture page", architecture::check),
     ("book", book::check),
     ("documentation rules", documentation::check),

@@ -1,7 +1,7 @@
 //! What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
 //!
 //! A [`scenario::Scenario`] is read and checked, [`run::run`] computes it, and the results are plain data
-//! ([`result::outcome::Outcome`]) that [`report`] writes and draws.
+//! ([`outcome::Outcome`]) that [`report`] writes and draws.
 //!
 //! ```
 //! use auxbear::scenario::{BuiltIn, Scenario, template};
@@ -14,26 +14,18 @@
 //! let outcome = run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
 //! assert!(outcome.stop.complete());
 //! ```
-//!
-//! Modules, each using only those before it: [`scenario`], [`options`], [`result`], then
-//! [`simulate`], [`analyse`] and [`evaluate`] side by side, [`mod@run`], [`mod@study`], [`report`], [`import`].
 
 #![forbid(unsafe_code)]
 
-pub mod analyse;
-pub mod evaluate;
-pub mod import;
-pub mod options;
-pub mod report;
-pub mod result;
-pub mod run;
-pub mod scenario;
-pub mod simulate;
-pub mod study;
-
 pub use catalogue;
+pub use import;
 pub use measure;
+pub use outcome;
 pub use physics;
 pub use problem;
 pub use recording;
+pub use report;
+pub use run::{self, study};
+pub use scenario;
+pub use simulate;
 pub use units;

@@ -3,7 +3,7 @@
 //!
 //! The table of the book is that of 64 members over 0.2 s: a release build with AUXBEAR_SEEDS=64.
 
-use auxbear::result::outcome::Outcome;
+use auxbear::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;

@@ -1,6 +1,6 @@
 //! Which steps a drop takes, and that threads change nothing.
 
-use auxbear::result::outcome::Value;
+use auxbear::outcome::Value;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario, template};
 use std::sync::atomic::AtomicBool;

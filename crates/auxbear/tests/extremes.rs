@@ -1,6 +1,6 @@
 //! Machines at the ends of what a file may say: each run is finite and closes its energy, or is refused with a message.
 
-use auxbear::result::outcome::Value;
+use auxbear::outcome::Value;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario, template};
 use std::sync::atomic::AtomicBool;

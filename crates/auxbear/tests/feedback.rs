@@ -1,7 +1,7 @@
 //! What follows the temperatures of a bearing while it is computed ball by ball.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;

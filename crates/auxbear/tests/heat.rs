@@ -1,7 +1,7 @@
 //! Heat against right values: growth rates, layers on their metal, tracks, films, rings, wear.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::Outcome;
+use auxbear::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;

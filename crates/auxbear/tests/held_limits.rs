@@ -1,7 +1,7 @@
 //! The heat that must be taken from the nodes of a bearing to hold them at their limits, in whatever is computed in time.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;

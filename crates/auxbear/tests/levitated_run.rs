@@ -1,7 +1,7 @@
 //! Magnets whose controllers act in time: they keep what the linear analysis says, lose it with their power, and end at their limits.
 
-use auxbear::result::outcome::Outcome;
-use auxbear::result::severity::severity;
+use auxbear::outcome::Outcome;
+use auxbear::outcome::severity::severity;
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 

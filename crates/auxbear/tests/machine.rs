@@ -1,7 +1,7 @@
 //! A flexible rotor that falls onto its auxiliary bearings: what a file says reaches the model, and what cannot be is refused.
 
 pub use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::path::PathBuf;

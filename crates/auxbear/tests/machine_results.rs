@@ -1,7 +1,7 @@
 //! What a machine's results count from, and that its energy balance is that of all bearings together.
 
 use crate::machine::{STIFF, near, number, ran};
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 
 fn rig() -> String {
     include_str!("../../../scenarios/amb_rig_drop.toml").to_string()

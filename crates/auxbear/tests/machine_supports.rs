@@ -1,7 +1,7 @@
 //! What acts on a flexible rotor before and after its release: seals, and supports that stay.
 
 use crate::machine::{STIFF, number, ran};
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;

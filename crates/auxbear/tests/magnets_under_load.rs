@@ -1,6 +1,6 @@
 //! Magnets that carry a weight: stability, limits, margins and biases about the loaded position, in a rotor and in a machine.
 
-use auxbear::result::outcome::Outcome;
+use auxbear::outcome::Outcome;
 use auxbear::run::{Options, run};
 use nalgebra::Complex;
 use std::sync::atomic::AtomicBool;

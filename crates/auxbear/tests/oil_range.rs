@@ -1,6 +1,6 @@
 //! Lubricants beyond the temperatures that their viscosity is known near.
 
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;

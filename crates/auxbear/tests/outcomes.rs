@@ -1,6 +1,6 @@
 //! What tests ask of an outcome.
 
-use auxbear::result::outcome::Outcome;
+use auxbear::outcome::Outcome;
 
 /// The number of a result, which must have one.
 pub fn number(outcome: &Outcome, name: &str) -> f64 {

@@ -1,7 +1,7 @@
 //! What the races see of their balls: how hot skids are, and what fatigue takes.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::Outcome;
+use auxbear::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::f64::consts::PI;

@@ -1,8 +1,8 @@
 //! A rig is simulated, its logger's raw files are written, read and identified: end to end.
 
 use crate::outcomes::number;
+use auxbear::outcome::{Attached, Value};
 use auxbear::report::directory;
-use auxbear::result::outcome::{Attached, Value};
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use recording::file;

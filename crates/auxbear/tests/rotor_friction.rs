@@ -1,7 +1,7 @@
 //! The sliding friction of a dropped rotor: the drop is simulated, its race read by marks, the file identified.
 
+use auxbear::outcome::Value;
 use auxbear::report::directory;
-use auxbear::result::outcome::Value;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::f64::consts::TAU;

@@ -1,7 +1,7 @@
 //! Temperatures in a drop, and its way on until the rotor stands.
 
 pub use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
@@ -34,7 +34,7 @@ pub fn list<'a>(outcome: &'a Outcome, name: &str) -> &'a [f64] {
 pub fn adds_up_by_bodies(run: &Outcome, part: &str) {
     let all = |words: &str| -> f64 {
         let start = format!("{part}{words}_");
-        let of = |q: &&auxbear::result::outcome::Quantity| q.name.starts_with(&start);
+        let of = |q: &&auxbear::outcome::Quantity| q.name.starts_with(&start);
         let each = run.quantities.iter().filter(of);
         each.map(|q| number(run, &q.name)).sum()
     };

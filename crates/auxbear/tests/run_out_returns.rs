@@ -1,7 +1,7 @@
 //! A run-out that goes back from laws to motion, and on by laws.
 
 use crate::run_out::{SHIPPED, adds_up_by_bodies, list, number, parsed};
-use auxbear::result::outcome::{Outcome, Value, Warning};
+use auxbear::outcome::{Outcome, Value, Warning};
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 

@@ -2,7 +2,7 @@
 
 use crate::measurement_file::{TORQUE, problem, table};
 use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::fs;

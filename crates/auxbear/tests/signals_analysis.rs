@@ -1,7 +1,7 @@
 //! More of a measurement through its front: converter, vibration, steady curves, a window for the quick change.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::f64::consts::TAU;

@@ -1,7 +1,7 @@
 //! A speed in rpm instead of marks, and coast-downs without a torque sensor, through the front.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::fmt::Write as _;

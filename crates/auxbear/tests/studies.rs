@@ -1,7 +1,7 @@
 //! Studies that are interrupted, late or damaged: nothing is lost, nothing is judged that is not there.
 
+use auxbear::outcome::Verdict;
 use auxbear::report::study::{Directory, Done};
-use auxbear::result::outcome::Verdict;
 use auxbear::run::{Options, each};
 use auxbear::scenario::{BuiltIn, Scenario, StudyFile, template};
 use auxbear::study::Study;

@@ -1,7 +1,7 @@
 //! The moments of a bearing without motion: the magnitudes of the source paper, comparisons, and what is refused.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::path::Path;

@@ -2,7 +2,7 @@
 //! implausible inputs, a race that does not come to speed.
 
 use crate::machine::{near, number, parsed, ran};
-use auxbear::result::outcome::{Outcome, Value, Verdict};
+use auxbear::outcome::{Outcome, Value, Verdict};
 use auxbear::scenario::template;
 
 const DROP: &str = include_str!("../../../scenarios/reference_drop.toml");

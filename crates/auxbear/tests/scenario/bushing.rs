@@ -1,7 +1,7 @@
 //! An auxiliary bearing that is a plain bushing.
 
 use super::several::{HEAD, outcome, read};
-use auxbear::result::outcome::Value;
+use auxbear::outcome::Value;
 
 /// Of one bearing, then of two of which the second is a ball bearing.
 const ALONE: &str = r#"

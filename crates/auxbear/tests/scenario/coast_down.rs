@@ -1,8 +1,8 @@
 //! Run-outs with heat: balances, closed forms, symmetries, limits, runaway, and what is refused.
 
 use crate::outcomes::number;
-use auxbear::options::Options;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::options::Options;
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run;
 use auxbear::scenario::{BuiltIn, Scenario, template};
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! Limits of a file: what is read, refused, judged and written back.
 
 use super::several::{HEAD, TWINS, outcome, read};
+use auxbear::outcome::{Judged, Value, Verdict};
 use auxbear::problem::Code;
-use auxbear::result::outcome::{Judged, Value, Verdict};
 use auxbear::run::build;
 use auxbear::scenario::{BuiltIn, Scenario, Side, SystemName, template};
 

@@ -1,7 +1,7 @@
 //! A flexible rotor: its tables, what is refused, what an analysis finds.
 
 pub(super) use crate::outcomes::number;
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario, System};
 use std::sync::atomic::AtomicBool;

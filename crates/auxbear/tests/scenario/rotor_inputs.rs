@@ -1,6 +1,6 @@
 //! What the file of a rotor leaves out: defaults that fit the rotor, materials by name, and messages that say what to give.
 
-use auxbear::result::outcome::Outcome;
+use auxbear::outcome::Outcome;
 use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
@@ -177,7 +177,7 @@ fn a_grade_scales_the_unbalances_of_all_planes_together() {
     let number = |outcome: &Outcome, name: &str| {
         let found = outcome.quantity(name);
         match found.unwrap_or_else(|| panic!("{name}")).value {
-            auxbear::result::outcome::Value::Number(number) => number,
+            auxbear::outcome::Value::Number(number) => number,
             ref other => panic!("{name}: {other:?}"),
         }
     };

@@ -1,7 +1,7 @@
 //! Rotors on supports that are stiff, soft, negative, or stand on pedestals: critical speeds, verdicts, stability, forces.
 
 use super::rotor::{analysed, number, value};
-use auxbear::result::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Value};
 
 const HEAD: &str = "format = \"auxbear.scenario/1\"\nsystem = \"rotor\"\n";
 

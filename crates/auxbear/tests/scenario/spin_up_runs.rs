@@ -1,7 +1,7 @@
 //! The shipped spin-ups say what they are shipped for.
 
 use crate::outcomes::number;
-use auxbear::result::outcome::Value;
+use auxbear::outcome::Value;
 use auxbear::run::{Options, Outcome, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::several::{HEAD, TWINS, outcome};
 use crate::outcomes::number;
-use auxbear::result::outcome::Value;
+use auxbear::outcome::Value;
 
 const WIDTH: &str = "contact.width=12 mm";
 

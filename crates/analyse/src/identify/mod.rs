@@ -1,0 +1,107 @@
+//! What measured tests say of a bearing: from the signals files of several tests to named results.
+//!
+//! ```text
+//! signals files ─signals─▶ speed, torque, cage ─measurement─▶ one Measurement a test
+//!   coast-downs ─▶ M(Ω)      tests ─▶ F, dissipation, slip, skid      all ─▶ doubts, explanations, next test
+//! ```
+//! | page | subject |
+//! |---|---|
+//! | `read` | the signals files and their channels |
+//! | `found` | the estimators of the crate `identify`, each with its own reason where it refuses |
+//! | `coast_down` | M of slow tests without a torque |
+//! | `consequence` | what follows from a verdict for the other results |
+//! | `notes` | what to know of the tests, each line once |
+//! | `answer`, `per_test` | named results |
+//! | `history` | the tests over time since their engagement |
+
+mod answer;
+mod coast_down;
+mod consequence;
+mod found;
+mod history;
+mod notes;
+mod per_test;
+mod read;
+
+use found::Found;
+use outcome::options::Options;
+use outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
+pub use read::Asked;
+use scenario::Scenario;
+use simulate::assumptions::assumptions;
+use std::time::Instant;
+
+/// The results of such an identification, without values.
+pub fn results(asked: &Asked) -> Vec<Quantity> {
+    answer::name(asked, None)
+}
+
+/// Computes what is asked for and names it.
+pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
+    let clock = Instant::now();
+    let found = Found::of(asked, options);
+    let mut warnings = found.warnings.clone();
+    warnings.extend(assumed(scenario, asked));
+    let history = history::columns(&found);
+    let end = history.first().and_then(|time| time.values.last().copied());
+    let stop = match (&found.moment, found.interrupted) {
+        (Ok(_), false) if found.unused.is_some() => Stop {
+            reason: "not answered",
+            time: 0.0,
+            text: found.unused.clone().unwrap_or_default(),
+        },
+        (_, true) => Stop {
+            reason: "interrupted",
+            time: end.unwrap_or(0.0),
+            text: "Interrupted; what was found until then is kept.".to_string(),
+        },
+        (Ok(_), false) => Stop {
+            reason: "finished",
+            time: end.unwrap_or(0.0),
+            text: "Everything asked for was computed.".to_string(),
+        },
+        (Err(why), false) => Stop {
+            reason: "not answered",
+            time: 0.0,
+            text: format!("the slow tests do not give the steady moment: {why}"),
+        },
+    };
+    Outcome {
+        system: "identify",
+        title: (scenario.title.clone())
+            .unwrap_or_else(|| "What the tests show of the bearing".to_string()),
+        quantities: answer::name(asked, Some(&found)),
+        history,
+        contacts: Vec::new(),
+        stop,
+        warnings,
+        work: Work {
+            members: 1,
+            seconds: clock.elapsed().as_secs_f64(),
+            ..Work::default()
+        },
+        members: Members::default(),
+        drawn: Vec::new(),
+        limits: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio: found.set.cage_speed(1.0),
+            balls: asked.identify.ball_count,
+        }],
+        files: Vec::new(),
+    }
+}
+
+/// What is assumed of the bearing and the tests, as far as it counts.
+fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
+    let wish = asked.identify;
+    let counts = |path: &str| {
+        !(path.starts_with("identify.rotor_friction.") && wish.rotor_friction.is_none()
+            || path.starts_with("identify.explanations.") && wish.explanations.is_none())
+    };
+    let values = scenario.resolved.values.iter();
+    let values = values.filter(|value| value.provenance.mark() == "assumed" && counts(value.path));
+    assumptions(&values.map(|value| value.path).collect::<Vec<_>>())
+}

@@ -1,0 +1,9 @@
+//! Measurements read and laws evaluated without motion in time: one folder a system.
+
+#![forbid(unsafe_code)]
+
+pub mod identify;
+pub(crate) mod interruptible;
+pub mod rotor;
+pub mod signals;
+pub mod torque;

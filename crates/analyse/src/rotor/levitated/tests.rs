@@ -1,0 +1,335 @@
+//! A levitated rotor: what is found, and what is refused.
+
+use super::super::asked::Asked;
+use super::*;
+use outcome::Value;
+use problem::Code;
+use scenario::{BuiltIn, Scenario, System};
+
+const SMALL: &str = r#"
+format = "auxbear.scenario/1"
+system = "rotor"
+[rotor]
+speed = "9000 rpm"
+damping_of_stiffness = "1 us"
+[[rotor.section]]
+length = "0.5 m"
+outer_diameter = "40 mm"
+material = "steel"
+elements = 10
+[[rotor.unbalance]]
+at = "0.25 m"
+amount = "10 g mm"
+[levitation.controller]
+proportional = "8000 A/m"
+integral = "8e4 A/(m s)"
+derivative = "22 A s/m"
+derivative_time = "45 us"
+delay = "50 us"
+[[levitation.sensor]]
+magnet = "left"
+at = "0.08 m"
+bandwidth = "8 kHz"
+[[levitation.sensor]]
+magnet = "right"
+at = "0.42 m"
+[[levitation.magnet]]
+name = "left"
+at = "0.1 m"
+current_stiffness = "40 N/A"
+position_stiffness = "1.6e5 N/m"
+gap = "0.5 mm"
+largest_current = "5 A"
+amplifier_bandwidth = "2 kHz"
+[[levitation.magnet]]
+name = "right"
+at = "0.4 m"
+current_stiffness = "40 N/A"
+position_stiffness = "1.6e5 N/m"
+amplifier_bandwidth = "2 kHz"
+"#;
+
+/// Its PID, which matrices replace.
+const PID: &str = "proportional = \"8000 A/m\"\nintegral = \"8e4 A/(m s)\"\nderivative = \"22 A s/m\"\nderivative_time = \"45 us\"\n";
+
+/// Words of the file, and what stands in their place.
+type Change = (&'static str, &'static str);
+
+/// What becomes of the file with some words replaced.
+fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
+    let mut text = SMALL.to_string();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let scenario = Scenario::parse(&text, "small.toml", &[], &BuiltIn)?;
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let asked = Asked::of(analysis)?;
+    let mut list = List::default();
+    name(&mut list, analysis, asked.levitated.as_ref());
+    Ok(list
+        .quantities
+        .into_iter()
+        .map(|q| (q.name, q.value))
+        .collect())
+}
+fn number(found: &[(String, Value)], name: &str) -> f64 {
+    match found.iter().find(|(own, _)| own == name) {
+        Some((_, Value::Number(value))) => *value,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+#[test]
+fn a_small_rotor_on_two_magnets() {
+    let found = outcome(&[]).unwrap();
+    assert!(number(&found, "levitation.slowest_eigenvalue") < -5.0);
+    let peak = number(&found, "levitation.left_1.rated.sensitivity_peak");
+    assert!((1.0..3.0).contains(&peak), "{peak}");
+    // half the weight of 4.93 kg on each magnet, shared by both axes at 45°; sensors outboard change a little
+    let current = number(&found, "levitation.right_1.static_current").abs();
+    let wanted = 0.5 * 7810.0 * 0.5 * 0.04 * 0.04 * std::f64::consts::FRAC_PI_4 * 9.80665
+        / 2.0_f64.sqrt()
+        / 40.0;
+    assert!((current / wanted - 1.0).abs() < 0.05, "{current} {wanted}");
+    let stiff = found
+        .iter()
+        .find(|(name, _)| name == "levitation.left_2.static_stiffness");
+    assert!(matches!(&stiff.unwrap().1, Value::None { why } if why.contains("integrates")));
+}
+
+#[test]
+fn the_scenario_that_ships_has_the_sensitivity_of_the_reference() {
+    // the reference has linear magnets
+    let text = include_str!("../../../../../scenarios/rotor_levitated.toml");
+    let text = &text.replace("gap = \"0.5 mm\"\n", "");
+    let scenario = Scenario::parse(text, "rotor_levitated.toml", &[], &BuiltIn);
+    let scenario = scenario.unwrap_or_else(|problem| panic!("{problem}"));
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    assert_eq!(analysis.model.rotor.nodes.len(), 53);
+    let asked = Asked::of(analysis).unwrap_or_else(|problem| panic!("{problem}"));
+    let mut list = List::default();
+    name(&mut list, analysis, asked.levitated.as_ref());
+    let found: Vec<_> = list
+        .quantities
+        .into_iter()
+        .map(|q| (q.name, q.value))
+        .collect();
+    // machine_levitated.json at 1256.637 rad/s, peaks and slowest eigenvalue; the basis costs up to 4e-5
+    for (name, wanted) in [
+        (
+            "levitation.drive_end_1.rated.sensitivity_peak",
+            1.677_605_074,
+        ),
+        (
+            "levitation.other_end_2.rated.sensitivity_peak",
+            1.483_922_82,
+        ),
+        (
+            "levitation.drive_end_1.standstill.sensitivity_peak",
+            1.677_290_415,
+        ),
+        ("levitation.slowest_eigenvalue", -21.077_070_33),
+    ] {
+        let ours = number(&found, name);
+        assert!((ours / wanted - 1.0).abs() < 4e-5, "{name}: {ours}");
+    }
+}
+
+#[test]
+fn matrices_and_samples_are_read_too() {
+    let matrices = "a = \"-22222 0 0 0; 0 -22222 0 0; 0 0 -22222 0; 0 0 0 -22222\"\n\
+        b = \"22222 0 0 0; 0 22222 0 0; 0 0 22222 0; 0 0 0 22222\"\n\
+        c = \"-488884 0 0 0; 0 -488884 0 0; 0 0 -488884 0; 0 0 0 -488884\"\n\
+        d = \"496884 0 0 0; 0 496884 0 0; 0 0 496884 0; 0 0 0 496884\"\n";
+    let of_matrix = outcome(&[(PID, matrices)]).unwrap();
+    let of_pid = outcome(&[
+        ("integral = \"8e4 A/(m s)\"", ""),
+        (
+            "derivative_time = \"45 us\"",
+            "derivative_time = \"45.0004500045 us\"",
+        ),
+    ])
+    .unwrap();
+    let name = "levitation.left_1.rated.sensitivity_peak";
+    let (a, b) = (number(&of_matrix, name), number(&of_pid, name));
+    assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+    let sampled = outcome(&[(
+        "delay = \"50 us\"",
+        "sampling_period = \"50 us\"\ncomputing_time = \"25 us\"",
+    )]);
+    let (a, b) = (
+        number(&sampled.unwrap(), name),
+        number(&outcome(&[]).unwrap(), name),
+    );
+    assert!((a / b - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_cannot_hold_the_rotor_is_told_with_its_code() {
+    let no_integral = ("integral = \"8e4 A/(m s)\"", "");
+    let cases: [(&[Change], Code, &str); 14] = [
+        (
+            &[("8000 A/m", "3000 A/m"), no_integral],
+            Code::UnstableLevitation,
+            "eigenvalue",
+        ),
+        (
+            &[("8000 A/m", "4000 A/m"), no_integral],
+            Code::ZeroStaticStiffness,
+            "left 1",
+        ),
+        (
+            &[("\"5 A\"", "\"2.2 A\"")],
+            Code::CurrentLimit,
+            "A of control current on axis left 1",
+        ),
+        (
+            &[("\"5 A\"", "\"1 A\"")],
+            Code::MagnetValues,
+            "2.0000 A follow",
+        ),
+        (
+            &[(
+                "gap = \"0.5 mm\"",
+                "gap = \"0.5 mm\"\nbias_current = \"3 A\"",
+            )],
+            Code::MagnetValues,
+            "2.0000 A is needed",
+        ),
+        (
+            &[("at = \"0.08 m\"", "at = \"0.8 m\"")],
+            Code::NoSuchNode,
+            "beside the shaft",
+        ),
+        (
+            &[("magnet = \"left\"", "magnet = \"lift\"")],
+            Code::LevitationParts,
+            "left, right",
+        ),
+        (
+            &[("magnet = \"right\"", "magnet = \"left\"")],
+            Code::LevitationParts,
+            "a second sensor of \"left\"; one sensor for each",
+        ),
+        (
+            &[(
+                "[[levitation.sensor]]\nmagnet = \"right\"",
+                "[[levitation.sensor]]\nat = \"0.1 m\"\n[[levitation.sensor]]\nmagnet = \"right\"",
+            )],
+            Code::LevitationParts,
+            "of every magnet without its own, and each has its own",
+        ),
+        (
+            &[(
+                "[levitation.controller]",
+                "[[levitation.controller]]\ndelay = \"50 us\"\n[[levitation.controller]]",
+            )],
+            Code::LevitationParts,
+            "a second controller of every magnet without its own",
+        ),
+        (
+            &[(PID, "d = \"1 0; 0 1\"\n")],
+            Code::ControllerSize,
+            "2 signals to 2 commands",
+        ),
+        (
+            &[("delay = \"50 us\"", "filters = [\"1 0 0 / 1 2\"]")],
+            Code::ControllerFilter,
+            "3 coefficients over 2",
+        ),
+        (
+            &[(
+                "delay = \"50 us\"",
+                "sampling_period = \"50 us\"\ncomputing_time = \"1 ms\"",
+            )],
+            Code::ControllerTime,
+            "time to compute",
+        ),
+        (&[("50 us", "-50 us")], Code::OutOfRange, "not below 0"),
+    ];
+    for (changes, code, words) in cases {
+        let problem = outcome(changes).unwrap_err();
+        println!("{problem}");
+        let text = format!("{}; {}", problem.found, problem.allowed);
+        assert_eq!(problem.code, code, "{changes:?}: {text}");
+        assert!(text.contains(words), "{changes:?}: {text}");
+    }
+}
+
+#[test]
+fn a_part_that_would_not_act_is_named_with_its_line() {
+    let second = "[[levitation.magnet]]\nname = \"right\"";
+    let part = "[[levitation.controller]]\nmagnet = \"left\"\nproportional = \"1 A/m\"\ndelay = \"50 us\"\n";
+    let twice = format!("{part}{part}{second}");
+    let list = ("[levitation.controller]", "[[levitation.controller]]");
+    let text = SMALL.replace(list.0, list.1).replace(second, &twice);
+    let line = text
+        .lines()
+        .rev()
+        .position(|line| line == "magnet = \"left\"");
+    let line = text.lines().count() - line.unwrap();
+    let problem = Scenario::parse(&text, "small.toml", &[], &BuiltIn);
+    let told = problem.unwrap_err().to_string();
+    let at = format!(
+        "small.toml:{line}: levitation.controller.left.magnet: found a second controller of \"left\""
+    );
+    assert!(told.contains(&at), "{told}");
+}
+
+/// On two springs of k_i K_p - k_s = 160 kN/m a rotor of 4.9 kg has a rigid motion at 255 rad/s without damping.
+#[test]
+fn diagrams_have_the_magnets_in_them() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let asked = Asked::of(analysis).unwrap();
+    let all = super::super::quantities::name(&asked, Some(&asked.find().unwrap()));
+    let found: Vec<_> = all.into_iter().map(|q| (q.name, q.value)).collect();
+    let first = number(&found, "first_critical_speed");
+    assert!(first > 100.0 && first < 255.0, "{first}");
+    // integrators hold the sensors where they are: the weight bends the shaft about them
+    let sag = number(&found, "largest_sag");
+    assert!(sag > 1e-7 && sag < 1e-4, "{sag}");
+    assert!(number(&found, "response.magnet_left.peak_amplitude") > 0.0);
+    assert!(number(&found, "response.sensor_right.rated_amplitude") > 0.0);
+    assert!(found.iter().any(|(name, _)| name == "map_forward_1"));
+}
+
+/// The drawing names what stands along the shaft, sensors where they are and not where their magnets are.
+#[test]
+fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let mut list = List::default();
+    simulate::drawing::name(&mut list, &analysis.model);
+    let of = |name: &str| {
+        let found = list.quantities.iter().find(|q| q.name == name);
+        found.unwrap_or_else(|| panic!("{name}")).value.clone()
+    };
+    assert_eq!(of("magnet_names"), Value::Text("left\nright".to_string()));
+    assert_eq!(of("magnet_positions"), Value::List(vec![0.1, 0.4]));
+    assert_eq!(of("sensor_positions"), Value::List(vec![0.08, 0.42]));
+    assert_eq!(of("unbalance_names"), Value::Text("1".to_string()));
+    assert_eq!(of("piece_names"), Value::Text("1".to_string()));
+}
+
+#[test]
+fn an_interrupted_analysis_is_left_at_once() {
+    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
+    let System::Rotor(analysis) = &scenario.system else {
+        panic!("a rotor");
+    };
+    let asked = std::sync::Arc::new(Asked::of(analysis).unwrap());
+    let interrupt = std::sync::atomic::AtomicBool::new(true);
+    let options = outcome::options::Options::unwatched(&interrupt);
+    let outcome = super::super::run(&scenario, &asked, &options);
+    assert!(outcome.stop.interrupted() && outcome.quantities.is_empty());
+}

@@ -1,0 +1,316 @@
+//! A measurement: from the channels of a file to speed, torque and cage speed with their bands.
+//!
+//! ```text
+//! file ─read─▶ channels ─shaft─▶ speed, acceleration ─torque─▶ torque without the sensor's swing
+//!                                                    ├─cage──▶ cage speed, slip
+//!                                                    ├─vibration─▶ orders, spectrograms
+//!                                                    └─steady─▶ torque over speed
+//! ```
+//! The estimators are those of the crate `measure`; here they are fed, and what they find is named. An estimator that refuses
+//! leaves its quantities empty with the reason, and the run says that it is not complete.
+
+mod answer;
+mod answer_analysis;
+pub(crate) mod asked;
+pub(crate) mod cage;
+mod converter;
+mod design;
+pub(crate) mod found;
+mod history;
+mod mains;
+mod read;
+pub(crate) mod shaft;
+mod spectrum;
+pub(crate) mod steady;
+mod temperature;
+pub(crate) mod torque;
+mod unit;
+mod vibration;
+
+use crate::interruptible::{INTERRUPTED, interruptible};
+pub use crate::signals::asked::Asked;
+use crate::signals::asked::{capital, sampled};
+use crate::signals::found::Found;
+use identify::coasting::Windage;
+use outcome::options::Options;
+use outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
+use scenario::{Scenario, SensorSource, SteadySignal};
+use simulate::assumptions::assumptions;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Keys that say something of a sensor only where it is given, not where a tap tells it.
+const OF_GIVEN_SENSOR: &[&str] = &[
+    "signals.torque.frequency_deviation",
+    "signals.torque.damping_deviation",
+];
+
+/// What is assumed of the sensor, where it counts.
+fn assumed(scenario: &Scenario, asked: &Asked, found: &Found) -> Option<Warning> {
+    found.torque.as_ref()?;
+    let sensor = asked.signals.torque.as_ref()?.sensor.as_ref()?;
+    let given = matches!(sensor, SensorSource::Given { .. });
+    let values = scenario.resolved.values.iter();
+    let values = values.filter(|value| value.provenance.mark() == "assumed");
+    let paths: Vec<&str> = values.map(|value| value.path).collect();
+    let counts = |path: &&str| given || !OF_GIVEN_SENSOR.contains(path);
+    assumptions(&paths.into_iter().filter(counts).collect::<Vec<_>>())
+}
+
+/// Why a part has no numbers where the shaft has none.
+fn no_shaft<T>() -> Result<T, String> {
+    Err("it needs the speed of the shaft".to_string())
+}
+
+/// Why a part has no numbers that was not asked for.
+fn not_asked<T>() -> Result<T, String> {
+    Err("it is not asked for".to_string())
+}
+
+/// A vibration and slow runs, which need the shaft.
+fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
+    if asked.vibration.is_some() && asked.signals.vibration.is_some() {
+        let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
+        let vibration = move || match (&own.vibration, &own.signals.vibration, &shaft) {
+            (Some(series), Some(wish), Some(shaft)) => vibration::Found::of(series, wish, shaft),
+            _ => no_shaft(),
+        };
+        match interruptible(interrupt, vibration) {
+            Ok(vibration) => {
+                found.warn("AB1043", "Vibration", &vibration.notes);
+                found.vibration = Some(vibration);
+            }
+            Err(why) => found.refused.push(("vibration", why)),
+        }
+    }
+    if asked.signals.steady.is_none() {
+        return;
+    }
+    let (own, shaft, torque) = (Arc::clone(asked), found.shaft.clone(), found.torque.clone());
+    let steady = move || {
+        let faulty = own.torque.as_ref().map(torque::faulty);
+        let reading = own.torque.as_ref().zip(faulty.as_ref());
+        let reading = reading.map(|(series, faulty)| (series, faulty, torque.as_deref()));
+        match (&own.signals.steady, &shaft) {
+            (Some(wish), Some(shaft)) => {
+                let windage = windage(wish, &own, &AtomicBool::new(false));
+                steady::Found::of(wish, shaft, reading, own.signals.torque.as_ref(), windage)
+            }
+            _ => no_shaft(),
+        }
+    };
+    match interruptible(interrupt, steady) {
+        Ok(steady) => {
+            if let Some(doubt) = &steady.doubt {
+                found.warn("AB1122", "Steady curve", std::slice::from_ref(doubt));
+            }
+            found.warn("AB1043", "Steady curve", &steady.notes);
+            found.steady = Some(steady);
+        }
+        Err(why) => found.refused.push(("steady", why)),
+    }
+}
+
+/// What brakes the shaft without the bearing, by its law or by the run without it.
+pub(crate) fn windage(
+    wish: &SteadySignal,
+    asked: &Asked,
+    interrupt: &AtomicBool,
+) -> Result<Windage, String> {
+    steady::windage(wish, || {
+        let run = (asked.windage.as_ref())
+            .ok_or_else(|| "there is no run without bearing".to_string())?;
+        let found = find(run, interrupt);
+        let of = |part| found.why(part);
+        let steady = found.steady.as_ref();
+        match (steady, &found.shaft) {
+            (Some(steady), _) => steady.inertial.clone(),
+            (None, Some(_)) => Err(of("steady")),
+            (None, None) => Err(of("speed")),
+        }
+        .map_err(|why| format!("in the run without bearing: {why}"))
+    })
+}
+
+/// Computes what is asked for, part by part until an interrupt.
+pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
+    let mut found = Found::default();
+    found.warn("AB1040", "The file", &asked.notes);
+    for series in sampled(asked) {
+        let Some(converted) = converter::Converted::of(series) else {
+            continue;
+        };
+        // What is clipped of the torque is told with what is done about it.
+        let own = asked.torque.as_ref().is_some_and(|t| t.name == series.name);
+        let told = converted
+            .told
+            .iter()
+            .filter(|text| !(own && text.contains("clipped")));
+        let told: Vec<String> = told.cloned().collect();
+        found.warn("AB1041", &format!("Channel {}", converted.name), &told);
+        found.converted.push(converted);
+    }
+    let watched = asked
+        .torque
+        .as_ref()
+        .map(|series| (series.first, series.last()));
+    if asked.speed.is_some() && asked.signals.speed.is_some() {
+        let own = Arc::clone(asked);
+        let shaft = move || match (&own.speed, &own.signals.speed) {
+            (Some(signal), Some(wish)) => shaft::Found::of(signal, wish, watched),
+            _ => not_asked(),
+        };
+        match interruptible(interrupt, shaft) {
+            Ok(shaft) => {
+                if let Some(doubt) = &shaft.doubt {
+                    found.warn(
+                        "AB1044",
+                        "Marks per revolution",
+                        std::slice::from_ref(doubt),
+                    );
+                }
+                if let Some(odd) =
+                    (asked.signals.speed.as_ref()).and_then(|wish| shaft.beside_set(wish))
+                {
+                    found.warn("AB1121", "Largest speed", &[odd]);
+                }
+                if let shaft::Seen::Channel(channel) = &shaft.seen
+                    && let Some(doubt) = &channel.doubt
+                {
+                    found.warn("AB1120", "Speed", std::slice::from_ref(doubt));
+                }
+                found.warn("AB1043", "Speed", &shaft.notes);
+                found.shaft = Some(Arc::new(shaft));
+            }
+            Err(why) => found.refused.push(("speed", why)),
+        }
+    }
+    if let (Some(series), Some(_)) = (&asked.torque, &asked.signals.torque) {
+        let faults = torque::faulty(series);
+        found.warn("AB1041", &format!("Channel {}", series.name), &faults.told);
+        let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
+        let torque = move || match (&own.torque, &own.signals.torque) {
+            (Some(series), Some(wish)) => {
+                torque::Found::of(series, &faults, wish, own.tap.as_ref(), shaft.as_deref())
+            }
+            _ => not_asked(),
+        };
+        match interruptible(interrupt, torque) {
+            Ok(torque) => {
+                for (code, doubt) in &torque.doubts {
+                    found.warn(code, "Torque", std::slice::from_ref(doubt));
+                }
+                found.warn("AB1043", "Torque", &torque.notes);
+                found.torque = Some(Arc::new(torque));
+            }
+            Err(why) => found.refused.push(("torque", why)),
+        }
+    }
+    if let (Some(_), Some(wish)) = (&asked.cage, &asked.signals.cage) {
+        let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
+        let cage = move || match (&own.cage, &own.signals.cage, &shaft) {
+            (Some(signal), Some(wish), Some(shaft)) => cage::Found::of(signal, wish, shaft),
+            _ => no_shaft(),
+        };
+        match interruptible(interrupt, cage) {
+            Ok(cage) => {
+                found.warn("AB1043", "Cage", &cage.notes);
+                let marks = asked.signals.speed.as_ref();
+                let marks = marks.map_or(0, |speed| speed.marks_per_revolution);
+                let shaft = found.shaft.as_deref();
+                if let Some(doubt) = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft)) {
+                    found.warn("AB1045", &capital(&asked.place("cage")), &[doubt]);
+                }
+                found.cage = Some(cage);
+            }
+            Err(why) => found.refused.push(("cage", why)),
+        }
+    }
+    found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
+    more(asked, interrupt, &mut found);
+    let refused: Vec<Warning> = found
+        .refused
+        .iter()
+        .map(|(part, why)| Warning {
+            code: "AB1042",
+            text: format!(
+                "No {} from {}: {}.",
+                match *part {
+                    "steady" => "steady curve",
+                    other => other,
+                },
+                asked.place(part),
+                why.trim_end_matches('.')
+            ),
+        })
+        .collect();
+    found.warnings.splice(0..0, refused);
+    found
+}
+
+/// The results of such a measurement, without values.
+pub fn results(asked: &Asked) -> Vec<Quantity> {
+    answer::name(asked, None)
+}
+
+/// Computes what is asked for and names it.
+pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
+    let clock = Instant::now();
+    let mut found = find(asked, options.interrupt);
+    found.warnings.extend(assumed(scenario, asked, &found));
+    let history = history::columns(asked, &found);
+    let end = history.first().and_then(|time| time.values.last().copied());
+    Outcome {
+        system: "signals",
+        title: scenario
+            .title
+            .clone()
+            .unwrap_or_else(|| "Measured signals".to_string()),
+        quantities: answer::name(asked, Some(&found)),
+        history,
+        contacts: Vec::new(),
+        stop: match found.refused.as_slice() {
+            refused if refused.iter().any(|(_, why)| why == INTERRUPTED) => Stop {
+                reason: "interrupted",
+                time: end.unwrap_or(0.0),
+                text: "Interrupted; what was found until then is kept.".to_string(),
+            },
+            [] => Stop {
+                reason: "finished",
+                time: end.unwrap_or(0.0),
+                text: "Everything asked for was computed.".to_string(),
+            },
+            [(part, why), ..] => Stop {
+                reason: "not answered",
+                time: end.unwrap_or(0.0),
+                text: format!("the record does not carry the {part} asked for: {why}"),
+            },
+        },
+        warnings: found.warnings,
+        work: Work {
+            members: 1,
+            seconds: clock.elapsed().as_secs_f64(),
+            ..Work::default()
+        },
+        members: Members::default(),
+        drawn: Vec::new(),
+        limits: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio: asked
+                .signals
+                .cage
+                .as_ref()
+                .map_or(f64::NAN, |cage| cage.rolling_ratio),
+            balls: asked
+                .signals
+                .cage
+                .as_ref()
+                .map_or(0, |cage| cage.ball_count),
+        }],
+        files: Vec::new(),
+    }
+}

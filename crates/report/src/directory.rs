@@ -1,0 +1,581 @@
+//! A run directory: `scenario.toml`, `summary.json`, `history.parquet`, `report.html`, and what the run leaves besides.
+//!
+//! It is filled under the name `DIR.partial` and gets its own name when all files are complete, so a directory
+//! that looks whole is whole. Where a file cannot be written, the others are kept as `DIR.incomplete`; what else goes wrong
+//! before removes the partial one.
+//!
+//! The process that fills `DIR.partial` holds a lock on it, which goes with the process: one without a lock was left behind by
+//! a process that was killed, and the next takes it over.
+
+use super::page::{self, PageColumn, PageRun};
+use super::picture;
+use super::{history, summary};
+use outcome::{Attached, Stop};
+use problem::open_file;
+use problem::{Code, Problem};
+use recording::Channel;
+use run::Outcome;
+use scenario::Scenario;
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::fs::{self, File, TryLockError};
+use std::io::{ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+pub(super) const SCENARIO: &str = "scenario.toml";
+pub(super) const SUMMARY: &str = "summary.json";
+const HISTORY: &str = "history.parquet";
+pub(super) const REPORT: &str = "report.html";
+/// What the folder of an export begins with.
+pub(super) const FIRST_TABLE: &str = "run.csv";
+
+/// Values of a channel that are written at once to a measurement file.
+const PIECE: usize = 16_384;
+
+pub(super) const WRITABLE: &str = "a place with room and permission to write is needed";
+
+/// A run directory to be: its place is reserved as `DIR.partial`, and given back unless [`NewDirectory::finish`] is
+/// reached and succeeds.
+#[derive(Debug)]
+pub struct NewDirectory {
+    path: PathBuf,
+    partial: PathBuf,
+    /// The partial directory, locked; none where the system locks no directories.
+    lock: Option<File>,
+}
+
+impl NewDirectory {
+    /// Reserves the place. What exists there is never touched: it is a problem.
+    pub fn reserve(path: &Path) -> Result<NewDirectory, Box<Problem>> {
+        if exists(path) {
+            return Err(taken(path));
+        }
+        let partial = partial_of(path).ok_or_else(|| {
+            Box::new(Problem::at_path(
+                Code::OutputPlace,
+                path,
+                "no name of a directory",
+                "a directory with a name of its own is needed",
+            ))
+        })?;
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(|error| misplaced(parent, &error))?;
+        }
+        let in_use = || {
+            Box::new(Problem::at_path(
+                Code::OutputExists,
+                &partial,
+                "what another run is writing or left behind",
+                "choose another directory, or remove this one if no run is using it",
+            ))
+        };
+        let lock = match fs::create_dir(&partial) {
+            Ok(()) => match locked(&partial) {
+                Ok(lock) => Some(lock),
+                // another run took it for one left behind
+                Err(TryLockError::WouldBlock) => return Err(in_use()),
+                Err(TryLockError::Error(_)) => None,
+            },
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                let left = locked(&partial).map_err(|_| in_use())?;
+                empty_leftover(&partial).map_err(|_| in_use())?;
+                Some(left)
+            }
+            Err(error) => return Err(misplaced(&partial, &error)),
+        };
+        Ok(NewDirectory {
+            path: path.to_path_buf(),
+            partial,
+            lock,
+        })
+    }
+
+    /// The directory as it will be called.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The directory as it is called until it is finished.
+    pub fn partial(&self) -> &Path {
+        &self.partial
+    }
+
+    /// Writes the files and gives the directory its name. Where one cannot be written, the others are kept under another name,
+    /// which the problem tells, and their summary says that they are not complete.
+    pub fn finish(self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+        self.fill(scenario, outcome).map_err(|problem| {
+            let stop = Stop {
+                reason: "not written",
+                time: outcome.stop.time,
+                text: problem.to_string(),
+            };
+            let name = self.partial.join(SUMMARY);
+            if name.exists()
+                && File::create(&name)
+                    .is_ok_and(|file| summary::write(file, scenario, outcome, &stop).is_err())
+            {
+                // one that says that all is there would be worse than none
+                let _ = fs::remove_file(name);
+            }
+            let told = self.kept();
+            Box::new((*problem).with_hint(told))
+        })
+    }
+
+    /// Gives what was written the name `DIR.incomplete`; tells that. None where nothing was.
+    fn kept(&self) -> Option<String> {
+        fs::read_dir(&self.partial).ok()?.next()?.ok()?;
+        let first = with_end(&self.path, "incomplete")?;
+        let others =
+            (2..100).filter_map(|number| with_end(&self.path, &format!("incomplete-{number}")));
+        let place = std::iter::once(first)
+            .chain(others)
+            .find(|place| !exists(place))?;
+        fs::rename(&self.partial, &place).ok()?;
+        Some(format!(
+            "What could be written is kept in {}",
+            place.display()
+        ))
+    }
+
+    /// Writes the files, each whatever became of the others; tells of the first that could not be written.
+    fn fill(&self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+        // somebody may have removed it while the run was computed
+        let _ = fs::create_dir(&self.partial);
+        let summary_json = summary::of_page(scenario, outcome)
+            .map_err(|error| failed(&self.partial.join(SUMMARY), &error.into()))?;
+        let scenario_toml = scenario.resolved.toml();
+        let mut written = vec![
+            self.file(SCENARIO, |file| file.write_all(scenario_toml.as_bytes())),
+            self.file(SUMMARY, |file| {
+                summary::write(file, scenario, outcome, &outcome.stop).map_err(Into::into)
+            }),
+            self.file(HISTORY, |file| {
+                history::write(file, &outcome.history).map_err(io_error)
+            }),
+        ];
+        written.extend(
+            outcome
+                .files
+                .iter()
+                .map(|attachment| match &attachment.content {
+                    Attached::Text(text) => {
+                        self.file(&attachment.name, |file| file.write_all(text.as_bytes()))
+                    }
+                    Attached::Recording(channels) => self.recording(&attachment.name, channels),
+                }),
+        );
+        let run = PageRun {
+            name: name_of(&self.path),
+            directory: self.path.display().to_string(),
+            summary_json,
+            scenario_toml,
+            columns: columns_of(outcome),
+        };
+        let html = page::html(&[run]);
+        written.push(self.file(REPORT, |file| file.write_all(html.as_bytes())));
+        written.into_iter().collect::<Result<(), _>>()?;
+        self.named()
+    }
+
+    /// Gives the directory its name, when all files in it are whole.
+    pub(super) fn named(&self) -> Result<(), Box<Problem>> {
+        // On some systems a rename would replace an empty directory that appeared meanwhile.
+        if exists(&self.path) {
+            return Err(taken(&self.path));
+        }
+        fs::rename(&self.partial, &self.path).map_err(|error| failed(&self.path, &error))
+    }
+
+    /// Writes a measurement file.
+    fn recording(&self, name: &str, channels: &[(Channel, Vec<f64>)]) -> Result<(), Box<Problem>> {
+        let (told, values): (Vec<Channel>, Vec<&[f64]>) = channels
+            .iter()
+            .map(|(channel, values)| (channel.clone(), values.as_slice()))
+            .unzip();
+        recording::file::create(self.partial.join(name), &told)
+            .and_then(|mut writer| {
+                // in pieces, as a logger writes: a file that is cut keeps its begin
+                let longest = values.iter().map(|list| list.len()).max().unwrap_or(0);
+                for from in (0..longest).step_by(PIECE) {
+                    let piece = |list: &[f64]| from.min(list.len())..(from + PIECE).min(list.len());
+                    let pieces: Vec<&[f64]> =
+                        values.iter().map(|list| &list[piece(list)]).collect();
+                    writer.append(&pieces)?;
+                }
+                writer.finish()
+            })
+            .map_err(|error| {
+                let found = format!("that it cannot be written ({error})");
+                let path = self.path.join(name);
+                Box::new(Problem::at_path(Code::OutputFailed, &path, found, WRITABLE))
+            })
+    }
+
+    /// Writes one file, or nothing of it; a problem names the place where it would have stood.
+    pub(super) fn file(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut File) -> std::io::Result<()>,
+    ) -> Result<(), Box<Problem>> {
+        let place = self.partial.join(name);
+        File::create_new(&place)
+            .and_then(|mut file| {
+                fill(&mut file)
+                    .and_then(|()| file.sync_all())
+                    .inspect_err(|_| {
+                        let _ = fs::remove_file(&place);
+                    })
+            })
+            .map_err(|error| failed(&self.path.join(name), &error))
+    }
+}
+
+impl Drop for NewDirectory {
+    /// After a rename there is nothing left of this name to remove, or what is there is another run's.
+    fn drop(&mut self) {
+        if (self.lock.as_ref()).is_none_or(|lock| is_at(lock, &self.partial)) {
+            let _ = fs::remove_dir_all(&self.partial);
+        }
+    }
+}
+
+/// A finished run as its page needs it, without a run directory.
+///
+/// # Errors
+/// What cannot be told as JSON.
+pub fn page_run(
+    name: &str,
+    scenario: &Scenario,
+    outcome: &Outcome,
+) -> Result<PageRun, Box<Problem>> {
+    let summary_json = summary::of_page(scenario, outcome)
+        .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
+    Ok(PageRun {
+        name: name.to_string(),
+        directory: String::new(),
+        summary_json,
+        scenario_toml: scenario.resolved.toml(),
+        columns: columns_of(outcome),
+    })
+}
+
+/// The text of `summary.json` of a finished run.
+///
+/// # Errors
+/// What cannot be told as JSON.
+pub fn summary_text(scenario: &Scenario, outcome: &Outcome) -> Result<String, Box<Problem>> {
+    let mut text = Vec::new();
+    summary::write(&mut text, scenario, outcome, &outcome.stop)
+        .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
+    // JSON is UTF-8
+    Ok(String::from_utf8(text).unwrap_or_default())
+}
+
+fn columns_of(outcome: &Outcome) -> Vec<PageColumn> {
+    let columns = outcome.history.iter().map(|column| PageColumn {
+        name: column.name.clone(),
+        unit: column.unit.to_string(),
+        meaning: column.meaning.clone(),
+        values: column.values.clone(),
+    });
+    columns.collect()
+}
+
+/// Writes the run directory of a finished run.
+pub fn write(path: &Path, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+    NewDirectory::reserve(path)?.finish(scenario, outcome)
+}
+
+/// The directory that a run gets where none is asked for: `runs/NAME`, or `runs/NAME-2` and so on where that is taken.
+pub fn free_path(name: &str) -> PathBuf {
+    let first = Path::new("runs").join(name);
+    let others = (2..).map(|number| Path::new("runs").join(format!("{name}-{number}")));
+    std::iter::once(first.clone())
+        .chain(others)
+        .find(|path| !exists(path) && !partial_of(path).is_some_and(|path| exists(&path)))
+        .unwrap_or(first)
+}
+
+/// Most bytes of a summary or scenario that is read.
+const MOST_BYTES: u64 = 1 << 29;
+
+/// What every summary has: without it a page would show a run without results.
+#[derive(serde::Deserialize)]
+struct Head {
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "quantities")]
+    _quantities: BTreeMap<String, serde::de::IgnoredAny>,
+}
+
+/// Reads a run directory back.
+pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
+    const NEEDED: &str = "a run directory, as auxbear run writes it, is needed";
+    let unreadable = |path: &Path, error: &std::io::Error| {
+        let (code, found) = match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => {
+                (Code::FileMissing, "nothing there".to_string())
+            }
+            ErrorKind::InvalidData => (Code::FileNotUtf8, "bytes that are not UTF-8 text".into()),
+            _ => (Code::FileUnreadable, error.to_string()),
+        };
+        Box::new(Problem::at_path(code, path, found, NEEDED))
+    };
+    let text = |name: &str, damage: fn(&str) -> Option<String>| -> Result<String, Box<Problem>> {
+        let path = path.join(name);
+        let of_directory =
+            |found: String| Box::new(Problem::at_path(Code::FileUnreadable, &path, found, NEEDED));
+        let mut text = String::new();
+        let file = open_file(&path).map_err(|error| unreadable(&path, &error))?;
+        let length = file.metadata().map_or(0, |about| about.len());
+        if length > MOST_BYTES {
+            let found = format!("{length} bytes, of which a run writes at most {MOST_BYTES}");
+            return Err(of_directory(found));
+        }
+        file.take(MOST_BYTES)
+            .read_to_string(&mut text)
+            .map_err(|error| unreadable(&path, &error))?;
+        match damage(&text) {
+            None => Ok(text),
+            Some(damage) => Err(of_directory(damage)),
+        }
+    };
+    if !exists(path) {
+        let missing = ErrorKind::NotFound.into();
+        return Err(unreadable(path, &missing));
+    }
+    if !path.is_dir() {
+        return Err(Box::new(Problem::at_path(
+            Code::FileUnreadable,
+            path,
+            "a file",
+            NEEDED,
+        )));
+    }
+    let history = path.join(HISTORY);
+    let columns = open_file(&history)
+        .map_err(|error| unreadable(&history, &error))
+        .and_then(|file| {
+            history::read(file, &history).map_err(|error| {
+                let what = format!("{} {}", error.place, error.found);
+                Box::new(Problem::at_path(
+                    Code::FileUnreadable,
+                    &history,
+                    format!("what cannot be read as a history ({})", what.trim()),
+                    NEEDED,
+                ))
+            })
+        });
+    Ok(PageRun {
+        name: name_of(path),
+        directory: path.display().to_string(),
+        summary_json: text(SUMMARY, |text| {
+            let head: Result<Head, _> = serde_json::from_str(text);
+            let error = head.err()?;
+            Some(format!("what cannot be read as a summary ({error})"))
+        })?,
+        scenario_toml: text(SCENARIO, |text| {
+            let table: Result<toml::Table, _> = toml::from_str(text);
+            match table {
+                Ok(table) if table.contains_key("format") => None,
+                Ok(_) => Some("a text without the key format".to_string()),
+                Err(error) => Some(format!("what is no scenario ({})", error.message())),
+            }
+        })?,
+        columns: columns?,
+    })
+}
+
+/// Writes the report of one run directory into it again; what it replaces was drawn from the same files.
+pub fn rewrite_report(path: &Path) -> Result<PathBuf, Box<Problem>> {
+    let html = page::html(&[read(path)?]);
+    let report = path.join(REPORT);
+    aside(&report, |mut file| file.write_all(html.as_bytes()))?;
+    Ok(report)
+}
+
+/// Writes a new file, whole or not at all, also where the process is killed.
+pub(super) fn new_file(
+    path: &Path,
+    write: impl FnOnce(File) -> std::io::Result<()>,
+) -> Result<(), Box<Problem>> {
+    match exists(path) {
+        true => Err(taken(path)),
+        false => aside(path, write),
+    }
+}
+
+/// Writes a file as `FILE.partial`, which gets its name when it is whole. One that a killed process left is written over.
+pub(super) fn aside(
+    path: &Path,
+    write: impl FnOnce(File) -> std::io::Result<()>,
+) -> Result<(), Box<Problem>> {
+    let nameless = || misplaced(path, &ErrorKind::InvalidFilename.into());
+    let fresh = partial_of(path).ok_or_else(nameless)?;
+    let file = File::create(&fresh).map_err(|error| misplaced(path, &error))?;
+    write(file)
+        .and_then(|()| File::open(&fresh)?.sync_all())
+        .and_then(|()| fs::rename(&fresh, path))
+        .map_err(|error| {
+            let _ = fs::remove_file(&fresh);
+            failed(path, &error)
+        })
+}
+
+/// Writes the page of one run directory, or of several side by side, to a new file; to a file `*.svg` one run's orbit,
+/// contact force and speeds as a picture.
+pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Problem>> {
+    let runs = directories
+        .iter()
+        .map(|path| read(path))
+        .collect::<Result<Vec<_>, _>>()?;
+    let picture = match file.extension().and_then(|end| end.to_str()) {
+        Some("html" | "htm") => false,
+        Some("svg") => true,
+        _ => {
+            return Err(Box::new(Problem::at_path(
+                Code::UnknownWord,
+                file,
+                "a name of no kind that the report has",
+                "*.html is needed, or *.svg for the picture of one run; a browser prints the page to PDF, and history.parquet of the run holds the columns",
+            )));
+        }
+    };
+    let text = match (picture, runs.as_slice()) {
+        (false, _) => page::html(&runs),
+        (true, [run]) if picture::shows(run) => picture::orbit_svg(run),
+        (true, [run]) => {
+            return Err(Box::new(Problem::at_path(
+                Code::Conflict,
+                file,
+                format!("a picture of {}, which is no drop", run.name),
+                "a picture (*.svg) shows the orbit of a drop; name a *.html file",
+            )));
+        }
+        (true, _) => {
+            return Err(Box::new(Problem::at_path(
+                Code::Conflict,
+                file,
+                format!("a picture of {} runs", runs.len()),
+                "a picture (*.svg) shows one run; name one directory, or a *.html file",
+            )));
+        }
+    };
+    new_file(file, |mut out| out.write_all(text.as_bytes()))
+}
+
+/// True for anything of this name, a dangling link too.
+pub(super) fn exists(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok()
+}
+
+fn partial_of(path: &Path) -> Option<PathBuf> {
+    with_end(path, "partial")
+}
+
+/// The path with a word behind its name.
+fn with_end(path: &Path, word: &str) -> Option<PathBuf> {
+    let mut name = OsString::from(path.file_name()?);
+    name.push(".");
+    name.push(word);
+    Some(path.with_file_name(name))
+}
+
+/// A directory, locked for this process. An error where another one holds it, or no directory can be locked here.
+pub(super) fn locked(partial: &Path) -> Result<File, TryLockError> {
+    let held = File::open(partial).map_err(TryLockError::Error)?;
+    held.try_lock()?;
+    match is_at(&held, partial) {
+        true => Ok(held),
+        // it got its own name meanwhile
+        false => Err(TryLockError::WouldBlock),
+    }
+}
+
+/// Whether an open directory still has this path.
+#[cfg(unix)]
+fn is_at(held: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |data: fs::Metadata| (data.is_dir(), data.dev(), data.ino());
+    let there = fs::symlink_metadata(path).map(identity);
+    there.is_ok_and(|there| {
+        there.0
+            && held
+                .metadata()
+                .map(identity)
+                .is_ok_and(|held| held == there)
+    })
+}
+
+/// Elsewhere a directory that is open cannot be renamed.
+#[cfg(not(unix))]
+fn is_at(held: &File, _: &Path) -> bool {
+    held.metadata().is_ok_and(|data| data.is_dir())
+}
+
+/// Removes what a killed process left in its partial directory; an error where that is not what such a one holds: no files
+/// yet, or a scenario or the first table of an export, and other files.
+fn empty_leftover(partial: &Path) -> std::io::Result<()> {
+    let entries = fs::read_dir(partial)?.collect::<Result<Vec<_>, _>>()?;
+    let foreign = |entry: &fs::DirEntry| !entry.file_type().is_ok_and(|kind| kind.is_file());
+    let known = |entry: &fs::DirEntry| {
+        [SCENARIO, FIRST_TABLE]
+            .map(OsString::from)
+            .contains(&entry.file_name())
+    };
+    let is_ours = entries.is_empty() || entries.iter().any(known);
+    if !is_ours || entries.iter().any(foreign) {
+        return Err(ErrorKind::DirectoryNotEmpty.into());
+    }
+    for entry in entries {
+        fs::remove_file(entry.path())?;
+    }
+    Ok(())
+}
+
+/// The last part of the path; that of the full path for one like `.`.
+fn name_of(path: &Path) -> String {
+    let full = fs::canonicalize(path).unwrap_or_default();
+    path.file_name()
+        .or(full.file_name())
+        .map_or("run".into(), |name| name.to_string_lossy().into_owned())
+}
+
+pub(super) fn taken(path: &Path) -> Box<Problem> {
+    Box::new(Problem::at_path(
+        Code::OutputExists,
+        path,
+        "something of this name",
+        "results are never written over others: choose another --out, or remove it",
+    ))
+}
+
+/// Why nothing can be made at a path that was given: the place is wrong, or the disk is full.
+pub fn misplaced(path: &Path, error: &std::io::Error) -> Box<Problem> {
+    match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => failed(path, error),
+        _ => {
+            let found = format!("that nothing can be made there ({error})");
+            Box::new(Problem::at_path(Code::OutputPlace, path, found, WRITABLE))
+        }
+    }
+}
+
+/// What the system refused to write.
+pub fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
+    let found = format!("that it cannot be written ({error})");
+    Box::new(Problem::at_path(Code::OutputFailed, path, found, WRITABLE))
+}
+
+/// The error of the system inside one of Parquet, where there is one; else its words.
+pub(super) fn io_error(error: parquet::errors::ParquetError) -> std::io::Error {
+    use parquet::errors::ParquetError;
+    match error {
+        ParquetError::External(inner) => match inner.downcast::<std::io::Error>() {
+            Ok(error) => *error,
+            Err(other) => std::io::Error::other(other),
+        },
+        other => std::io::Error::other(other),
+    }
+}

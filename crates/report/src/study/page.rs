@@ -1,0 +1,527 @@
+//! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
+
+use super::bars::{Bars, WIDTH, bars, picture, room};
+use super::cells::{amount, rows, scaled, short};
+use super::{parallel, ranking};
+use crate::page::{STYLE, escape_text as plain};
+use crate::picture::{Panel, line, text};
+use outcome::Verdict;
+use outcome::severity::severity;
+use run::study::Study;
+use run::study::answer::{Answer, Sensitivity};
+use run::study::table::{Column, Table, Warned};
+use scenario::{Limit, Side};
+use statistics::design::Design;
+use std::fmt::Write;
+
+const BAR: &str = "#9db8d6";
+const DOT: &str = "#1f5fa8";
+const BOUND: &str = "#b3261e";
+const TOTAL: &str = "#c2571a";
+/// Dots of a picture, at most: every so-manieth member is drawn.
+const MOST_DOTS: usize = 1500;
+
+/// The page as one self-contained text.
+pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
+    let title = study
+        .file
+        .title
+        .clone()
+        .unwrap_or_else(|| "Study".to_string());
+    let mut body = format!(
+        "<h1>{}</h1>\n<p class=\"subtitle\">{}</p>\n",
+        plain(&title),
+        plain(&subtitle(study, table, answer))
+    );
+    body.push_str(&warned(table));
+    body.push_str(&inputs(study));
+    body.push_str(&ranking::html(study, answer));
+    body.push_str(&verdicts(answer));
+    body.push_str(&spreads(study, answer));
+    body.push_str(&parallel::html(study, table));
+    for name in study.shown() {
+        body.push_str(&result(study, table, answer, &name));
+    }
+    body.push_str(&failed(table));
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">\n\
+         <title>{} · auxbear study</title>\n<style>\n{}\nfigure svg {{ max-width: 100%; height: auto; }}\n</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
+        plain(&title),
+        STYLE.concat()
+    )
+}
+
+fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
+    let mut text = format!(
+        "{} design, seed {}: {} members",
+        study.file.kind, study.file.seed, answer.members
+    );
+    if answer.members < answer.asked {
+        let _ = write!(
+            text,
+            " of {}, the others are not computed yet",
+            answer.asked
+        );
+    }
+    if !table.failed.is_empty() {
+        let _ = write!(
+            text,
+            "; {} failed and are left out of every number",
+            table.failed.len()
+        );
+    }
+    text
+}
+
+/// What the members warn of, before any of their numbers.
+fn warned(table: &Table) -> String {
+    let all = table.members.len();
+    let row = |warned: &Warned| {
+        let class = match severity(&warned.code) {
+            0 => " class=\"grave\"",
+            _ => "",
+        };
+        format!(
+            "<li{class}><code>{}</code> {}: {}</li>\n",
+            plain(&warned.code),
+            plain(&warned.title),
+            warned.share(all)
+        )
+    };
+    let list: String = table.warned().iter().map(row).collect();
+    match list.is_empty() {
+        true => list,
+        false => format!(
+            "<div class=\"warnings\"><strong>What the runs warn of, the most severe first; run a member alone for its text</strong><ul>\n{list}</ul></div>\n"
+        ),
+    }
+}
+
+fn inputs(study: &Study) -> String {
+    let row = |input: &scenario::StudyInput| {
+        let given = study
+            .file
+            .scenario
+            .resolved
+            .get(&input.vary.path)
+            .and_then(|value| value.text.clone())
+            // parts of a rotor have paths of their own
+            .or_else(|| input.vary.given_text());
+        vec![
+            format!("<code>{}</code>", plain(&input.vary.path)),
+            plain(&input.written),
+            plain(&given.unwrap_or_default()),
+        ]
+    };
+    let body: Vec<Vec<String>> = study.file.inputs.iter().map(row).collect();
+    let mut out = format!(
+        "<h2>Inputs</h2>\n{}",
+        rows(&["input", "distribution", "as given"], &body)
+    );
+    for (a, b, coefficient) in &study.file.pairs {
+        let name = |k: &usize| plain(&study.file.inputs[*k].vary.path);
+        let _ = writeln!(
+            out,
+            "<p class=\"small\">Correlation of {} and {}: {coefficient}</p>",
+            name(a),
+            name(b)
+        );
+    }
+    out
+}
+
+fn verdicts(answer: &Answer) -> String {
+    let row = |limit: &run::study::answer::StudyLimit| {
+        let judged = &limit.judged;
+        let word = match judged.verdict {
+            Verdict::Fail => format!("<b class=\"failed\">{}</b>", judged.verdict.word()),
+            _ => format!("<b>{}</b>", judged.verdict.word()),
+        };
+        let beyond = limit
+            .beyond
+            .map_or("–".to_string(), |(share, [low, high])| {
+                format!(
+                    "{} % ({} to {} %)",
+                    short(100.0 * share),
+                    short(100.0 * low),
+                    short(100.0 * high)
+                )
+            });
+        vec![
+            word,
+            plain(&judged.limit.quantity),
+            format!(
+                "{} {}",
+                judged.limit.side.word(),
+                amount(judged.limit.bound, judged.unit)
+            ),
+            judged
+                .value
+                .map_or("–".to_string(), |value| amount(value, judged.unit)),
+            beyond,
+            plain(&judged.why),
+        ]
+    };
+    if answer.limits.is_empty() {
+        return String::new();
+    }
+    let body: Vec<Vec<String>> = answer.limits.iter().map(row).collect();
+    let head = [
+        "verdict",
+        "result",
+        "limit",
+        "decides",
+        "beyond it, with 95 % interval",
+        "why",
+    ];
+    format!("<h2>Limits</h2>\n{}", rows(&head, &body))
+}
+
+fn spreads(study: &Study, answer: &Answer) -> String {
+    let shown = study.shown();
+    let row = |(name, unit, spread): &(String, &'static str, Option<outcome::Spread>)| {
+        let spread = spread.as_ref()?;
+        // one unit for a row
+        let (factor, label) = scaled("", unit, [spread.smallest, spread.largest].into_iter());
+        let unit = label.trim_start_matches(", ").to_string();
+        let number = |value: f64| {
+            format!("{}\u{a0}{unit}", short(factor * value))
+                .trim()
+                .to_string()
+        };
+        let mut cells = vec![
+            plain(name),
+            spread.members.to_string(),
+            number(spread.mean),
+            number(spread.standard_deviation),
+        ];
+        cells.extend(spread.quantiles.map(number));
+        cells.extend([number(spread.smallest), number(spread.largest)]);
+        Some(cells)
+    };
+    let head = [
+        "result",
+        "members",
+        "mean",
+        "deviation",
+        "5 %",
+        "median",
+        "95 %",
+        "smallest",
+        "largest",
+    ];
+    // levels of a sweep were chosen: a mean of them says nothing
+    let shown_cells: &[usize] = match study.file.design {
+        Design::Sweep(_) => &[0, 1, 7, 8],
+        _ => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+    };
+    let head: Vec<&str> = shown_cells.iter().map(|at| head[*at]).collect();
+    let row = |spread: &_| {
+        let cells: Vec<String> = row(spread)?;
+        Some(shown_cells.iter().map(|at| cells[*at].clone()).collect())
+    };
+    let of = |own: bool| -> Vec<Vec<String>> {
+        answer
+            .spreads
+            .iter()
+            .filter(|spread| shown.contains(&spread.0) == own)
+            .filter_map(row)
+            .collect()
+    };
+    let wider = match study.file.design {
+        Design::Widened(..) => {
+            "<p><b>Members are drawn from wider distributions than those given: means and spreads are not those of the machine. \
+             The probabilities of the limits are.</b></p>\n"
+        }
+        _ => "",
+    };
+    format!(
+        "<h2>Results</h2>\n{wider}{}<details><summary>All other results</summary>\n{}</details>\n",
+        rows(&head, &of(true)),
+        rows(&head, &of(false))
+    )
+}
+
+fn failed(table: &Table) -> String {
+    if table.failed.is_empty() {
+        return String::new();
+    }
+    let body: Vec<Vec<String>> = table
+        .failed
+        .iter()
+        .take(100)
+        .map(|(k, why)| vec![k.to_string(), plain(why)])
+        .collect();
+    format!(
+        "<h2>Failed members</h2>\n{}",
+        rows(&["member", "why"], &body)
+    )
+}
+
+/// One result: its histogram, what it owes to each input, and its members over each input.
+fn result(study: &Study, table: &Table, answer: &Answer, name: &str) -> String {
+    let Some(column) = table.column(name) else {
+        return String::new();
+    };
+    let mut out = format!(
+        "<h2>{}</h2>\n<div class=\"pair\">\n",
+        plain(&name.replace(['_', '.'], " "))
+    );
+    let limits: Vec<&Limit> = study
+        .file
+        .limits
+        .iter()
+        .filter(|limit| limit.quantity == name)
+        .collect();
+    out.push_str(&figure(&histogram(column, &limits)));
+    if let Some((.., of)) = answer.sensitivity.iter().find(|(known, ..)| known == name) {
+        out.push_str(&figure(&sensitivity(study, column, of)));
+    }
+    for (at, input) in table.columns[..table.inputs].iter().enumerate() {
+        out.push_str(&figure(&scatter(
+            input,
+            column,
+            &limits,
+            &study.file.inputs[at].vary.path,
+        )));
+    }
+    out.push_str("</div>\n");
+    out
+}
+
+fn figure(svg: &str) -> String {
+    format!("<figure>{svg}</figure>\n")
+}
+
+const HEIGHT: f64 = 300.0;
+
+fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
+    Panel {
+        left: 78.0,
+        top: 32.0,
+        width: WIDTH - 100.0,
+        height: HEIGHT - 84.0,
+        x,
+        y,
+    }
+}
+
+fn label(column: &Column) -> (f64, String) {
+    scaled(
+        &column.name.replace(['_', '.'], " "),
+        &column.unit,
+        column.values.iter().copied(),
+    )
+}
+
+/// Where words begin beside the title of a histogram, px.
+const BESIDE_TITLE: f64 = 80.0;
+
+fn histogram(column: &Column, limits: &[&Limit]) -> String {
+    let (factor, label) = label(column);
+    let values: Vec<f64> = column
+        .values
+        .iter()
+        .filter(|v| v.is_finite())
+        .map(|v| v * factor)
+        .collect();
+    let (low, high) = room(values.iter().copied());
+    let bins = ((values.len() as f64).sqrt().ceil() as usize).clamp(5, 40);
+    let mut counts = vec![0.0; bins];
+    for value in &values {
+        counts[(((value - low) / (high - low) * bins as f64) as usize).min(bins - 1)] += 1.0;
+    }
+    let most = counts.iter().copied().fold(1.0, f64::max);
+    // a limit far beyond would press all members into a line: it is told at the edge
+    let width = high - low;
+    let near = |bound: f64| (low - 2.0 * width..=high + 2.0 * width).contains(&bound);
+    let bounds = limits.iter().map(|limit| limit.bound * factor);
+    let bounds = bounds.filter(|bound| near(*bound));
+    let axes = panel(room(bounds.chain([low, high])), (0.0, 1.08 * most));
+    picture(HEIGHT, |svg| {
+        axes.axes(svg, "Histogram", &label, "members");
+        for (k, count) in counts.iter().enumerate() {
+            let edge = |k: usize| low + (high - low) * k as f64 / bins as f64;
+            let ((left, top), (right, bottom)) =
+                (axes.place(edge(k), *count), axes.place(edge(k + 1), 0.0));
+            let _ = writeln!(
+                svg,
+                "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"{BAR}\" stroke=\"#ffffff\"/>",
+                right - left,
+                bottom - top
+            );
+        }
+        for limit in limits {
+            let bound = limit.bound * factor;
+            if !near(bound) {
+                let words = format!(
+                    "{} {}",
+                    bound_word(limit),
+                    amount(limit.bound, &column.unit)
+                );
+                let (x, anchor, words) = match bound > high {
+                    true => (axes.left + axes.width, "end", format!("{words} →")),
+                    false => (axes.left + BESIDE_TITLE, "start", format!("← {words}")),
+                };
+                text(svg, x, axes.top - 12.0, anchor, &words);
+                continue;
+            }
+            let at = axes.place(bound, axes.y.0);
+            line(
+                svg,
+                at,
+                (at.0, axes.top),
+                BOUND,
+                "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"",
+            );
+            let anchor = if at.0 > WIDTH / 2.0 { "end" } else { "start" };
+            let shift = if at.0 > WIDTH / 2.0 { -5.0 } else { 5.0 };
+            text(
+                svg,
+                at.0 + shift,
+                axes.top + 14.0,
+                anchor,
+                bound_word(limit),
+            );
+        }
+    })
+}
+
+fn bound_word(limit: &Limit) -> &'static str {
+    match limit.side {
+        Side::Most => "at most",
+        Side::Least => "at least",
+    }
+}
+
+fn scatter(input: &Column, result: &Column, limits: &[&Limit], path: &str) -> String {
+    let named = Column {
+        name: path.to_string(),
+        ..input.clone()
+    };
+    let ((fx, lx), (fy, ly)) = (label(&named), label(result));
+    let both = input
+        .values
+        .iter()
+        .zip(&result.values)
+        .map(|(x, y)| (x * fx, y * fy));
+    let points: Vec<(f64, f64)> = both
+        .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .collect();
+    let axes = panel(
+        room(points.iter().map(|p| p.0)),
+        room(points.iter().map(|p| p.1)),
+    );
+    let lx = match input.meaning.as_str() {
+        "drawn" => lx,
+        words => format!("{lx} ({})", plain(words)),
+    };
+    picture(HEIGHT, |svg| {
+        axes.axes(svg, "", &lx, &ly);
+        for limit in limits {
+            let bound = limit.bound * fy;
+            if axes.y.0 < bound && bound < axes.y.1 {
+                line(
+                    svg,
+                    axes.place(axes.x.0, bound),
+                    axes.place(axes.x.1, bound),
+                    BOUND,
+                    "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"",
+                );
+            }
+        }
+        let every = points.len().div_ceil(MOST_DOTS).max(1);
+        for (x, y) in points.iter().step_by(every) {
+            let (x, y) = axes.place(*x, *y);
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" fill=\"{DOT}\" fill-opacity=\"0.55\"/>"
+            );
+        }
+    })
+}
+
+fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
+    let paths: Vec<&str> = study
+        .file
+        .inputs
+        .iter()
+        .map(|input| input.vary.path.as_str())
+        .collect();
+    match of {
+        Sensitivity::Effects(effects) => {
+            let known = || {
+                paths
+                    .iter()
+                    .zip(effects)
+                    .filter_map(|(path, effect)| Some((path, (*effect)?)))
+            };
+            let largest = known()
+                .map(|(_, e)| e.mean_size.max(e.deviation))
+                .fold(0.0, f64::max);
+            let (factor, _) = scaled("", &column.unit, [largest].into_iter());
+            let axes = panel(
+                room([0.0, factor * largest].into_iter()),
+                room([0.0, factor * largest].into_iter()),
+            );
+            let name = |what: &str| scaled(what, &column.unit, [largest].into_iter()).1;
+            picture(HEIGHT, |svg| {
+                axes.axes(
+                    svg,
+                    "Elementary effects, over the whole range of an input",
+                    &name("mean size μ*"),
+                    &name("deviation σ"),
+                );
+                for (path, effect) in known() {
+                    let (x, y) = axes.place(factor * effect.mean_size, factor * effect.deviation);
+                    let _ = writeln!(
+                        svg,
+                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{DOT}\"/>"
+                    );
+                    let (anchor, shift) = if x > 0.6 * WIDTH {
+                        ("end", -7.0)
+                    } else {
+                        ("start", 7.0)
+                    };
+                    text(svg, x + shift, y - 5.0, anchor, &plain(path));
+                }
+            })
+        }
+        Sensitivity::Indices(indices) => {
+            let rows: Vec<Bars> = (paths.iter().zip(indices))
+                .map(|(path, index)| Bars {
+                    name: format!("{path} {:.2}, {:.2}", index.first.value, index.total.value),
+                    bars: vec![
+                        (0.0, index.first.value, Some(index.first.band), DOT),
+                        (0.0, index.total.value, Some(index.total.band), TOTAL),
+                    ],
+                })
+                .collect();
+            bars(
+                &rows,
+                "Sobol indices, 95 % bands: first order blue, total orange",
+                "share of the variance",
+            )
+        }
+        Sensitivity::Sweep(given, ranges) => {
+            let (factor, label) = label(column);
+            let rows: Vec<Bars> = (paths.iter().zip(ranges))
+                .filter_map(|(path, range)| {
+                    range.map(|[low, high]| Bars {
+                        name: path.to_string(),
+                        bars: vec![(factor * low, factor * high, None, DOT)],
+                    })
+                })
+                .collect();
+            let title = match given {
+                Some(value) => format!(
+                    "Range over each input alone; {} as given",
+                    amount(*value, &column.unit)
+                ),
+                None => "Range over each input alone".to_string(),
+            };
+            bars(&rows, &title, &label)
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! The ranking of a selection: as a table of the page, and as lines of a terminal.
+
+use super::cells::{amount, rows, short};
+use crate::page::escape_text as plain;
+use outcome::Verdict;
+use run::study::Study;
+use run::study::answer::Answer;
+use run::study::selection::Candidate;
+
+/// Share of the repetitions below which the first place is not settled.
+const SETTLED: f64 = 0.9;
+
+/// The ranking; nothing of other designs.
+pub(super) fn html(study: &Study, answer: &Answer) -> String {
+    let (Some((name, most, _)), false) = (&study.file.rank, answer.ranking.is_empty()) else {
+        return String::new();
+    };
+    let unit =
+        (study.known.iter().find(|known| known.name == *name)).map_or("", |known| known.unit);
+    // a number stays with its unit
+    let whole = |text: String| text.replace(' ', "\u{a0}");
+    let number =
+        |value: Option<f64>| value.map_or("–".to_string(), |value| whole(amount(value, unit)));
+    let row = |(place, one): (usize, &Candidate)| {
+        let word = match one.verdict {
+            Verdict::Fail => format!("<b class=\"failed\">{}</b>", one.verdict.word()),
+            _ => format!("<b>{}</b>", one.verdict.word()),
+        };
+        let mut cells = vec![(place + 1).to_string(), word];
+        cells.extend(one.values.iter().map(|(_, value)| plain(value)));
+        cells.extend([
+            number(one.quantile),
+            number(one.mean),
+            match one.verdict {
+                Verdict::Pass => whole(format!("{} %", short(100.0 * one.first))),
+                _ => "–".to_string(),
+            },
+            plain(&reason(one)),
+            one.member.to_string(),
+        ]);
+        cells
+    };
+    let words = name.replace(['_', '.'], " ");
+    let direction = if *most {
+        "not below, in 95 %"
+    } else {
+        "not above, in 95 %"
+    };
+    let mut head = vec!["place".to_string(), "verdict".to_string()];
+    let paths = answer.ranking[0].values.iter();
+    head.extend(paths.map(|(path, _)| path.clone()));
+    head.extend([
+        format!("{words}: {direction}"),
+        "mean".to_string(),
+        "first in".to_string(),
+        "why not".to_string(),
+        "first member".to_string(),
+    ]);
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    let body: Vec<Vec<String>> = answer.ranking.iter().enumerate().map(row).collect();
+    format!(
+        "<h2>Ranking</h2>\n<p>{}</p>\n{}<p class=\"small\">Every candidate meets the same draws. “First in”: how often it comes first of those that hold all limits when \
+         the draws are drawn with repetition. A member runs again with its full report by <code>auxbear study FILE --member N</code>.</p>\n",
+        plain(&verdict(study, answer)),
+        rows(&head, &body)
+    )
+}
+
+/// Why a candidate does not hold its limits.
+fn reason(one: &Candidate) -> String {
+    let broken = one.broken().map(|judged| {
+        let worst = judged
+            .value
+            .map_or("no value".to_string(), |value| amount(value, judged.unit));
+        let bound = format!(
+            "{} {}",
+            judged.limit.side.word(),
+            amount(judged.limit.bound, judged.unit)
+        );
+        format!(
+            "{} {worst}, {bound}: {} of {} hold it",
+            judged.limit.quantity.replace(['_', '.'], " "),
+            judged.hold,
+            judged.members
+        )
+    });
+    let mut parts: Vec<String> = broken.collect();
+    if let (count @ 1.., Some(why)) = (one.draws[1], &one.why) {
+        parts.push(format!("{count} of {} failed: {why}", one.draws[0]));
+    }
+    parts.join("; ")
+}
+
+/// Which one to take, and how sure that is.
+pub fn verdict(study: &Study, answer: &Answer) -> String {
+    let passing = answer
+        .ranking
+        .iter()
+        .filter(|one| one.verdict == Verdict::Pass)
+        .count();
+    let all = answer.ranking.len();
+    let Some(best) = answer
+        .ranking
+        .first()
+        .filter(|one| one.verdict == Verdict::Pass)
+    else {
+        return format!("None of {all} candidates holds every limit in every draw.");
+    };
+    let unit = (study.file.rank.as_ref())
+        .and_then(|(name, ..)| study.known.iter().find(|known| known.name == *name))
+        .map_or("", |known| known.unit);
+    let value = best
+        .quantile
+        .map_or("no value".to_string(), |value| amount(value, unit));
+    let sure = match best.first >= SETTLED {
+        true => format!(
+            "first in {} % of the repetitions of the draws",
+            short(100.0 * best.first)
+        ),
+        false => format!(
+            "but the first place is not settled: it is first in {} % of the repetitions of the draws; more draws, or another seed, may change it",
+            short(100.0 * best.first)
+        ),
+    };
+    let values: Vec<&str> = best
+        .values
+        .iter()
+        .map(|(_, value)| value.as_str())
+        .collect();
+    let (draws, failed) = (best.draws[0], best.draws[1]);
+    let rare = 100.0 * (1.0 - 0.05f64.powf(1.0 / draws.max(1) as f64));
+    format!(
+        "{passing} of {all} candidates hold every limit in all of their {} draws. Best: {} ({value}), {sure}. That {draws} draws hold a limit leaves room for up to {} % that do not (95 % confidence).",
+        draws - failed,
+        values.join(", "),
+        short(rare)
+    )
+}

@@ -1,0 +1,43 @@
+//! What is known before a run: the warnings that `auxbear check` prints beside the values of the file.
+
+use crate::known::{above_the_rating, of_bearing, of_drop, of_values};
+use crate::{Built, Machine};
+use outcome::Warning;
+use simulate::rig::warnings::preload_of_rig;
+use simulate::spin_up::warnings::preload_of_spin_up;
+
+impl Machine<'_> {
+    /// What the user should know before the run.
+    pub fn warnings(&self) -> Vec<Warning> {
+        of_values(self.scenario).chain(self.of_system()).collect()
+    }
+
+    fn of_system(&self) -> Vec<Warning> {
+        match &self.system {
+            Built::Drop(drop, ..) => of_drop(drop),
+            Built::SpinUp(spin_up, _) => {
+                let load = spin_up.radial_load.largest_until(spin_up.run.duration);
+                let mut list = of_bearing("", &spin_up.bearing, load, spin_up.target_speed());
+                list.extend(preload_of_spin_up(&spin_up.bearing, load));
+                list
+            }
+            Built::Torque(asked) => {
+                let load = asked.torque.loads.iter().copied().fold(0.0, f64::max);
+                above_the_rating(asked.torque.static_load_rating, load)
+                    .into_iter()
+                    .collect()
+            }
+            Built::Rig(rig, _) => {
+                let mut list = of_bearing("", &rig.bearing, rig.load.radial_load, rig.speed);
+                list.extend(preload_of_rig(rig));
+                list
+            }
+            Built::CoastDown(run, _) => {
+                let load =
+                    above_the_rating(run.bearing.static_load_rating, run.bearing.radial_load);
+                load.into_iter().collect()
+            }
+            Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
+        }
+    }
+}

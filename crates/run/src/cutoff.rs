@@ -1,0 +1,97 @@
+//! What twice `rotor.cutoff` would change, no bound of what all modes would: the beginning of a drop as it is, and once more with twice the cutoff.
+
+use outcome::list::results;
+use outcome::list::{List, origins};
+use outcome::options::Options;
+use outcome::{Quantity, Single, Value};
+use scenario::{Scenario, Shaft, System};
+use simulate::drop::each;
+
+/// What is compared: the impact that high modes feel most, and where the rotor goes.
+const COMPARED: [&str; 2] = ["first_impact_force", "max_rotor_displacement"];
+
+/// Relative changes of results by twice the cutoff; nothing where the scenario does not ask.
+pub(super) fn changes(
+    scenario: &Scenario,
+    shaft: &Shaft,
+    known: &[Quantity],
+    options: &Options,
+) -> Vec<Quantity> {
+    let Some(time) = shaft.cutoff_check else {
+        return Vec::new();
+    };
+    let with = |cutoff: f64| {
+        let set = |path: &str, value: f64, unit: &str| {
+            let value = units::number_text(value);
+            (path.to_string(), format!("\"{value} {unit}\""))
+        };
+        scenario.with(&[
+            set("run.duration", time, "s"),
+            set("rotor.cutoff", cutoff, "rad/s"),
+            ("repeat.count".to_string(), "1".to_string()),
+        ])
+    };
+    let quiet = Options {
+        progress: &|_| {},
+        ..*options
+    };
+    let scenarios = [with(shaft.cutoff), with(2.0 * shaft.cutoff)];
+    let drops = scenarios.iter().map(|scenario| match scenario {
+        Ok(scenario) => match &scenario.system {
+            System::Drop(drop) => each::one(scenario, drop),
+            _ => unreachable!("a cutoff makes no other system of a drop"),
+        },
+        Err(problem) => Err(problem.clone()),
+    });
+    let drops: Result<Vec<_>, _> = drops.collect();
+    let tried = drops.map(|drops| each::run(&drops, &quiet));
+    name(known, Some(&tried.map_err(|problem| problem.to_string())))
+}
+
+/// Both runs, or why there are none.
+pub(super) type Tried = Result<Vec<Single>, String>;
+
+/// Names these changes, each after what changes; without both runs those of any.
+pub(super) fn name(known: &[Quantity], tried: Option<&Tried>) -> Vec<Quantity> {
+    let mut list = List::default();
+    let names = known.iter().map(|quantity| quantity.name.as_str());
+    let last = |name: &str| COMPARED.contains(&name.rsplit('.').next().unwrap_or(name));
+    for name in names.filter(|name| last(name)) {
+        let changed = tried.map(|tried| changed(tried, name));
+        list.named(&[name], |list| change(list, &(), changed.as_ref()));
+    }
+    list.quantities
+}
+
+/// What a result has changed by, over it.
+fn changed(tried: &Tried, name: &str) -> Result<f64, String> {
+    let found = tried.as_ref().map_err(String::clone)?;
+    let value = |k: usize| {
+        let single = found.get(k)?;
+        let quantity = single.quantities.iter().find(|q| q.name == name)?;
+        match quantity.value {
+            Value::Number(value) if single.stop.complete() => Some(value),
+            _ => None,
+        }
+    };
+    match (value(0), value(1)) {
+        (Some(before), Some(after)) if before != 0.0 => Ok(after / before - 1.0),
+        _ => {
+            let part = found.iter().find(|single| !single.stop.complete());
+            let none = "one of the two runs has no such result; a longer rotor.cutoff_check may";
+            Err(part.map_or(none, |single| &single.stop.text).to_string())
+        }
+    }
+}
+
+results! {
+    fn change(setup: &(), changed: &Result<f64, String>) {
+        "cutoff_change.*": number "", CHANGE, "change of a result with twice as many modes" => changed.clone();
+    }
+}
+
+origins! {
+    CHANGE: law "change on doubling: the result with twice rotor.cutoff over that with rotor.cutoff, less 1, both until rotor.cutoff_check",
+        source "crates/run/src/cutoff.rs",
+        valid "not an error: all modes may change a result by more, and the other way, above all with a cutoff below the default; later contacts are chaotic";
+}

@@ -1,0 +1,145 @@
+//! From a scenario to results: the one place that knows every system.
+//!
+//! ```text
+//!   scenario ──build──▶ machine ──run──▶ outcome
+//! ```
+//! `simulate` integrates motions, `analyse` reads measurements, `evaluate` computes laws without motion.
+
+#![forbid(unsafe_code)]
+
+mod before;
+mod cutoff;
+mod each;
+mod known;
+pub mod study;
+#[cfg(test)]
+mod tests;
+
+use analyse::{identify, signals};
+use analyse::{rotor, torque};
+pub use each::each;
+use outcome::Quantity;
+use outcome::limits;
+pub use outcome::options::{Options, start_pool};
+pub use outcome::{self, Outcome};
+use problem::Problem;
+pub use recording::file::parquet::panic_is_caught;
+use scenario::{CoastDown, Drop, Rig, Scenario, SpinUp, System};
+use simulate::{coast_down, drop, rig, spin_up};
+use std::sync::Arc;
+
+/// A scenario with its machine: everything wrong with the input has been reported.
+pub struct Machine<'a> {
+    scenario: &'a Scenario,
+    system: Built<'a>,
+}
+
+/// The machine of each system.
+enum Built<'a> {
+    Drop(
+        &'a Drop,
+        Box<drop::build::Built>,
+        Vec<drop::members::Varied>,
+    ),
+    SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
+    Torque(Box<torque::Asked<'a>>),
+    Signals(Arc<signals::Asked>),
+    Rig(&'a Rig, Box<rig::build::Built>),
+    Identify(Box<identify::Asked<'a>>),
+    Rotor(Arc<rotor::Asked>),
+    CoastDown(&'a CoastDown, Box<coast_down::build::Built>),
+}
+
+/// Builds the machine that the scenario describes; runs nothing.
+pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
+    let system = match &scenario.system {
+        System::Drop(of) => drop::build::drop(of).and_then(|built| {
+            let varied = drop::members::varied(scenario, of)?;
+            Ok(Built::Drop(of, Box::new(built), varied))
+        }),
+        System::SpinUp(of) => {
+            spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
+        }
+        System::Torque(of) => torque::Asked::of(of).map(|asked| Built::Torque(Box::new(asked))),
+        System::Signals(of) => signals::Asked::of(of).map(|asked| Built::Signals(Arc::new(asked))),
+        System::Identify(of) => {
+            identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
+        }
+        System::CoastDown(of) => {
+            coast_down::build::run_out(of).map(|built| Built::CoastDown(of, Box::new(built)))
+        }
+        System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Arc::new(asked))),
+        System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
+    };
+    let system = system.map_err(|problem| scenario.locate(problem))?;
+    let machine = Machine { scenario, system };
+    if !scenario.limits.is_empty() {
+        limits::check(&scenario.limits, &machine.results())
+            .map_err(|problem| scenario.locate(problem))?;
+    }
+    Ok(machine)
+}
+
+impl Machine<'_> {
+    /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
+    pub fn run(&self, options: &Options) -> Outcome {
+        let mut outcome = self.computed(options);
+        outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
+        outcome.limits = limits::of(&self.scenario.limits, &outcome);
+        outcome
+    }
+
+    fn computed(&self, options: &Options) -> Outcome {
+        match &self.system {
+            Built::Drop(of, built, varied) => self.dropped(of, built, varied, options),
+            Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
+            Built::Torque(asked) => torque::run(self.scenario, asked),
+            Built::Signals(asked) => signals::run(self.scenario, asked, options),
+            Built::Identify(asked) => identify::run(self.scenario, asked, options),
+            Built::Rotor(asked) => rotor::run(self.scenario, asked, options),
+            Built::CoastDown(of, built) => coast_down::run(self.scenario, of, built, options),
+            Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
+        }
+    }
+
+    fn dropped(
+        &self,
+        of: &Drop,
+        built: &drop::build::Built,
+        varied: &[drop::members::Varied],
+        options: &Options,
+    ) -> Outcome {
+        let mut outcome = drop::run(self.scenario, of, built, varied, options);
+        if let Some(shaft) = &of.shaft {
+            let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
+            outcome.quantities.extend(changes);
+        }
+        outcome
+    }
+
+    /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.
+    pub fn results(&self) -> Vec<Quantity> {
+        match &self.system {
+            Built::Drop(of, built, _) => {
+                let mut list = drop::results(of, built);
+                let shaft = of.shaft.as_ref();
+                if shaft.is_some_and(|shaft| shaft.cutoff_check.is_some()) {
+                    list.extend(cutoff::name(&list, None));
+                }
+                list
+            }
+            Built::SpinUp(of, built) => spin_up::results(of, built),
+            Built::Rig(of, built) => rig::results(of, built),
+            Built::CoastDown(_, built) => coast_down::results(built),
+            Built::Torque(asked) => torque::results(asked),
+            Built::Signals(asked) => signals::results(asked),
+            Built::Identify(asked) => identify::results(asked),
+            Built::Rotor(asked) => rotor::results(asked),
+        }
+    }
+}
+
+/// Builds and simulates what the scenario describes.
+pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
+    Ok(build(scenario)?.run(options))
+}

@@ -1,0 +1,81 @@
+//! Members that lie nearest to a limit, run again at design accuracy: both values are kept, and design decides.
+
+use super::Study;
+use super::table::{Column, LATE, Table};
+use crate::Options;
+
+/// What columns of results at design accuracy begin with.
+pub const CONFIRMED: &str = "confirmed.";
+
+impl Study {
+    /// The members nearest to each limit, as many as are to be confirmed, in their order.
+    pub fn nearest(&self, table: &Table) -> Vec<usize> {
+        let mut near: Vec<usize> = Vec::new();
+        for limit in &self.file.limits {
+            let values = table.values(&limit.quantity);
+            let members = table.members.iter().zip(values);
+            let apart = members.filter_map(|(k, value)| Some((*k, (value? - limit.bound).abs())));
+            let mut apart: Vec<(usize, f64)> = apart.collect();
+            apart.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+            near.extend(apart.into_iter().take(self.file.confirm).map(|(k, _)| k));
+        }
+        near.sort_unstable();
+        near.dedup();
+        near
+    }
+
+    /// Runs members at design accuracy. None where this was interrupted.
+    pub fn confirmed(&self, members: &[usize], options: &Options) -> Option<Table> {
+        let accuracy = ("run.accuracy".to_string(), "design".to_string());
+        let table = self.run_with(members, &[accuracy], options);
+        (table.members.len() == members.len()).then_some(table)
+    }
+
+    /// Adds the results at design accuracy that limits and ranking ask for, beside those of screening.
+    pub fn with_confirmed(&self, table: &mut Table, confirmed: &Table) {
+        let limits = self.file.limits.iter().map(|limit| limit.quantity.clone());
+        let ranked = self.file.rank.iter().map(|(name, ..)| name.clone());
+        let mut names: Vec<String> = limits.chain(ranked).collect();
+        names.sort_unstable();
+        names.dedup();
+        for name in names {
+            for late in ["", LATE] {
+                let Some(column) = confirmed.column(&format!("{late}{name}")) else {
+                    continue;
+                };
+                let mut values = vec![f64::NAN; table.members.len()];
+                for (member, value) in confirmed.members.iter().zip(&column.values) {
+                    if let Ok(row) = table.members.binary_search(member) {
+                        values[row] = *value;
+                    }
+                }
+                table.columns.push(Column {
+                    name: format!("{CONFIRMED}{late}{name}"),
+                    unit: column.unit.clone(),
+                    meaning: format!("{} at design accuracy", column.meaning),
+                    values,
+                });
+            }
+        }
+    }
+
+    /// A result of each member: at design accuracy where that was confirmed. An instant that did not come while a run lasted is infinite
+    /// where that is past a bound: whenever it comes, it is beyond it.
+    pub(super) fn decisive(&self, table: &Table, name: &str, bound: f64) -> Vec<Option<f64>> {
+        let of = |begin: &str| -> Vec<Option<f64>> {
+            let late = table.values(&format!("{begin}{LATE}{name}")).into_iter();
+            let late = late.map(|lasted| (lasted? > bound).then_some(f64::INFINITY));
+            let values = table.values(&format!("{begin}{name}"));
+            values
+                .into_iter()
+                .zip(late)
+                .map(|(value, late)| value.or(late))
+                .collect()
+        };
+        let design = of(CONFIRMED).into_iter();
+        design
+            .zip(of(""))
+            .map(|(design, screening)| design.or(screening))
+            .collect()
+    }
+}

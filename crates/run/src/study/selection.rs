@@ -1,0 +1,202 @@
+//! Candidates of a selection: each judged by the limits over all its draws, and ranked by a result.
+//!
+//! All candidates meet the same draws, so that what differs between two of them is the candidate, not the luck. How sure the first
+//! place is, is told by drawing the draws with repetition: in how many of such repetitions a candidate is the first of those that
+//! hold their limits.
+
+use super::Study;
+use super::table::Table;
+use outcome::limits;
+use outcome::{Judged, Verdict};
+use statistics::design::{Coordinate, Design};
+use statistics::random::below;
+
+/// Repetitions of the draws.
+const REPETITIONS: u64 = 500;
+/// Apart from the numbers of the design.
+const REPEATED: u64 = 0x9e37_79b9_7f4a_7c15;
+/// Share of the draws whose result is not worse than what a candidate is ranked by.
+const QUANTILE: f64 = 0.95;
+
+/// A candidate with its verdict.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// What it is: paths with their values, as an override has them.
+    pub values: Vec<(String, String)>,
+    /// Its first member.
+    pub member: usize,
+    /// Draws computed, and those without a result.
+    pub draws: [usize; 2],
+    /// What it is ranked by: a result that 95 % of its draws do not exceed, or do not fall below where most is best.
+    pub quantile: Option<f64>,
+    /// Mean of that result.
+    pub mean: Option<f64>,
+    /// Share of the repetitions in which it comes first.
+    pub first: f64,
+    /// Fail where one limit fails, pass where all pass.
+    pub verdict: Verdict,
+    /// Each limit, judged over its draws.
+    pub limits: Vec<Judged>,
+    /// Why members failed, once.
+    pub why: Option<String>,
+}
+
+impl Candidate {
+    /// The limits that it does not hold.
+    pub fn broken(&self) -> impl Iterator<Item = &Judged> {
+        let limits = self.limits.iter();
+        limits.filter(|judged| judged.verdict != Verdict::Pass)
+    }
+}
+
+impl Study {
+    /// Unit of a result.
+    fn unit_of(&self, name: &str) -> &'static str {
+        let known = self.known.iter().find(|known| known.name == name);
+        known.map_or("", |known| known.unit)
+    }
+
+    /// Candidates of a selection, the best first; none of other designs.
+    pub fn ranking(&self, table: &Table) -> Vec<Candidate> {
+        let (Design::Selection(levels, draws), Some((name, most, _))) =
+            (&self.file.design, &self.file.rank)
+        else {
+            return Vec::new();
+        };
+        let rows = |candidate: usize| -> Vec<usize> {
+            let members = table.members.iter().enumerate();
+            let own = members.filter(|(_, member)| **member / draws == candidate);
+            own.map(|(row, _)| row).collect()
+        };
+        let ranked = self.decisive(table, name, f64::INFINITY);
+        let count = self.members() / draws;
+        let all: Vec<Vec<usize>> = (0..count).map(rows).collect();
+        let mut found: Vec<Candidate> = (all.iter().enumerate())
+            .map(|(k, rows)| self.judged(k * draws, rows, table, &ranked, *most, levels))
+            .collect();
+        self.first_places(&mut found, &all, &ranked, *most);
+        let place = |one: &Candidate| match one.verdict {
+            Verdict::Pass => 0,
+            Verdict::Undecided => 1,
+            Verdict::Fail => 2,
+        };
+        let worst = f64::INFINITY;
+        let value = |one: &Candidate| match most {
+            true => one.quantile.map_or(worst, |value| -value),
+            false => one.quantile.unwrap_or(worst),
+        };
+        found.retain(|one| one.draws[0] > 0);
+        found.sort_by(|a, b| {
+            let verdict = place(a).cmp(&place(b));
+            verdict.then(value(a).total_cmp(&value(b)))
+        });
+        found
+    }
+
+    fn judged(
+        &self,
+        member: usize,
+        rows: &[usize],
+        table: &Table,
+        ranked: &[Option<f64>],
+        most: bool,
+        levels: &[usize],
+    ) -> Candidate {
+        const LACKING: &str = "some draws failed, or have no such result";
+        let mut values = Vec::new();
+        let coordinates = self.file.design.member(self.file.seed, member);
+        for ((input, coordinate), count) in self.file.inputs.iter().zip(coordinates).zip(levels) {
+            if *count > 0 && matches!(coordinate, Coordinate::Level(..)) {
+                values.extend(input.vary.at(coordinate).0);
+            }
+        }
+        let of = |values: &[Option<f64>]| -> Vec<Option<f64>> {
+            rows.iter().map(|row| values[*row]).collect()
+        };
+        let limits: Vec<Judged> = (self.file.limits.iter())
+            .map(|limit| {
+                let values = of(&self.decisive(table, &limit.quantity, limit.bound));
+                let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
+                limits::whirl_sought(judged, self.unbalance_angles(table), false)
+            })
+            .collect();
+        let own: Vec<f64> = of(ranked).into_iter().flatten().collect();
+        let failed = |row: &&usize| table.failed.contains_key(&table.members[**row]);
+        let lacking = rows.iter().filter(failed).count();
+        let any = |verdict: Verdict| limits.iter().any(|judged| judged.verdict == verdict);
+        let verdict = match (any(Verdict::Fail), any(Verdict::Undecided) || lacking > 0) {
+            (true, _) => Verdict::Fail,
+            (false, true) => Verdict::Undecided,
+            (false, false) => Verdict::Pass,
+        };
+        let first = rows.iter().find(|row| failed(row));
+        Candidate {
+            values,
+            member,
+            draws: [rows.len(), lacking],
+            quantile: quantile(own.clone(), most),
+            mean: (!own.is_empty()).then(|| own.iter().sum::<f64>() / own.len() as f64),
+            first: 0.0,
+            verdict,
+            limits,
+            why: first.and_then(|row| table.failed.get(&table.members[*row]).cloned()),
+        }
+    }
+
+    /// How often each candidate that holds its limits comes first when the draws are drawn with repetition.
+    fn first_places(
+        &self,
+        found: &mut [Candidate],
+        all: &[Vec<usize>],
+        ranked: &[Option<f64>],
+        most: bool,
+    ) {
+        let Design::Selection(_, draws) = self.file.design else {
+            return;
+        };
+        let passing = |one: &Candidate| one.verdict == Verdict::Pass && one.draws[0] == draws;
+        let able: Vec<usize> = (0..found.len()).filter(|k| passing(&found[*k])).collect();
+        for repetition in 0..REPETITIONS {
+            let drawn: Vec<usize> = (0..draws as u64)
+                .map(|at| below(draws, self.file.seed ^ REPEATED, repetition, at))
+                .collect();
+            let value = |k: &usize| {
+                let rows = drawn.iter().map(|at| all[*k][*at]);
+                let own: Vec<f64> = rows.filter_map(|row| ranked[row]).collect();
+                let value = quantile(own, most).unwrap_or(f64::INFINITY);
+                if most { -value } else { value }
+            };
+            let best = able.iter().min_by(|a, b| value(a).total_cmp(&value(b)));
+            if let Some(best) = best {
+                found[*best].first += 1.0 / REPETITIONS as f64;
+            }
+        }
+    }
+}
+
+/// What 95 % of the values do not exceed, or do not fall below where most is best; between the sorted values on straight lines.
+fn quantile(mut values: Vec<f64>, most: bool) -> Option<f64> {
+    values.retain(|value| value.is_finite());
+    values.sort_by(f64::total_cmp);
+    if most {
+        values.reverse();
+    }
+    let last = values.len().checked_sub(1)?;
+    let place = QUANTILE * last as f64;
+    let below = place as usize;
+    let above = (below + 1).min(last);
+    Some(values[below] + (place - below as f64) * (values[above] - values[below]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quantile_lies_between_the_sorted_values() {
+        let values: Vec<f64> = (0..21).rev().map(f64::from).collect();
+        assert_eq!(quantile(values.clone(), false), Some(19.0));
+        assert_eq!(quantile(values, true), Some(1.0));
+        assert_eq!(quantile(vec![f64::NAN], false), None);
+    }
+}

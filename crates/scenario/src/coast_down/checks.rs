@@ -1,0 +1,46 @@
+//! Checks of a run-out.
+
+use crate::bearing::fits::SHAFT_BORE;
+use crate::checks::{Check, Context};
+use crate::coast_down::CoastDown;
+use problem::Code;
+
+impl Context<'_> {
+    pub(crate) fn coast_down(&self, run: &CoastDown) -> Check {
+        let bearing = &run.bearing;
+        self.geometry(
+            bearing.ball_count,
+            bearing.ball_diameter,
+            bearing.pitch_diameter,
+        )?;
+        self.static_rating()?;
+        self.moment(&bearing.moment, &bearing.rated())?;
+        self.brakes(bearing)?;
+        let (track, bore) = (
+            bearing.pitch_diameter - bearing.ball_diameter,
+            bearing.heat.bore_diameter,
+        );
+        let air = bearing.heat.radial_air_clearance.unwrap_or(0.0);
+        let needed =
+            "less than the track of the inner race is needed: pitch_diameter - ball_diameter";
+        self.nested("heat.bore_diameter", bore < track, needed)?;
+        let needed = "less than heat.bore_diameter is needed";
+        self.nested(SHAFT_BORE, run.shaft_bore_diameter < bore, needed)?;
+        let needed = "less than half of heat.bore_diameter is needed";
+        self.nested("heat.radial_air_clearance", air < 0.5 * bore, needed)?;
+        if run.end.stop_speed >= run.speed.abs() {
+            let path = "coast_down.stop_speed";
+            let needed = format!(
+                "less than rotor.speed = {} is needed",
+                self.text("rotor.speed")
+            );
+            return Err(Box::new(self.problem(
+                Code::OutOfRange,
+                path,
+                self.text(path),
+                needed,
+            )));
+        }
+        self.warm(bearing)
+    }
+}

@@ -1,0 +1,38 @@
+//! Keys of a mount: spring and damper, and what else stands between outer race and ground.
+
+use crate::key::{Key, Kind, Range};
+
+#[rustfmt::skip]
+pub(crate) const KEYS: &[Key] = &[
+    Key::new("mount.stiffness", Kind::Quantity("N/m"), "2e7 N/m", "Radial stiffness between outer race and ground.").positive(),
+    Key::new("mount.damping", Kind::Quantity("N s/m"), "5000 N s/m", "Radial damping between outer race and ground.").not_negative(),
+    Key::new("mount.moving_mass", Kind::Quantity("kg"), "0.15 kg", "Mass that moves with the outer race: the race itself and its housing or sleeve.")
+        .positive(),
+    Key::new("mount.branch_stiffness", Kind::Series("N/m"), "[\"8e6 N/m\", \"4e6 N/m\"]", "Stiffness of each Maxwell branch, a spring and a damper in series beside spring and damper: an O-ring, whose stiffness rises with frequency.")
+        .not_negative().optional("none: stiffness does not depend on frequency"),
+    Key::new("mount.branch_time", Kind::Series("s"), "[\"0.3 ms\", \"0.03 ms\"]", "Relaxation time of each Maxwell branch.")
+        .positive().optional("no Maxwell branches"),
+    Key::new("mount.ring_stiffness", Kind::Quantity("N/m"), "2e7 N/m", "Stiffness of a friction (tolerance) ring before it slips.")
+        .positive().optional("no friction ring"),
+    Key::new("mount.ring_travel", Kind::Quantity("m"), "10 um", "Travel at which the friction ring slips; the slip force is mount.ring_stiffness times this.")
+        .positive().optional("no friction ring"),
+    Key::new("mount.ring_exponent", Kind::Coefficient, "8", "How sharply the friction ring begins to slip: 2 is soft, large is dry friction with a spring in series.")
+        .within(Range::FromTo(2.0, 100.0)).optional("8: smaller ones creep under small vibration about a load"),
+    Key::new("mount.film_viscosity", Kind::Quantity("Pa s"), "0.02 Pa s", "Viscosity of a squeeze film around the outer race.")
+        .positive().optional("no squeeze film"),
+    Key::new("mount.film_radius", Kind::Quantity("m"), "30 mm", "Radius of the squeeze film.").positive().optional("no squeeze film"),
+    Key::new("mount.film_length", Kind::Quantity("m"), "10 mm", "Length of the squeeze film, between open ends.").positive().optional("no squeeze film"),
+    Key::new("mount.film_clearance", Kind::Quantity("m"), "0.1 mm", "Radial clearance of the squeeze film.").positive().optional("no squeeze film"),
+    Key::new("mount.film_flooded", Kind::Switch, "false", "Whether the half of the squeeze film that opens pulls as the other pushes: false where it cavitates, with ambient pressure at its ends.")
+        .optional("false: it cavitates"),
+    Key::new("mount.stop_gap", Kind::Quantity("m"), "50 um", "Radial gap of a hard stop around the outer race.").not_negative().optional("no hard stop"),
+    Key::new("mount.stop_stiffness", Kind::Quantity("N/m"), "1e9 N/m", "Stiffness of the hard stop.").positive().optional("no hard stop"),
+    Key::new("mount.stop_damping", Kind::Quantity("s/m"), "0.5 s/m", "Hunt-Crossley damping a of the stop's force F = k d(1 + a ḋ).")
+        .not_negative().optional("0.5 s/m, as of contact.damping"),
+    Key::new("mount.housing_mass", Kind::Quantity("kg"), "20 kg", "Mass of a housing that yields, under the mount.")
+        .positive().optional("the mount stands on ground"),
+    Key::new("mount.housing_stiffness", Kind::Quantity("N/m"), "1e8 N/m", "Stiffness between that housing and ground.")
+        .positive().optional("the mount stands on ground"),
+    Key::new("mount.housing_damping", Kind::Quantity("N s/m"), "1e4 N s/m", "Damping between that housing and ground.")
+        .not_negative().optional("0 N s/m: no loss but in the mount"),
+];

@@ -1,0 +1,433 @@
+//! A drop as typed values in SI: what a simulation is built from.
+
+pub mod checks;
+pub mod keys;
+pub mod keys_mount;
+pub mod keys_surface;
+pub mod kinds;
+pub mod mount;
+mod shaft;
+
+use crate::bearing::kind::Modelled;
+use crate::bearing::{Bearing, bearing};
+use crate::coast_down::RunOut;
+use crate::document::Document;
+use crate::heat::{Network, RotorBodies, Warm};
+use crate::run::{Run, Until};
+use crate::section::Section;
+use crate::values::Values;
+use kinds::{SpinKind, UnbalanceAngle};
+use mount::MountParts;
+use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use problem::Problem;
+pub use shaft::{BearingPlace, Shaft};
+use std::f64::consts::PI;
+use thermal::layer::Layer;
+
+/// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drop {
+    /// The rotor as a whole; a rigid one where there is no shaft.
+    pub rotor: Rotor,
+    /// The rotor as it bends.
+    pub shaft: Option<Box<Shaft>>,
+    /// Weight.
+    pub gravity: Gravity,
+    /// The magnetic bearing before the release.
+    pub levitation: Levitation,
+    /// The auxiliary bearings.
+    pub auxiliary_bearings: Vec<AuxiliaryBearing>,
+    /// The simulation.
+    pub run: Run,
+    /// How the rotor runs out after it, where the run goes on until it stands.
+    pub run_out: Option<RunOut>,
+    /// Repeated runs.
+    pub repeat: Repeat,
+}
+
+/// An auxiliary bearing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuxiliaryBearing {
+    /// Its name in the file; empty where the file tells no bearings apart.
+    pub name: String,
+    /// Contact of rotor and inner race.
+    pub contact: Contact,
+    /// Spring and damper between outer race and ground.
+    pub mount: Mount,
+    /// The rolling bearing; none where it is a plain bushing.
+    pub bearing: Option<Bearing>,
+    /// What warms of it, where that is followed.
+    pub warm: Option<Box<Warm>>,
+}
+
+/// The rotor as a whole, shared by all planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotor {
+    /// Mass of the whole rotor, kg.
+    pub mass: f64,
+    /// Moment of inertia of the whole rotor about its axis, kg m².
+    pub polar_inertia: f64,
+    /// Distance of the centre of mass from the geometric centre, m.
+    pub unbalance_eccentricity: f64,
+    /// Direction of the unbalance at the release, rad from x.
+    pub unbalance_angle: f64,
+    /// Spin at the release, rad/s, counter-clockwise positive.
+    pub speed: f64,
+    /// What happens to the spin after the release.
+    pub spin: Spin,
+    /// Torque of a drive or a load over the size of the speed, rows of rad/s and N m; empty where there is none.
+    pub torque_over_speed: Vec<[f64; 2]>,
+    /// The share of it that acts, over the time from the start of the run, rows of s and share; empty where all of it does.
+    pub torque_share_over_time: Vec<[f64; 2]>,
+    /// Number of identical auxiliary bearings that share the rotor.
+    pub planes: u32,
+    /// First free-free bending natural frequency, rad/s.
+    pub first_bending_frequency: Option<f64>,
+}
+
+/// What happens to the spin of the rotor after the release.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spin {
+    /// Neither drive nor brake.
+    Free,
+    /// A torque of this size against the spin until the rotor stands.
+    Braked {
+        /// Size of the torque on the whole rotor, N m.
+        torque: f64,
+        /// Start of braking after the release, s.
+        start: f64,
+    },
+    /// Held at the speed of the release.
+    Held,
+}
+
+/// Weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gravity {
+    /// Acceleration, m/s².
+    pub acceleration: f64,
+    /// Direction, rad from x.
+    pub direction: f64,
+}
+
+/// Standard gravity, m/s².
+const STANDARD_GRAVITY: f64 = 9.80665;
+/// Gravity at the place on Earth where it is weakest, m/s² (Huascarán, 9.764).
+const WEAKEST_GRAVITY: f64 = 9.76;
+
+/// The share of g that acts along a shaft of which a gravity, m/s², acts across; 0 where that may be all of it.
+pub fn axial_share(across: f64) -> f64 {
+    match across < WEAKEST_GRAVITY {
+        true => (1.0 - (across / STANDARD_GRAVITY).powi(2)).sqrt(),
+        false => 0.0,
+    }
+}
+
+/// The magnetic bearing at one plane while it is on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Levitation {
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Centre of levitation along x, m.
+    pub offset_x: f64,
+    /// Centre of levitation along y, m.
+    pub offset_y: f64,
+}
+
+/// Contact of rotor and inner race: F = k dⁿ(1 + a ḋ).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Radial air gap when concentric, m.
+    pub radial_air_clearance: f64,
+    /// Diameter of the bore, m.
+    pub bore_diameter: f64,
+    /// Width of the landing surface, m.
+    pub width: Option<f64>,
+    /// Stiffness k, N/mⁿ.
+    pub stiffness: f64,
+    /// Exponent n.
+    pub exponent: f64,
+    /// Hunt-Crossley damping a, s/m.
+    pub damping: f64,
+    /// Coefficient of sliding friction.
+    pub friction_coefficient: f64,
+    /// Temperatures of the contact, K, with coefficients of friction; their ratio to that of the start counts.
+    pub friction_over_temperature: Vec<[f64; 2]>,
+    /// Slip speed that regularises the friction, m/s.
+    pub friction_reference_speed: f64,
+    /// Metal below the landing surface of the rotor, and below that of the race.
+    pub metals: [Metal; 2],
+    /// Contact modulus E*, Pa.
+    pub modulus: f64,
+    /// Wear coefficient k, m²/N.
+    pub wear_coefficient: Option<f64>,
+}
+
+/// Depth of the rotor's layer where none is given, m.
+const ROTOR_DEPTH: f64 = 10e-3;
+
+impl Contact {
+    /// What of the rotor its friction heat warms first.
+    pub fn rotor_layer(&self) -> Layer {
+        let Metal { material, layer } = self.metals[0];
+        let depth = layer.unwrap_or(ROTOR_DEPTH);
+        Layer::new(material, depth.min(0.5 * self.bore_diameter))
+    }
+}
+
+impl AuxiliaryBearing {
+    /// The rotor's surface layer and its area, m², where it is one body of the network and its core another.
+    pub fn layer_of_core(&self) -> Option<(Layer, f64)> {
+        let warm = self.warm.as_ref()?;
+        let width = self.contact.width?;
+        let diameter = self.contact.bore_diameter - 2.0 * self.contact.radial_air_clearance;
+        let apart = warm.heat.rotor_bodies == RotorBodies::LayerAndCore;
+        apart.then(|| (self.contact.rotor_layer(), PI * diameter * width))
+    }
+}
+
+/// What is below a surface that rubs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Metal {
+    /// What it is.
+    pub material: ThermalMaterial,
+    /// How deep, m; of the race where it is given.
+    pub layer: Option<f64>,
+}
+
+/// What is between outer race and ground.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mount {
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Mass of the outer race with what moves with it, kg.
+    pub moving_mass: f64,
+    /// What it has besides spring and damper.
+    pub parts: MountParts,
+}
+
+/// Repeated runs from perturbed starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeat {
+    /// Number of runs.
+    pub count: u32,
+    /// Seed of the study.
+    pub seed: u64,
+    /// Standard deviation of the rotor position, m.
+    pub rotor_position_deviation: f64,
+    /// Standard deviation of each ball angle, rad.
+    pub ball_angle_deviation: f64,
+    /// Whether the unbalance points anywhere at the release.
+    pub random_unbalance_angle: bool,
+    /// Standard deviation of the logarithm of the friction coefficient of rotor and race.
+    pub friction_coefficient_deviation: f64,
+    /// Standard deviation of the logarithm of the mount's stiffness.
+    pub mount_stiffness_deviation: f64,
+    /// Standard deviation of the logarithm of the radial air clearance.
+    pub radial_air_clearance_deviation: f64,
+}
+
+impl Drop {
+    /// What an auxiliary bearing carries of the rotor's weight.
+    pub fn share(&self, bearing: usize) -> f64 {
+        match &self.shaft {
+            Some(shaft) => shaft.places[bearing].share.abs(),
+            None => 1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64),
+        }
+    }
+
+    /// Weight of the rotor on an auxiliary bearing, N.
+    pub fn weight(&self, bearing: usize) -> f64 {
+        self.rotor.mass * self.gravity.acceleration * self.share(bearing)
+    }
+
+    /// A flexible rotor with the values of each auxiliary bearing.
+    pub fn of_shaft(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
+        let shaft = Shaft::of(document, all)?;
+        let whole = shaft.properties();
+        let values = &all[0];
+        let rotor = Section {
+            values,
+            path: "rotor",
+        };
+        let moments = shaft.model.rotor.unbalance.iter();
+        let moment: rotor::C64 = moments
+            .map(|plane| rotor::C64::from_polar(plane.amount, plane.phase))
+            .sum();
+        let rotor = Rotor {
+            mass: whole.mass,
+            polar_inertia: whole.polar,
+            unbalance_eccentricity: moment.norm() / whole.mass,
+            unbalance_angle: rotor.number("unbalance_angle"),
+            speed: rotor.number("speed"),
+            spin: spin(&rotor),
+            torque_over_speed: rows(&rotor, "torque_over_speed"),
+            torque_share_over_time: rows(&rotor, "torque_share_over_time"),
+            planes: 1,
+            first_bending_frequency: None,
+        };
+        Ok(Drop {
+            shaft: Some(Box::new(shaft)),
+            // nothing of a linear spring about a point
+            ..Drop::of_rotor(
+                rotor,
+                Levitation {
+                    stiffness: 0.0,
+                    damping: 0.0,
+                    offset_x: 0.0,
+                    offset_y: 0.0,
+                },
+                all,
+            )
+        }
+        .loaded())
+    }
+
+    /// With the weight on each bearing that warms, and the rotor's part that warms with it.
+    fn loaded(mut self) -> Drop {
+        for k in 0..self.auxiliary_bearings.len() {
+            let load = self.weight(k);
+            let capacity = self.rotor.mass * self.share(k) * STEEL_HEAT.specific_heat;
+            let part = &mut self.auxiliary_bearings[k];
+            if let Some(warm) = &mut part.warm {
+                warm.radial_load = load;
+                warm.heat.radial_air_clearance = Some(part.contact.radial_air_clearance);
+                warm.heat.rotor_capacity.get_or_insert(capacity);
+            }
+        }
+        self
+    }
+
+    /// Of the values of each auxiliary bearing.
+    pub fn from_values(all: &[Values]) -> Drop {
+        let values = &all[0];
+        let levitation = Section {
+            values,
+            path: "levitation",
+        };
+        let levitation = Levitation {
+            stiffness: levitation.number("stiffness"),
+            damping: levitation.number("damping"),
+            offset_x: levitation.number("offset_x"),
+            offset_y: levitation.number("offset_y"),
+        };
+        let path = "rotor";
+        Drop::of_rotor(rotor(&Section { values, path }), levitation, all).loaded()
+    }
+
+    fn of_rotor(rotor: Rotor, levitation: Levitation, all: &[Values]) -> Drop {
+        let values = &all[0];
+        let section = |path| Section { values, path };
+        let gravity = section("gravity");
+        let repeat = section("repeat");
+        let until = values.chosen("run.until");
+        Drop {
+            rotor,
+            run_out: (until == Some(Until::Standstill)).then(|| RunOut::from_values(values)),
+            shaft: None,
+            gravity: Gravity {
+                acceleration: gravity.number("acceleration"),
+                direction: gravity.number("direction"),
+            },
+            levitation,
+            auxiliary_bearings: (all.iter()).map(auxiliary_bearing).collect(),
+            run: Run::from_values(values),
+            repeat: Repeat {
+                count: repeat.count("count") as u32,
+                seed: repeat.count("seed"),
+                rotor_position_deviation: repeat.number("rotor_position_deviation"),
+                ball_angle_deviation: repeat.number("ball_angle_deviation"),
+                random_unbalance_angle: repeat.choice::<UnbalanceAngle>("unbalance_angle")
+                    == UnbalanceAngle::Random,
+                friction_coefficient_deviation: repeat.number("friction_coefficient_deviation"),
+                mount_stiffness_deviation: repeat.number("mount_stiffness_deviation"),
+                radial_air_clearance_deviation: repeat.number("radial_air_clearance_deviation"),
+            },
+        }
+    }
+}
+
+fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
+    let followed = values.chosen("heat.network") == Some(Network::On);
+    let section = |path| Section { values, path };
+    let mount = section("mount");
+    AuxiliaryBearing {
+        name: values.bearing.clone().unwrap_or_default(),
+        contact: contact(&section("contact")),
+        mount: Mount {
+            stiffness: mount.number("stiffness"),
+            damping: mount.number("damping"),
+            moving_mass: mount.number("moving_mass"),
+            parts: MountParts::of(&mount),
+        },
+        bearing: (values.chosen("bearing.fidelity") != Some(Modelled::Bushing))
+            .then(|| bearing(values)),
+        // what it carries is known when the whole rotor is
+        warm: followed.then(|| Box::new(Warm::from_values(values, 0.0))),
+    }
+}
+
+fn rotor(rotor: &Section<'_>) -> Rotor {
+    Rotor {
+        mass: rotor.number("mass"),
+        polar_inertia: rotor.number("polar_inertia"),
+        unbalance_eccentricity: rotor.number("unbalance_eccentricity"),
+        unbalance_angle: rotor.number("unbalance_angle"),
+        speed: rotor.number("speed"),
+        spin: spin(rotor),
+        torque_over_speed: rows(rotor, "torque_over_speed"),
+        torque_share_over_time: rows(rotor, "torque_share_over_time"),
+        planes: rotor.count("planes") as u32,
+        first_bending_frequency: rotor.maybe("first_bending_frequency"),
+    }
+}
+
+/// The rows of a table; none where it is not given.
+fn rows(section: &Section<'_>, name: &str) -> Vec<[f64; 2]> {
+    let path = format!("{}.{name}", section.path);
+    section.values.rows(&path).unwrap_or_default()
+}
+
+fn spin(rotor: &Section<'_>) -> Spin {
+    match rotor.choice("spin") {
+        SpinKind::Free => Spin::Free,
+        SpinKind::Held => Spin::Held,
+        SpinKind::Braked => Spin::Braked {
+            torque: rotor.number("brake_torque"),
+            start: rotor.number("brake_start"),
+        },
+    }
+}
+
+fn contact(contact: &Section<'_>) -> Contact {
+    Contact {
+        radial_air_clearance: contact.number("radial_air_clearance"),
+        bore_diameter: contact.number("bore_diameter"),
+        width: contact.maybe("width"),
+        stiffness: contact.number("stiffness"),
+        exponent: contact.number("exponent"),
+        damping: contact.number("damping"),
+        friction_coefficient: contact.number("friction_coefficient"),
+        friction_over_temperature: rows(contact, "friction_over_temperature"),
+        friction_reference_speed: contact.number("friction_reference_speed"),
+        metals: ["rotor", "race"].map(|body| metal(contact, body)),
+        modulus: contact.number("surface.modulus"),
+        wear_coefficient: contact.maybe("surface.wear_coefficient"),
+    }
+}
+
+fn metal(contact: &Section<'_>, body: &str) -> Metal {
+    let number = |what: &str| contact.number(&format!("surface.{body}_{what}"));
+    Metal {
+        material: ThermalMaterial {
+            conductivity: number("conductivity"),
+            density: number("density"),
+            specific_heat: number("specific_heat"),
+        },
+        layer: contact.maybe(&format!("surface.{body}_layer")),
+    }
+}

@@ -1,0 +1,263 @@
+//! What results must hold: `[[limit]]`.
+//!
+//! ```toml
+//! [[limit]]
+//! quantity = "drive_end.peak_contact_force"   # a result; "*.peak_contact_force" is that of every bearing
+//! most = "5 kN"                               # or least
+//! share = 0.95                                # of the members of a repeated run; 1 unless given
+//! ```
+//! An override is `--set limit.drive_end.peak_contact_force.most="4 kN"`: it changes the limit of that result, or adds one.
+//! Whether a run has such a result is known when its machine is built: `result/limits.rs`.
+
+use crate::document::Document;
+use crate::locate::UNNAMED;
+use crate::several::LIMIT;
+use crate::system::SystemName;
+use problem::key::{Key, Kind, quoted};
+use problem::raw::{Raw, Written};
+use problem::read::unreadable;
+use problem::table::Table;
+use problem::{Code, Place, Problem, question};
+use units::{Dimension, parse_quantity};
+
+/// What a result must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// Name of the result.
+    pub quantity: String,
+    /// The side on which it must stay.
+    pub side: Side,
+    /// The bound, SI.
+    pub bound: f64,
+    /// Share of the members of a repeated run that must hold it; 1: all of them.
+    pub share: f64,
+    /// Dimension of the bound.
+    pub dimension: Dimension,
+    /// The bound as a file has it.
+    pub text: String,
+    /// Where the result is named.
+    pub place: Place,
+    /// Where the bound stands.
+    pub bound_place: Place,
+}
+
+/// The side of a bound on which a result must stay; the bound itself holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Not above it.
+    Most,
+    /// Not below it.
+    Least,
+}
+
+impl Side {
+    /// The word in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Side::Most => "most",
+            Side::Least => "least",
+        }
+    }
+
+    /// Whether a value stays on this side of a bound.
+    pub fn holds(self, value: f64, bound: f64) -> bool {
+        match self {
+            Side::Most => value <= bound,
+            Side::Least => value >= bound,
+        }
+    }
+}
+
+const NEEDED: &str = "tables [[limit]] with quantity = \"…\" and most or least are needed";
+const BOUND: &str = "a quantity with the unit of the result is needed, e.g. most = \"5 kN\"; a bare number where it has none";
+const SHARE: &str = "a share above 0 and not above 1 is needed, e.g. 0.95";
+#[rustfmt::skip]
+const KEYS: &[Key] = &[
+    Key::new("limit.quantity", Kind::Text, "peak_contact_force", "Name of the result."),
+    Key::new("limit.most", Kind::Any(BOUND), "5 kN", "Most that it may be.").optional("it is bounded below"),
+    Key::new("limit.least", Kind::Any(BOUND), "1 mm", "Least that it may be.").optional("it is bounded above"),
+    Key::new("limit.share", Kind::Any(SHARE), "0.95", "Share of the members of a repeated run that must hold it.").optional("all of them"),
+];
+/// Words that people write for those of a limit.
+const SYNONYMS: [(&[&str], &str); 2] = [
+    (&["max", "maximum", "at_most"], "most"),
+    (&["min", "minimum", "at_least"], "least"),
+];
+
+impl Limit {
+    /// The same of another result.
+    pub fn of(&self, quantity: &str) -> Limit {
+        Limit {
+            quantity: quantity.to_string(),
+            ..self.clone()
+        }
+    }
+
+    /// The limit as a file has it.
+    pub fn toml(&self) -> String {
+        let share = match self.share {
+            1.0 => String::new(),
+            share => format!("share = {}\n", units::number_text(share)),
+        };
+        format!(
+            "[[{LIMIT}]]\nquantity = {}\n{} = {}\n{share}",
+            quoted(&self.quantity),
+            self.side.word(),
+            self.text
+        )
+    }
+
+    /// A problem with the name of the result.
+    pub fn problem(&self, code: Code, found: String, allowed: String) -> Problem {
+        let problem = Problem::new(code, UNNAMED, found, allowed);
+        problem.at(self.place).on_key(format!("{LIMIT}.quantity"))
+    }
+
+    /// A problem with the bound.
+    pub fn bound_problem(&self, code: Code, found: String, allowed: String) -> Problem {
+        let problem = Problem::new(code, UNNAMED, found, allowed);
+        let key = format!("{LIMIT}.{}", self.side.word());
+        problem.at(self.bound_place).on_key(key)
+    }
+}
+
+/// The limits of a file; those of overrides change or follow them.
+pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
+    let mut limits: Vec<Limit> = Vec::new();
+    for written in &document.limits {
+        let table = read(document, written)?;
+        let share = share_of(document, &table)?;
+        let quantity = table.text("quantity").unwrap_or_default().trim();
+        let changes = table.place == Place::Set;
+        let own = |limit: &&mut Limit| changes && limit.quantity == quantity;
+        let side = [Side::Most, Side::Least]
+            .into_iter()
+            .find(|side| table.raw(side.word()).is_some());
+        let Some(side) = side else {
+            let mut known = limits.iter_mut().filter(own).peekable();
+            if share.is_none() || known.peek().is_none() {
+                let found = format!("a limit of {quantity} without most or least");
+                return Err(Box::new(table.problem(Code::MissingKey, "", found, NEEDED)));
+            }
+            known.for_each(|limit| limit.share = share.unwrap_or(limit.share));
+            continue;
+        };
+        if side == Side::Most && table.raw("least").is_some() {
+            let found = "both most and least in one limit";
+            let allowed = "one of them is needed; a second [[limit]] takes the other";
+            return Err(Box::new(table.problem(
+                Code::Conflict,
+                "least",
+                found,
+                allowed,
+            )));
+        }
+        let (bound, dimension, text) = bound_of(&table, side.word())?;
+        let bound_place = table.place_of(side.word());
+        match limits
+            .iter_mut()
+            .find(|limit| own(limit) && limit.side == side)
+        {
+            Some(limit) => {
+                (limit.bound, limit.dimension, limit.text) = (bound, dimension, text);
+                limit.bound_place = bound_place;
+            }
+            None => limits.push(Limit {
+                quantity: quantity.to_string(),
+                side,
+                bound,
+                share: share.unwrap_or(1.0),
+                dimension,
+                text,
+                place: table.place_of("quantity"),
+                bound_place,
+            }),
+        }
+    }
+    Ok(limits)
+}
+
+fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>> {
+    let table = Table::read(
+        &document.file,
+        (LIMIT.to_string(), "[[limit]]"),
+        KEYS,
+        written,
+        &[],
+    );
+    table.map_err(|mut problem| {
+        let last = problem
+            .key
+            .as_deref()
+            .and_then(|key| key.rsplit('.').next());
+        let meant = SYNONYMS
+            .iter()
+            .find(|(words, _)| last.is_some_and(|last| words.contains(&last)));
+        if let Some((_, right)) = meant {
+            problem.hint = question(&[right]);
+        }
+        problem
+    })
+}
+
+/// The share of the members, of systems whose runs are repeated.
+fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Problem>> {
+    let Some(raw) = table.raw("share") else {
+        return Ok(None);
+    };
+    let wrong =
+        |code, found: String, allowed| Err(Box::new(table.problem(code, "share", found, allowed)));
+    if !document.system.falls() {
+        let found = "a key that has no effect".to_string();
+        let allowed =
+            "it is used only with system = \"drop\" or \"machine\", whose runs are repeated";
+        return wrong(Code::UnusedKey, found, allowed);
+    }
+    match amount(raw) {
+        Ok((value, Dimension::NONE, _)) if value > 0.0 && value <= 1.0 => Ok(Some(value)),
+        Ok((_, Dimension::NONE, _)) => wrong(Code::OutOfRange, raw.text(), SHARE),
+        _ => wrong(Code::WrongType, raw.text(), SHARE),
+    }
+}
+
+/// A bound in SI, its dimension, and as a file has it.
+fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String), Box<Problem>> {
+    let raw = table.raw(side).unwrap_or(&Raw::Other("nothing"));
+    amount(raw).map_err(|(code, found, hint)| {
+        Box::new(table.problem(code, side, found, BOUND).with_hint(hint))
+    })
+}
+
+/// Why a value is none: code, what was found, a hint.
+type Refused = (Code, String, Option<String>);
+
+/// A quantity or a bare number: in SI, its dimension, and as a file has it; else code, what was found and a hint.
+fn amount(raw: &Raw) -> Result<(f64, Dimension, String), Refused> {
+    let (value, dimension, text) = match raw {
+        Raw::Text(text) => {
+            let text = text.trim();
+            let quantity = parse_quantity(text).map_err(|error| unreadable(&error, text, None))?;
+            (quantity.value_si, quantity.dimension, quoted(text))
+        }
+        Raw::Float(value) => (*value, Dimension::NONE, units::number_text(*value)),
+        Raw::Integer(text, Some(value)) => (*value as f64, Dimension::NONE, text.clone()),
+        other => return Err((Code::WrongType, other.text(), None)),
+    };
+    match value.is_finite() {
+        true => Ok((value, dimension, text)),
+        false => Err((Code::OutOfRange, raw.text(), None)),
+    }
+}
+
+/// A limit of a system's own results, for its starting file: result, bound.
+pub fn example(system: SystemName) -> (&'static str, &'static str) {
+    match system {
+        SystemName::Drop | SystemName::Machine => ("peak_contact_force", "most = \"5 kN\""),
+        SystemName::SpinUp | SystemName::Rig => ("peak_outer_race_moment", "most = \"0.5 N m\""),
+        SystemName::CoastDown => ("peak_inner_race_temperature", "most = \"120 degC\""),
+        SystemName::Torque => ("friction_moment", "most = \"50 N mm\""),
+        SystemName::Signals => ("peak_speed", "most = \"3000 rpm\""),
+        SystemName::Rotor => ("first_critical_speed", "least = \"9000 rpm\""),
+        SystemName::Identify => ("explanation_fit_probability", "least = 0.05"),
+    }
+}

@@ -1,0 +1,396 @@
+//! From the table of keys and the given values to one value for every key.
+
+use crate::bearing::source::{BearingRecord, BearingSource};
+use crate::document::{Document, Given};
+use crate::key::{Condition, Key, Kind, Otherwise, Presence, conditions, quoted};
+use crate::resolved::{Resolved, ResolvedValue};
+use crate::several::{self, AUXILIARY_BEARING};
+use crate::system::SystemName;
+use crate::table;
+use crate::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
+use problem::provenance::Provenance;
+use problem::read::POWER_TOLERANCE;
+use problem::{Code, Place, Problem};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use units::{Rational, parse_quantity};
+
+impl Values {
+    /// Reads every given value and fills the rest from catalogue and defaults.
+    pub fn resolve(
+        document: &Document,
+        bearings: &dyn BearingSource,
+    ) -> Result<Values, Box<Problem>> {
+        let mut values = Values {
+            file: document.file.clone(),
+            system: document.system,
+            bearing: document.bearing.clone(),
+            known: BTreeMap::new(),
+            record: None,
+            lacking: RefCell::default(),
+            without_effect: Vec::new(),
+        };
+        let own = values.own_catalogue(document)?;
+        let bearings = own
+            .as_ref()
+            .map_or(bearings, |own| own as &dyn BearingSource);
+        let record = values.find_bearing(document, bearings)?;
+        for key in table::keys_of_analysis(document.system) {
+            if let Some(given) = document.values.get(key.path) {
+                let known = values.reader(key).read(key, given)?;
+                values.known.insert(key.path, known);
+            }
+        }
+        let mut missing: Vec<Problem> = Vec::new();
+        for key in table::keys_of(document.system) {
+            let given = document.values.get(key.path);
+            if let Some(unmet) = values.unmet(key) {
+                match given {
+                    Some(given) if values.of_compared_law(&unmet) => {
+                        let known = values.reader(key).read(key, given)?;
+                        values.known.insert(key.path, known);
+                    }
+                    // a file says how its bearing is lubricated, whatever is computed of it
+                    Some(given) if key.path == LUBRICATION => {
+                        let known = values.reader(key).read(key, given)?;
+                        values.known.insert(key.path, known);
+                        values.without_effect.push(LUBRICATION);
+                    }
+                    // a choice that is missing is no choice against the key
+                    Some(_)
+                        if missing.iter().any(|lack| {
+                            lack.key
+                                .as_ref()
+                                .is_some_and(|key| key.ends_with(unmet.path))
+                        }) => {}
+                    Some(given) => {
+                        return Err(Box::new(values.unused(key, given, &unmet, document)));
+                    }
+                    None => {}
+                }
+                continue;
+            }
+            let known = match given {
+                Some(given) => {
+                    values.refuse_conflict(key, given, document)?;
+                    let known = values.lasting_path(key, values.reader(key).read(key, given)?);
+                    Some(values.as_filled_in(key, known, record.as_ref(), document))
+                }
+                None => match values.catalogued(key, record.as_ref())? {
+                    Some(known) => Some(known),
+                    None => match values.without(key, record.as_ref(), document) {
+                        Err(problem) if problem.code == Code::MissingKey => {
+                            missing.push(*problem);
+                            None
+                        }
+                        other => other?,
+                    },
+                },
+            };
+            if let Some(known) = known {
+                values.known.insert(key.path, known);
+            }
+        }
+        values.record = record;
+        if !missing.is_empty() {
+            return Err(Box::new(values.all_missing(missing)));
+        }
+        values.derive()?;
+        Ok(values)
+    }
+
+    /// The first missing key, with the names of all others: one round is enough to give them.
+    fn all_missing(&self, mut missing: Vec<Problem>) -> Problem {
+        let mut others: Vec<String> = (missing.iter().skip(1))
+            .filter_map(|problem| problem.key.clone())
+            .collect();
+        others.extend(self.missing_factors().map(|path| self.shown(path)));
+        if self.lacks_bearings(&missing) {
+            return self.without_bearings(&missing);
+        }
+        let mut first = missing.swap_remove(0);
+        if !others.is_empty() {
+            let others = format!("Missing as well: {}", others.join(", "));
+            first.hint = Some(match first.hint {
+                Some(hint) => format!("{hint}. {others}"),
+                None => others,
+            });
+        }
+        first
+    }
+
+    /// Whether a machine names no auxiliary bearing, in a table or by the node of the only one.
+    fn lacks_bearings(&self, missing: &[Problem]) -> bool {
+        let node = |problem: &Problem| problem.key.as_deref() == Some("contact.node");
+        self.system == SystemName::Machine && missing.iter().any(node)
+    }
+
+    /// What a machine without auxiliary bearings needs first, with all keys that are missing.
+    fn without_bearings(&self, missing: &[Problem]) -> Problem {
+        let keys: Vec<&str> = (missing.iter())
+            .filter_map(|problem| problem.key.as_deref())
+            .collect();
+        let allowed = "a table [[auxiliary_bearing]] for each is needed, with its name and, in [auxiliary_bearing.contact], its node; what all \
+                       have in common stands in [contact], [mount] and [bearing]";
+        let found = "a machine without an auxiliary bearing";
+        self.problem(
+            Code::MissingKey,
+            AUXILIARY_BEARING,
+            Place::Whole,
+            found,
+            allowed,
+        )
+        .with_hint(Some(format!("Missing as well: {}", keys.join(", "))))
+    }
+
+    /// The condition that keeps a key from having a meaning, followed to its root.
+    pub fn unmet(&self, key: &Key) -> Option<Condition> {
+        conditions(key).find_map(|condition| {
+            if let Some(parent) = table::key(condition.path) {
+                if !table::systems(parent).contains(&self.system) {
+                    // there is no choice to be made in this system
+                    return None;
+                }
+                if let Some(root) = self.unmet(parent) {
+                    return Some(root);
+                }
+            }
+            (!self.holds(condition)).then_some(*condition)
+        })
+    }
+
+    fn holds(&self, condition: &Condition) -> bool {
+        let Some(known) = self.known.get(condition.path) else {
+            return false;
+        };
+        condition.values.iter().any(|wanted| match &known.value {
+            Value::Word(word) => word == wanted,
+            Value::Text(text) => text == wanted,
+            Value::Switch(value) => value.to_string() == *wanted,
+            Value::Number(value) => Rational::parse(wanted)
+                .is_some_and(|wanted| (wanted.value() - value).abs() <= POWER_TOLERANCE),
+            Value::Count(count) => count.to_string() == *wanted,
+            Value::Rows(_)
+            | Value::Numbers(_)
+            | Value::Words(_)
+            | Value::Texts(_)
+            | Value::Raw(_) => false,
+        })
+    }
+
+    /// Whether a law that is compared has the key that the law of the bearing has not.
+    fn of_compared_law(&self, unmet: &Condition) -> bool {
+        unmet.path == LAW
+            && self
+                .words(COMPARED_LAWS)
+                .iter()
+                .any(|law| unmet.values.contains(law))
+    }
+
+    fn unused(&self, key: &Key, given: &Given, unmet: &Condition, document: &Document) -> Problem {
+        let here = self.known.get(unmet.path).map_or(String::new(), |known| {
+            format!("; here it is {}", quoted(&known.text))
+        });
+        let reason = if unmet.reason.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", unmet.reason)
+        };
+        self.problem(
+            Code::UnusedKey,
+            key.path,
+            given.place,
+            "a key that has no effect",
+            format!("it is used only with {}{reason}{here}", unmet.text()),
+        )
+        .with_hint(self.remedy(given, unmet, document))
+    }
+
+    /// Which lines have no effect by the same choice, and what would give them one.
+    fn remedy(&self, given: &Given, unmet: &Condition, document: &Document) -> Option<String> {
+        given.place.line()?;
+        let lines: Vec<String> = table::keys_of(self.system)
+            .filter(|key| {
+                let other = self.unmet(key);
+                other.is_some_and(|other| other.path == unmet.path && !self.of_compared_law(&other))
+            })
+            .filter_map(|key| {
+                let line = document.values.get(key.path)?.place.line()?;
+                Some(format!("{line} ({})", key.name()))
+            })
+            .collect();
+        let back = match self.place(unmet.path) {
+            Place::Set => format!("leave --set {} away", unmet.path),
+            Place::Line { line, .. } => format!("change {} in line {line}", unmet.path),
+            Place::Whole => format!("give {}", unmet.path),
+        };
+        let word = if lines.len() == 1 { "line" } else { "lines" };
+        Some(format!("Remove {word} {}, or {back}", lines.join(", ")))
+    }
+
+    fn refuse_conflict(
+        &self,
+        key: &Key,
+        given: &Given,
+        document: &Document,
+    ) -> Result<(), Box<Problem>> {
+        let Some(other) = key.excludes else {
+            return Ok(());
+        };
+        let Some(second) = document.values.get(other) else {
+            return Ok(());
+        };
+        let (path, place, first) = if order(second.place) > order(given.place) {
+            (other, second.place, key.path)
+        } else {
+            (key.path, given.place, other)
+        };
+        Err(Box::new(self.problem(
+            Code::Conflict,
+            path,
+            place,
+            format!("this and {first}, which give the same thing"),
+            "one of the two is needed",
+        )))
+    }
+
+    fn without(
+        &self,
+        key: &Key,
+        record: Option<&BearingRecord>,
+        document: &Document,
+    ) -> Result<Option<Known>, Box<Problem>> {
+        let replaced = table::keys().any(|other| {
+            other.excludes == Some(key.path) && document.values.contains_key(other.path)
+        });
+        if replaced {
+            return Ok(None);
+        }
+        match table::presence(key, self.system) {
+            Presence::Optional(_) | Presence::Derived(_) => Ok(None),
+            Presence::Default(fallback) => self.reader(key).fall_back(key, &fallback).map(Some),
+            Presence::DefaultWhen(condition, fallback, _) if self.holds(&condition) => {
+                self.reader(key).fall_back(key, &fallback).map(Some)
+            }
+            Presence::DefaultWhen(_, _, Otherwise::Fallback(fallback)) => {
+                self.reader(key).fall_back(key, &fallback).map(Some)
+            }
+            Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
+                self.missing(key)
+                    .with_hint(format!("It has a default only with {}", condition.text())),
+            )),
+            Presence::Required => Err(Box::new(self.missing(key))),
+            Presence::FromBearing => {
+                let hint = match record {
+                    Some(record) => {
+                        format!("The catalogue does not know it of \"{}\"", record.name)
+                    }
+                    None => "bearing.name takes it from the catalogue".to_string(),
+                };
+                Err(Box::new(self.missing(key).with_hint(hint)))
+            }
+        }
+    }
+
+    /// A value of a resolved file keeps the origin of a default or of the catalogue as long as it is that value.
+    fn as_filled_in(
+        &self,
+        key: &Key,
+        known: Known,
+        record: Option<&BearingRecord>,
+        document: &Document,
+    ) -> Known {
+        if !known.filled_in {
+            return known;
+        }
+        let catalogued = self.catalogued(key, record).ok().flatten();
+        let filled = catalogued.or_else(|| self.without(key, record, document).ok().flatten());
+        match filled {
+            Some(filled) if filled.value == known.value => Known {
+                provenance: filled.provenance,
+                ..known
+            },
+            _ => known,
+        }
+    }
+
+    fn missing(&self, key: &Key) -> Problem {
+        self.problem(
+            Code::MissingKey,
+            key.path,
+            Place::Whole,
+            "no value",
+            key.needed(),
+        )
+    }
+
+    /// The list of all values for people and for the resolved file: those of the whole file, and behind them those of each of
+    /// several auxiliary bearings.
+    pub fn resolved(all: &[Values]) -> Resolved {
+        let whole = |path: &str| all[0].bearing.is_none() || !several::of_each_bearing(path);
+        let mut values = all[0].listed(whole);
+        if all[0].bearing.is_some() {
+            values.extend(
+                all.iter()
+                    .flat_map(|one| one.listed(several::of_each_bearing)),
+            );
+        }
+        Resolved::new(values)
+    }
+
+    fn listed(&self, wanted: impl Fn(&str) -> bool) -> Vec<ResolvedValue> {
+        let mut list = Vec::new();
+        // of what a run does not read only what is given
+        let beside = table::keys_of_analysis(self.system);
+        let beside = beside.filter(|key| self.known.contains_key(key.path));
+        let keys = table::keys_of(self.system).chain(beside);
+        for key in keys.filter(|key| wanted(key.path)) {
+            let known = self.known.get(key.path);
+            if known.is_none() && self.unmet(key).is_some() {
+                continue;
+            }
+            let absent = match table::presence(key, self.system) {
+                Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
+                Presence::Optional(meaning) => {
+                    Some(Provenance::Default(format!("not given: {meaning}")))
+                }
+                _ => None,
+            };
+            let Some(provenance) = known.map(|known| known.provenance.clone()).or(absent) else {
+                continue;
+            };
+            list.push(ResolvedValue {
+                path: key.path,
+                bearing: self
+                    .bearing
+                    .clone()
+                    .filter(|_| several::of_each_bearing(key.path)),
+                text: known.map(|known| known.text.clone()),
+                value_si: known.and_then(|known| known.value.number()),
+                unit: self.si_unit(key),
+                provenance,
+                place: known.map_or(Place::Whole, |known| known.place),
+            });
+        }
+        list
+    }
+
+    fn si_unit(&self, key: &Key) -> String {
+        match key.kind {
+            Kind::ContactStiffness { .. } => self
+                .text(key.path)
+                .and_then(|text| parse_quantity(&text).ok())
+                .map_or(String::new(), |quantity| quantity.dimension.si_unit()),
+            _ => key.unit().to_string(),
+        }
+    }
+}
+
+/// Later places count more: lines in their order, then overrides.
+fn order(place: Place) -> usize {
+    match place {
+        Place::Whole => 0,
+        Place::Line { line, .. } => line,
+        Place::Set => usize::MAX,
+    }
+}

@@ -1,0 +1,210 @@
+//! A flexible rotor with what carries it, and what is asked of it.
+
+pub mod build;
+mod grade;
+pub mod keys;
+pub mod levitation;
+pub mod part_keys;
+pub mod parts;
+pub mod written;
+
+use crate::document::Document;
+use crate::key::Key;
+use crate::section::Section;
+use crate::values::Values;
+use ::rotor::ModeCount;
+pub use build::{DrawnPiece, RotorModel};
+pub use levitation::LevitationModel;
+use problem::{Code, Problem};
+use units::number_text;
+
+/// The kinds of parts of a flexible rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
+pub fn parts_of_rotors() -> impl Iterator<Item = (String, &'static [Key])> {
+    part_keys::PARTS.iter().map(|kind| (kind.path(), kind.keys))
+}
+
+/// A rotor and what is asked of it. Speeds in rad/s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorAnalysis {
+    /// The rotor.
+    pub model: RotorModel,
+    /// Rated speed.
+    pub speed: f64,
+    /// Lowest speed looked at.
+    pub speed_from: f64,
+    /// Highest speed looked at.
+    pub speed_to: f64,
+    /// Number of speeds.
+    pub speed_count: usize,
+    /// Highest frequency looked at, rad/s.
+    pub frequency_to: f64,
+    /// Number of modes shown at the rated speed; by default no more than there are.
+    pub modes: ModeCount,
+    /// Modes of the free rotor up to this frequency are kept, rad/s.
+    pub cutoff: f64,
+    /// Whether the file gives that frequency; else more are kept where the modes shown need them.
+    pub cutoff_given: bool,
+    /// Longest element of what does not say it itself, m.
+    pub longest_element: f64,
+    /// Gravity across the shaft, m/s².
+    pub gravity: f64,
+    /// Direction of gravity from x, rad.
+    pub gravity_angle: f64,
+    /// Lowest operating speed.
+    pub operating_from: f64,
+    /// Highest operating speed.
+    pub operating_to: f64,
+    /// Least separation of a critical speed from the operating speeds, as a share.
+    pub separation_margin: Option<f64>,
+    /// Amplification below which a critical speed needs no separation.
+    pub exempt_amplification: Option<f64>,
+    /// Lowest stiffness of the map, N/m.
+    pub map_from: f64,
+    /// Highest stiffness of the map, N/m.
+    pub map_to: f64,
+    /// Number of stiffnesses of the map.
+    pub map_count: usize,
+}
+
+impl RotorAnalysis {
+    /// The typed values of a document, checked.
+    pub fn of(document: &Document, values: &Values) -> Result<RotorAnalysis, Box<Problem>> {
+        let parts = parts::resolve(document, values)?;
+        let model = build::model(&parts, values)?;
+        let analysis = Section {
+            values,
+            path: "analysis",
+        };
+        let speed = values.number("rotor.speed").unwrap_or_default();
+        let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
+        let (operating_from, operating_to) =
+            (operating("operating_from"), operating("operating_to"));
+        let separation_margin = analysis.maybe("separation_margin");
+        let margin = separation_margin.unwrap_or(0.0);
+        let speed_to = analysis
+            .maybe("speed_to")
+            .unwrap_or((1.5 * speed.abs()).max((1.0 + margin) * operating_to));
+        let speed_from = analysis.number("speed_from");
+        let frequency_to = analysis
+            .maybe("frequency_to")
+            .unwrap_or(1.5 * speed_to.max(speed.abs()));
+        let followed = frequency_to.max(speed_to);
+        let typical = build::typical_stiffness(&model, speed);
+        let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
+        let this = RotorAnalysis {
+            speed,
+            speed_from,
+            speed_to,
+            speed_count: analysis.count("speed_count") as usize,
+            frequency_to,
+            modes: match (
+                analysis.count("modes") as usize,
+                values.is_own("analysis.modes"),
+            ) {
+                (asked, true) => ModeCount::Exactly(asked),
+                (most, false) => ModeCount::AtMost(most),
+            },
+            cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
+            cutoff_given: values.is_own("analysis.cutoff"),
+            longest_element: build::longest_element(&model, values),
+            model,
+            gravity: analysis.number("gravity"),
+            gravity_angle: analysis.number("gravity_angle"),
+            operating_from,
+            operating_to,
+            separation_margin,
+            exempt_amplification: analysis.maybe("exempt_amplification"),
+            map_from: map("map_from", 1e-2),
+            map_to: map("map_to", 1e2),
+            map_count: analysis.count("map_count") as usize,
+        };
+        this.check(values)?;
+        Ok(this)
+    }
+
+    /// The speeds that a verdict on the separation needs, where not all of them are looked at.
+    pub fn not_looked_at(&self) -> Option<[f64; 2]> {
+        let margin = self.separation_margin.unwrap_or(0.0);
+        let needed = [
+            (1.0 - margin).max(0.0) * self.operating_from,
+            (1.0 + margin) * self.operating_to,
+        ];
+        (self.speed_from > needed[0] || self.speed_to < needed[1]).then_some(needed)
+    }
+
+    /// Refuses ranges that are none.
+    fn check(&self, values: &Values) -> Result<(), Box<Problem>> {
+        const SPEED_TO: &str = "analysis.speed_to";
+        const OPERATING_TO: &str = "analysis.operating_to";
+        let refuse = |path: &str, found: String, allowed: &str| {
+            let place = values.place(path);
+            let problem = values.problem(Code::OutOfRange, path, place, found, allowed);
+            Err(Box::new(problem))
+        };
+        // what is not given follows from rotor.speed
+        let text = |path: &str, value: f64, unit: &str| {
+            let by_default = || format!("{} {unit} by its default", number_text(value));
+            values.text(path).unwrap_or_else(by_default)
+        };
+        if self.speed_to == 0.0 {
+            return refuse(
+                SPEED_TO,
+                "no speed to look up to: rotor.speed is 0".to_string(),
+                "one is needed: speed_to in [analysis], or --set analysis.speed_to=\"18000 rpm\"",
+            );
+        }
+        let outer = |piece: &DrawnPiece| piece.layer.start.outer.max(piece.layer.end.outer);
+        let radius = 0.5 * self.model.pieces.iter().map(outer).fold(0.0, f64::max);
+        let path = match values.text(SPEED_TO) {
+            Some(_) => SPEED_TO,
+            None => "rotor.speed",
+        };
+        values.holds_together(path, self.speed_to, radius)?;
+        if self.speed_to <= self.speed_from {
+            let found = text(SPEED_TO, self.speed_to, "rad/s");
+            return refuse(SPEED_TO, found, "more than analysis.speed_from is needed");
+        }
+        if self.map_to <= self.map_from {
+            let found = text("analysis.map_to", self.map_to, "N/m");
+            return refuse(
+                "analysis.map_to",
+                found,
+                "more than analysis.map_from is needed",
+            );
+        }
+        if self.operating_to < self.operating_from {
+            let found = text(OPERATING_TO, self.operating_to, "rad/s");
+            let allowed = "at least analysis.operating_from is needed";
+            return refuse(OPERATING_TO, found, allowed);
+        }
+        Ok(())
+    }
+
+    /// Gravity x + jy, m/s².
+    pub fn weight(&self) -> rotor::C64 {
+        rotor::C64::from_polar(self.gravity, self.gravity_angle)
+    }
+
+    /// The speeds looked at, rad/s: evenly apart, and those at which a table of a support or seal has a row.
+    pub fn speeds(&self) -> Vec<f64> {
+        let last = (self.speed_count - 1) as f64;
+        let span = self.speed_to - self.speed_from;
+        let even = (0..self.speed_count).map(|k| self.speed_from + span * k as f64 / last);
+        let tables = self
+            .model
+            .rotor
+            .supports
+            .iter()
+            .map(|own| &own.coefficients);
+        let rows = tables
+            .filter(|own| own.range().is_some())
+            .flat_map(|own| own.rows());
+        let within = |speed: &f64| self.speed_from < *speed && *speed < self.speed_to;
+        let mut all: Vec<f64> = even
+            .chain(rows.map(|(speed, _)| *speed).filter(within))
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|a, b| *a - *b <= 1e-9 * *a);
+        all
+    }
+}

@@ -1,0 +1,269 @@
+//! What of a bearing follows its temperatures while it is computed in time: oil and clearance.
+//!
+//! ```text
+//!   temperatures of the network ──► ν(T_lubricant), P_d(T_inner, T_balls, T_outer) ──► the constants of the bearing
+//! ```
+//! The network takes heat in spans; after each of them the bearing goes on with the constants of its temperatures, where these
+//! have moved enough to matter. M1 of balls that their rings preload is that of the radial load which presses them as hard, as in
+//! a run-out.
+//!
+//! Source: derived; book/src/theory/heat.md. Assumes: rings at one temperature each; rings and balls free to grow.
+
+use crate::bearing::build::bearing as constants_of;
+use crate::bearing::contacts::ball_contacts;
+use crate::coast_down::build::{ICE_POINT, network, unpreloaded};
+use model::bearing::BearingConstants;
+use model::system::energy::{Content, Flows};
+use number::Vec2;
+use physics::viscosity::Viscosity;
+use scenario::{Bearing, Feedback, Moment, Traction, Warm};
+use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
+use thermal::load_zone::LoadZone;
+
+/// Temperatures that the traction of oil films is known at, °C.
+const FILMS: (f64, f64) = (30.0, 100.0);
+/// Contact angle beyond which balls roll off the shoulder, rad.
+const STEEPEST: f64 = 1.0;
+/// Changes that matter: of the clearance, m; of the viscosity over it.
+const CLOSES: f64 = 20e-9;
+const THINS: f64 = 2e-3;
+
+/// What of a bearing follows.
+#[derive(Clone, Debug)]
+pub(crate) struct Follows {
+    feedback: Feedback,
+    oil: Option<Viscosity>,
+    zone: LoadZone,
+    /// ΣQ under the weight without preload, N.
+    unpreloaded: f64,
+    /// At the start, °C.
+    start: f64,
+}
+
+impl Follows {
+    /// What follows by these temperatures; none where nothing does.
+    pub fn of(warm: &Warm, bearing: &Bearing) -> Option<Self> {
+        let zone = network(warm).ok()?.1;
+        let follows = Follows {
+            feedback: warm.heat.feedback,
+            oil: warm.viscosity(),
+            unpreloaded: unpreloaded(&zone),
+            zone,
+            start: warm.heat.start_temperature - ICE_POINT,
+        };
+        let any = follows.thins(bearing) || follows.closes(bearing) || follows.tilts(bearing);
+        any.then_some(follows)
+    }
+
+    /// Whether anything of it depends on the temperature of its lubricant.
+    pub fn thins(&self, bearing: &Bearing) -> bool {
+        let by_moment = matches!(bearing.moment, Moment::Palmgren { .. } | Moment::Skf { .. });
+        self.feedback != Feedback::None
+            && (by_moment && self.oil.is_some()
+                || matches!(bearing.traction, Traction::Lubricant(_)))
+    }
+
+    /// Whether its clearance follows: at an angle a preload is held by springs or by distances that are not given.
+    pub fn closes(&self, bearing: &Bearing) -> bool {
+        self.feedback == Feedback::Full && bearing.contact_angle == 0.0
+    }
+
+    /// Whether its contact angle follows, as that of a pair that springs press.
+    pub fn tilts(&self, bearing: &Bearing) -> bool {
+        self.feedback == Feedback::Full && bearing.contact_angle > 0.0
+    }
+
+    /// Contact angle at these temperatures (°C), rad: cos α = 1 − P_d/(2A), of which P_d changes; A = (f_i + f_o − 1) D.
+    pub fn contact_angle(&self, bearing: &Bearing, temperatures: &[f64]) -> f64 {
+        let grooves = bearing.inner_groove_curvature + bearing.outer_groove_curvature - 1.0;
+        let opened = self.changes(temperatures).iter().sum::<f64>();
+        let cosine = bearing.contact_angle.cos() - 0.5 * opened / (grooves * bearing.ball_diameter);
+        cosine.clamp(STEEPEST.cos(), 1.0).acos()
+    }
+
+    /// Diametral clearance at these temperatures (°C) and at a speed of the inner race, rad/s: m.
+    pub fn clearance(&self, temperatures: &[f64], speed: f64) -> f64 {
+        self.zone.clearance_at(temperatures, speed)
+    }
+
+    /// What inner ring, balls and outer ring have added to it at these temperatures (°C), m.
+    pub fn changes(&self, temperatures: &[f64]) -> [f64; 3] {
+        self.zone.changes_at(temperatures)
+    }
+
+    /// Whether a ring that was pressed is loose on its shaft, or in its housing.
+    pub fn loose(&self, temperatures: &[f64]) -> [bool; 2] {
+        self.zone.loose(temperatures)
+    }
+
+    /// Viscosity of the lubricant at these temperatures (°C), m²/s; 1 where none is known.
+    pub fn viscosity(&self, temperatures: &[f64]) -> f64 {
+        let kelvin = temperatures[LUBRICANT] + ICE_POINT;
+        self.oil.as_ref().map_or(1.0, |oil| oil.held(kelvin))
+    }
+
+    /// Makes a bearing one of these temperatures, °C, and its steady moment that of a speed of the inner race, rad/s.
+    pub fn condition(&self, bearing: &mut Bearing, temperatures: &[f64], speed: f64) {
+        if self.thins(bearing) {
+            let warmer = self.viscosity(temperatures);
+            if let (Moment::Palmgren { viscosity, .. } | Moment::Skf { viscosity, .. }, Some(_)) =
+                (&mut bearing.moment, &self.oil)
+            {
+                *viscosity = warmer;
+            }
+            if let Traction::Lubricant(film) = &mut bearing.traction {
+                let races = 0.5 * (temperatures[INNER_RACE] + temperatures[OUTER_RACE]);
+                let rise = 0.5 * (temperatures[BALLS] + races) - self.start;
+                let [least, most] = [FILMS.0, FILMS.1].map(|limit| limit + ICE_POINT);
+                let warm = film.temperature + rise;
+                film.temperature =
+                    warm.clamp(least.min(film.temperature), most.max(film.temperature));
+            }
+        }
+        if self.tilts(bearing) {
+            bearing.contact_angle = self.contact_angle(bearing, temperatures);
+        }
+        if self.closes(bearing) {
+            // its balls meet the growth of the inner track themselves
+            bearing.operating_diametral_clearance = self.clearance(temperatures, 0.0);
+            let clearance = self.clearance(temperatures, speed);
+            if let Moment::Palmgren {
+                f1_factor,
+                f1_exponent,
+                preload,
+                ..
+            } = &mut bearing.moment
+            {
+                let (weight, pressing) = (
+                    self.zone.load,
+                    self.zone.pressing(clearance, self.unpreloaded),
+                );
+                match pressing > weight || weight == 0.0 {
+                    true => *preload = (pressing * pressing - weight * weight).sqrt(),
+                    // fewer balls carry: less at every load, P = W ΣQ/ΣQ_0 in M1 = z (P/C0)^y P d_m
+                    false => *f1_factor *= (pressing / weight).powf(1.0 + *f1_exponent),
+                }
+            }
+        }
+    }
+}
+
+/// A bearing that follows its temperatures.
+#[derive(Debug)]
+pub(crate) struct FollowedBearing {
+    follows: Follows,
+    /// As it is at the start.
+    bearing: Bearing,
+    gravity: Vec2<f64>,
+}
+
+/// As which it was made last.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct State {
+    /// Diametral, m.
+    pub clearance: f64,
+    viscosity: f64,
+    /// Least diametral clearance so far, m.
+    pub least: f64,
+    /// When it closed, s.
+    pub closed: Option<f64>,
+    /// When a pressed ring became loose on its shaft, in its housing, s.
+    pub loose: [Option<f64>; 2],
+}
+
+impl FollowedBearing {
+    /// None where nothing of it follows.
+    pub fn of(warm: Option<&Warm>, bearing: &Bearing, gravity: Vec2<f64>) -> Option<Self> {
+        Some(FollowedBearing {
+            follows: Follows::of(warm?, bearing)?,
+            bearing: bearing.clone(),
+            gravity,
+        })
+    }
+
+    /// Whether it is another one at these temperatures of its nodes (°C) and this speed of its inner race (rad/s) than it was in this state.
+    pub fn moved(&self, last: Option<State>, nodes: &[f64], speed: f64) -> bool {
+        let Some(last) = last else {
+            return true;
+        };
+        let follows = &self.follows;
+        let closes = (follows.clearance(nodes, speed) - last.clearance).abs() > CLOSES;
+        let thins = (follows.viscosity(nodes) / last.viscosity - 1.0).abs() > THINS;
+        let grows = follows.closes(&self.bearing) || follows.tilts(&self.bearing);
+        closes && grows || thins && follows.thins(&self.bearing)
+    }
+
+    /// Its constants at these temperatures of its nodes, °C, and this speed of its inner race, rad/s, at a time, s; why no law holds there.
+    pub fn renewed(
+        &self,
+        last: &mut Option<State>,
+        (nodes, speed): (&[f64], f64),
+        time: f64,
+    ) -> Result<BearingConstants, String> {
+        let mut bearing = self.bearing.clone();
+        self.follows.condition(&mut bearing, nodes, speed);
+        let constants = ball_contacts(&bearing)
+            .and_then(|contacts| constants_of(&bearing, &contacts, self.gravity))
+            .map_err(|problem| problem.found)?;
+        let clearance = self.follows.clearance(nodes, speed);
+        let closed = last.and_then(|last| last.closed);
+        let loose = self.follows.loose(nodes);
+        let loose = [0, 1].map(|seat| {
+            let before = last.and_then(|last| last.loose[seat]);
+            before.or_else(|| loose[seat].then_some(time))
+        });
+        let closes = clearance < 0.0 && self.bearing.operating_diametral_clearance >= 0.0;
+        *last = Some(State {
+            clearance,
+            viscosity: self.follows.viscosity(nodes),
+            least: last.map_or(clearance, |last| last.least.min(clearance)),
+            closed: closed.or_else(|| closes.then_some(time)),
+            loose,
+        });
+        Ok(constants)
+    }
+}
+
+/// A machine that goes on with other constants: as it is now, and the work that was done on its balls by that.
+#[derive(Clone, Debug)]
+pub(crate) struct Renewals<M> {
+    machine: Option<Box<M>>,
+    /// Instants, s, and the work until then, J.
+    work: Vec<(f64, f64)>,
+}
+
+impl<M> Default for Renewals<M> {
+    fn default() -> Self {
+        Renewals {
+            machine: None,
+            work: Vec::new(),
+        }
+    }
+}
+
+impl<M> Renewals<M> {
+    /// From a time on, s, it is another machine; rings that have closed on loaded balls did this work, J.
+    pub fn renew(&mut self, machine: Box<M>, time: f64, work: f64) {
+        let before = self.work.last().map_or(0.0, |(_, work)| *work);
+        if work != 0.0 {
+            self.work.push((time, before + work));
+        }
+        self.machine = Some(machine);
+    }
+    /// As it is now, where it was another one at the start.
+    pub fn machine<'a>(&'a self, at_start: &'a M) -> &'a M {
+        self.machine.as_deref().unwrap_or(at_start)
+    }
+    /// Work of rings that close on loaded balls until an instant, J.
+    pub fn work_until(&self, time: f64) -> f64 {
+        let past = self.work.partition_point(|(at, _)| *at < time);
+        past.checked_sub(1).map_or(0.0, |last| self.work[last].1)
+    }
+    /// What must close, with that work as a source, until an instant.
+    pub fn booked(&self, time: f64, (content, mut flows): (Content, Flows)) -> (Content, Flows) {
+        let work = self.work_until(time);
+        flows.work += work;
+        flows.work_size += work.abs();
+        (content, flows)
+    }
+}

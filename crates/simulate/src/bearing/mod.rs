@@ -1,0 +1,19 @@
+//! The bearing of a simulation.
+
+pub mod build;
+pub(crate) mod columns;
+pub mod contacts;
+pub(crate) mod feedback;
+pub(crate) mod film;
+pub(crate) mod networks;
+pub mod pressure;
+pub(crate) mod quantities;
+pub(crate) mod races;
+pub(crate) mod run;
+pub(crate) mod severity;
+pub(crate) mod skid;
+pub mod steady;
+pub(crate) mod traction;
+pub(crate) mod warm;
+pub(crate) mod warming;
+pub mod warnings;

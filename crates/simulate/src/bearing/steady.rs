@@ -1,0 +1,99 @@
+//! The steady moment of a bearing at its speed, and whether traction can carry it.
+
+use crate::bearing::contacts::{SCENARIO, ball_contacts};
+use crate::bearing::traction::traction;
+use model::bearing::BearingConstants;
+use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
+use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
+use model::system::spin_up::{Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine};
+use model::table::Table;
+use problem::{Code, Problem};
+use scenario::{Bearing, Moment};
+
+/// Whether traction can carry the friction moment at one speed and load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyFinding {
+    /// Speed of the inner race, rad/s.
+    pub speed: f64,
+    /// Radial load, N.
+    pub load: f64,
+    /// Moment M of the law, N m.
+    pub moment: f64,
+    /// Largest traction moment of the inner race over M.
+    pub capacity: f64,
+}
+
+impl SteadyFinding {
+    /// Whether traction does not suffice for the steady moment.
+    pub fn skids(&self) -> bool {
+        self.capacity < LEAST_CAPACITY
+    }
+}
+
+/// The speed and load that a bearing is meant to run at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SteadyPoint {
+    /// Speed of the inner race, rad/s.
+    pub speed: f64,
+    /// Radial load, N.
+    pub load: f64,
+}
+
+/// Moment and traction capacity of a bearing that is pressed together at rest. None where there is no steady moment or
+/// no speed.
+pub(crate) fn steady(
+    constants: &BearingConstants,
+    bearing: &Bearing,
+    race: &InnerRace<f64>,
+    SteadyPoint { speed, load }: SteadyPoint,
+) -> Result<Option<SteadyFinding>, Box<Problem>> {
+    if bearing.moment == Moment::None || speed == 0.0 {
+        return Ok(None);
+    }
+    // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
+    let drive = match constants {
+        BearingConstants::Planar(_) => Drive::step(speed),
+        BearingConstants::Rolling(_) => Drive::Torque(Table::constant(0.0)),
+    };
+    let machine = SpinUpMachine::new(SpinUpConstants {
+        race: *race,
+        bearing: constants.clone().at_the_law(),
+        drive,
+        load: Table::constant(load),
+        target_speed: speed,
+    })
+    .map_err(refused)?;
+    let mut state = machine.start();
+    state[INNER + 5] = speed;
+    let (_, probe) = machine.inspect(0.0, &state);
+    let moment = probe[STEADY_MOMENT];
+    let traction = traction(bearing, &ball_contacts(bearing)?)?;
+    let capacity = traction_capacity(&traction, constants, speed, probe[INNER_LOAD_SUM]);
+    Ok(Some(SteadyFinding {
+        speed,
+        load,
+        moment,
+        capacity: capacity / moment.abs(),
+    }))
+}
+
+/// A machine that the model refuses, reported with the key that decides.
+pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
+    let key = match refusal {
+        Refusal::DragToGround => "bearing.drag",
+        Refusal::LossCreatesEnergy | Refusal::LossExceedsInertia => "bearing.acceleration_loss",
+        Refusal::NegativeLoad => "drive.radial_load",
+        Refusal::StepOfRollingBalls => "drive.acceleration",
+        Refusal::MomentShare => "bearing.moment",
+        Refusal::LubricantState => "bearing.lubricant_state",
+    };
+    Box::new(
+        Problem::new(
+            Code::Impossible,
+            SCENARIO,
+            refusal.to_string(),
+            "a machine that can be computed is needed",
+        )
+        .on_key(key),
+    )
+}

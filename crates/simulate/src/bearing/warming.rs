@@ -1,0 +1,200 @@
+//! How warm the one bearing of a run becomes, and what of it follows: of a spin-up, and of a test on a rig.
+
+use crate::bearing::feedback::{FollowedBearing, Renewals, State};
+use crate::bearing::warm::{self, Followed, Heated};
+use model::bearing::{self, BearingConstants};
+use model::bearing_heat::{Seen, WarmBearing, Warmth};
+use model::heats::HEATS;
+use model::system::energy::Content;
+use model::system::rig::layout::SHAFT;
+use model::system::rig::{self, RigMachine};
+use model::system::spin_up::SpinUpMachine;
+use model::system::spin_up::layout::INNER;
+use number::Vec2;
+use outcome::list::List;
+use scenario::{Bearing, Warm};
+
+/// A machine with one bearing whose temperatures are followed.
+pub(crate) trait Warms: Sized + Clone {
+    /// Heats of the bearing in a state, J, in the order of [`bearing::HEATS`]: their first channel.
+    fn first_heat(&self) -> usize;
+    /// Friction of rotor and race in a state, J; none where nothing rubs on the race.
+    fn rubbing(&self) -> Option<usize>;
+    /// Channel of the spin of the inner race, rad/s.
+    fn spin(&self) -> usize;
+    /// The bearing, and where its own states begin.
+    fn bearing(&self) -> (&BearingConstants, usize);
+    /// The machine with another bearing; why there is none.
+    fn with(&self, bearing: BearingConstants) -> Result<Self, String>;
+    /// What it holds in a state.
+    fn held(&self, state: &[f64]) -> Content;
+}
+
+impl Warms for SpinUpMachine {
+    fn first_heat(&self) -> usize {
+        self.layout().flows().start
+    }
+    fn rubbing(&self) -> Option<usize> {
+        Some(self.first_heat() + bearing::HEATS.len())
+    }
+    fn spin(&self) -> usize {
+        INNER + 5
+    }
+    fn bearing(&self) -> (&BearingConstants, usize) {
+        (&self.constants.bearing, self.layout().bearing().start)
+    }
+    fn with(&self, bearing: BearingConstants) -> Result<Self, String> {
+        let mut constants = self.constants.clone();
+        constants.bearing = bearing;
+        SpinUpMachine::new(constants).map_err(|why| why.to_string())
+    }
+    fn held(&self, state: &[f64]) -> Content {
+        self.content(state)
+    }
+}
+
+impl rig::Warming for Warming<'_, RigMachine> {
+    fn is_due(&mut self, machine: &RigMachine, time: f64, state: &dyn Fn(usize) -> f64) -> bool {
+        self.step(machine, time, state)
+    }
+    fn renewed(
+        &mut self,
+        machine: &RigMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<RigMachine>> {
+        Warming::renewed(self, machine, time, state)
+    }
+}
+
+impl Warms for RigMachine {
+    fn first_heat(&self) -> usize {
+        self.layout().flows().start
+    }
+    fn rubbing(&self) -> Option<usize> {
+        None
+    }
+    fn spin(&self) -> usize {
+        SHAFT + 1
+    }
+    fn bearing(&self) -> (&BearingConstants, usize) {
+        (&self.constants.bearing, self.layout().bearing().start)
+    }
+    fn with(&self, bearing: BearingConstants) -> Result<Self, String> {
+        let mut constants = self.constants.clone();
+        constants.bearing = bearing;
+        RigMachine::new(constants).map_err(|why| why.to_string())
+    }
+    fn held(&self, state: &[f64]) -> Content {
+        self.content(state)
+    }
+}
+
+/// The network of a bearing while it runs.
+pub(crate) struct Warming<'a, M> {
+    heated: Heated<'a>,
+    warmth: Warmth,
+    followed: Option<FollowedBearing>,
+    state: Option<State>,
+    /// The machines that it has been.
+    pub renewals: Renewals<M>,
+    broken: Option<(f64, String)>,
+}
+
+impl<'a, M: Warms> Warming<'a, M> {
+    /// None where its temperatures are not followed.
+    pub fn of(
+        given: Option<&'a Warm>,
+        bearing: &'a Bearing,
+        part: Option<&'a WarmBearing>,
+    ) -> Option<Self> {
+        let heated = Heated::of(given, bearing, part)?;
+        Some(Warming {
+            heated,
+            warmth: Warmth::new(heated.part, true),
+            followed: FollowedBearing::of(given, bearing, Vec2::zero()),
+            state: None,
+            renewals: Renewals::default(),
+            broken: None,
+        })
+    }
+
+    /// Takes note of the end of a step; whether the machine is to go on with other constants.
+    pub fn step(&mut self, machine: &M, time: f64, state: &dyn Fn(usize) -> f64) -> bool {
+        if !self.warmth.is_due(time) {
+            return false;
+        }
+        self.take(machine, time, state);
+        let warmth = &self.warmth;
+        let moved = |followed: &FollowedBearing| {
+            followed.moved(self.state, &warmth.temperatures, warmth.spin())
+        };
+        self.broken.is_none() && self.followed.as_ref().is_some_and(moved)
+    }
+
+    /// Lets the network take the heat until a time.
+    pub fn take(&mut self, machine: &M, time: f64, state: &dyn Fn(usize) -> f64) {
+        let first = machine.first_heat();
+        let mut heats = [0.0; HEATS];
+        for (k, heat) in heats[..bearing::HEATS.len()].iter_mut().enumerate() {
+            *heat = state(first + k);
+        }
+        // the last of both is the friction of rotor and race
+        heats[HEATS - 1] = machine.rubbing().map_or(0.0, state);
+        let (bearing, own_states) = machine.bearing();
+        let seen = Seen {
+            time,
+            heats,
+            spin: state(machine.spin()),
+            drag_factor: bearing.drag_factor(&|own| state(own_states + own)),
+            films: bearing.in_films(&|own| state(own_states + own)),
+            taken: None,
+            impulse: None,
+        };
+        self.warmth.take(self.heated.part, &seen);
+    }
+
+    /// The machine at these temperatures; none where no law holds there.
+    pub fn renewed(&mut self, machine: &M, time: f64, state: &[f64]) -> Option<Box<M>> {
+        let followed = self.followed.as_ref()?;
+        let new = followed
+            .renewed(
+                &mut self.state,
+                (&self.warmth.temperatures, self.warmth.spin()),
+                time,
+            )
+            .and_then(|bearing| machine.with(bearing));
+        match new {
+            Ok(new) => {
+                let new = Box::new(new);
+                let done = new.held(state).energy() - machine.held(state).energy();
+                self.renewals.renew(new.clone(), time, done);
+                Some(new)
+            }
+            Err(why) => {
+                self.broken = Some((time, why));
+                None
+            }
+        }
+    }
+
+    /// Names what it became, and the work of its rings; before a run what these are.
+    pub fn name(list: &mut List, heated: Option<Heated>, run: Option<&Self>) {
+        let Some(heated) = heated else {
+            return;
+        };
+        warm::name(list, &heated, run.map(Warming::followed).as_ref());
+        let work = run.map(|run| run.renewals.work_until(f64::INFINITY));
+        warm::work_of_rings(list, &(), work.as_ref());
+    }
+
+    /// What has become of it.
+    pub fn followed(&self) -> Followed<'_> {
+        Followed {
+            heated: self.heated,
+            warmth: &self.warmth,
+            state: self.state,
+            broken: self.broken.as_ref(),
+        }
+    }
+}

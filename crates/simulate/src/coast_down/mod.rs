@@ -1,0 +1,210 @@
+//! A rotor that runs out on its auxiliary bearings, which warm: from full speed to a stop in slow time.
+//!
+//! The rotor rolls; what whirls, bounces or slides needs a run in motion before it. Speed, temperatures of a network of seven
+//! nodes and what follows them (viscosity, clearance, ball loads, conductances) are integrated in steps of the speed, and the heat
+//! made is stored or given away to rounding. A second run-out holds every node at its limit from the moment it gets there: the
+//! heat that must be taken from it for that.
+//!
+//! Source: derived; book/src/theory/heat.md., 3, 5, 6 and 8.
+
+pub mod build;
+pub(crate) mod course;
+pub(crate) mod quantities;
+pub(crate) mod ran;
+pub(crate) mod rows;
+pub(crate) mod warnings;
+
+use crate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::coast_down::course::{BEYOND, Course};
+use crate::coast_down::rows::{End, Row};
+use model::system::layout::of_part;
+use outcome::list::List;
+use outcome::options::Options;
+use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
+use problem::Problem;
+use scenario::{CoastDown, Scenario};
+use std::time::Instant;
+use thermal::coast_down::Endless;
+
+/// The results of a run-out, without values.
+pub fn results(built: &Built) -> Vec<Quantity> {
+    let mut list = List::default();
+    quantities::name(&mut list, &built.parts, None);
+    list.quantities
+}
+
+/// Computes it and names what it finds.
+pub fn run(scenario: &Scenario, run: &CoastDown, built: &Built, options: &Options) -> Outcome {
+    let clock = Instant::now();
+    let found = ran::ran(built, options.interrupt);
+    let named = run.bearing.name.as_deref().unwrap_or("bearing");
+    let mut outcome = Outcome {
+        system: "coast_down",
+        title: (scenario.title.clone()).unwrap_or_else(|| format!("Run-out on a {named}")),
+        quantities: Vec::new(),
+        history: Vec::new(),
+        contacts: Vec::new(),
+        warnings: Vec::new(),
+        stop: Stop {
+            reason: "finished",
+            time: 0.0,
+            text: String::new(),
+        },
+        work: Work {
+            members: 1,
+            ..Work::default()
+        },
+        members: Members::default(),
+        drawn: Vec::new(),
+        limits: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio: f64::NAN,
+            balls: run.bearing.ball_count,
+        }],
+        files: Vec::new(),
+    };
+    match found {
+        Ok(ran) => {
+            outcome.stop = stop(&ran.free);
+            let mut list = List::default();
+            quantities::name(&mut list, &built.parts, Some(&ran));
+            outcome.quantities = list.ended_at(Some(outcome.stop.time));
+            outcome.history = history(&built.parts, &ran.free.rows);
+            outcome.warnings = warnings::of(&ran);
+            outcome.work.steps = ran.free.state.steps as u64;
+        }
+        Err(problem) => outcome.stop = failed(&problem),
+    }
+    outcome.work.seconds = clock.elapsed().as_secs_f64();
+    outcome
+}
+
+fn failed(problem: &Problem) -> Stop {
+    Stop {
+        reason: "diverged",
+        time: 0.0,
+        text: format!(
+            "Nothing was computed: {}; {}.",
+            problem.found, problem.allowed
+        ),
+    }
+}
+
+/// How it ended, in words.
+pub(crate) fn stop(course: &Course) -> Stop {
+    let time = course.state.time;
+    let speed = course.state.speed;
+    let (reason, text) = match course.end {
+        End::Stands => ("finished", "The rotor stands.".to_string()),
+        End::Late => (
+            "still turning",
+            format!("coast_down.longest is reached; the rotor still turns with {speed:.4} rad/s."),
+        ),
+        End::Interrupted => (
+            "interrupted",
+            format!("Interrupted at {time:.4} s; everything until then is kept."),
+        ),
+        End::Beyond => (
+            "left the model",
+            format!(
+                "Stopped at {time:.4} s: a node is above {BEYOND:.0} °C, where steel is soft and the lubricant is gone."
+            ),
+        ),
+        End::Endless(Endless::NothingBrakes(speed)) => (
+            "left the model",
+            format!(
+                "Stopped at {time:.4} s: nothing brakes the rotor at {speed:.4} rad/s, so that it never stands."
+            ),
+        ),
+        End::Lost(why) => (
+            "left the model",
+            format!("Stopped at {time:.4} s, with {speed:.4} rad/s: {why}."),
+        ),
+        End::Endless(Endless::Steps) => (
+            "step limit",
+            format!(
+                "Given up at {time:.4} s, after {} steps.",
+                course.state.steps
+            ),
+        ),
+    };
+    Stop { reason, time, text }
+}
+
+/// Columns over time of these bearings.
+pub(crate) fn history(parts: &[Part], rows: &[Row]) -> Vec<Column> {
+    let mut columns = Vec::new();
+    let mut add = |name: String, unit, meaning: String, value: &dyn Fn(&Row) -> f64| {
+        columns.push(Column {
+            name,
+            unit,
+            meaning,
+            values: rows.iter().map(value).collect(),
+        });
+    };
+    add("time".into(), "s", "time since the start".into(), &|row| {
+        row.time
+    });
+    add(
+        "rotor.speed".into(),
+        "rad/s",
+        "speed of rotor and inner races".into(),
+        &|row| row.speed,
+    );
+    for (k, part) in parts.iter().enumerate() {
+        for node in part.nodes(k) {
+            let name = node.name();
+            add(
+                of_part(&part.name, &format!("{name}.temperature")),
+                "K",
+                format!("temperature of the {}", name.replace('_', " ")),
+                &|row| row.temperatures[node.place()] + ICE_POINT,
+            );
+        }
+    }
+    for (at, (name, words)) in [
+        (
+            "speed_dependent",
+            "speed-dependent moment M0 of all bearings",
+        ),
+        ("load_dependent", "load-dependent moment M1 of all bearings"),
+        ("windage", "moment of the gas"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        add(format!("{name}.moment"), "N m", words.into(), &|row| {
+            row.moments[at]
+        });
+    }
+    add(
+        "heat.power".into(),
+        "W",
+        "heat made in all bearings".into(),
+        &|row| row.speed * (row.moments[0] + row.moments[1]),
+    );
+    for (k, part) in parts.iter().enumerate() {
+        add(
+            of_part(&part.name, "bearing.clearance"),
+            "m",
+            "diametral clearance; negative is preload".into(),
+            &|row| row.bearings[k].clearance,
+        );
+        add(
+            of_part(&part.name, "bearing.largest_ball_load"),
+            "N",
+            "load of the most loaded ball".into(),
+            &|row| row.bearings[k].largest_ball_load(),
+        );
+    }
+    add(
+        "heat.growth_rate".into(),
+        "1/s",
+        "rate at which a disturbance of the temperatures grows; above 0 they run away".into(),
+        &|row| row.growth,
+    );
+    columns
+}

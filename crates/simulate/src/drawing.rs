@@ -1,0 +1,102 @@
+//! What the page needs to draw a rotor to scale, as lists.
+
+use outcome::list::results;
+use outcome::list::{List, origins};
+use rotor::{Layer, Place};
+use scenario::RotorModel;
+
+origins! {
+    /// What the scenario says.
+    pub GIVEN: law "",
+        source "the scenario",
+        valid "";
+}
+
+/// Positions, diameters and names of all parts.
+pub fn name(list: &mut List, model: &RotorModel) {
+    parts(list, model, Some(&Drawn(model)));
+}
+
+results! {
+    fn parts(model: &RotorModel, run: &Drawn) {
+        "node_positions": list "m", GIVEN, "positions of the nodes" => run.rotor.nodes.clone();
+        "piece_starts": list "m", GIVEN, "where each piece of the shaft begins" => run.over_pieces(|l| l.from);
+        "piece_ends": list "m", GIVEN, "where each piece ends" => run.over_pieces(|l| l.to);
+        "piece_outer_starts": list "m", GIVEN, "outer diameter of each piece where it begins" => run.over_pieces(|l| l.start.outer);
+        "piece_outer_ends": list "m", GIVEN, "outer diameter of each piece where it ends" => run.over_pieces(|l| l.end.outer);
+        "piece_inner_starts": list "m", GIVEN, "inner diameter of each piece where it begins" => run.over_pieces(|l| l.start.inner);
+        "piece_inner_ends": list "m", GIVEN, "inner diameter of each piece where it ends" => run.over_pieces(|l| l.end.inner);
+        "piece_carries": list "1", GIVEN, "1 for a piece that bends with the shaft, else 0" => run.over_pieces(|l| f64::from(u8::from(l.carries)));
+        "disk_positions": list "m", GIVEN, "positions of the disks" => run.at(run.rotor.disks.iter().map(|disk| disk.node));
+        "disk_masses": list "kg", GIVEN, "masses of the disks" => run.rotor.disks.iter().map(|disk| disk.mass).collect::<Vec<_>>();
+        "disk_diameters": list "m", GIVEN, "diameters of the disks, 0 where not given" => run.over_disks(|size| size.0);
+        "disk_widths": list "m", GIVEN, "widths of the disks, 0 where not given" => run.over_disks(|size| size.1);
+        "support_positions": list "m", GIVEN, "positions of the supports" => run.at(run.on_nodes(false).map(|(_, node)| node));
+        "seal_positions": list "m", GIVEN, "positions of the seals" => run.at(run.on_nodes(true).map(|(_, node)| node));
+        "mass_positions": list "m", GIVEN, "positions of the point masses" => run.at(run.rotor.masses.iter().map(|mass| mass.node));
+        "point_masses": list "kg", GIVEN, "point masses" => run.rotor.masses.iter().map(|mass| mass.mass).collect::<Vec<_>>();
+        "unbalance_positions": list "m", GIVEN, "positions of the unbalances" => run.at(run.rotor.unbalance.iter().map(|unbalance| unbalance.node));
+        "named_node_positions": list "m", GIVEN, "positions of the named nodes" => run.at(run.nodes.iter().map(|(_, node)| *node));
+        "magnet_positions": list "m", GIVEN, "positions of the magnets" => run.at(run.magnets().map(|(_, magnet, _)| *magnet));
+        "sensor_positions": list "m", GIVEN, "positions of their sensors" => run.at(run.magnets().map(|(_, _, sensor)| *sensor));
+        "piece_materials": text "", GIVEN, "materials of the pieces" => lines(run.pieces.iter().map(|piece| &piece.material));
+        "piece_names": text "", GIVEN, "names of the pieces" => lines(run.pieces.iter().map(|piece| &piece.name));
+        "disk_names": text "", GIVEN, "names of the disks" => lines(run.disks.iter());
+        "unbalance_names": text "", GIVEN, "names of the unbalances" => lines(run.unbalance.iter());
+        "named_node_names": text "", GIVEN, "names of the named nodes" => lines(run.nodes.iter().map(|(name, _)| name));
+        "magnet_names": text "", GIVEN, "names of the magnets" => lines(run.magnets().map(|(name, _, _)| name));
+        "support_names": text "", GIVEN, "names of the supports" => lines(run.on_nodes(false).map(|(name, _)| name));
+        "seal_names": text "", GIVEN, "names of the seals" => lines(run.on_nodes(true).map(|(name, _)| name));
+    }
+}
+
+fn lines<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    names.map(String::as_str).collect::<Vec<_>>().join("\n")
+}
+
+/// Diameter and width of a disk, m, where they are given.
+type Size = (Option<f64>, Option<f64>);
+
+/// A rotor as it is drawn.
+struct Drawn<'a>(&'a RotorModel);
+
+impl std::ops::Deref for Drawn<'_> {
+    type Target = RotorModel;
+
+    fn deref(&self) -> &RotorModel {
+        self.0
+    }
+}
+
+impl Drawn<'_> {
+    /// A value of each piece of the shaft.
+    fn over_pieces(&self, value: fn(&Layer) -> f64) -> Vec<f64> {
+        let layers = self.pieces.iter().map(|piece| &piece.layer);
+        layers.map(value).collect()
+    }
+
+    /// A diameter or width of each disk, m; 0, to be drawn by its mass, where it is not given.
+    fn over_disks(&self, size: fn(&Size) -> Option<f64>) -> Vec<f64> {
+        let sizes = self.disk_sizes.iter().map(size);
+        sizes.map(Option::unwrap_or_default).collect()
+    }
+
+    /// Positions of nodes, m.
+    fn at(&self, nodes: impl Iterator<Item = usize>) -> Vec<f64> {
+        nodes.map(|node| self.rotor.nodes[node]).collect()
+    }
+
+    fn magnets(&self) -> impl Iterator<Item = &(String, usize, usize)> {
+        self.levitation.iter().flat_map(|own| &own.magnets)
+    }
+
+    /// Names and nodes of supports, or of seals, that stand on a node.
+    fn on_nodes(&self, seal: bool) -> impl Iterator<Item = (&String, usize)> {
+        let all = self.supports.iter().zip(&self.rotor.supports);
+        let own = all.filter(move |(_, support)| support.seal == seal);
+        own.filter_map(|(name, support)| match support.at {
+            Place::Node(node) => Some((name, node)),
+            Place::Housing(_) => None,
+        })
+    }
+}

@@ -1,0 +1,242 @@
+//! From a drop to the constants of the model.
+
+use crate::bearing;
+use crate::bearing::pressure::PressureFactors;
+use crate::bearing::steady::{SteadyFinding, SteadyPoint};
+use crate::drop::layers;
+use crate::drop::mount;
+use crate::drop::shaft::{self, BuiltShaft};
+use crate::drop::torque;
+use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
+use model::bearing::{BearingConstants, RollingConstants};
+use model::contact::JournalContact;
+use model::levitation::Levitation;
+use model::magnets::MagnetsConstants;
+use model::mount::Mount;
+use model::rotor::RotorConstants;
+use model::system::machine::MachineConstants;
+use model::system::spin_up::InnerRace;
+use number::Vec2;
+use problem::Problem;
+use scenario::several::path_of;
+use scenario::{AuxiliaryBearing, Drop, Spin};
+
+/// A drop ready to be simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Built {
+    /// Constants of the model.
+    pub constants: MachineConstants,
+    /// What the model does not hold of each auxiliary bearing.
+    pub bearings: Vec<BuiltBearing>,
+    /// A rotor that bends.
+    pub shaft: Option<BuiltShaft>,
+}
+
+/// What belongs to an auxiliary bearing besides the constants of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltBearing {
+    /// Hertz pressure in the contacts of a ball.
+    pub pressure_factors: PressureFactors,
+    /// What traction can carry at full speed under its share of the rotor's weight; none without a steady moment.
+    pub steady: Option<SteadyFinding>,
+}
+
+/// Builds the constants of a drop: identical planes share the rotor equally, so that one of them is computed.
+pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
+    let shaft = match &drop.shaft {
+        Some(given) => {
+            let built = shaft::build(drop, given, gravity(drop))?;
+            shaft::clear(drop, given, &built)?;
+            Some(built)
+        }
+        None => None,
+    };
+    let mut parts = Vec::new();
+    let mut bearings = Vec::new();
+    for (k, part) in drop.auxiliary_bearings.iter().enumerate() {
+        let (mut constants, built) = auxiliary_bearing(drop, k).map_err(|mut problem| {
+            let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
+            problem.key = problem.key.map(|key| path_of(of, &key));
+            problem
+        })?;
+        // the results of an only bearing need no name
+        if drop.auxiliary_bearings.len() == 1 {
+            constants.name.clear();
+        }
+        if let (Some(given), Some(built)) = (&drop.shaft, &shaft) {
+            let [x, y] = given.places[k].misalignment;
+            constants.node = built.nodes[k].clone();
+            constants.datum = Vec2::new(x, y);
+        }
+        parts.push(constants);
+        bearings.push(built);
+    }
+    let magnets = shaft.as_ref().and_then(|built| built.magnets.clone());
+    let mut constants = constants(drop, parts, magnets);
+    if let Some(built) = &shaft {
+        constants.rotor = built.rotor.clone();
+        constants.seals = built.seals.clone();
+    }
+    Ok(Built {
+        constants,
+        bearings,
+        shaft,
+    })
+}
+
+fn auxiliary_bearing(
+    drop: &Drop,
+    k: usize,
+) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
+    let part = &drop.auxiliary_bearings[k];
+    let Some(given) = &part.bearing else {
+        return Ok(bushing(part));
+    };
+    let gravity = gravity(drop);
+    let (sine, cosine) = drop.gravity.direction.sin_cos();
+    let contacts = bearing::contacts::ball_contacts(given)?;
+    let constants = bearing::build::bearing(given, &contacts, gravity)?;
+    let steady = bearing::steady::steady(
+        &constants,
+        given,
+        &InnerRace {
+            mass: given.inner_race_mass,
+            inertia: given.inner_race_inertia,
+            centre_held: given.inner_race_centre_held,
+            load_direction: Vec2::new(cosine, sine),
+            gravity,
+        },
+        SteadyPoint {
+            speed: drop.rotor.speed,
+            load: drop.rotor.mass * drop.share(k) * drop.gravity.acceleration,
+        },
+    )?;
+    let built = BuiltBearing {
+        pressure_factors: contacts.pressure_factors(),
+        steady,
+    };
+    let inner_race = RaceConstants {
+        mass: given.inner_race_mass,
+        inertia: given.inner_race_inertia,
+        centre_held: given.inner_race_centre_held,
+        torque: given.inner_race_torque,
+    };
+    let mut warm = bearing::networks::built(part.warm.as_deref(), given)?;
+    if let (Some(warm), Some((layer, area))) = (&mut warm, part.layer_of_core()) {
+        let capacity = layer.capacity(area);
+        warm.network.with_layer(capacity, layer.to_core(area));
+    }
+    let around = AuxiliaryBearingConstants {
+        warm,
+        ..around(part, inner_race, constants)
+    };
+    Ok((around, built))
+}
+
+/// A plain bushing: its ring is the mass on the mount.
+fn bushing(part: &AuxiliaryBearing) -> (AuxiliaryBearingConstants, BuiltBearing) {
+    let radius = 0.5 * part.contact.bore_diameter;
+    let ring = RaceConstants {
+        mass: 0.0,
+        inertia: part.mount.moving_mass * radius * radius,
+        centre_held: false,
+        torque: 0.0,
+    };
+    let none = BearingConstants::Rolling(RollingConstants::bushing(radius));
+    let built = BuiltBearing {
+        pressure_factors: PressureFactors::NONE,
+        steady: None,
+    };
+    (around(part, ring, none), built)
+}
+
+/// Contact and mount around a bearing.
+fn around(
+    part: &AuxiliaryBearing,
+    inner_race: RaceConstants<f64>,
+    bearing: BearingConstants,
+) -> AuxiliaryBearingConstants {
+    let contact = &part.contact;
+    AuxiliaryBearingConstants {
+        name: part.name.clone(),
+        node: vec![1.0],
+        datum: Vec2::zero(),
+        contact: JournalContact {
+            radial_clearance: contact.radial_air_clearance,
+            bore_radius: 0.5 * contact.bore_diameter,
+            stiffness: contact.stiffness,
+            exponent: contact.exponent,
+            damping: contact.damping,
+            friction: contact.friction_coefficient,
+            inverse_reference_speed: 1.0 / contact.friction_reference_speed,
+        },
+        inner_race,
+        bearing,
+        outer_race_mass: part.mount.moving_mass,
+        mount: Mount {
+            stiffness: part.mount.stiffness,
+            damping: part.mount.damping,
+            free_position: Vec2::zero(),
+        },
+        mount_parts: mount::parts(&part.mount.parts),
+        surfaces: layers::built(part),
+        warm: None,
+    }
+}
+
+pub(super) fn gravity(drop: &Drop) -> Vec2<f64> {
+    let (sine, cosine) = drop.gravity.direction.sin_cos();
+    Vec2::new(cosine, sine) * drop.gravity.acceleration
+}
+
+/// The constants of a drop onto auxiliary bearings that are built.
+fn constants(
+    drop: &Drop,
+    bearings: Vec<AuxiliaryBearingConstants>,
+    magnets: Option<MagnetsConstants>,
+) -> MachineConstants {
+    // of planes that are alike one is computed, with its share of the rotor; bearings with names carry the whole of it
+    let share = 1.0 / f64::from(drop.rotor.planes);
+    let each = bearings.len() as f64;
+    let gravity = gravity(drop);
+    let mass = drop.rotor.mass * share;
+    // the brake follows the release
+    let released = magnets.as_ref().map_or(0.0, |own| own.lost);
+    let (brake_torque, brake_start) = match drop.rotor.spin {
+        Spin::Braked { torque, start } => (torque * share, start + released),
+        Spin::Free | Spin::Held => (0.0, f64::INFINITY),
+    };
+    let torque = torque::tables(drop);
+    let mut constants = MachineConstants {
+        rotor: RotorConstants {
+            torque: torque.clone(),
+            brake_torque,
+            spin_held: drop.rotor.spin == Spin::Held,
+            ..RotorConstants::point(
+                mass,
+                drop.rotor.polar_inertia * share,
+                drop.rotor.unbalance_eccentricity,
+            )
+        },
+        // a magnetic bearing stands beside each auxiliary one
+        levitation: Levitation {
+            stiffness: drop.levitation.stiffness * each,
+            damping: drop.levitation.damping * each,
+            centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
+            carried: -(gravity * mass),
+        },
+        seals: Vec::new(),
+        bearings,
+        gravity,
+        speed: drop.rotor.speed,
+        unbalance_angle: drop.rotor.unbalance_angle,
+        schedule: torque::schedule(
+            brake_start,
+            torque.as_ref(),
+            magnets.as_ref().map(|own| (own, drop.run.duration)),
+        ),
+        magnets,
+    };
+    constants.balance_mounts();
+    constants
+}

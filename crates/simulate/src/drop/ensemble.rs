@@ -1,0 +1,281 @@
+//! Many machines: in lanes of the vector unit, and in threads.
+//!
+//! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
+//! vector unit or the number of threads.
+
+use crate::drop::feedback::{Following, Now, Warmed};
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
+use model::system::machine::simulate::{Runs, Steps, simulate};
+use number::Level;
+use outcome::options::bounded;
+use rayon::prelude::*;
+use solve::{Ending, Flow, Observer, Settings, Step};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// One machine with its start.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// The machine, which members that differ in their start alone share.
+    pub machine: Arc<RotorMachine>,
+    /// What of it follows its temperatures.
+    pub(crate) following: Option<Arc<Following>>,
+    /// Its state at the start.
+    pub start: Vec<f64>,
+    /// Whether its history is kept.
+    pub keep_rows: bool,
+    /// Members of one kind have the same laws and the same states: lanes are for these alone.
+    pub kind: usize,
+}
+
+impl Member {
+    /// A machine whose constants stay; its history is not kept.
+    pub fn of(machine: RotorMachine, start: Vec<f64>) -> Member {
+        Member {
+            machine: machine.into(),
+            following: None,
+            start,
+            keep_rows: false,
+            kind: 0,
+        }
+    }
+}
+
+/// What came out of one member.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// The state at the start.
+    pub start: Vec<f64>,
+    /// What was watched and kept.
+    pub record: Record,
+    /// What has followed its temperatures.
+    pub(crate) warmed: Option<Box<Warmed>>,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// How to run the members.
+pub struct Plan<'a> {
+    /// Of the integration.
+    pub settings: Settings,
+    /// Explicit or linearly implicit.
+    pub steps: Steps,
+    /// Time between rows, s.
+    pub interval: f64,
+    /// Whether a run ends once its rotor rolls.
+    pub until_rolling: bool,
+    /// Number of threads; all cores if none.
+    pub threads: Option<usize>,
+    /// Stops everything when true.
+    pub interrupt: &'a AtomicBool,
+    /// Called with the fraction done.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// Runs all members; the results stand in their order.
+pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
+    let kinds = members.iter().map(|member| member.kind).max().unwrap_or(0) + 1;
+    if kinds == 1 {
+        return run_of_a_kind(members, plan);
+    }
+    let mut all: Vec<Option<Finished>> = members.iter().map(|_| None).collect();
+    let mut before = 0;
+    for kind in 0..kinds {
+        let places: Vec<usize> = (0..members.len())
+            .filter(|k| members[*k].kind == kind)
+            .collect();
+        let some: Vec<Member> = places.iter().map(|k| members[*k].clone()).collect();
+        let share = |done: f64| (before as f64 + done * some.len() as f64) / members.len() as f64;
+        let progress = |done: f64| (plan.progress)(share(done));
+        let plan = Plan {
+            progress: &progress,
+            ..*plan
+        };
+        for (place, finished) in places.iter().zip(run_of_a_kind(&some, &plan)) {
+            all[*place] = Some(finished);
+        }
+        before += some.len();
+    }
+    all.into_iter().flatten().collect()
+}
+
+/// Runs one member alone.
+pub(crate) fn one(member: &Member, plan: &Plan) -> Finished {
+    let done = AtomicU64::new(0);
+    let report = Report {
+        done: &done,
+        members: 1,
+        progress: plan.progress,
+    };
+    let mut found = side_by_side(std::slice::from_ref(member), plan, &report);
+    match found.pop() {
+        Some(finished) => finished,
+        None => unreachable!("each member has an ending"),
+    }
+}
+
+/// Runs members that lanes may share.
+fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
+    let done = AtomicU64::new(0);
+    let report = Report {
+        done: &done,
+        members: members.len(),
+        progress: plan.progress,
+    };
+    let chunk = |members: &[Member]| side_by_side(members, plan, &report);
+    let threads = plan
+        .threads
+        .map_or_else(rayon::current_num_threads, bounded);
+    let together = together(members.len(), Level::detect().lanes(), threads);
+    let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
+    match plan.threads {
+        _ if members.len() <= together => chunk(members),
+        None => all(),
+        Some(_) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(all),
+            // the machine refuses more threads: the shared pool gives the same numbers
+            Err(_) => all(),
+        },
+    }
+}
+
+/// Most members a lane takes one after the other: their records stand in memory together.
+const MOST_TURNS: usize = 8;
+
+/// Members that a thread takes at a time: so many that lanes which are free early find another one, so few that all threads
+/// have something to do.
+fn together(members: usize, lanes: usize, threads: usize) -> usize {
+    let turns = members / (lanes * threads.max(1));
+    lanes * turns.clamp(1, MOST_TURNS)
+}
+
+/// Runs members that share the lanes of a vector register: each lane takes the next one when it is free.
+fn side_by_side(members: &[Member], plan: &Plan, report: &Report) -> Vec<Finished> {
+    let machines: Vec<&RotorMachine> = members.iter().map(|m| &*m.machine).collect();
+    let starts: Vec<Vec<f64>> = members.iter().map(|m| m.start.clone()).collect();
+    let mut watched: Vec<Watched> = (members.iter())
+        .map(|member| Watched::of(member, plan, report))
+        .collect();
+    let runs = Runs {
+        machines: &machines,
+        starts: &starts,
+        settings: plan.settings,
+        steps: plan.steps,
+        interrupt: plan.interrupt,
+    };
+    let mut observers: Vec<&mut dyn Observer<RotorMachine>> = (watched.iter_mut())
+        .map(|watched| watched as &mut dyn Observer<RotorMachine>)
+        .collect();
+    let endings = simulate(runs, &mut observers);
+    let parts = watched.into_iter().zip(endings).zip(members);
+    parts
+        .map(|((watched, ending), member)| watched.finish(ending, member))
+        .collect()
+}
+
+/// Adds up the thousandths of all members.
+struct Report<'a> {
+    done: &'a AtomicU64,
+    members: usize,
+    progress: &'a (dyn Fn(f64) + Sync),
+}
+
+/// A record that also reports progress.
+struct Watched<'a> {
+    record: Record,
+    following: Option<&'a Following>,
+    warmed: Option<Box<Warmed>>,
+    /// Until when temperatures were known when they were last looked at, s.
+    looked: f64,
+    report: &'a Report<'a>,
+    reported: u64,
+    end: f64,
+}
+
+impl<'a> Watched<'a> {
+    fn of(member: &'a Member, plan: &Plan, report: &'a Report<'a>) -> Self {
+        let end = plan.settings.end;
+        let record = Record::new(&member.machine, end, plan.interval, member.keep_rows);
+        Watched {
+            record: match plan.until_rolling {
+                true => record.until_rolling(),
+                false => record,
+            },
+            following: member.following.as_deref(),
+            warmed: (member.following.is_some()).then(Box::default),
+            looked: 0.0,
+            report,
+            reported: 0,
+            end,
+        }
+    }
+    fn finish(self, ending: Ending, member: &Member) -> Finished {
+        if ending.stop == solve::Stop::Finished {
+            self.advance(1000);
+        }
+        let mut record = self.record;
+        let machine = (self.warmed.as_ref())
+            .map_or(&*member.machine, |w| w.renewals.machine(&member.machine));
+        record.finish(machine, ending.time, &ending.state);
+        Finished {
+            start: member.start.clone(),
+            record,
+            warmed: self.warmed,
+            ending,
+        }
+    }
+    /// Reports that this member stands at so many thousandths.
+    fn advance(&self, thousandths: u64) {
+        let more = thousandths.saturating_sub(self.reported);
+        let done = self.report.done.fetch_add(more, Ordering::Relaxed) + more;
+        (self.report.progress)(done as f64 / (1000 * self.report.members) as f64);
+    }
+}
+
+impl Observer<RotorMachine> for Watched<'_> {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
+        let thousandths = (1000.0 * step.end / self.end) as u64;
+        if thousandths > self.reported {
+            self.advance(thousandths);
+            self.reported = thousandths;
+        }
+        let flow = self.record.step(step);
+        let (Flow::Continue, Some(following), Some(warmed)) = (flow, self.following, &self.warmed)
+        else {
+            return flow;
+        };
+        let now = |k| now(&self.record, step.machine, k);
+        let known = (self.record.bearings.iter())
+            .filter_map(|bearing| Some(bearing.warmth.as_ref()?.known_until()));
+        let known = known.fold(0.0, f64::max);
+        let is_new = known > self.looked;
+        self.looked = known;
+        match is_new && following.is_due(warmed, &now) || following.rubs(&now) {
+            true => Flow::Renew,
+            false => Flow::Continue,
+        }
+    }
+    fn renewed(
+        &mut self,
+        machine: &RotorMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<RotorMachine>> {
+        let (following, warmed) = (self.following?, self.warmed.as_mut()?);
+        let now = |k| now(&self.record, machine, k);
+        following.renewed(warmed, machine, (time, state), &now)
+    }
+}
+
+/// Temperatures of a bearing, where they are followed.
+fn now<'a>(record: &'a Record, machine: &RotorMachine, bearing: usize) -> Option<Now<'a>> {
+    let kept = &record.bearings[bearing];
+    let warmth = kept.warmth.as_ref()?;
+    Some(Now {
+        nodes: &warmth.temperatures,
+        spin: warmth.spin(),
+        contact: kept.heat.as_ref().map_or(0.0, |heat| heat.rise),
+        friction: machine.constants.bearings[bearing].contact.friction,
+    })
+}

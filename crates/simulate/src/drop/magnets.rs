@@ -1,0 +1,184 @@
+//! What a run shows of magnets whose controllers act in time, or whose currents decay.
+
+use crate::bearing::columns::Table;
+use crate::bearing::run::BearingRun;
+use crate::drop::context::{Context, Setup};
+use crate::ending;
+use levitation::Amplifier;
+use model::system::machine::record::AtLimit;
+use outcome::list::results;
+use outcome::list::{List, origins};
+use outcome::{Column, Stop, Warning, warning};
+use scenario::Shaft;
+
+/// Share of the time with power at a limit from which on it is reported.
+const LONG_AT_LIMIT: f64 = 1e-4;
+
+/// An axis of a magnet by the name of that and its number: both axes of each stand in turn.
+fn of_axis(given: &Shaft, axis: usize) -> [String; 2] {
+    let magnets = given.model.levitation.iter().flat_map(|own| &own.magnets);
+    let name = magnets.map(|(name, ..)| name.clone()).nth(axis / 2);
+    [name.unwrap_or_default(), (axis % 2 + 1).to_string()]
+}
+
+/// Name of a value of an axis of a magnet.
+fn value_of(given: &Shaft, axis: usize, what: &str) -> String {
+    let [name, number] = of_axis(given, axis);
+    format!("magnet.{name}.{what}_{number}")
+}
+
+/// Share of its gap from which on a run that diverges does so at a magnet's pole.
+const AT_POLE: f64 = 0.8;
+
+/// How a run ended; where it diverged because the rotor came to a pole, which.
+pub(crate) fn stop(context: &Context) -> Stop {
+    let ending = &context.finished.ending;
+    let mut stop = ending::stop(ending);
+    let shares = context.setup.machine.towards_poles(&ending.state);
+    let nearest = (shares.iter().enumerate()).max_by(|a, b| a.1.total_cmp(b.1));
+    let diverged = matches!(ending.stop, solve::Stop::Diverged { .. });
+    if let (Some((axis, share)), Some(given), true) = (nearest, &context.setup.drop.shaft, diverged)
+        && *share > AT_POLE
+    {
+        stop.text = format!(
+            "Diverged at {:.4} ms: the rotor has come {:.0} % of the way to a pole along {}, where the pull grows without bound. What should \
+             hold it before, auxiliary bearings and their mounts, lets it come so far: it needs a smaller clearance, or a mount \
+             that is stiffer or has a stop.",
+            1e3 * ending.time,
+            100.0 * share,
+            value_of(given, axis, "axis")
+        );
+    }
+    stop
+}
+
+/// Why nothing is released.
+pub(crate) fn kept() -> String {
+    "the magnets had power to the end".to_string()
+}
+
+/// Names what the controllers did.
+pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
+    let Some(given) = setup.controlled() else {
+        return;
+    };
+    loss(list, given, run);
+    for (k, _) in setup.machine.axes().enumerate() {
+        let [name, number] = of_axis(given, k);
+        let largest = run.map(|run| run.finished.record.currents[k].largest.value);
+        list.named(&[&name, &number], |list| {
+            current(list, &(), largest.as_ref())
+        });
+    }
+}
+
+results! {
+    /// When the magnets lose their power.
+    fn loss(given: &Shaft, run: &Context) {
+        "power_lost_at": number "s", LOST, "instant at which the magnets lose their power" => {
+            run.finished.record.released.map(|_| given.power_lost).ok_or_else(kept)
+        };
+        "speed_at_power_loss": number "rad/s", LOST, "speed of the rotor at this instant" => run.finished.record.released.ok_or_else(kept);
+    }
+    fn current(setup: &(), largest: &f64) {
+        "magnet.*.largest_current_*": number "A", CURRENT, "largest control current of this axis" => *largest;
+    }
+}
+
+/// Control currents of all axes.
+pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
+    let machine = context.setup.machine;
+    let Some(given) = &context.setup.drop.shaft else {
+        return Vec::new();
+    };
+    let mut table = Table::over(run);
+    for (axis, own) in machine.axes().enumerate() {
+        let angle = own.direction.y.atan2(own.direction.x).to_degrees();
+        let meaning = format!("control current of the magnet's axis at {angle:.0} degrees from x");
+        let name = value_of(given, axis, "current");
+        table.add(&name, "A", &meaning, |row| {
+            machine.currents(row.time, row.state)[axis]
+        });
+    }
+    table.columns
+}
+
+/// The axis whose current was longest at the limit of its coil.
+pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
+    let currents = &context.finished.record.currents;
+    let (axis, share, first) = longest(context, currents.iter().map(|peak| peak.limited))?;
+    let given = context.setup.controlled()?;
+    let own = given.model.levitation.as_ref()?.levitation.actuators();
+    let [least, most] = [own[axis].lowest_current, own[axis].largest_current];
+    let text = format!(
+        "{} reaches the limit of its coil ({} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says \
+         of stability and response does not hold there.",
+        value_of(given, axis, "current"),
+        match -least == most {
+            true => format!("{most:.3}"),
+            false => format!("{least:.3} or {most:.3}"),
+        },
+        100.0 * share,
+        1e3 * first
+    );
+    Some((share, warning("AB2034", text)))
+}
+
+/// The axis whose amplifier was longest at its largest voltage.
+pub(crate) fn voltage_limited(context: &Context) -> Option<(f64, Warning)> {
+    let given = context.setup.controlled()?;
+    let voltages = context.finished.record.voltages.iter();
+    let (axis, share, first) = longest(context, voltages.copied())?;
+    let text = format!(
+        "{} reaches the largest of its amplifier ({}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the \
+         controller wants it, and what the linear analysis says of stability and response does not hold there.",
+        value_of(given, axis, "voltage"),
+        largest_voltage(given, axis).map_or(String::new(), |volts| format!("{volts} V, ")),
+        100.0 * share,
+        1e3 * first
+    );
+    Some((share, warning("AB2036", text)))
+}
+
+/// The axis that was longest at a limit, the share of the time with power, and since when, s.
+fn longest(context: &Context, limits: impl Iterator<Item = AtLimit>) -> Option<(usize, f64, f64)> {
+    let given = context.setup.controlled()?;
+    let powered = given.power_lost.min(context.finished.ending.time);
+    let longest = limits.enumerate();
+    let (axis, own) = longest.max_by(|a, b| a.1.duration.total_cmp(&b.1.duration))?;
+    let share = own.duration / powered;
+    (share > LONG_AT_LIMIT).then_some((axis, share, own.first?))
+}
+
+/// Largest voltage of the amplifier of an axis, V.
+fn largest_voltage(given: &Shaft, axis: usize) -> Option<f64> {
+    let levitation = &given.model.levitation.as_ref()?.levitation;
+    match levitation.actuators().get(axis)?.amplifier {
+        Amplifier::Voltage {
+            largest_voltage, ..
+        } => Some(largest_voltage),
+        _ => None,
+    }
+}
+
+/// A rotor that touches its auxiliary bearings while it has its magnets.
+pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
+    let given = context.setup.controlled()?;
+    let mut contacts = context.record(k).contacts.iter();
+    let first = contacts.find(|contact| contact.start < given.power_lost)?;
+    let text = format!(
+        "The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may \
+         change what they do.",
+        1e3 * first.start
+    );
+    Some((given.power_lost - first.start, warning("AB2035", text)))
+}
+
+origins! {
+    LOST: law "levitation.power_lost_at, and the spin of the rotor then; speeds of inner races are compared with it",
+        source "crates/model/src/system/machine/record.rs",
+        valid "all magnets at once; sensors and controllers stand still from then on";
+    CURRENT: law "largest size of the control current, at the end of each step while the magnets have power and after",
+        source "crates/model/src/magnets.rs, crates/levitation/src/levitation.rs",
+        valid "force law, limits, delay or samples as given; no saturation of iron, no eddy currents, no noise";
+}

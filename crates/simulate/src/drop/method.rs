@@ -1,0 +1,77 @@
+//! Which steps a drop takes: explicit or linearly implicit.
+//!
+//! ```text
+//!   friction rate    λ = 5 μ'(0) Q/m_b          a ball between two loaded races: its slip decays like e^(-λt)
+//!   radial mode      ω = √(K_r/m_b)             K_r = 1.5 (K_i^(2/3) + K_o^(2/3)) Q^(1/3): what any step must follow
+//! ```
+//! Explicit steps are bound by λ, where it is large against ω; linearly implicit ones are not, and cost several times more.
+//! Q is the largest ball load of a first impact, 5 F/N (Stribeck) of the radial force F = v √(k m): the rotor has fallen through its
+//! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
+//! the largest.
+
+use crate::drop::build::Built;
+use crate::ending::DESIGN;
+use crate::stepping::{Asked, Stepping};
+use model::auxiliary_bearing::AuxiliaryBearingConstants;
+use model::bearing::tangents::Known;
+use model::bearing::{BearingConstants, PlanarConstants};
+use scenario::Drop;
+
+/// Tolerance of linearly implicit steps at design accuracy: their energies close as those of explicit ones at half of it.
+const DESIGN_IMPLICIT: f64 = 2e-4;
+/// Tolerance of linearly implicit steps at screening accuracy.
+const SCREENING: f64 = 3e-2;
+/// Tolerances where the rotor bends: impacts reach its quick coordinates, whose energy the ledger counts. Measured on the rotor of the
+/// shipped machine: below 1e-6 by explicit steps over a second, and 1.6e-4 by linearly implicit ones.
+const DESIGN_BENT: f64 = 2e-5;
+const SCREENING_BENT: f64 = 3e-3;
+
+/// What decides the steps of a drop.
+pub(crate) fn asked(drop: &Drop, known: Known) -> Asked<'_> {
+    let bends = drop.shaft.is_some();
+    let (design, screening) = match bends {
+        true => ([DESIGN_BENT; 2], SCREENING_BENT),
+        false => ([DESIGN, DESIGN_IMPLICIT], SCREENING),
+    };
+    Asked {
+        run: &drop.run,
+        known,
+        bends,
+        design,
+        screening,
+    }
+}
+
+/// The steps of a drop.
+pub(crate) fn stepping(drop: &Drop, built: &Built, known: Known) -> Stepping {
+    asked(drop, known).stepping(|| stiffest(drop, built))
+}
+
+/// The largest λ/ω of its auxiliary bearings.
+fn stiffest(drop: &Drop, built: &Built) -> f64 {
+    let parts = built.constants.bearings.iter();
+    let stiffnesses = parts.filter_map(|part| match &part.bearing {
+        BearingConstants::Planar(bearing) => Some(stiffness(drop, built, part, bearing)),
+        BearingConstants::Rolling(_) => None,
+    });
+    stiffnesses.fold(0.0, f64::max)
+}
+
+/// λ/ω of an auxiliary bearing in a first impact.
+fn stiffness(
+    drop: &Drop,
+    built: &Built,
+    part: &AuxiliaryBearingConstants,
+    bearing: &PlanarConstants,
+) -> f64 {
+    let fall = 2.0 * drop.gravity.acceleration * part.contact.radial_clearance;
+    let force = (fall * part.mount.stiffness * built.constants.rotor.mass()).sqrt();
+    let load = 5.0 * force / bearing.balls as f64;
+    let ball = &bearing.ball;
+    let slope = bearing.traction.slope_at_rest(load, 0.0);
+    let rate = 5.0 * slope * load / ball.mass;
+    let stiffness = |hertz: f64| 1.5 * hertz.powf(2.0 / 3.0) * load.cbrt();
+    let mode =
+        ((stiffness(ball.inner_stiffness) + stiffness(ball.outer_stiffness)) / ball.mass).sqrt();
+    rate / mode
+}

@@ -1,0 +1,363 @@
+//! Every named result of a drop with its law, source and valid range.
+
+use crate::bearing::quantities::balls;
+use crate::bearing::races::{Life, life, lubricant_factor};
+use crate::bearing::run::BearingRun;
+use crate::bearing::severity::{
+    BLOWS, HEAT_INDEX, HOT_RACE, RISE as RACE_RISE, blows, inner_race_rise,
+};
+use crate::bearing::warm::{self, RINGS};
+use crate::drop::context::{Context, Setup, touched};
+use crate::drop::feedback::Following;
+use crate::drop::{magnets, mount_results, shaft_results, surfaces};
+use crate::static_safety::{no_safety, safety_under};
+use catalogue::geometry::digits;
+use model::system::energy::Content;
+use model::system::machine::record::BearingRecord;
+use outcome::Quantity;
+use outcome::list::results;
+use outcome::list::{List, not_given, origins, relative};
+use scenario::{AuxiliaryBearing, Bearing, axial_share};
+use std::f64::consts::PI;
+
+const EQUATIONS: &str =
+    "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
+const CONTACT: &str = "Hunt and Crossley 1975, crates/model/src/contact.rs";
+const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
+const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
+
+/// Names the results of one member, without a run those of any: those of each auxiliary bearing under its name, then those of
+/// the machine.
+pub(crate) fn name(setup: Setup, run: Option<&Context>) -> Vec<Quantity> {
+    let mut list = List::default();
+    for (k, part) in setup.parts().enumerate() {
+        list.of_part(part, |list| {
+            of_bearing(list, (setup, k), run.map(|run| Landed::of(run, k)).as_ref());
+        });
+    }
+    shaft_results::name(&mut list, setup, run);
+    release(&mut list, &setup, run);
+    magnets::name(&mut list, setup, run);
+    energies(&mut list, &setup, run);
+    list.ended_at(run.map(|run| run.finished.ending.time))
+}
+
+/// Names the results of one auxiliary bearing.
+fn of_bearing(list: &mut List, (setup, k): (Setup, usize), run: Option<&Landed>) {
+    let given = setup.given(k);
+    let constants = &setup.machine.constants.bearings[k];
+    contacts(list, &(), run);
+    if let Some(own) = setup.balls(k) {
+        spin_up(list, &(), run);
+        balls(list, &own, run.map(|run| &run.balls));
+        load(list, own.given, run);
+        let life_of = run.and_then(|run| run.life(own.given));
+        let rating = own.given.dynamic_load_rating;
+        life(list, &(rating, setup.heated(k)), life_of.as_ref());
+    }
+    mount_force(list, &(), run);
+    if constants.mount_parts.any() {
+        let peaks = run.and_then(|run| run.record.mount_parts.as_ref());
+        mount_results::name(list, &given.mount.parts, peaks);
+    }
+    motion(list, given, run);
+    if let Some(bearing) = &given.bearing {
+        warming(list, bearing, run);
+    }
+    rubbing(list, given, run);
+    surfaces::name(list, given, run.map(|run| run.record));
+    if let Some(heated) = setup.heated(k) {
+        warm::name(
+            list,
+            &heated,
+            run.and_then(|run| run.context.followed(k)).as_ref(),
+        );
+    }
+}
+
+/// An auxiliary bearing after a run.
+struct Landed<'a> {
+    context: &'a Context<'a>,
+    k: usize,
+    record: &'a BearingRecord,
+    balls: BearingRun<'a>,
+}
+
+impl<'a> Landed<'a> {
+    fn of(context: &'a Context, k: usize) -> Self {
+        Landed {
+            context,
+            k,
+            record: context.record(k),
+            balls: context.bearing(k),
+        }
+    }
+    /// An instant from the release on, s.
+    fn after(&self, time: f64) -> f64 {
+        time - self.context.counted_from()
+    }
+    /// When a speed is reached after the release, s.
+    fn reached(&self, time: Option<f64>, what: &str) -> Result<f64, String> {
+        let never = || match self.context.release_time() {
+            Some(_) => {
+                let time = digits(1e3 * self.after(self.context.finished.ending.time));
+                format!("{what} was not reached in {time} ms after the release")
+            }
+            None => magnets::kept(),
+        };
+        time.map(|time| self.after(time)).ok_or_else(never)
+    }
+    /// What of a speed is per turn, of a rotor that turned once.
+    fn per_turn(&self, way: f64, turned: f64) -> Result<f64, String> {
+        let contact = &self.context.setup.given(self.k).contact;
+        match self.record.travel.turned >= 2.0 * PI {
+            true => Ok(way / (contact.radial_air_clearance * turned)),
+            false => Err("the rotor did not turn once".to_string()),
+        }
+    }
+    /// Cubic mean of the load on the bearing over the turns of its inner race, N.
+    fn mean_load(&self) -> Result<f64, String> {
+        let mean = (self.record.cubed_load_turns / self.record.turns).cbrt();
+        let still = || "the inner race did not turn".to_string();
+        (self.record.turns > 0.0).then_some(mean).ok_or_else(still)
+    }
+    fn life(&self, given: &Bearing) -> Option<Life> {
+        let speed = 2.0 * PI * self.record.turns / self.context.finished.ending.time;
+        let followed = self.context.followed(self.k);
+        let factor = self.mean_load().and_then(|load| {
+            let unknown = || "its temperatures are not followed".to_string();
+            lubricant_factor(&followed.ok_or_else(unknown)?, load, speed)
+        });
+        Life::of(given, self.record.races.as_ref()?, factor)
+    }
+    fn whirl_direction(&self) -> &'static str {
+        let turns = self.record.whirl_turns;
+        match turns * self.context.setup.machine.constants.speed.signum() > 0.0 {
+            _ if turns.abs() < 1.0 => "none",
+            true => "forward",
+            false => "backward",
+        }
+    }
+}
+
+results! {
+    fn contacts(setup: &(), run: &Landed) {
+        "time_to_first_contact": instant "s" headline, FIRST_CONTACT, "first contact after the release" => {
+            touched(run.record.contacts.first().map(|first| run.after(first.start)))
+        };
+        "first_impact_force": number "N" headline, CONTACT_FORCE, "largest normal force of the first contact" => {
+            touched(run.record.contacts.first().map(|first| first.peak_force))
+        };
+        "peak_contact_force": number "N" headline, CONTACT_FORCE, "largest normal force between rotor and inner race" => {
+            touched(run.record.peak_contact_force().map(|peak| peak.value))
+        };
+        "contact_count": number "" headline, CONTACT_COUNT, "number of contacts" => run.record.contacts.len() as f64;
+        "contact_start_times": list "s", CONTACT_STARTS, "begins of the contacts after the release" => {
+            run.record.contacts.iter().map(|contact| run.after(contact.start)).collect::<Vec<_>>()
+        };
+    }
+    fn spin_up(setup: &(), run: &Landed) {
+        "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" => {
+            run.reached(run.record.inner_race_time_to_50_percent(), "half of the rotor's release speed")
+        };
+        "inner_race_time_to_95_percent": instant "s" headline, RISE, "time of the inner race to 95 % of the release speed" => {
+            run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the rotor's release speed")
+        };
+        "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
+            run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed of the rotor's release speed")
+        };
+        "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => {
+            run.balls.end[run.context.setup.machine.layout().bearings[run.k].inner + 5]
+        };
+        "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.context.setup.machine.cage_speed(run.k, run.balls.end);
+    }
+    fn load(given: &Bearing, run: &Landed) {
+        "peak_bearing_load": number "N", LOAD, "largest radial load on the bearing" => run.record.largest_bearing_load.value;
+        "static_safety": number "1", SAFETY, "static load rating over equivalent peak load", unless no_safety(given) => {
+            safety_under(run.record.largest_bearing_load.value, given)
+        };
+        "inner_race_turns": number "", TURNS, "turns of the inner race" => run.record.turns;
+        "cubic_mean_load": number "N", MEAN_LOAD, "cubic mean load over these turns" => run.mean_load();
+    }
+    fn mount_force(setup: &(), run: &Landed) {
+        "peak_mount_force": number "N", MOUNT_FORCE, "largest force of the mount on the housing" => run.record.largest_mount_force.value;
+    }
+    /// Displacements, whirl and what friction took.
+    fn motion(given: &AuxiliaryBearing, run: &Landed) {
+        "max_rotor_race_displacement": number "m", DISPLACEMENT, "largest distance of the rotor from the inner race's centre" => {
+            run.record.rotor_race_displacement.value
+        };
+        "max_rotor_displacement": number "m", ROTOR_DISPLACEMENT, "largest displacement of the rotor in contact" => {
+            touched(run.record.contacts.first().map(|_| run.record.rotor_displacement.value))
+        };
+        "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race" => run.record.mount_displacement.value;
+        "whirl_direction": text "" headline, WHIRL, "direction of whirl" => run.whirl_direction();
+        "whirl_turns": number "", WHIRL, "net turns of whirl about the inner race" => run.record.whirl_turns;
+        "travel_index": number "1", TRAVEL, "longest way of the rotor in one turn over that of full whirl" => run.per_turn(run.record.travel.longest, 2.0 * PI);
+        "speed_index": number "1", SPEED_INDEX, "mean speed of the rotor's centre over that of full whirl" => {
+            run.per_turn(run.record.travel.way, run.record.travel.turned)
+        };
+        "rotor_race_friction_energy": number "J", ENERGY, "friction heat of rotor and inner race" => run.balls.heat("rotor_race_friction");
+        "ball_slip_energy": number "J", ENERGY, "sliding heat of the balls at both races" => run.balls.ball_slip();
+        "blow_index": number "1", BLOWS, "sum of all blows beyond the load at rest" => {
+            blows(run.record.contacts.iter().map(|contact| contact.peak_force), run.context.setup.drop.weight(run.k))
+        };
+    }
+    /// What half of the heats at its surfaces warms the inner race by.
+    fn warming(given: &Bearing, run: &Landed) {
+        "inner_race_rise_without_cooling": number "K", RACE_RISE, "rise of the inner race without cooling" => inner_race_rise(&run.balls, given);
+        "heat_index": number "1", HEAT_INDEX, "this rise over that of common rings" => inner_race_rise(&run.balls, given).map(|rise| rise / HOT_RACE);
+    }
+    fn rubbing(given: &AuxiliaryBearing, run: &Landed) {
+        "rotor_race_friction_energy_per_area": number "J/m^2", PER_AREA, "friction heat over the landing surface", unless {
+            not_given("contact.width", given.contact.width)
+        } => run.balls.heat("rotor_race_friction") / (PI * given.contact.bore_diameter * given.contact.width.unwrap_or(f64::NAN));
+    }
+    fn release(setup: &Setup, run: &Context) {
+        "release_time": number "s", RELEASE, "instant of the release" => run.release_time().ok_or_else(magnets::kept);
+        "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop.gravity.acceleration);
+    }
+    fn energies(setup: &Setup, run: &Context) {
+        "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
+        "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
+        "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop.rotor.planes as f64 * run.heat();
+        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" when Following::of(setup.drop).is_some() => {
+            run.renewals().map_or(0.0, |renewals| renewals.work_until(f64::INFINITY))
+        };
+        "work_of_sources": number "J", BALANCE, "work of sources" => run.balance().end.1.work - run.balance().start.1.work;
+        "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|content| content.translation + content.spin);
+        "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|content| content.potential);
+        "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.balance().energy_residual();
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" => residuals(run).0;
+        "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
+    }
+}
+
+impl Context<'_> {
+    /// Heat of all losses, J.
+    fn heat(&self) -> f64 {
+        self.setup.machine.flows(&self.finished.ending.state).heat
+    }
+    /// Change of an energy over the run, J.
+    fn change(&self, of: fn(Content) -> f64) -> f64 {
+        let balance = self.balance();
+        of(balance.end.0) - of(balance.start.0)
+    }
+}
+
+/// What is turned over must exceed this share of the kinetic energy at the start to be compared with.
+const ROUNDING: f64 = 1e-12;
+
+/// Largest residuals of the run, relative: (energy, angular momentum).
+pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, String>) {
+    let machine = context.setup.machine;
+    let record = &context.finished.record;
+    let start = &context.finished.start;
+    let balance = context.balance();
+    let scale = (balance.heat())
+        .max(balance.end.1.work_size)
+        .max(record.largest_translation);
+    // rounding of the spins is not compared with nothing
+    let stored = machine.content(start);
+    let scale = if scale > ROUNDING * (stored.translation + stored.spin) {
+        scale
+    } else {
+        0.0
+    };
+    let constants = &machine.constants;
+    let inertia: f64 = (constants.bearings.iter())
+        .map(|part| part.inner_race.inertia)
+        .sum();
+    let at = machine.layout().rotor.spin();
+    let ended = context.finished.ending.state[at];
+    // a rotor that runs up has its speed at the end
+    let spin = constants.speed.abs().max(ended.abs());
+    // bearings that are not touched settle: what they turn over is no measure of a machine
+    let parts = 0..constants.bearings.len();
+    let scale = match parts.clone().all(|k| context.record(k).contacts.is_empty()) {
+        true => scale.max(0.5 * inertia * spin * spin),
+        false => scale,
+    };
+    let momentum_scale = (inertia * spin).max(balance.angular_impulse().abs());
+    (
+        relative(balance.energy_residual(), scale),
+        relative(balance.angular_momentum_residual(), momentum_scale),
+    )
+}
+
+origins! {
+    TURNS: law "∫|ω_i| dt/2π",
+        source "definition",
+        valid "from the start of the run to the end of what is computed ball by ball";
+    MEAN_LOAD: law "(∫W³ dn/n)^(1/3), W the load on the bearing, n the turns of the inner race",
+        source "ISO 281; crates/model/src/system/machine/bearing_record.rs",
+        valid "as inner_race_turns; balls that preload each other are not counted in W";
+    TRAVEL: law "longest way of the rotor's centre against the inner race in one turn of the rotor, over 2π c0",
+        source "definition; crates/model/src/system/machine/travel.rs",
+        valid "0 of a rotor that lies still, 1 of a whirl around the whole gap once a turn; 64 points a turn, over the whole run";
+    SPEED_INDEX: law "mean speed of the rotor's centre against the inner race over c0 times the mean spin",
+        source "definition; crates/model/src/system/machine/travel.rs",
+        valid "as travel_index";
+    RELEASE: law "first instant, from the start of the run, at which a magnet, an axis or all power is lost",
+        source "levitation.power_lost_at; 0 where the run begins with the release",
+        valid "column time and instants in messages count from the start of the run; results of contacts, spin-up and whirl from here";
+    AXIAL_SHARE: law "sqrt(1 - (g/g0)^2), g = gravity.acceleration across the shaft, g0 = 9.80665 m/s^2",
+        source "geometry; 0 from 9.76 m/s^2 on, the weakest gravity on Earth",
+        valid "shafts that stand; motion along the shaft is not in the run";
+    FIRST_CONTACT: law "gap d = |C - c_i| - c0 closes, after the release; gravity and the levitated orbit's speed then",
+        source EVENT,
+        valid "negative of a rotor that touches before the release; from the start of the run where nothing is released";
+    CONTACT_STARTS: law "begins of contact after the release, d = 0 rising",
+        source EVENT,
+        valid "as time_to_first_contact; late contacts may be chaotic: repeat the run";
+    CONTACT_FORCE: law "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
+        source CONTACT,
+        valid "stiffness, exponent and damping of the landing surfaces as given; late impacts may be chaotic: repeat the run";
+    CONTACT_COUNT: law "begins of contact, d = 0 rising; one that lasts to the end is included",
+        source EVENT,
+        valid "late contacts may be chaotic: repeat the run";
+    RISE: law "first instant after the release at which the speed reaches the level; levels refer to the rotor's speed at release",
+        source EQUATIONS,
+        valid "constant friction coefficient between rotor and race; friction of the bearing only as its fidelity has it";
+    SPEED: law "angular momentum of each body about its axis",
+        source EQUATIONS,
+        valid "coasting is as true as the friction of the bearing: bearing.moment, ball by ball also slip and oil in the inlets";
+    DISPLACEMENT: law "largest |C - c_i|, where its rate changes sign",
+        source EVENT,
+        valid "below a tenth of the bearing's size";
+    MOUNT_DISPLACEMENT: law "largest |c_o|, at the steps and, near the record, on dense output between them",
+        source EQUATIONS,
+        valid "below a tenth of the bearing's size";
+    ROTOR_DISPLACEMENT: law "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
+        source EVENT,
+        valid "compare it with seals and other air gaps at this plane";
+    WHIRL: law "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
+        source "definition",
+        valid "a rotor that bends may whirl backward where a rigid one does not: system = \"machine\"";
+    ENERGY: law "time integral of friction force times sliding speed, and of every other loss",
+        source LEDGER,
+        valid "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it";
+    BALANCE: law "work_of_sources = kinetic_energy_change + potential_energy_change + dissipated_energy + energy_balance_residual",
+        source LEDGER,
+        valid "rotor and all bearings that are computed, over the whole run; sources below zero take energy out; of identical planes that of one";
+    ALL_BEARINGS: law "dissipated_energy times rotor.planes: of bearings computed one by one it is their sum already",
+        source LEDGER,
+        valid "heat of bearings, mounts and landing surfaces; nothing is cooled or warmed by it";
+    LOAD: law "largest size of the sum of all ball forces on the outer race, at the steps and near the largest ball load between them",
+        source EQUATIONS,
+        valid "radial plane; a preload that all balls share evenly cancels in the sum";
+    SAFETY: law "s0 = C0/P0, P0 = max(F_r, X0 F_r + Y0 F_a) with F_r = peak_bearing_load and F_a = bearing.axial_preload",
+        source "ISO 76 (from memory), crates/physics/src/static_load.rs",
+        valid "assumes that a short peak dents as a load at rest, and the usual share of the most loaded ball: peak_hertz_pressure says what that ball carries";
+    MOUNT_FORCE: law "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
+        source mount_results::SOURCE,
+        valid "force of the outer race on its housing";
+    PER_AREA: law "rotor_race_friction_energy/(π D b), bore D, contact.width b",
+        source LEDGER,
+        valid "mean over the bore, of both surfaces together: without whirl one place of it takes most";
+    RESIDUAL: law "what the ledger misses at the end, over max(heat, works, largest kinetic energy of the rotor's centre); \
+          momentum over that of the inner races at the speed of the rotor, at the release or the end, or over the impulse from outside where that is more; of bearings that are never touched energy \
+          over that of their inner races at this speed",
+        source LEDGER,
+        valid "a measure of the integration error; it falls with run.tolerance";
+}

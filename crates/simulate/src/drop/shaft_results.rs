@@ -1,0 +1,368 @@
+//! What a run shows of a flexible rotor: its shape over time, and what is left of the clearances along it.
+
+use crate::bearing::columns::Table;
+use crate::bearing::run::BearingRun;
+use crate::drawing::{self, GIVEN};
+use crate::drop::context::{Context, Setup};
+use crate::drop::shaft::{BuiltShaft, HeldMode};
+use outcome::list::results;
+use outcome::list::{List, not_given, origins};
+use outcome::{Column, Warning, warning};
+use physics::magnet::Magnet;
+use scenario::{AuxiliaryBearing, RotorModel, Shaft};
+
+/// The results that only a flexible rotor has.
+pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
+    let (Some(given), Some(built)) = (&setup.drop.shaft, &setup.built.shaft) else {
+        return;
+    };
+    for node in named(given, built) {
+        let peak = run.map(|run| run.finished.record.places[node.place].value);
+        list.named(&[node.name], |list| place(list, &node, peak.as_ref()));
+    }
+    let bent = Bent {
+        given,
+        built,
+        speed: setup.drop.rotor.speed.abs(),
+    };
+    basis(list, &(), run.map(|_| &bent));
+    drawing::name(list, &given.model);
+    positions(list, &(), run.map(|_| &bent));
+    displacements(list, &(), run);
+    clearances_along(list, &(), run.map(|_| &bent));
+}
+
+results! {
+    fn place(node: &Named, peak: &f64) {
+        "node.*.largest_displacement": number "m", DISPLACEMENT, "largest displacement of the shaft at this node" => *peak;
+        "node.*.least_distance": number "m", DISTANCE, "least distance left of the clearance at this node", unless {
+            not_given("rotor.node.clearance", node.clearance)
+        } => node.clearance.unwrap_or(f64::NAN) - *peak;
+    }
+    /// What the modes are.
+    fn basis(setup: &(), bent: &Bent) {
+        "rotor_mass": number "kg", BASIS, "mass of the rotor" => bent.given.properties().mass;
+        "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" => {
+            let mut bends = bent.frequencies().filter(|omega| *omega > 0.0);
+            bends.next().ok_or_else(|| "the rotor does not bend".to_string())
+        };
+        "highest_frequency": number "rad/s", BASIS, "highest frequency of a coordinate" => bent.frequencies().last().unwrap_or(0.0);
+        "coordinates": number "", BASIS, "number of coordinates" => bent.built.rotor.coordinates.len() as f64;
+        "levitated_mode_frequencies": list "rad/s", HELD, "frequencies of the rotor's modes on its magnets or supports" => bent.modes(|mode| mode.frequency);
+        "levitated_mode_damping_ratios": list "", HELD, "damping ratios of these modes" => bent.modes(|mode| mode.damping_ratio);
+    }
+    /// Where everything stands.
+    fn positions(setup: &(), bent: &Bent) {
+        "shape_positions": list "m", GIVEN, "places along the shaft at which its shape is known" => bent.z(bent.built.places.iter().copied());
+        "bearing_positions": list "m", GIVEN, "places of the auxiliary bearings" => bent.z(bent.given.places.iter().map(|place| place.node));
+        "bearing_offsets_x": list "m", GIVEN, "misalignments of the auxiliary bearings to the right" => bent.offsets(0);
+        "bearing_offsets_y": list "m", GIVEN, "misalignments of the auxiliary bearings upwards" => bent.offsets(1);
+    }
+    fn displacements(setup: &(), run: &Context) {
+        "largest_displacements": list "m", DISPLACEMENT, "largest displacement of the shaft at each of shape_positions" => {
+            run.finished.record.places.iter().map(|peak| peak.value).collect::<Vec<_>>()
+        };
+    }
+    /// What stands around the shaft.
+    fn clearances_along(setup: &(), bent: &Bent) {
+        "clearance_names": text "", GIVEN, "what stands around the shaft" => bent.around(|own| own.name).join("\n").as_str();
+        "clearance_positions": list "m", GIVEN, "its places" => bent.z(bent.around(|own| own.place).into_iter().map(|place| bent.built.places[place]));
+        "clearances": list "m", GIVEN, "its radial clearances" => bent.around(|own| own.clearance.unwrap_or(f64::NAN));
+    }
+}
+
+/// A rotor that bends.
+struct Bent<'a> {
+    given: &'a Shaft,
+    built: &'a BuiltShaft,
+    /// At the start, rad/s.
+    speed: f64,
+}
+
+impl<'a> Bent<'a> {
+    /// Of its coordinates, rad/s.
+    fn frequencies(&self) -> impl Iterator<Item = f64> {
+        let coordinates = self.built.rotor.coordinates.iter();
+        coordinates.map(|own| own.frequency)
+    }
+    /// A number of each mode near its speed on its magnets or supports.
+    fn modes(&self, of: fn(&HeldMode) -> f64) -> Vec<f64> {
+        let held = self.built.held.iter();
+        let shown = held.filter(|mode| mode.frequency.abs() <= SHOWN * self.speed);
+        shown.map(of).collect()
+    }
+    /// Positions of nodes, m.
+    fn z(&self, nodes: impl Iterator<Item = usize>) -> Vec<f64> {
+        nodes
+            .map(|node| self.given.model.rotor.nodes[node])
+            .collect()
+    }
+    /// Misalignments of the auxiliary bearings along an axis, m.
+    fn offsets(&self, axis: usize) -> Vec<f64> {
+        let places = self.given.places.iter();
+        places.map(|place| place.misalignment[axis]).collect()
+    }
+    /// Of each place along it with a clearance.
+    fn around<T>(&self, of: fn(&Named<'a>) -> T) -> Vec<T> {
+        let all = named(self.given, self.built).chain(magnets(self.given, self.built));
+        let around = all.filter(|own| own.clearance.is_some());
+        around.map(|own| of(&own)).collect()
+    }
+}
+
+/// Displacements along the shaft.
+pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
+    let (Some(given), Some(built)) = (&context.setup.drop.shaft, &context.setup.built.shaft) else {
+        return Vec::new();
+    };
+    let machine = context.setup.machine;
+    let mut table = Table::over(run);
+    for (place, node) in built.places.iter().enumerate() {
+        let z = 1e3 * given.model.rotor.nodes[*node];
+        for (axis, way) in [("x", "to the right"), ("y", "upwards")] {
+            let name = format!("shape.{}.{axis}", place + 1);
+            let meaning = format!("displacement of the shaft at {z:.1} mm, {way}");
+            table.add(&name, "m", &meaning, |row| {
+                let at = machine.place(place, row.state);
+                if axis == "x" { at.x } else { at.y }
+            });
+        }
+    }
+    table.columns
+}
+
+/// Number of places whose clearance may be watched.
+pub(crate) fn clearances(context: &Context) -> usize {
+    match (&context.setup.drop.shaft, &context.setup.built.shaft) {
+        (Some(given), Some(built)) => named(given, built).chain(magnets(given, built)).count(),
+        _ => 0,
+    }
+}
+
+/// A clearance along the shaft that a member uses up, and by how much.
+pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> {
+    let (given, built) = (
+        context.setup.drop.shaft.as_ref()?,
+        context.setup.built.shaft.as_ref()?,
+    );
+    let node = named(given, built).chain(magnets(given, built)).nth(node)?;
+    let (peak, clearance) = (context.finished.record.places[node.place], node.clearance?);
+    (peak.value >= clearance).then(|| {
+        let text = format!(
+            "At {} the rotor moves by up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands there, and \
+             this contact is not computed.",
+            node.name,
+            1e6 * peak.value,
+            1e3 * peak.time,
+            1e6 * clearance
+        );
+        (peak.value - clearance, warning("AB2030", text))
+    })
+}
+
+/// Modes up to fewer than so many times the speed and the first bending mode leave out what an impact bends.
+const FEW_MODES: f64 = 10.0;
+
+/// Modes that are too few for impacts.
+pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
+    let (given, built) = (
+        context.setup.drop.shaft.as_ref()?,
+        context.setup.built.shaft.as_ref()?,
+    );
+    let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
+    let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
+    let needed = FEW_MODES * bends.max(context.release_speed());
+    (given.cutoff < needed).then(|| {
+        warning(
+            "AB2031",
+            format!(
+                "rotor.cutoff = {:.0} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or \
+                 the first bending mode, {needed:.0} rad/s, is the least; compare with twice that.",
+                given.cutoff
+            ),
+        )
+    })
+}
+
+/// Largest stiffness of a contact at [`DEPTH`] and of a mount, N/m, and cutoff, rad/s, up to which first impacts of a default cutoff were
+/// compared with those of all modes: 0.7 % at these, 7.5 % at four and five times as stiff (a rotor that bends at 3126 rad/s).
+const COMPARED: (f64, f64, f64) = (6.19e8, 4e8, 60e3);
+/// Penetration at which contacts of different exponents are compared, m: 2e9 N/m^(10/9) is 6.19e8 N/m there.
+const DEPTH: f64 = 1e-5;
+
+/// Contacts and mounts so stiff that the default number of modes was not shown to do.
+pub(crate) fn stiff(context: &Context) -> Option<Warning> {
+    let given = context.setup.drop.shaft.as_ref()?;
+    let (contact, mount, cutoff) = COMPARED;
+    let slope = |part: &AuxiliaryBearing| {
+        let own = &part.contact;
+        own.exponent * own.stiffness * DEPTH.powf(own.exponent - 1.0)
+    };
+    let mut parts = context.setup.drop.auxiliary_bearings.iter();
+    let hard = parts.find(|part| slope(part) > contact || part.mount.stiffness > mount)?;
+    (given.cutoff <= cutoff).then(|| {
+        warning(
+            "AB2081",
+            format!(
+                "{}: contact {:.2e} N/m at 10 µm of penetration and mount {:.2e} N/m are stiffer than those ({contact:.2e}, {mount:.2e} N/m) up to \
+                 which rotor.cutoff = {} rad/s was compared with all modes: first impacts may be several per cent wrong. Compare \
+                 with twice and four times the cutoff.",
+                hard.name,
+                slope(hard),
+                hard.mount.stiffness,
+                units::number_text(given.cutoff)
+            ),
+        )
+    })
+}
+
+/// Supports and seals whose coefficients drive whirl of one sense, as xy differs from yx, about a rotor that turns backward.
+pub fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
+    let crosses = |own: &rotor::Support| {
+        let rows = own.coefficients.rows().iter();
+        let mut all = rows.flat_map(|(_, block)| [block.stiffness, block.damping]);
+        all.any(|m| m[0][1] != m[1][0])
+    };
+    let all = model.supports.iter().zip(&model.rotor.supports);
+    let names = all
+        .filter(|(_, own)| crosses(own))
+        .map(|(name, _)| name.as_str());
+    let names: Vec<&str> = names.collect();
+    (speed < 0.0 && !names.is_empty()).then(|| {
+        warning(
+            "AB2041",
+            format!(
+                "The rotor turns backward, and {} keep the signs of their xy and yx coefficients, which of a real seal change with the \
+                 spin: as given they drive whirl against it. Change their signs, or let the rotor turn forward.",
+                names.join(", ")
+            ),
+        )
+    })
+}
+
+/// A mode of the levitated rotor near the speed at which it is released, with its amplification.
+pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
+    let (given, built) = (
+        context.setup.drop.shaft.as_ref()?,
+        context.setup.built.shaft.as_ref()?,
+    );
+    // modes are those of the start: a rotor that runs up is released elsewhere
+    if context.setup.controlled().is_some() {
+        return None;
+    }
+    let speed = context.setup.drop.rotor.speed.abs();
+    let near = built.held.iter().filter(|mode| {
+        mode.excited
+            && (mode.frequency.abs() - speed).abs() < NEAR * speed
+            && mode.damping_ratio < DAMPED
+    });
+    let worst = near.min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio))?;
+    let amplification = 0.5 / worst.damping_ratio.max(0.0);
+    let held = match given.model.levitation {
+        Some(_) => "on its magnets",
+        None => "on its supports",
+    };
+    let size = match amplification.is_finite() {
+        true => format!("an amplification of {amplification:.1}"),
+        false => "no damping".to_string(),
+    };
+    let text = format!(
+        "The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({:.0} rad/s, {size}): it may turn with large \
+         orbits before it falls, and small changes of speed or unbalance change the drop much.",
+        worst.frequency.abs()
+    );
+    Some((amplification, warning("AB2032", text)))
+}
+
+/// Distance between a speed and a mode, over the speed, within which they are near.
+const NEAR: f64 = 0.1;
+/// Damping ratio from which on a mode does not stand out: an amplification of 2.5.
+const DAMPED: f64 = 0.2;
+/// Modes up to so many times the speed are shown.
+const SHOWN: f64 = 3.0;
+
+/// A place along the shaft with something around it.
+struct Named<'a> {
+    name: &'a str,
+    place: usize,
+    clearance: Option<f64>,
+}
+
+fn named<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {
+    let nodes = given.model.nodes.iter().zip(&given.model.clearances);
+    nodes.filter_map(|((name, node), clearance)| {
+        Some(Named {
+            name,
+            place: built.places.iter().position(|place| place == node)?,
+            clearance: *clearance,
+        })
+    })
+}
+
+/// Magnets whose gap is given.
+fn magnets<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {
+    let models = given.model.levitation.iter();
+    models.flat_map(|model| {
+        let magnets = model.magnets.iter().enumerate();
+        magnets.filter_map(|(k, (name, node, _))| {
+            // both axes of a magnet stand beside each other
+            match model.levitation.actuators()[2 * k].magnet {
+                Magnet::Pair(pair) => Some(Named {
+                    name,
+                    place: built.places.iter().position(|place| place == node)?,
+                    clearance: Some(pair.gap),
+                }),
+                Magnet::Linear { .. } => None,
+            }
+        })
+    })
+}
+
+origins! {
+    DISPLACEMENT: law "largest distance of the rotor's axis from the line of levitation, at 64 points a turn",
+        source "crates/model/src/system/machine/record.rs",
+        valid "small tilt; modes up to rotor.cutoff with residual flexibility";
+    DISTANCE: law "clearance of the node less its largest displacement; negative: the rotor reaches what stands there",
+        source "crates/model/src/system/machine/record.rs",
+        valid "what stands around the rotor is centred on the line of levitation and touches nothing else";
+    HELD: law "eigenvalues of the rotor on its magnets with their controllers, or on its supports, at the speed of the release, up to three \
+          times that speed; positive turns with the spin",
+        source "crates/levitation/src/closed_loop.rs, crates/rotor/src/modes.rs",
+        valid "small motion; samples as a delay; on unequal supports without magnets both ways round stand as positive";
+    BASIS: law "free modes up to rotor.cutoff with the residual flexibility of every place that carries something (Rubin)",
+        source "Rubin 1975 (from memory), crates/rotor/src/basis.rs",
+        valid "a higher rotor.cutoff shows what is left out";
+}
+
+/// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
+pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
+    let given = context.setup.drop.shaft.as_ref()?;
+    let z = given.model.rotor.nodes[given.places[k].node];
+    let side = |at: f64| {
+        let there = (given.model.pieces.iter()).map(|piece| &piece.layer);
+        let there = there.filter(|layer| layer.from < at && at < layer.to);
+        let outer = there.map(|layer| {
+            let share = (at - layer.from) / (layer.to - layer.from);
+            layer.start.outer + (layer.end.outer - layer.start.outer) * share
+        });
+        outer.fold(0.0, f64::max)
+    };
+    let sides = [z - BESIDE, z + BESIDE].map(side);
+    let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
+    let shaft = shaft.fold(f64::INFINITY, f64::min);
+    let bore = context.setup.given(k).contact.bore_diameter;
+    (shaft.is_finite() && shaft > bore).then(|| {
+        warning(
+            "AB2033",
+            format!(
+                "The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and \
+                 friction acts at the radius of the bore.",
+                1e3 * shaft,
+                1e3 * bore
+            ),
+        )
+    })
+}
+
+/// Beside a node, m.
+const BESIDE: f64 = 1e-6;

@@ -1,0 +1,26 @@
+//! From a scenario to a simulation: one folder a system, written alike, and what their bearings share.
+//!
+//! | folder | subject |
+//! |---|---|
+//! | [`bearing`] | the bearing of every system: its constants, results, columns, warnings |
+//! | [`mod@drop`] | a rotor falls onto its auxiliary bearing |
+//! | [`spin_up`] | the inner race is brought to speed |
+//! | [`rig`] | a test on a rig, and what its logger would have written |
+//! | [`coast_down`] | a rotor runs out on its warming bearings, in slow time |
+//! | `levitated` | levitations that do not hold their rotor |
+//! | `stepping` | which steps a run takes, and how exact they are |
+//! | `ending` | settings of the integration, and how a run ended |
+
+#![forbid(unsafe_code)]
+
+pub mod assumptions;
+pub mod bearing;
+pub mod coast_down;
+pub mod drawing;
+pub mod drop;
+pub mod ending;
+pub mod levitated;
+pub mod rig;
+pub mod spin_up;
+pub mod static_safety;
+pub mod stepping;

@@ -1,0 +1,210 @@
+//! From a test on a rig to the constants of the model.
+
+use crate::bearing;
+use crate::bearing::contacts::SCENARIO;
+use crate::bearing::pressure::PressureFactors;
+use crate::bearing::steady::{SteadyFinding, SteadyPoint};
+use model::bearing_heat::WarmBearing;
+use model::system::rig::{
+    Action, Arm, Disturbance, Drag, Engagement, Flywheel, HeatNode, Housing, Motor, Program,
+    RigConstants, RigMachine, Shaft, engagement_ramp,
+};
+use model::system::spin_up::InnerRace;
+use number::Vec2;
+use problem::{Code, Problem};
+use scenario::{Engagement as EngagementChoice, Rig, RigProgram};
+use std::f64::consts::PI;
+use thermal::bearing_network::OUTER_RACE;
+
+/// Speed at which the drag of the shaft's bearings reaches 76 % of its constant part, rad/s: small against any test.
+const FADING: f64 = 0.5;
+
+/// A rig ready to be simulated.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The machine.
+    pub machine: RigMachine,
+    /// Rate of the clutch's torque, N m/s: as given, or found; none where it does not engage in the test.
+    pub torque_rate: Option<f64>,
+    /// Hertz pressure in the contacts of a ball.
+    pub pressure_factors: PressureFactors,
+    /// The network of its temperatures, where that is followed.
+    pub warm: Option<Box<WarmBearing>>,
+    /// What traction can carry at the speed of the test; none where the bearing has no steady moment.
+    pub steady: Option<SteadyFinding>,
+}
+
+/// Builds the machine of a test. The weight of the balls is left out: it is a thousandth of any load.
+pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
+    let contacts = bearing::contacts::ball_contacts(&rig.bearing)?;
+    let bearing = bearing::build::bearing(&rig.bearing, &contacts, Vec2::zero())?;
+    let down = Vec2::new(0.0, -1.0);
+    let centre_held = rig.load.hanging_mass.is_none();
+    // the ring that is free to move is the outer one here; to the balls it is the same turned round
+    let race = InnerRace {
+        mass: rig.load.hanging_mass.unwrap_or(1.0),
+        inertia: rig.bearing.inner_race_inertia,
+        centre_held,
+        load_direction: down,
+        gravity: Vec2::zero(),
+    };
+    let at = SteadyPoint {
+        speed: rig.speed,
+        load: rig.load.radial_load,
+    };
+    let steady = bearing::steady::steady(&bearing, &rig.bearing, &race, at)?;
+    let warm = bearing::networks::built(rig.warm.as_deref(), &rig.bearing)?;
+    // where a network follows the temperatures nothing reads the one node
+    let outer_race = |warm: &WarmBearing| [warm.network.capacities[OUTER_RACE], 0.0];
+    let node = &rig.temperature;
+    let given = node.heat_capacity.zip(node.conductance).map(Into::into);
+    let [capacity, conductance] =
+        (given.or(warm.as_deref().map(outer_race))).unwrap_or([f64::NAN; 2]);
+    let arm = &rig.arm;
+    let mut constants = RigConstants {
+        flywheel: Flywheel {
+            inertia: rig.flywheel.inertia,
+            belt_drag: drag(0.0, rig.flywheel.viscous_drag),
+        },
+        motor: Motor {
+            gain: rig.motor.gain,
+            torque_limit: rig.motor.torque_limit,
+        },
+        shaft: Shaft {
+            inertia: rig.shaft.inertia + rig.bearing.inner_race_inertia,
+            support_drag: drag(rig.shaft.drag_torque, rig.shaft.viscous_drag),
+        },
+        housing: Housing {
+            mass: rig.load.hanging_mass.unwrap_or(0.0),
+            load: rig.load.radial_load,
+            load_direction: down,
+            gravity: Vec2::zero(),
+            centre_held,
+        },
+        bearing,
+        arm: Arm {
+            natural_frequency: 2.0 * PI * arm.natural_frequency,
+            damping_ratio: arm.damping_ratio,
+            disturbance: Disturbance {
+                amplitude: arm.synchronous_amplitude,
+                reference_speed: rig.speed,
+                exponent: arm.synchronous_power,
+                phase: 0.0,
+            },
+        },
+        heat: HeatNode {
+            capacity,
+            conductance,
+            thermocouple_lag: rig.temperature.lag,
+        },
+        program: program(rig, 1.0),
+        target_speed: rig.speed,
+    };
+    let torque_rate = torque_rate(rig, &constants)?;
+    if let Some(rate) = torque_rate {
+        constants.program = program(rig, rate);
+    }
+    let machine = RigMachine::new(constants).map_err(refused)?;
+    Ok(Built {
+        machine,
+        warm,
+        torque_rate,
+        pressure_factors: contacts.pressure_factors(),
+        steady,
+    })
+}
+
+fn drag(constant: f64, viscous: f64) -> Drag {
+    Drag {
+        constant,
+        viscous,
+        reference_speed: FADING,
+    }
+}
+
+fn refused(why: impl std::fmt::Display) -> Box<Problem> {
+    Box::new(
+        Problem::new(
+            Code::Impossible,
+            SCENARIO,
+            why.to_string(),
+            "a rig that can be built is needed",
+        )
+        .on_key("rig"),
+    )
+}
+
+/// Rate of the clutch's torque, N m/s, where it engages in the test.
+fn torque_rate(rig: &Rig, constants: &RigConstants) -> Result<Option<f64>, Box<Problem>> {
+    let engagement = match rig.program {
+        RigProgram::SpinUp { engagement, .. } | RigProgram::RepeatAfterRest { engagement, .. } => {
+            engagement
+        }
+        RigProgram::CoastDown { .. } | RigProgram::RampAndHold { .. } => return Ok(None),
+    };
+    match engagement {
+        EngagementChoice::Rate(rate) => Ok(Some(rate)),
+        EngagementChoice::PeakAcceleration(wanted) => engagement_ramp(constants, wanted, rig.speed)
+            .map(Some)
+            .map_err(|why| {
+                Box::new(
+                    Problem::new(
+                        Code::Impossible,
+                        SCENARIO,
+                        format!("{wanted} rad/s^2, which the clutch does not give"),
+                        format!("a peak acceleration that it can give is needed: {why}"),
+                    )
+                    .on_key("rig.peak_acceleration"),
+                )
+            }),
+    }
+}
+
+/// What is done to the rig, the clutch engaging at a rate, N m/s.
+fn program(rig: &Rig, rate: f64) -> Program {
+    let engagement = Engagement {
+        rate,
+        largest: rig.clutch_torque,
+    };
+    let with = |mut program: Program, actions: &[(Option<f64>, Action)]| {
+        let timed = actions
+            .iter()
+            .filter_map(|(time, action)| Some(((*time)?, *action)));
+        program.actions.extend(timed);
+        program
+    };
+    match rig.program {
+        RigProgram::SpinUp {
+            engage_at,
+            release_at,
+            motor_stays_on,
+            ..
+        } => with(
+            Program::spin_up(rig.speed, engage_at, engagement, motor_stays_on),
+            &[(release_at, Action::Disengage)],
+        ),
+        RigProgram::CoastDown { with_flywheel } => {
+            Program::coast_down(rig.speed, with_flywheel.then_some(rig.clutch_torque))
+        }
+        RigProgram::RampAndHold {
+            acceleration,
+            release_at,
+        } => with(
+            Program::ramp_and_hold(rig.speed, acceleration, rig.clutch_torque),
+            &[(release_at, Action::Disengage)],
+        ),
+        RigProgram::RepeatAfterRest {
+            engage_at,
+            release_at,
+            engage_again_at,
+            motor_stays_on,
+            ..
+        } => with(
+            Program::spin_up(rig.speed, engage_at, engagement, motor_stays_on),
+            &[
+                (Some(release_at), Action::Disengage),
+                (Some(engage_again_at), Action::Engage(engagement)),
+            ],
+        ),
+    }
+}

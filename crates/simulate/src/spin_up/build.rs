@@ -1,0 +1,94 @@
+//! From a spin-up to the constants of the model.
+
+use crate::bearing;
+use crate::bearing::pressure::PressureFactors;
+use crate::bearing::steady::{SteadyFinding, SteadyPoint, refused};
+use model::bearing_heat::WarmBearing;
+use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, SpinUpMachine};
+use model::table::Table;
+use number::Vec2;
+use problem::Problem;
+use scenario::bearing::moment::table;
+use scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
+
+/// A spin-up ready to be simulated.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// The machine.
+    pub machine: SpinUpMachine,
+    /// Hertz pressure in the contacts of a ball.
+    pub pressure_factors: PressureFactors,
+    /// What traction can carry at the target speed under the last load; none where the bearing has no steady moment.
+    pub steady: Option<SteadyFinding>,
+    /// The network of its heat; none where temperatures are not followed.
+    pub warm: Option<Box<WarmBearing>>,
+}
+
+/// Builds the machine of a spin-up. The weight of the balls is left out: it is a thousandth of any load.
+pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
+    let (sine, cosine) = spin_up.load_direction.sin_cos();
+    let gravity = Vec2::zero();
+    let race = InnerRace {
+        mass: spin_up.bearing.inner_race_mass,
+        inertia: spin_up.bearing.inner_race_inertia,
+        centre_held: spin_up.bearing.inner_race_centre_held,
+        load_direction: Vec2::new(cosine, sine),
+        gravity,
+    };
+    let contacts = bearing::contacts::ball_contacts(&spin_up.bearing)?;
+    let bearing = bearing::build::bearing(&spin_up.bearing, &contacts, gravity)?;
+    let target_speed = spin_up.target_speed();
+    let at = SteadyPoint {
+        speed: target_speed,
+        load: spin_up.radial_load.at(spin_up.run.duration),
+    };
+    let steady = bearing::steady::steady(&bearing, &spin_up.bearing, &race, at)?;
+    let machine = SpinUpMachine::new(SpinUpConstants {
+        race,
+        bearing,
+        drive: drive(&spin_up.drive),
+        load: course(&spin_up.radial_load),
+        target_speed,
+    })
+    .map_err(refused)?;
+    Ok(Built {
+        machine,
+        pressure_factors: contacts.pressure_factors(),
+        steady,
+        warm: bearing::networks::built(spin_up.warm.as_deref(), &spin_up.bearing)?,
+    })
+}
+
+fn course(course: &Course) -> Table {
+    match course {
+        Course::Constant(value) => Table::constant(*value),
+        Course::Table(rows) => table(rows),
+    }
+}
+
+fn drive(choice: &DriveChoice) -> Drive {
+    match choice {
+        DriveChoice::SlidingRotor {
+            rotor_speed,
+            rotor_polar_inertia,
+            bore_diameter,
+            friction_coefficient,
+            friction_reference_speed,
+        } => Drive::SlidingRotor(SlidingRotor {
+            bore_radius: 0.5 * bore_diameter,
+            friction: *friction_coefficient,
+            inverse_reference_speed: 1.0 / friction_reference_speed,
+            speed: *rotor_speed,
+            // without effect where the spin is held
+            polar_inertia: rotor_polar_inertia.unwrap_or(1.0),
+            spin_held: rotor_polar_inertia.is_none(),
+        }),
+        DriveChoice::Torque { torque, .. } => Drive::Torque(course(torque)),
+        DriveChoice::Speed(SpeedCourse::Step { final_speed }) => Drive::step(*final_speed),
+        DriveChoice::Speed(SpeedCourse::Ramp {
+            final_speed,
+            acceleration,
+        }) => Drive::ramp(*acceleration, *final_speed),
+        DriveChoice::Speed(SpeedCourse::Table(rows)) => Drive::Speed(table(rows)),
+    }
+}

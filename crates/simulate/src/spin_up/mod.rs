@@ -1,0 +1,143 @@
+//! Runs a spin-up and names what came out.
+
+pub mod build;
+pub(crate) mod columns;
+pub(crate) mod context;
+pub(crate) mod quantities;
+pub mod warnings;
+
+use crate::bearing::warming::Warming;
+use crate::ending::{settings_at, stop};
+use crate::spin_up::build::Built;
+use crate::spin_up::context::{Context, asked};
+use crate::stepping::Stepping;
+use model::system::spin_up::SpinUpMachine;
+use model::system::spin_up::record::Record;
+use model::system::spin_up::simulate::simulate;
+use outcome::options::Options;
+use outcome::{Members, Outcome, Picture, Quantity, Work};
+use scenario::{Scenario, SpinUp};
+use solve::{Ending, Flow, Observer, Step};
+use std::time::Instant;
+
+/// The results of a spin-up, without values.
+pub fn results(spin_up: &SpinUp, built: &Built) -> Vec<Quantity> {
+    quantities::name(spin_up, built, None)
+}
+
+/// Runs a spin-up.
+pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Options) -> Outcome {
+    let start = built.machine.start();
+    let clock = Instant::now();
+    let stepping = asked(spin_up, built).stepping(|| 0.0);
+    let (record, ending, warming) = integrate(built, &start, (spin_up, stepping), options);
+    let seconds = clock.elapsed().as_secs_f64();
+    let context = Context {
+        spin_up,
+        built,
+        start: &start,
+        record: &record,
+        ending: &ending,
+        warming: warming.as_ref(),
+    };
+    let quantities = quantities::name(spin_up, built, Some(&context));
+    Outcome {
+        system: "spin_up",
+        title: scenario
+            .title
+            .clone()
+            .unwrap_or_else(|| "Spin-up of an inner race".to_string()),
+        history: columns::history(&context),
+        contacts: Vec::new(),
+        warnings: warnings::of(scenario, &context, &quantities),
+        quantities,
+        stop: stop(&ending),
+        work: Work {
+            members: 1,
+            steps: ending.work.accepted,
+            rejected: ending.work.rejected,
+            rate_calls: ending.work.rate_calls,
+            seconds,
+            method: Some(stepping.name()),
+        },
+        members: Members::default(),
+        drawn: Vec::new(),
+        limits: Vec::new(),
+        pictures: vec![Picture {
+            bearing: String::new(),
+            clearance: None,
+            pressure_limit: Some(spin_up.bearing.hertz_pressure_limit),
+            rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
+            balls: spin_up.bearing.ball_count,
+        }],
+        files: Vec::new(),
+    }
+}
+
+fn integrate<'a>(
+    built: &'a Built,
+    start: &[f64],
+    (spin_up, stepping): (&'a SpinUp, Stepping),
+    options: &Options,
+) -> (Record, Ending, Option<Warming<'a, SpinUpMachine>>) {
+    let machine = &built.machine;
+    let settings = settings_at(&spin_up.run, stepping.tolerance);
+    let end = settings.end;
+    let mut watched = Watched {
+        record: Record::new(machine, end, spin_up.run.output_interval, true),
+        warming: Warming::of(
+            spin_up.warm.as_deref(),
+            &spin_up.bearing,
+            built.warm.as_deref(),
+        ),
+        progress: options.progress,
+        reported: 0,
+        end,
+    };
+    let (steps, interrupt) = (stepping.steps, options.interrupt);
+    let ending = simulate(machine, start, &settings, steps, &mut watched, interrupt);
+    let (mut record, mut warming) = (watched.record, watched.warming);
+    if let Some(warming) = &mut warming {
+        let state = |channel: usize| ending.state[channel];
+        warming.take(machine, ending.time, &state);
+    }
+    let renewals = warming.as_ref().map(|warming| &warming.renewals);
+    let at_end = renewals.map_or(machine, |renewals| renewals.machine(machine));
+    record.finish(at_end, ending.time, &ending.state);
+    (record, ending, warming)
+}
+
+/// A record that also reports progress.
+struct Watched<'a, 'b> {
+    record: Record,
+    warming: Option<Warming<'b, SpinUpMachine>>,
+    progress: &'a (dyn Fn(f64) + Sync),
+    reported: u64,
+    end: f64,
+}
+
+impl Observer<SpinUpMachine> for Watched<'_, '_> {
+    fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
+        let thousandths = (1000.0 * step.end / self.end) as u64;
+        if thousandths > self.reported {
+            (self.progress)(thousandths as f64 * 1e-3);
+            self.reported = thousandths;
+        }
+        let flow = self.record.step(step);
+        let warms = (self.warming.as_mut()).is_some_and(|warming| {
+            warming.step(step.machine, step.end, &|channel| step.end_state(channel))
+        });
+        match flow {
+            Flow::Continue if warms => Flow::Renew,
+            flow => flow,
+        }
+    }
+    fn renewed(
+        &mut self,
+        machine: &SpinUpMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<SpinUpMachine>> {
+        self.warming.as_mut()?.renewed(machine, time, state)
+    }
+}

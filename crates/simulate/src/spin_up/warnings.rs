@@ -1,0 +1,96 @@
+//! What the user should know before trusting the numbers of a spin-up.
+
+use crate::assumptions::speed_rating;
+use crate::bearing::warm;
+use crate::bearing::warnings as shared;
+use crate::spin_up::context::{Context, asked};
+use crate::spin_up::quantities::rolling_start_to_end;
+use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
+use outcome::warning;
+use outcome::{Quantity, Warning};
+use physics::palmgren::FADING_SPEED;
+use scenario::{Bearing, Moment, Scenario};
+
+/// A radial load beyond what the axial preload holds. Where the inner race is held no load reaches the balls.
+pub fn preload_of_spin_up(bearing: &Bearing, load: f64) -> Option<Warning> {
+    if bearing.inner_race_centre_held {
+        return None;
+    }
+    shared::preload_left("", bearing, ("radial load", load), None)
+}
+
+/// Speed from which on friction acts in full, rad/s.
+const TURNS: f64 = 10.0 * FADING_SPEED;
+
+/// A race that does not come to the speed at which its friction acts in full.
+fn creeps(bearing: &Bearing, speed: f64) -> Option<Warning> {
+    (bearing.moment != Moment::None && speed > 0.0 && speed < TURNS).then(|| {
+        warning(
+            "AB1098",
+            format!(
+                "The inner race creeps with {speed:.2e} rad/s at most. The friction law fades below {TURNS} rad/s, so what drives the race \
+                 is less than the moment that it needs: a real bearing stands still under it."
+            ),
+        )
+    })
+}
+
+/// All warnings of a run, the most severe first.
+pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
+    let bearing = &context.spin_up.bearing;
+    let mut list = Vec::new();
+    let largest = |value: &dyn Fn(&model::system::sampling::Row) -> f64| {
+        let rows = context.record.rows();
+        rows.map(|row| value(&row).abs()).fold(0.0, f64::max)
+    };
+    let speed = largest(&|row| row.state[INNER + 5]);
+    let load = largest(&|row| row.probe[APPLIED_LOAD]);
+    list.extend(creeps(bearing, speed));
+    list.extend(shared::skids(context.built.steady.as_ref()));
+    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
+        list.extend(
+            warm::judged(&followed)
+                .into_iter()
+                .map(|(_, warning)| warning),
+        );
+    }
+    list.extend(context.bearing().hot_skid().map(|(_, warning)| warning));
+    list.extend(speed_rating(bearing, speed));
+    list.extend(shared::lift_off(bearing, speed));
+    let run = context.bearing();
+    list.extend(shared::pressure(bearing, &run.pressures()));
+    list.extend(shared::films(&run, bearing));
+    list.extend(preload_of_spin_up(bearing, load));
+    list.extend(shared::law_range(bearing, speed, load));
+    list.extend(shared::film_rise(&run));
+    let asked = asked(context.spin_up, context.built);
+    let most = asked.largest_residual(shared::LARGEST_RESIDUAL);
+    list.extend(shared::residual(quantities, most));
+    list.extend(asked.warnings(asked.stepping(|| 0.0).steps));
+    if bearing.inner_race_centre_held && load > 0.0 {
+        list.push(warning(
+            "AB1020",
+            "The centre of the inner race is held (the concentric rig): the radial load reaches the rotor's friction and \
+             the friction law, not the balls, which carry their preload alone."
+                .to_string(),
+        ));
+    }
+    if context.ending.time > 0.0
+        && let Err(why) = rolling_start_to_end(context)
+    {
+        list.push(warning(
+            "AB1026",
+            format!(
+                "The corrected form of (21) does not hold in this run: {why}. The exact form does; the bounds of the path \
+                 term are left out."
+            ),
+        ));
+    }
+    list.extend(shared::cage_inertia(bearing));
+    list.extend(shared::rolling(bearing));
+    list.extend(shared::no_moment(bearing));
+    list.extend(shared::moment(scenario, "", bearing));
+    list.extend(shared::kind(bearing));
+    list.extend(shared::assumed(scenario, None, Some(bearing)));
+    list
+}
