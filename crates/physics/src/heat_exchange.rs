@@ -137,6 +137,10 @@ pub fn cylinder_wall(conductivity: f64, length: f64, inner: f64, outer: f64) -> 
     2.0 * PI * conductivity * length / (outer / inner).ln()
 }
 
+/// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: usual ground steel,
+/// assumed; book/src/theory/heat.md.
+pub const GROUND_STEEL: (f64, f64, f64) = (0.8e-6, 0.1, 3e9);
+
 /// Conductance of a pressed joint of rough surfaces: 1.25 k_s (m/σ)(p/H)^0.95, k_s = 2k₁k₂/(k₁ + k₂), W/(m² K).
 ///
 /// Arguments: conductivities W/(m K); roughness σ m and slope m of both surfaces combined; pressure and hardness of the

@@ -18,14 +18,11 @@ use crate::clearance::Seat;
 use physics::air::{cylinder_in_air, gap_transfer};
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{
-    line_half_width, pressed_joint, radiation_conductance, rolling_line_conductance,
+    GROUND_STEEL, line_half_width, pressed_joint, radiation_conductance, rolling_line_conductance,
 };
 use physics::viscosity::ICE_POINT;
 use std::f64::consts::TAU;
 
-/// Ground surfaces: roughness, m, slope of both combined, and hardness of the softer body, Pa. Source: usual ground steel,
-/// assumed; book/src/theory/heat.md.
-pub const GROUND_STEEL: (f64, f64, f64) = (0.8e-6, 0.1, 3e9);
 /// Distance of the mean planes of rough surfaces that touch, over their roughness: 1.53 (p/H)^−0.097 is 2.5 to 4. Source: Yovanovich (from
 /// memory).
 const APART: f64 = 3.0;

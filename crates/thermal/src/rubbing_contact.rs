@@ -17,8 +17,8 @@
 //! Source: derived; book/src/theory/heat.md.
 
 use crate::layer::{Answer, HalfStep, Layer, LayerState};
-use crate::passage::GROUND_STEEL;
 use physics::flash::{flash_rise, return_factor};
+use physics::heat_exchange::GROUND_STEEL;
 
 /// How two bodies touch, in the middle of a step or at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -66,7 +66,7 @@ impl Asked<'_> {
                 cage_mass: torque.cage_mass,
             },
             law,
-            loss: torque.acceleration_loss.law(),
+            loss: simulate::bearing::loss::law(&torque.acceleration_loss),
         })
     }
 

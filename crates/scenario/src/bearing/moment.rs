@@ -3,8 +3,6 @@
 use crate::bearing::kind::{BallMaterial, BearingType};
 use crate::section::Section;
 use crate::values::Values;
-use model::bearing::AccelerationLoss as LossLaw;
-use model::table::Table;
 use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
 use physics::palmgren::{Palmgren, PalmgrenCombined};
@@ -406,27 +404,6 @@ impl MomentShare {
 }
 
 impl AccelerationLoss {
-    /// The law with its constants.
-    pub fn law(&self) -> LossLaw {
-        match self {
-            AccelerationLoss::None => LossLaw::None,
-            AccelerationLoss::Constant { force } => LossLaw::Constant { force: *force },
-            AccelerationLoss::Proportional { per_acceleration } => LossLaw::Proportional {
-                per_acceleration: *per_acceleration,
-            },
-            AccelerationLoss::OverSpeed { force_over_speed } => LossLaw::OverSpeed {
-                force: table(force_over_speed),
-            },
-            AccelerationLoss::Affine {
-                force_over_speed,
-                per_acceleration_over_speed,
-            } => LossLaw::Affine {
-                force: table(force_over_speed),
-                per_acceleration: table(per_acceleration_over_speed),
-            },
-        }
-    }
-
     pub(crate) fn from_values(values: &Values) -> AccelerationLoss {
         let loss = Section {
             values,
@@ -450,10 +427,4 @@ impl AccelerationLoss {
             },
         }
     }
-}
-
-/// Rows of a scenario as a table of the model.
-pub fn table(rows: &[[f64; 2]]) -> Table {
-    let points = rows.iter().map(|row| (row[0], row[1])).collect();
-    Table::through(points).expect("rows of a scenario are two at least, and rise")
 }

@@ -59,9 +59,9 @@ impl Context<'_> {
                 let needed = "contact.width is needed beside it: without a landing surface there is no layer";
                 return refuse("heat.rotor_bodies", self.text("heat.rotor_bodies"), needed);
             }
-            let layer = part
-                .layer_of_core()
-                .map_or(0.0, |(layer, area)| layer.capacity(area));
+            let metal = part.contact.metals[0].material;
+            let capacity = metal.density * metal.specific_heat * part.contact.rotor_layer_depth();
+            let layer = capacity * part.area_over_core().unwrap_or(0.0);
             if warm.heat.rotor_capacity.is_some_and(|whole| whole <= layer) {
                 let needed = format!(
                     "more than the {layer:.3} J/K of its surface layer is needed beside heat.rotor_bodies: its core is the rest"

@@ -22,7 +22,6 @@ use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use problem::Problem;
 pub use shaft::{BearingPlace, Shaft};
 use std::f64::consts::PI;
-use thermal::layer::Layer;
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,22 +168,21 @@ pub struct Contact {
 const ROTOR_DEPTH: f64 = 10e-3;
 
 impl Contact {
-    /// What of the rotor its friction heat warms first.
-    pub fn rotor_layer(&self) -> Layer {
-        let Metal { material, layer } = self.metals[0];
-        let depth = layer.unwrap_or(ROTOR_DEPTH);
-        Layer::new(material, depth.min(0.5 * self.bore_diameter))
+    /// Depth of what of the rotor its friction heat warms first, m.
+    pub fn rotor_layer_depth(&self) -> f64 {
+        let depth = self.metals[0].layer.unwrap_or(ROTOR_DEPTH);
+        depth.min(0.5 * self.bore_diameter)
     }
 }
 
 impl AuxiliaryBearing {
-    /// The rotor's surface layer and its area, m², where it is one body of the network and its core another.
-    pub fn layer_of_core(&self) -> Option<(Layer, f64)> {
+    /// Area of the rotor's surface layer, m², where it is one body of the network and its core another.
+    pub fn area_over_core(&self) -> Option<f64> {
         let warm = self.warm.as_ref()?;
         let width = self.contact.width?;
         let diameter = self.contact.bore_diameter - 2.0 * self.contact.radial_air_clearance;
         let apart = warm.heat.rotor_bodies == RotorBodies::LayerAndCore;
-        apart.then(|| (self.contact.rotor_layer(), PI * diameter * width))
+        apart.then_some(PI * diameter * width)
     }
 }
 

@@ -6,7 +6,6 @@ use crate::checks::{Check, Context};
 use crate::heat::{Atmosphere, Heat, Warm};
 use physics::air::{LARGEST_REYNOLDS, reynolds};
 use problem::Code;
-use thermal::passage::Passage;
 
 impl Context<'_> {
     fn refuse_warm(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
@@ -26,7 +25,7 @@ impl Context<'_> {
             let needed = "more than heat.bore_diameter is needed";
             return self.refuse_warm(Code::OutOfRange, path, self.text(path), needed);
         }
-        if heat.open_housing().is_none() {
+        if heat.surroundings.is_none() && !heat.is_open(heat.housing_emissivity) {
             let path = "heat.surroundings";
             let needed = "a conductance is needed in vacuum, where no rule of the trade holds: through the housing's flange; or heat.housing_emissivity, by which it radiates";
             let place = self.values.place("heat.atmosphere");
@@ -67,7 +66,11 @@ impl Context<'_> {
 
     /// Refuses a rotor that stirs the gas faster than any law knows.
     fn stirs(&self, heat: &Heat) -> Check {
-        let Passage::Open(open) = heat.open_rotor() else {
+        let (Some(diameter), Some(pressure), None) = (
+            heat.rotor_diameter.filter(|_| heat.rotor_area.is_some()),
+            heat.gas_pressure,
+            heat.rotor_surroundings,
+        ) else {
             return Ok(());
         };
         let speeds = [
@@ -78,13 +81,8 @@ impl Context<'_> {
         ];
         let speeds = speeds.iter().filter_map(|path| self.values.number(path));
         let speed = speeds.map(f64::abs).fold(0.0, f64::max);
-        let found = match open.pressure > 0.0 {
-            true => reynolds(
-                open.diameter,
-                speed,
-                heat.ambient_temperature,
-                open.pressure,
-            ),
+        let found = match pressure > 0.0 {
+            true => reynolds(diameter, speed, heat.ambient_temperature, pressure),
             false => 0.0,
         };
         if found <= LARGEST_REYNOLDS {

@@ -7,11 +7,10 @@ use crate::system::SystemName;
 use crate::values::{Value, Values};
 use physics::air::{GRAVITY, SEA_LEVEL};
 use physics::heat_conduction::STEEL_HEAT;
-use physics::heat_exchange::{pressed_joint, to_surroundings};
+use physics::heat_exchange::{GROUND_STEEL, pressed_joint, to_surroundings};
 use physics::ring::PressFit;
 use problem::{Code, Problem};
 use std::f64::consts::PI;
-use thermal::passage::GROUND_STEEL;
 
 /// Mass of lubricant over outer diameter and width, kg/m².
 const GREASE: f64 = 5.0;

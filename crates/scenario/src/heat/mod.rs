@@ -16,11 +16,6 @@ use physics::ring::PressFit;
 pub use physics::viscosity::ICE_POINT;
 use physics::viscosity::Viscosity;
 use problem::words;
-use thermal::bearing_network::{
-    BALLS, CAGE, HOUSING, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
-};
-use thermal::clearance::Seat;
-use thermal::passage::{Medium, Open, Passage, Pressed};
 
 words! {
     /// Whether temperatures are followed.
@@ -138,8 +133,10 @@ pub struct Warm {
     pub radial_load: f64,
     /// Growth of the diameter of its inner track with the square of its speed, m s².
     pub growth: f64,
-    /// Seats of its rings on shaft and in housing, where they are known.
-    pub seats: [Option<Seat>; 2],
+    /// Fits of its rings on shaft and in housing, where they are known.
+    pub fits: [Option<PressFit>; 2],
+    /// Whether its inner ring sits on the rotor itself; else on a sleeve that is one body with the ring.
+    pub on_rotor: bool,
     /// What warms.
     pub heat: Heat,
 }
@@ -245,16 +242,15 @@ impl Warm {
                 .unwrap_or_default(),
             radial_load,
             growth: 2.0 * growth(values, &heat),
-            seats: seats(values, &heat),
+            fits: values.known_fits(),
+            on_rotor: false,
             heat,
         }
     }
 
     /// The same whose inner ring may sit on the rotor itself: where that does not slide in it.
     pub fn on_rotor(mut self, sits: bool) -> Warm {
-        if let (Some(seat), true) = (&mut self.seats[0], sits) {
-            seat.nodes[0] = ROTOR;
-        }
+        self.on_rotor = sits;
         self
     }
 
@@ -264,21 +260,6 @@ impl Warm {
             [one, other] => Viscosity::through((one[0], one[1]), (other[0], other[1])).ok(),
             _ => None,
         }
-    }
-
-    /// Limits of the nodes of its network that have one, °C.
-    pub fn limits(&self) -> [Option<f64>; NODES.len()] {
-        let heat = &self.heat;
-        let of = |limit: f64| Some(limit - ICE_POINT);
-        let mut limits = [None; NODES.len()];
-        for node in [INNER_RACE, BALLS, OUTER_RACE] {
-            limits[node] = of(heat.race_limit);
-        }
-        if self.cage_mass > 0.0 {
-            limits[CAGE] = of(heat.cage_limit);
-        }
-        limits[LUBRICANT] = of(heat.lubricant_limit);
-        limits
     }
 
     /// What a friction law needs to know of the bearing.
@@ -306,43 +287,6 @@ fn growth(values: &Values, heat: &Heat) -> f64 {
 /// Expansion of bearing steel, 1/K. Source: derived; book/src/theory/heat.md.
 pub const STEEL_EXPANSION: f64 = 11.5e-6;
 
-/// Seats of the rings whose fits are given; the inner one on a sleeve that is one body with the ring.
-fn seats(values: &Values, heat: &Heat) -> [Option<Seat>; 2] {
-    let [shaft, housing] = values.known_fits();
-    let seat = |fit: PressFit, nodes, expansions, growth: fn(&PressFit) -> f64| {
-        let unit = PressFit {
-            interference: 1.0,
-            ..fit
-        };
-        Seat {
-            interference: fit.interference,
-            diameter: 2.0 * fit.joint_radius,
-            nodes,
-            expansions,
-            closes: 2.0 * growth(&unit),
-            presses: unit.pressure(),
-            spins: fit.lost_by_spin(),
-        }
-    };
-    let shaft = shaft.map(|fit| {
-        let expansions = [heat.shaft_expansion, STEEL_EXPANSION];
-        seat(fit, [INNER_RACE; 2], expansions, PressFit::outside_growth)
-    });
-    let housing = housing.map(|fit| {
-        let expansions = [STEEL_EXPANSION, heat.housing_expansion];
-        seat(
-            fit,
-            [OUTER_RACE, HOUSING],
-            expansions,
-            PressFit::bore_shrinking,
-        )
-    });
-    [shaft, housing]
-}
-
-/// Emissivity of a seat that is loose, where none is given. Source: bright steel, 0.1 to 0.3 (from memory).
-const BRIGHT_STEEL: f64 = 0.2;
-
 /// Diameter of a housing over the outer diameter of its bearing, where nothing else is known. Source: assumed.
 pub const HOUSING_SIZE: f64 = 2.0;
 
@@ -350,34 +294,9 @@ pub const HOUSING_SIZE: f64 = 2.0;
 pub const SHOULDER: f64 = 0.3;
 
 impl Heat {
-    /// The way of the rotor's heat to its surroundings.
-    pub fn open_rotor(&self) -> Passage {
-        let given = Passage::Given(self.rotor_surroundings.unwrap_or(0.0));
-        let size = self.rotor_diameter.zip(self.rotor_area);
-        match (self.rotor_surroundings, size) {
-            (None, Some(size)) => self.open(size, self.emissivity).unwrap_or(given),
-            _ => given,
-        }
-    }
-
-    /// The way of the housing's heat to its surroundings; none where there is none.
-    pub fn open_housing(&self) -> Option<Passage> {
-        let size = (HOUSING_SIZE * self.outer_diameter, self.housing_area);
-        let given = self.surroundings.map(Passage::Given);
-        given.or_else(|| self.open(size, self.housing_emissivity))
-    }
-
-    /// Gas and radiation around a cylinder of a diameter, m, and a surface, m²; none where there is neither.
-    fn open(&self, (diameter, area): (f64, f64), emissivity: f64) -> Option<Passage> {
-        let any = self.gas_pressure.is_some() || emissivity > 0.0;
-        any.then(|| {
-            Passage::Open(Open {
-                diameter,
-                area,
-                emissivity,
-                pressure: self.gas_pressure.unwrap_or(0.0),
-            })
-        })
+    /// Whether gas or radiation takes heat from a surface of such an emissivity.
+    pub fn is_open(&self, emissivity: f64) -> bool {
+        self.gas_pressure.is_some() || emissivity > 0.0
     }
 
     /// Pressure of the gas, Pa: of the atmosphere where none is given.
@@ -387,31 +306,6 @@ impl Heat {
             Atmosphere::Vacuum => 0.0,
         };
         self.gas_pressure.unwrap_or(air)
-    }
-
-    /// What fills the gap of rotor and inner race.
-    pub fn medium(&self) -> Medium {
-        Medium {
-            pressure: self.gas_pressure.unwrap_or(0.0),
-            emissivities: [self.emissivity; 2],
-        }
-    }
-
-    /// A ring on a seat whose fit is known; air where nothing is said of it, bright steel where no emissivity is.
-    pub fn pressed(&self, seat: Seat) -> Passage {
-        let emissivity = match self.emissivity > 0.0 {
-            true => self.emissivity,
-            false => BRIGHT_STEEL,
-        };
-        Passage::Pressed(Pressed {
-            seat,
-            reference: self.start_temperature - ICE_POINT,
-            length: self.width,
-            medium: Medium {
-                pressure: self.pressure(),
-                emissivities: [emissivity; 2],
-            },
-        })
     }
 
     /// Mass of an inner ring of this inertia between bore and shoulder, kg.

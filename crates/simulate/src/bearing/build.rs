@@ -1,6 +1,7 @@
 //! From a bearing of a scenario to the constants of the model.
 
 use crate::bearing::contacts::{BallContacts, SCENARIO};
+use crate::bearing::loss;
 use crate::bearing::traction::{inlet_rolling, traction};
 use model::bearing::ball::BallConstants;
 use model::bearing::ball_pair::BallPair;
@@ -77,7 +78,7 @@ pub(crate) fn bearing(
             first_ball_angle: bearing.first_ball_angle,
             moment: law,
             axial_load: bearing.moment.axial_load(),
-            loss: bearing.acceleration_loss.law(),
+            loss: loss::law(&bearing.acceleration_loss),
             lubricant: lubricant_state(bearing),
         }),
     })

@@ -5,6 +5,7 @@ pub(crate) mod columns;
 pub mod contacts;
 pub(crate) mod feedback;
 pub(crate) mod film;
+pub mod loss;
 pub(crate) mod networks;
 pub mod pressure;
 pub(crate) mod quantities;

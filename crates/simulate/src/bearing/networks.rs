@@ -1,6 +1,7 @@
 //! The networks of bearings that warm.
 
 use crate::coast_down::build::{ICE_POINT, losses, network};
+use crate::coast_down::passages::limits;
 use model::bearing_heat::{WarmBearing, shares};
 use problem::Problem;
 use scenario::{Bearing, Guidance, Moment, Separation, Warm};
@@ -48,7 +49,7 @@ pub(crate) fn built(
             land,
             if network.has(MOUNT) { MOUNT } else { HOUSING },
         ),
-        limits: warm.limits(),
+        limits: limits(warm),
         network,
     })))
 }

@@ -1,5 +1,6 @@
 //! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
 
+use crate::coast_down::passages;
 use crate::coast_down::rows::{BallsSeen, End, Row};
 use catalogue::Ring;
 use model::bearing_heat::sliding;
@@ -316,6 +317,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         (run.ball_mass).unwrap_or_else(|| run.ball_material.ball_mass(run.ball_diameter));
     let balls = run.ball_count as f64;
     let gap = run.ball_diameter;
+    let seats = passages::seats(run);
     let zone = LoadZone {
         load: run.radial_load,
         stiffness,
@@ -338,7 +340,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             ],
         },
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
-        seats: run.seats,
+        seats,
         growth: run.growth,
     };
     // rings share the annulus between bore and outside at the pitch circle's shoulders
@@ -365,7 +367,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     let steel = STEEL_HEAT.specific_heat;
     let ball = run.ball_material.heat();
     let cage = run.cage_mass * heat.cage_material.heat().specific_heat;
-    let on_rotor = run.seats[0].filter(|seat| seat.nodes[0] == ROTOR);
+    let on_rotor = seats[0].filter(|seat| seat.nodes[0] == ROTOR);
     let network = BearingNetwork {
         capacities: [
             heat.rotor_capacity.unwrap_or(f64::INFINITY),
@@ -388,7 +390,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         film: heat.film_thickness,
         landing: match (heat.rotor_contact, on_rotor) {
             (Some(conductance), _) => Passage::Given(conductance),
-            (None, Some(seat)) => heat.pressed(seat),
+            (None, Some(seat)) => passages::pressed(heat, seat),
             (None, None) => Passage::Line(Line {
                 bore: 0.5 * heat.bore_diameter,
                 clearance: heat
@@ -396,15 +398,15 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
                     .unwrap_or(0.01 * heat.bore_diameter),
                 length: heat.width,
                 modulus: contact_modulus(BEARING_STEEL, BEARING_STEEL),
-                medium: heat.medium(),
+                medium: passages::medium(heat),
             }),
         },
-        outer_seat: match (heat.outer_seat, run.seats[1]) {
-            (None, Some(seat)) => heat.pressed(seat),
+        outer_seat: match (heat.outer_seat, seats[1]) {
+            (None, Some(seat)) => passages::pressed(heat, seat),
             (given, _) => Passage::Given(given.unwrap_or(0.0)),
         },
-        surroundings: heat.open_housing().unwrap_or(Passage::Given(0.0)),
-        rotor_surroundings: heat.open_rotor(),
+        surroundings: passages::open_housing(heat),
+        rotor_surroundings: passages::open_rotor(heat),
         to_core: 0.0,
         mount: [heat.mount_contact, heat.mount_surroundings],
         ambient: celsius(heat.ambient_temperature),

@@ -7,6 +7,7 @@ use crate::bearing::warm::{
 };
 use crate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::coast_down::course::Course;
+use crate::coast_down::passages::limits;
 use crate::coast_down::ran::{NodeOf, Ran};
 use crate::coast_down::rows::{BallsSeen, End, Row, RowOfBearing};
 use outcome::list::results;
@@ -66,7 +67,7 @@ fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
         let peak = run.map(|run| run.peak(node));
         list.named(&[node.name()], |list| {
             peaks(list, &(), peak.as_ref());
-            if let Some(at) = part.warm.limits()[node.node] {
+            if let Some(at) = limits(&part.warm)[node.node] {
                 limit(
                     list,
                     &(),

@@ -2,6 +2,7 @@
 
 use crate::coast_down::build::{Built, OnLimits, Part, Start};
 use crate::coast_down::course::{self, Course};
+use crate::coast_down::passages::limits;
 use crate::coast_down::rows::{Row, RowOfBearing};
 use problem::Problem;
 use std::sync::atomic::AtomicBool;
@@ -19,7 +20,7 @@ pub(crate) struct Ran<'a> {
 
 /// Computes a run-out.
 pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a>, Box<Problem>> {
-    let each = built.parts.iter().flat_map(|part| part.warm.limits());
+    let each = built.parts.iter().flat_map(|part| limits(&part.warm));
     let limits: Vec<_> = each.collect();
     let free = course::follow(built, None, interrupt)?;
     let passes = |row: &Row| {

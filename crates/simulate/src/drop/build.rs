@@ -122,7 +122,8 @@ fn auxiliary_bearing(
         torque: given.inner_race_torque,
     };
     let mut warm = bearing::networks::built(part.warm.as_deref(), given)?;
-    if let (Some(warm), Some((layer, area))) = (&mut warm, part.layer_of_core()) {
+    if let (Some(warm), Some(area)) = (&mut warm, part.area_over_core()) {
+        let layer = layers::rotor_layer(&part.contact);
         let capacity = layer.capacity(area);
         warm.network.with_layer(capacity, layer.to_core(area));
     }

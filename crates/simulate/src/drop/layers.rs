@@ -1,12 +1,18 @@
 //! The heated layers of rotor and inner race.
 
 use model::surface_heat::Surfaces;
-use scenario::AuxiliaryBearing;
+use scenario::{AuxiliaryBearing, Contact};
 use std::f64::consts::PI;
 use thermal::layer::Layer;
 
 /// Depths that a race may have whose depth follows from its mass, m.
 const DEPTHS: (f64, f64) = (1e-3, 10e-3);
+
+/// What of the rotor its friction heat warms first.
+pub(super) fn rotor_layer(contact: &Contact) -> Layer {
+    Layer::new(contact.metals[0].material, contact.rotor_layer_depth())
+}
+
 /// The surfaces of an auxiliary bearing, where the width of its landing surface is given.
 pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
     let contact = &part.contact;
@@ -23,7 +29,7 @@ pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
     };
     let race_depth = race.layer.unwrap_or_else(of_mass);
     Some(Surfaces {
-        layers: [contact.rotor_layer(), Layer::new(race.material, race_depth)],
+        layers: [rotor_layer(contact), Layer::new(race.material, race_depth)],
         length,
         modulus: contact.modulus,
     })

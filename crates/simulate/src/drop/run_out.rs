@@ -6,6 +6,7 @@
 use crate::bearing::races::count_run_out;
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::coast_down::build::{Built, Part, Start, part};
+use crate::coast_down::passages::limits;
 use crate::coast_down::ran::{Ran, ran};
 use crate::coast_down::{self, history, quantities as of_run_out};
 use crate::drop::context::{Context, Setup};
@@ -190,7 +191,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
                 at_limits.extend(&own.temperatures);
             }
             None => {
-                held.push(Held::at(part.warm.limits().into_iter().collect()));
+                held.push(Held::at(limits(&part.warm).into_iter().collect()));
                 at_limits.extend(&warmth.temperatures);
             }
         }

@@ -3,6 +3,7 @@
 use crate::bearing::severity::{STEEL_CHANGES, wide_line};
 use crate::drop::context::Context;
 use crate::drop::context::touched;
+use crate::drop::layers::rotor_layer;
 use model::surface_heat::SurfaceHeat;
 use model::system::machine::record::BearingRecord;
 use outcome::list::results;
@@ -99,7 +100,7 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
         );
         list.push((heat.longest_stay, warning("AB2302", text)));
     }
-    let layer = context.setup.given(k).contact.rotor_layer();
+    let layer = rotor_layer(&context.setup.given(k).contact);
     let first = context.record(k).contacts.first();
     let since = first.map_or(0.0, |first| heat.surfaces[0].time - first.start);
     if context.record(k).warmth.is_none() && since > layer.through() {

@@ -1,5 +1,6 @@
 //! The torque of a drive or a load on the rotor, by tables over speed and time.
 
+use crate::bearing::loss::table;
 use model::magnets::MagnetsConstants;
 use model::rotor::TorqueTables;
 use model::schedule::Schedule;
@@ -10,10 +11,6 @@ use scenario::Drop;
 /// Torque of the rotor's drive or load over speed and time, for one of its planes.
 pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
     let share = 1.0 / f64::from(drop.rotor.planes);
-    let table = |rows: &[[f64; 2]], factor: f64| {
-        let points = rows.iter().map(|[x, y]| (*x, factor * y)).collect();
-        Table::through(points).expect("rows were checked when they were read")
-    };
     let over_speed = &drop.rotor.torque_over_speed;
     let over_time = &drop.rotor.torque_share_over_time;
     (!over_speed.is_empty()).then(|| TorqueTables {

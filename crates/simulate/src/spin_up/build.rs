@@ -1,6 +1,7 @@
 //! From a spin-up to the constants of the model.
 
 use crate::bearing;
+use crate::bearing::loss::table;
 use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint, refused};
 use model::bearing_heat::WarmBearing;
@@ -8,7 +9,6 @@ use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, Sp
 use model::table::Table;
 use number::Vec2;
 use problem::Problem;
-use scenario::bearing::moment::table;
 use scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 
 /// A spin-up ready to be simulated.
@@ -62,7 +62,7 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
 fn course(course: &Course) -> Table {
     match course {
         Course::Constant(value) => Table::constant(*value),
-        Course::Table(rows) => table(rows),
+        Course::Table(rows) => table(rows, 1.0),
     }
 }
 
@@ -89,6 +89,6 @@ fn drive(choice: &DriveChoice) -> Drive {
             final_speed,
             acceleration,
         }) => Drive::ramp(*acceleration, *final_speed),
-        DriveChoice::Speed(SpeedCourse::Table(rows)) => Drive::Speed(table(rows)),
+        DriveChoice::Speed(SpeedCourse::Table(rows)) => Drive::Speed(table(rows, 1.0)),
     }
 }
