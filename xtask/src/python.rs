@@ -1,10 +1,9 @@
 //! Guard: the Python package imports, and its tests pass.
 
 use crate::repository::{Outcome, Repository};
-use crate::shipped::build_in;
-use crate::toolchain::{cargo, quiet};
-use serde_json::Value;
-use std::path::{Path, PathBuf};
+use crate::shipped;
+use crate::toolchain::quiet;
+use std::path::Path;
 use std::process::Command;
 
 /// What the tests of the package need beside it.
@@ -27,7 +26,8 @@ pub fn check(repository: &Repository) -> Outcome {
     if !has_python.findings.is_empty() {
         return Outcome::new("not run: no python3 with venv here", Vec::new());
     }
-    let built = native(repository).and_then(|native| Ok((native, build_in(repository, "test")?)));
+    let built =
+        shipped::library(repository).and_then(|native| Ok((native, shipped::program(repository)?)));
     let (native, command) = match built {
         Ok(built) => built,
         Err(findings) => return Outcome::new("", findings),
@@ -40,31 +40,6 @@ pub fn check(repository: &Repository) -> Outcome {
     // Nothing depends on the folder any more; one that stays behind is no fault of the product.
     let _ = std::fs::remove_dir_all(&folder);
     outcome
-}
-
-/// Builds the native part and returns its library.
-fn native(repository: &Repository) -> Result<PathBuf, Vec<String>> {
-    let mut command = cargo(repository);
-    command.args(["build", "--quiet", "--profile", "test", "--locked"]);
-    command.args(["--package", "auxbear-python"]);
-    command.args(["--message-format", "json-render-diagnostics"]);
-    let output =
-        (command.output()).map_err(|error| vec![format!("cargo could not be started: {error}")])?;
-    if !output.status.success() {
-        let printed = String::from_utf8_lossy(&output.stderr);
-        return Err(printed.lines().map(str::to_owned).collect());
-    }
-    library(&String::from_utf8_lossy(&output.stdout))
-        .ok_or_else(|| vec!["the build made no library named _auxbear".to_owned()])
-}
-
-/// The library among cargo's messages, one JSON object a line.
-fn library(messages: &str) -> Option<PathBuf> {
-    messages
-        .lines()
-        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "_auxbear")
-        .find_map(|message| message["filenames"][0].as_str().map(PathBuf::from))
 }
 
 /// The package as it is installed.
@@ -118,19 +93,4 @@ fn tested(repository: &Repository, folder: &Path, command: &Path) -> Outcome {
     let mut outcome = quiet(&mut tests);
     outcome.seen = "tests of the package pass".to_owned();
     outcome
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_library_is_found_among_the_messages() {
-        let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\"},\"filenames\":[\"a.rlib\"]}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"_auxbear\"},\"filenames\":[\"target/debug/lib_auxbear.so\"]}\n";
-        assert_eq!(
-            library(messages),
-            Some(PathBuf::from("target/debug/lib_auxbear.so"))
-        );
-        assert_eq!(library("{\"reason\":\"build-finished\"}"), None);
-    }
 }

@@ -3,14 +3,14 @@
 use crate::golden;
 use crate::pages;
 use crate::repository::{Outcome, Repository};
-use crate::shipped::{build_in, call, summary_in};
+use crate::shipped::{call, program, summary_in};
 use serde_json::Value;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Builds the command as the tests do, which saves a build, then runs it on every file of `scenarios/`.
+/// Builds the command as the tests are built, then runs it on every file of `scenarios/`.
 pub fn check(repository: &Repository) -> Outcome {
-    let program = match build_in(repository, "test") {
+    let program = match program(repository) {
         Ok(program) => program,
         Err(findings) => return Outcome::new("", findings),
     };

@@ -1,4 +1,4 @@
-//! The command as users build it, and its runs of shipped scenarios.
+//! What a build of the product makes, and runs of shipped scenarios.
 
 use crate::repository::Repository;
 use crate::toolchain::{cargo, quiet};
@@ -14,35 +14,57 @@ pub fn summary_in(directory: &Path) -> Result<Value, String> {
     serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Builds the command in a profile: `test` shares everything with the tests and gives the same bits.
-pub fn build_in(repository: &Repository, profile: &str) -> Result<PathBuf, Vec<String>> {
+/// Builds everything as the tests are built. What scenarios and Python need comes from that build too: of fewer packages some
+/// dependencies have fewer features, and all that uses them would be built once more.
+const AS_TESTED: [&str; 10] = [
+    "build",
+    "--quiet",
+    "--profile",
+    "test",
+    "--workspace",
+    "--lib",
+    "--bins",
+    "--tests",
+    "--locked",
+    "--message-format=json-render-diagnostics",
+];
+
+/// The command, as the tests are built: the same bits.
+pub fn program(repository: &Repository) -> Result<PathBuf, Vec<String>> {
+    built(repository, |made| made["executable"].as_str(), "auxbear")
+}
+
+/// The native part of the Python package.
+pub fn library(repository: &Repository) -> Result<PathBuf, Vec<String>> {
+    built(repository, |made| made["filenames"][0].as_str(), "_auxbear")
+}
+
+/// What was made of a target, of which `file` says where it is.
+fn built(
+    repository: &Repository,
+    file: fn(&Value) -> Option<&str>,
+    target: &str,
+) -> Result<PathBuf, Vec<String>> {
     let output = cargo(repository)
-        .args([
-            "build",
-            "--quiet",
-            "--profile",
-            profile,
-            "--locked",
-            "--message-format",
-            "json-render-diagnostics",
-        ])
+        .args(AS_TESTED)
         .output()
         .map_err(|error| vec![format!("cargo could not be started: {error}")])?;
     if !output.status.success() {
         let printed = String::from_utf8_lossy(&output.stderr);
         return Err(printed.lines().map(str::to_owned).collect());
     }
-    executable(&String::from_utf8_lossy(&output.stdout))
-        .ok_or_else(|| vec!["the build made no program named auxbear".to_owned()])
+    let messages = String::from_utf8_lossy(&output.stdout);
+    made(&messages, file, target).ok_or_else(|| vec![format!("the build made no {target}")])
 }
 
-/// The program `auxbear` among cargo's messages, one JSON object a line.
-pub fn executable(messages: &str) -> Option<PathBuf> {
+/// What was made of a target by cargo's messages, one JSON object a line; its tests, which have its name, are another thing.
+fn made(messages: &str, file: fn(&Value) -> Option<&str>, target: &str) -> Option<PathBuf> {
     messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "auxbear")
-        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
+        .filter(|message| message["target"]["name"] == target)
+        .filter(|message| message["profile"]["test"] != true)
+        .find_map(|message| file(&message).map(PathBuf::from))
 }
 
 pub fn call(folder: &Path, program: &Path, words: &[&str]) -> Vec<String> {
@@ -59,12 +81,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_program_is_found_among_the_messages() {
-        let messages = "{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"lib\"]},\"executable\":null}\n{\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"auxbear\",\"kind\":[\"bin\"]},\"executable\":\"target/release/auxbear\"}\n{\"reason\":\"build-finished\"}\n";
+    fn what_was_built_is_found_among_the_messages() {
+        let message = |name: &str, test: bool, file: &str| {
+            format!(
+                "{{\"target\":{{\"name\":\"{name}\"}},\"profile\":{{\"test\":{test}}},\"filenames\":[\"{file}\"]}}\n"
+            )
+        };
+        let messages = [
+            message("other", false, "other.rlib"),
+            message("_auxbear", true, "deps/auxbear-1"),
+            message("_auxbear", false, "lib_auxbear.so"),
+        ];
+        let found =
+            |messages: &str| made(messages, |made| made["filenames"][0].as_str(), "_auxbear");
         assert_eq!(
-            executable(messages),
-            Some(PathBuf::from("target/release/auxbear"))
+            found(&messages.concat()),
+            Some(PathBuf::from("lib_auxbear.so"))
         );
-        assert_eq!(executable("{\"reason\":\"build-finished\"}"), None);
+        assert_eq!(found("{\"reason\":\"build-finished\"}"), None);
     }
 }

@@ -40,7 +40,8 @@ pub fn lints(repository: &Repository) -> Outcome {
 
 /// The documentation of the libraries builds without a warning.
 ///
-/// Libraries only: the command and the library share the name `auxbear`, and so would their pages.
+/// Libraries only: the command and the library share the name `auxbear`, and so would their pages. There are no examples: asked for,
+/// they give dependencies the features that lints and tests give them, and what they share is not built again.
 pub fn pages(repository: &Repository) -> Outcome {
     quiet(
         cargo(repository)
@@ -49,6 +50,7 @@ pub fn pages(repository: &Repository) -> Outcome {
                 "--quiet",
                 "--workspace",
                 "--lib",
+                "--examples",
                 "--no-deps",
                 "--locked",
             ])
