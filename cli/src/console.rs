@@ -26,7 +26,7 @@ pub fn report(line: &str) {
 /// Tells warnings, one a line; nothing silences them.
 pub fn warn(warnings: &[Warning]) {
     for warning in warnings {
-        report(&format!("warning[{}]: {}", warning.code, warning.text));
+        report(&format!("warning[{}]: {warning}", warning.code));
     }
 }
 

@@ -8,6 +8,7 @@ use auxbear::problem::{Code, Problem};
 use auxbear::report::directory::free_path;
 use auxbear::report::study::{Directory, Done, chosen};
 use auxbear::run::Options;
+use auxbear::run::outcome::Severity;
 use auxbear::scenario::StudyFile;
 use auxbear::study::Study;
 use auxbear::study::answer::{Answer, Sensitivity};
@@ -71,7 +72,8 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
     if !wish.quiet {
         console::print(&text(&path, &directory.study, &done))?;
     }
-    for warned in done.warned.iter().filter(|warned| !warned.is_remark()) {
+    let warned = done.warned.iter();
+    for warned in warned.filter(|warned| warned.severity() < Severity::Note) {
         console::report(&format!(
             "warning[{}]: {}: {}",
             warned.code,

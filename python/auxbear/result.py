@@ -25,10 +25,14 @@ class ModelWarning(UserWarning):
 
 
 class RunWarning(NamedTuple):
-    """A warning with its stable code."""
+    """A warning with its stable code; severity is destroys, invalid, uncertain or note; values have their SI units behind them."""
 
     code: str
     text: str
+    severity: str
+    part: str
+    time: float | None
+    values: dict[str, tuple[float | str, str]]
 
 
 class Spread(NamedTuple):

@@ -114,7 +114,7 @@ class Scenario:
 
     def check(self) -> list[RunWarning]:
         """Builds the machine, runs nothing, and returns what should be known before a run."""
-        return [RunWarning(code, text) for code, text in self._native.check()]
+        return [RunWarning(*warning) for warning in self._native.check()]
 
     def run(
         self,

@@ -8,6 +8,7 @@ use auxbear::report::page;
 use auxbear::scenario::Scenario;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyList, PyString};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -33,6 +34,40 @@ type Told<'py> = (
     bool,
     Option<Spread>,
 );
+
+/// A value of a warning.
+#[derive(IntoPyObject)]
+pub enum Amount {
+    Number(f64),
+    Text(String),
+}
+/// Code, text, severity, part, instant and values of a warning.
+pub type Warned = (
+    &'static str,
+    String,
+    &'static str,
+    String,
+    Option<f64>,
+    BTreeMap<&'static str, (Amount, &'static str)>,
+);
+
+pub fn warned(warning: &outcome::Warning) -> Warned {
+    let amount = |amount: &outcome::Amount| match amount {
+        outcome::Amount::Number(value) => Amount::Number(*value),
+        outcome::Amount::Text(text) => Amount::Text(text.clone()),
+    };
+    let values = warning.values.iter();
+    (
+        warning.code,
+        warning.to_string(),
+        warning.severity.word(),
+        warning.part.clone(),
+        warning.time,
+        values
+            .map(|(name, value, unit)| (*name, (amount(value), *unit)))
+            .collect(),
+    )
+}
 
 impl Outcome {
     pub fn of(scenario: Arc<Scenario>, mut found: outcome::Outcome) -> PyResult<Outcome> {
@@ -108,11 +143,8 @@ impl Outcome {
         Table::of(columns).map(Some)
     }
 
-    fn warnings(&self) -> Vec<(&'static str, &str)> {
-        let warnings = self.found.warnings.iter();
-        warnings
-            .map(|warning| (warning.code, warning.text.as_str()))
-            .collect()
+    fn warnings(&self) -> Vec<Warned> {
+        self.found.warnings.iter().map(warned).collect()
     }
 
     /// Reason, time and sentence of the end.

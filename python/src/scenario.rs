@@ -1,6 +1,6 @@
 //! What is simulated, and what is known without a run: catalogue, starting files, schemas, codes.
 
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Warned, warned};
 use crate::problem::raised;
 use crate::table::Table;
 use crate::watched::{PATIENCE, watched};
@@ -65,17 +65,14 @@ impl Scenario {
             .collect()
     }
 
-    /// Builds the machine and returns code and text of each warning known before a run.
-    fn check(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String)>> {
+    /// Builds the machine and returns each warning known before a run.
+    fn check(&self, py: Python<'_>) -> PyResult<Vec<Warned>> {
         let scenario = self.0.clone();
         let warnings = watched(py, None, None, PATIENCE, move |_, _| {
             build(&scenario).map(|machine| machine.warnings())
         })?;
         let warnings = warnings.map_err(|problem| raised(py, problem))?;
-        let pairs = warnings
-            .into_iter()
-            .map(|warning| (warning.code, warning.text));
-        Ok(pairs.collect())
+        Ok(warnings.iter().map(warned).collect())
     }
 
     #[pyo3(signature = (threads, progress))]

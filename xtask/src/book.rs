@@ -1,11 +1,10 @@
-//! Guard: the book has a section for every code, its links and paths exist, its tests are there.
+//! Guard: the links and paths of the book exist, its tests are there.
 
 use crate::repository::{Outcome, Repository};
 use std::collections::BTreeSet;
 
 const FOLDER: &str = "book/src/";
 const SUMMARY: &str = "book/src/SUMMARY.md";
-const CODES: &str = "book/src/codes.md";
 const VALIDATION: &str = "book/src/validation.md";
 
 /// Compares the book with the repository.
@@ -24,7 +23,6 @@ pub fn check(repository: &Repository) -> Outcome {
         findings.extend(places(page, text, repository));
     }
     findings.extend(unlisted(text(SUMMARY), &pages));
-    findings.extend(sections(text(CODES), &codes(repository)));
     for case in repository.below("validation/", ".toml") {
         let name = case
             .trim_start_matches("validation/")
@@ -155,43 +153,6 @@ fn unlisted(summary: &str, pages: &[(&str, String)]) -> Vec<String> {
         .collect()
 }
 
-/// Every code in the source.
-fn codes(repository: &Repository) -> BTreeSet<String> {
-    let files = (repository.below("crates/", ".rs")).filter(|file| file.contains("/src/"));
-    let texts = files.filter_map(|file| repository.text(file));
-    texts.flat_map(|text| codes_in(&text)).collect()
-}
-
-/// Codes as whole literals.
-fn codes_in(text: &str) -> Vec<String> {
-    let lines = text.lines().map(str::trim);
-    let code = lines.filter(|line| !line.starts_with("//"));
-    let literals = code.flat_map(|line| line.split('"').skip(1).step_by(2));
-    let is_code = |text: &&str| {
-        text.len() == 6 && text.starts_with("AB") && text[2..].bytes().all(|b| b.is_ascii_digit())
-    };
-    literals.filter(is_code).map(str::to_owned).collect()
-}
-
-/// Codes without a section with a title in bold, and sections without a code.
-fn sections(page: &str, codes: &BTreeSet<String>) -> Vec<String> {
-    let mut findings = Vec::new();
-    for code in codes {
-        match page.split_once(&format!("\n## {code}\n")) {
-            Some((_, section)) if section.trim_start().starts_with("**") => {}
-            _ => findings.push(format!("{CODES}: {code} has no section with a title")),
-        }
-    }
-    for (number, line) in prose(page) {
-        if let Some(code) = line.strip_prefix("## ")
-            && !codes.contains(code)
-        {
-            findings.push(format!("{CODES}:{number}: no code {code} in the source"));
-        }
-    }
-    findings
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,17 +191,6 @@ mod tests {
                 "book/src/a.md:2: crates/x/src/lib.rs has no test no_such"
             ]
         );
-    }
-
-    #[test]
-    fn codes_and_sections_are_compared_both_ways() {
-        let source = "FileMissing \"AB0001\"\n/// AB0002\nwarning(\"AB1001\", format!(\"text\"))\n";
-        let codes: BTreeSet<String> = codes_in(source).into_iter().collect();
-        assert!(codes.iter().eq(["AB0001", "AB1001"]));
-        let right = "# C\n\n## AB0001\n\n**A title.** x\n\n## AB1001\n\n**W.** y\n";
-        assert!(sections(right, &codes).is_empty());
-        let wrong = "# C\n\n## AB0001\n\nAnother. x\n\n## AB0009\n";
-        assert_eq!(sections(wrong, &codes).len(), 3);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Magnets whose controllers act in time: they keep what the linear analysis says, lose it with their power, and end at their limits.
 
 use auxbear::outcome::Outcome;
-use auxbear::outcome::severity::severity;
+use auxbear::run::warnings::rank;
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 
@@ -125,7 +125,7 @@ fn amplifiers_end_at_their_largest_voltage_and_the_run_says_so() {
     let told = |outcome: &Outcome| {
         let all = outcome.warnings.iter();
         all.filter(|w| w.code == "AB2036")
-            .map(|w| w.text.clone())
+            .map(|w| w.to_string())
             .collect::<Vec<_>>()
     };
     assert!(told(&sets("")).is_empty() && told(&sets("largest_voltage = \"150 V\"")).is_empty());
@@ -138,7 +138,7 @@ fn amplifiers_end_at_their_largest_voltage_and_the_run_says_so() {
     ] {
         assert!(text.contains(words), "{text}");
     }
-    assert_eq!(severity("AB2036"), severity("AB2034"));
+    assert_eq!(rank("AB2036"), rank("AB2034"));
 }
 
 /// A mount too soft for the magnets' negative stiffness lets the rotor come to a pole: the run keeps what it has and names it.

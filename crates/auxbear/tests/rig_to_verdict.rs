@@ -163,7 +163,7 @@ fn a_clipped_test_is_not_identified() {
     // it is the only one
     assert!(!found.stop.complete(), "{:?}", found.stop);
     let shown = (found.warnings.iter()).find(|warning| warning.code == "AB1060");
-    let shown = &shown.expect("it is reported").text;
+    let shown = shown.expect("it is reported").to_string();
     assert!(
         shown.starts_with("rig_test_2: it is not used: the reading is clipped at 2"),
         "{shown}"

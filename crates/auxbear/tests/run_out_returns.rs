@@ -227,7 +227,7 @@ fn a_drop_that_ends_before_its_spin_up_says_so_and_rolls_all_the_same() {
         let each = found.warnings.iter();
         each.clone()
             .find(|w| w.code == "AB2324")
-            .map(|w| w.text.clone())
+            .map(|w| w.to_string())
     };
     let whole = with("3 s");
     assert_eq!(early(&whole), None);

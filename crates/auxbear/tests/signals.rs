@@ -387,7 +387,7 @@ fn wrong_counts_of_balls_and_marks_are_reported() {
     let shown = |sets: &[&str]| {
         let outcome = example(sets);
         let doubts = outcome.warnings.iter().filter(|w| w.code == "AB1045");
-        doubts.map(|w| w.text.clone()).collect::<Vec<_>>().join(" ")
+        doubts.map(|w| w.to_string()).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(shown(&[]), "");
     for (set, right) in [

@@ -33,4 +33,5 @@ mod signals_files;
 mod speed_channel;
 mod studies;
 mod torque;
+mod warning_codes;
 mod warnings;

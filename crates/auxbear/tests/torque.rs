@@ -221,7 +221,7 @@ fn lubricants_are_compared_where_they_are_known() {
     assert_eq!(list(&outcome, "lubricant_3_temperatures").len(), 3);
     let shown = |code: &str| -> Vec<String> {
         let found = outcome.warnings.iter().filter(|w| w.code == code);
-        found.map(|w| w.text.clone()).collect()
+        found.map(|w| w.to_string()).collect()
     };
     assert_eq!(shown("AB1023").len(), 1);
     let drawn_on = shown("AB2313");
@@ -367,7 +367,7 @@ fn an_unknown_contact_angle_and_a_bath_without_drag_are_said() {
         let outcome = plain(&[&ANGULAR[..], more].concat());
         let found = outcome.warnings.iter();
         let found = found.filter(|w| ["AB1080", "AB1082"].contains(&w.code));
-        found.map(|w| w.text.clone()).collect::<Vec<_>>()
+        found.map(|w| w.to_string()).collect::<Vec<_>>()
     };
     let [angle, bath] = &warned(&[])[..] else {
         panic!("two warnings were expected");

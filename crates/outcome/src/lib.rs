@@ -5,9 +5,9 @@
 pub mod limits;
 pub mod list;
 pub mod options;
-pub mod severity;
 
 pub use options::{Options, start_pool};
+pub use problem::warning::{Amount, Scope, Severity, Warning};
 use scenario::Limit;
 use serde::Serialize;
 
@@ -298,20 +298,6 @@ pub struct Contact {
     /// Its instant, s.
     #[serde(rename = "peak_time_s")]
     pub peak_time: f64,
-}
-
-/// Something the user should know.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Warning {
-    /// Stable code, e.g. `AB1001`.
-    pub code: &'static str,
-    /// One or two sentences.
-    pub text: String,
-}
-
-/// A warning of a code in the book.
-pub fn warning(code: &'static str, text: String) -> Warning {
-    Warning { code, text }
 }
 
 /// What came out of one of many runs.

@@ -17,6 +17,7 @@
 use crate::list::NOT_GIVEN;
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::{Code, Problem, did_you_mean, question};
+use scenario::notes::NO_QUALIFICATION;
 use scenario::{Limit, Side, UNBALANCE_ANGLE};
 use statistics::share::{
     CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
@@ -25,9 +26,9 @@ use statistics::share::{
 use std::collections::BTreeSet;
 use units::{Dimension, Unit};
 
-/// The warning of runs that qualify no machine, and what is said instead of a verdict.
-pub const NO_QUALIFICATION: &str = "AB1095";
-const WITHHELD: &str = "no verdict where weight acts along the shaft: that motion and its force are not in this run (AB1095)";
+/// What is said of runs that qualify no machine instead of a verdict.
+const WITHHELD: &str =
+    "no verdict where weight acts along the shaft: that motion and its force are not in this run";
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -165,8 +166,7 @@ pub fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
             .map(|(_, angle)| angle.clone())
     };
     let angles: BTreeSet<Option<String>> = outcome.drawn.iter().map(angle_of).collect();
-    let no_qualification =
-        (outcome.warnings.iter()).any(|warning| warning.code == NO_QUALIFICATION);
+    let no_qualification = outcome.warnings.iter().any(|own| own.is(NO_QUALIFICATION));
     let judged = |limit: &Limit| {
         let mut quantities = outcome.quantities.iter();
         let quantity = quantities.find(|quantity| quantity.name == limit.quantity);
@@ -238,7 +238,7 @@ pub fn withheld(judged: Judged) -> Judged {
         Verdict::Fail => judged,
         Verdict::Pass | Verdict::Undecided => Judged {
             verdict: Verdict::Undecided,
-            why: WITHHELD.to_string(),
+            why: format!("{WITHHELD} ({})", NO_QUALIFICATION.code),
             ..judged
         },
     }

@@ -14,6 +14,7 @@ mod read_lists;
 mod read_rows;
 pub mod table;
 pub mod value;
+pub mod warning;
 pub mod words;
 
 pub use code::Code;

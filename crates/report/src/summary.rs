@@ -2,16 +2,16 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
-use outcome::severity::severity;
 use outcome::{
-    Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Warning, Work,
+    Amount, Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Warning,
+    Work,
 };
 use scenario::{Provenance, ResolvedValue, Scenario};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::io::{BufWriter, Write};
 
-const FORMAT: &str = "auxbear.summary/1";
+const FORMAT: &str = "auxbear.summary/2";
 
 /// Members that the page carries: a thousandth of what a repetition can have weighs as much as the rest of the page.
 pub(super) const OF_PAGE: usize = 500;
@@ -193,8 +193,18 @@ struct Held<'a> {
 #[derive(Serialize)]
 struct Message<'a> {
     code: &'static str,
-    graveness: u8,
-    text: &'a str,
+    severity: &'static str,
+    part: &'a str,
+    time_s: Option<f64>,
+    values: Named<'a, Measured<'a>>,
+    text: String,
+}
+
+/// A value of a warning.
+#[derive(Serialize)]
+struct Measured<'a> {
+    value: Json<'a>,
+    unit: &'static str,
 }
 
 #[derive(Serialize)]
@@ -259,10 +269,21 @@ fn limit(judged: &Judged) -> Held<'_> {
 }
 
 fn warning(warning: &Warning) -> Message<'_> {
+    let measured = |amount| match amount {
+        &Amount::Number(value) => Json::Number(value),
+        Amount::Text(text) => Json::Text(text),
+    };
+    let values = warning.values.iter().map(|(name, amount, unit)| {
+        let value = measured(amount);
+        (*name, Measured { value, unit })
+    });
     Message {
         code: warning.code,
-        graveness: severity(warning.code),
-        text: &warning.text,
+        severity: warning.severity.word(),
+        part: &warning.part,
+        time_s: warning.time,
+        values: Named(values.collect()),
+        text: warning.to_string(),
     }
 }
 

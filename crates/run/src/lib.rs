@@ -14,6 +14,7 @@ mod known;
 pub mod study;
 #[cfg(test)]
 mod tests;
+pub mod warnings;
 
 use analyse::{identify, signals};
 use analyse::{rotor, torque};

@@ -45,7 +45,7 @@ pub mod vary;
 
 pub use bearing::fits::{Fits, Growth};
 pub use bearing::kind::{BallMaterial, BearingType, Fidelity};
-pub use bearing::lubricant::{DRAWN_ON, drawn_on};
+pub use bearing::lubricant::{DRAWN_ON, LubricantWarning, drawn_on};
 pub use bearing::lubricant::{Lubricant, LubricantViscosity};
 pub use bearing::lubricant_state::LubricantState;
 pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
@@ -90,6 +90,7 @@ pub use torque::{ComparedLaw, Torque};
 pub use vary::UNBALANCE_ANGLE;
 pub use vary::{Distribution, Vary};
 
+use problem::warning::Warning;
 use problem::{Code, Problem};
 use std::path::Path;
 
@@ -227,7 +228,7 @@ pub struct Scenario {
     /// What results must hold.
     pub limits: Vec<Limit>,
     /// What the user should know of the values themselves.
-    pub notes: Vec<notes::Note>,
+    pub notes: Vec<Warning>,
     /// Where it was read.
     text: locate::Text,
     /// What was read, to be read again with other values.
@@ -363,7 +364,7 @@ impl Scenario {
         };
         let limits = limit::of(&document)?;
         let parts = rotor::parts::toml(&document, &values[0]);
-        let mut notes: Vec<notes::Note> = Vec::new();
+        let mut notes: Vec<Warning> = Vec::new();
         for note in values.iter().flat_map(values::Values::notes) {
             // what is of the whole file is noted of each of several bearings
             if !notes.contains(&note) {

@@ -2,7 +2,7 @@
 //! the run and of the report.
 
 use crate::bearing::kind::BearingType;
-use crate::bearing::lubricant::{DRAWN_ON, drawn_on};
+use crate::bearing::lubricant::{LubricantWarning, drawn_on};
 use crate::drop::axial_share;
 use crate::heat::Network;
 use crate::system::SystemName;
@@ -10,15 +10,22 @@ use crate::table;
 use crate::values::Values;
 use catalogue::designation::{self, Designation};
 use physics::viscosity::Viscosity;
+use problem::warning::Warning;
 use units::display;
 
-/// Something that the user should know of the file's values.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
-    /// Stable code of a warning.
-    pub code: &'static str,
-    /// One or two sentences.
-    pub text: String,
+problem::warnings! {
+    /// Of the values of a file.
+    pub enum ValueWarning {
+        LeftOut { typed: text, name: text, behind: words } "AB1091" Uncertain ("{typed} is computed as the {name} of the catalogue{behind}.");
+        AnotherBearing { differ: words, name: text } "AB1092" Invalid
+            ("Given values differ from those of the {name}, and count: {differ} (the catalogue's in brackets). Ratings, limiting speed and whatever is not given are still those of the {name}.");
+        Information { key: text, value: text } "AB1093" Note ("{key} = {value} is kept as information: nothing here is computed from it.");
+        Implausible { key: text, value: text, usual: words } "AB1094" Invalid ("{key} = {value} is implausible: {usual}.");
+        ImplausibleUnbalance { eccentricity: "m", speed: "rad/s", grade: "m/s" } "AB1094" Invalid
+            ("The unbalance is implausible: {eccentricity:.3e} m of eccentricity (all planes in one direction) at {speed:.0} rad/s are a balance quality grade G {:.0} (ISO 21940-11, mm/s); turbomachines have G 1 to G 6.3. A lost blade would be one.", grade * 1e3);
+        Inclined { angle: "rad", gravity: "m/s^2", share: "1" } "AB1095" [NO_QUALIFICATION] Invalid
+            ("The shaft stands {:.1} deg from the horizontal ({gravity} m/s^2 across it): {share:.3} of g acts along it. What carries that, the axial drop onto the thrust faces, is not described, nor the friction of the loaded balls. Radial forces of such a run are no qualification of the machine.", angle.to_degrees());
+    }
 }
 
 /// On which side of the catalogue's value a given one is doubtful.
@@ -74,26 +81,22 @@ const LARGEST_SAG: f64 = 1e-3;
 
 impl Values {
     /// Everything worth a note.
-    pub fn notes(&self) -> Vec<Note> {
+    pub fn notes(&self) -> Vec<Warning> {
         let mut list = Vec::new();
         list.extend(self.inclined());
         list.extend(self.another_bearing());
         list.extend(self.left_out());
         list.extend(self.implausible());
         list.extend(self.extrapolated());
-        list.extend(self.without_effect.iter().map(|path| Note {
-            code: "AB1093",
-            text: format!(
-                "{} = {} is kept as information: nothing here is computed from it.",
-                self.shown(path),
-                self.text(path).unwrap_or_default()
-            ),
+        list.extend(self.without_effect.iter().map(|path| {
+            let (key, value) = (self.shown(path), self.text(path).unwrap_or_default());
+            ValueWarning::Information { key, value }.into()
         }));
         list
     }
 
     /// An oil beyond the data of its viscosity, where the run does not follow its temperature and say so itself.
-    fn extrapolated(&self) -> Option<Note> {
+    fn extrapolated(&self) -> Option<Warning> {
         const TEMPERATURE: &str = "bearing.moment.temperature";
         let points = self.rows("bearing.moment.viscosity_points")?;
         let temperature = self.number(TEMPERATURE)?;
@@ -103,34 +106,30 @@ impl Values {
         let oil = Viscosity::through((one[0], one[1]), (other[0], other[1])).ok()?;
         let followed = self.chosen("heat.network") == Some(Network::On)
             || self.system() == SystemName::CoastDown;
-        (!followed && oil.beyond(temperature) > 0.0).then(|| Note {
-            code: DRAWN_ON,
-            text: format!(
-                "{}: the viscosity of the lubricant is extrapolated: {}.",
-                self.shown(TEMPERATURE),
-                drawn_on(&oil, temperature)
-            ),
+        (!followed && oil.beyond(temperature) > 0.0).then(|| {
+            let how = drawn_on(&oil, temperature);
+            let key = self.shown(TEMPERATURE);
+            LubricantWarning::Drawn { key, how }.into()
         })
     }
 
     /// A shaft whose weight the radial bearings carry in part, or not at all.
-    fn inclined(&self) -> Option<Note> {
+    fn inclined(&self) -> Option<Warning> {
         let gravity = self.number("gravity.acceleration")?;
         let share = axial_share(gravity);
-        (self.system().falls() && share > 0.0).then(|| Note {
-            code: "AB1095",
-            text: format!(
-                "The shaft stands {:.1} deg from the horizontal ({gravity} m/s^2 across it): {:.3} of g acts along it. What carries that, the axial \
-                 drop onto the thrust faces, is not described, nor the friction of the loaded balls. Radial forces of such a run are no \
-                 qualification of the machine.",
-                share.asin().to_degrees(),
+        (self.system().falls() && share > 0.0).then(|| {
+            let angle = share.asin();
+            ValueWarning::Inclined {
+                angle,
+                gravity,
                 share,
-            ),
+            }
+            .into()
         })
     }
 
     /// Given values that are not those of the bearing named.
-    fn another_bearing(&self) -> Option<Note> {
+    fn another_bearing(&self) -> Option<Warning> {
         let record = self.record.as_ref()?;
         let differ: Vec<String> = IDENTITY
             .iter()
@@ -160,17 +159,14 @@ impl Values {
             })
             .collect();
         let name = &record.name;
-        (!differ.is_empty()).then(|| Note {
-            code: "AB1092",
-            text: format!(
-                "Given values differ from those of the {name}, and count: {} (the catalogue's in brackets). Ratings, limiting speed and whatever is not given are still those of the {name}.",
-                differ.join(", ")
-            ),
+        (!differ.is_empty()).then(|| {
+            let (differ, name) = (differ.join(", "), name.clone());
+            ValueWarning::AnotherBearing { differ, name }.into()
         })
     }
 
     /// What of a designation the catalogue does not tell apart.
-    fn left_out(&self) -> Option<Note> {
+    fn left_out(&self) -> Option<Warning> {
         let typed = self.text(NAME)?;
         let record = self.record.as_ref()?;
         if typed.trim().eq_ignore_ascii_case(&record.name) {
@@ -185,27 +181,23 @@ impl Values {
             "" => String::new(),
             words => format!(", without {words}"),
         };
-        Some(Note {
-            code: "AB1091",
-            text: format!(
-                "{typed} is computed as the {} of the catalogue{behind}.",
-                record.name
-            ),
-        })
+        let name = record.name.clone();
+        Some(
+            ValueWarning::LeftOut {
+                typed,
+                name,
+                behind,
+            }
+            .into(),
+        )
     }
 
     /// Values that hardly any machine has.
-    fn implausible(&self) -> Vec<Note> {
+    fn implausible(&self) -> Vec<Warning> {
         let mut list = Vec::new();
         let mut doubt = |path: &str, usual: String| {
-            list.push(Note {
-                code: "AB1094",
-                text: format!(
-                    "{} = {} is implausible: {usual}.",
-                    self.shown(path),
-                    self.text(path).unwrap_or_default()
-                ),
-            });
+            let (key, value) = (self.shown(path), self.text(path).unwrap_or_default());
+            list.push(ValueWarning::Implausible { key, value, usual }.into());
         };
         for path in ["contact.friction_coefficient", "drive.friction_coefficient"] {
             if self

@@ -3,7 +3,7 @@
 use levitation::response::{Equilibrium, Excess, Limit, equilibrium, excesses};
 use levitation::{ClosedLoop, Plant, Pole, Refused, Verdict, verdict};
 use nalgebra::DVector;
-use outcome::{Warning, warning};
+use outcome::Warning;
 use physics::magnet::Magnet;
 use problem::{Code, Problem};
 use scenario::{LevitationModel, UNNAMED};
@@ -145,6 +145,16 @@ pub(crate) fn within_limits(
     Err(Box::new(problem.on_key(format!("levitation.magnet.{key}"))))
 }
 
+problem::warnings! {
+    /// Of the steady motion on magnets.
+    pub enum LevitationWarning {
+        BeyondLimits { speed: "rad/s", needed: words } "AB2079" Invalid
+            ("At {speed:.1} rad/s the magnets need {needed}: they cannot do so, and stability, response and orbit are not those given here.");
+        IdleCoil { speed: "rad/s", needed: words } "AB2080" Uncertain
+            ("At {speed:.1} rad/s the magnets need {needed}: that coil is without current for a part of each turn, where force over current is smaller than in the linear analysis.");
+    }
+}
+
 /// What the steady motion of an analysis makes doubtful: limits that it passes, and coils without current.
 pub fn warnings(model: &LevitationModel, excesses: &[Excess], speed: f64) -> Vec<Warning> {
     let of = |idle: bool| {
@@ -152,29 +162,13 @@ pub fn warnings(model: &LevitationModel, excesses: &[Excess], speed: f64) -> Vec
             .iter()
             .filter(move |own| (own.limit == Limit::Idle) == idle)
     };
-    let cases = [
-        (
-            "AB2079",
-            false,
-            "they cannot do so, and stability, response and orbit are not those given here",
-        ),
-        (
-            "AB2080",
-            true,
-            "that coil is without current for a part of each turn, where force over current is smaller than in the linear analysis",
-        ),
-    ];
-    let passed = cases
-        .into_iter()
-        .filter(|(_, idle, _)| of(*idle).next().is_some());
-    let told = passed.map(|(code, idle, end)| {
-        let needed = exceeds(model, of(idle));
-        warning(
-            code,
-            format!("At {speed:.1} rad/s the magnets need {needed}: {end}."),
-        )
-    });
-    told.collect()
+    let needed = |idle: bool| {
+        let any = of(idle).next().is_some();
+        any.then(|| exceeds(model, of(idle)))
+    };
+    let beyond = needed(false).map(|needed| LevitationWarning::BeyondLimits { speed, needed });
+    let idle = needed(true).map(|needed| LevitationWarning::IdleCoil { speed, needed });
+    beyond.into_iter().chain(idle).map(Warning::from).collect()
 }
 
 /// Refuses coils that cannot carry the weight.

@@ -1,9 +1,22 @@
 //! Which steps a run takes, explicit or linearly implicit, how large an error it allows, and what its user should know of that.
 
 use model::bearing::tangents::Known;
-use outcome::{Warning, warning};
+use outcome::Warning;
 use scenario::{Accuracy, Method, Run};
 use solve::Steps;
+
+problem::warnings! {
+    /// Of the steps of a run.
+    pub enum SteppingWarning {
+        Tolerance { tolerance: "1", largest: "1" } "AB1123" Uncertain
+            ("run.tolerance = {tolerance:e} is larger than the {largest:e} of design accuracy: the energy ledger may miss more than a millionth, and first impacts more than their spread.");
+        NotImplicit { what: words } "AB1124" Uncertain ("run.method = \"implicit\" was asked for, but {what}: explicit steps were taken.");
+        ShortSteps { what: words } "AB1124" Uncertain
+            ("run.method = \"implicit\": {what}, so these steps are as short as explicit ones and cost several times more.");
+        ScreeningExplicit { what: words } "AB1124" Uncertain
+            ("run.accuracy = \"screening\" took explicit steps, because {what}: they are 1.2 to 2.5 times quicker than those of design, not several times.");
+    }
+}
 
 /// Tolerance of explicit steps at screening accuracy, which are those of the extended scheme. Measured on the shipped machines: the energy
 /// ledger misses up to 1e-5, as by Bogacki-Shampine at 1e-3, at 0.8 to 0.95 of the cost.
@@ -112,13 +125,7 @@ impl Asked<'_> {
             && let largest = of(design, steps)
             && tolerance > largest
         {
-            list.push(warning(
-                "AB1123",
-                format!(
-                    "run.tolerance = {tolerance:e} is larger than the {largest:e} of design accuracy: the energy ledger may miss more than a \
-                     millionth, and first impacts more than their spread."
-                ),
-            ));
+            list.push(SteppingWarning::Tolerance { tolerance, largest }.into());
         }
         let what = match known {
             Known::All if bends && run.method == Method::Auto => {
@@ -132,21 +139,16 @@ impl Asked<'_> {
             Known::NotControllers => "controllers of magnets have no tangents",
             Known::NotMounts => "parts of a mount besides spring and damper have no tangents",
         };
-        let text = match (run.method, run.accuracy) {
+        let what = what.to_string();
+        let warning = match (run.method, run.accuracy) {
             (Method::Implicit, _) if known >= Known::Nothing => {
-                format!(
-                    "run.method = \"implicit\" was asked for, but {what}: explicit steps were taken."
-                )
+                SteppingWarning::NotImplicit { what }
             }
-            (Method::Implicit, _) => format!(
-                "run.method = \"implicit\": {what}, so these steps are as short as explicit ones and cost several times more."
-            ),
-            (Method::Auto, Accuracy::Screening) => format!(
-                "run.accuracy = \"screening\" took explicit steps, because {what}: they are 1.2 to 2.5 times quicker than those of design, not several times."
-            ),
+            (Method::Implicit, _) => SteppingWarning::ShortSteps { what },
+            (Method::Auto, Accuracy::Screening) => SteppingWarning::ScreeningExplicit { what },
             _ => return list,
         };
-        list.push(warning("AB1124", text));
+        list.push(warning.into());
         list
     }
 

@@ -1,10 +1,11 @@
 //! Slow tests of which no torque was measured: M from the inertia and the slope of the speed.
 
-use crate::identify::notes::{Note, noted};
+use crate::identify::notes::{IdentifyWarning, noted, of_test};
 use crate::identify::read::Test;
 use crate::signals;
 use identify::Measurement;
 use identify::coasting::{Coasting, Windage, coasting};
+use outcome::Warning;
 use physics::rolling::RollingSet;
 use std::sync::atomic::AtomicBool;
 
@@ -13,7 +14,7 @@ pub(super) fn coasted(
     test: &Test,
     set: &RollingSet<f64>,
     interrupt: &AtomicBool,
-    lines: &mut Vec<Note>,
+    lines: &mut Vec<Warning>,
 ) -> Result<(Measurement, Option<Windage>), String> {
     let found = signals::find(&test.asked, interrupt);
     lines.extend(noted(test, &found));
@@ -36,13 +37,13 @@ pub(super) fn coasted(
         set,
     })?;
     let braked = "no torque was measured: M is the inertia times the deceleration";
-    let text = match windage {
+    let note = match windage {
         Some(_) => format!("{braked}, less the windage"),
         None => format!(
             "{braked}; air and other bearings on the shaft are in it (signals.steady.windage_*)"
         ),
     };
-    lines.push(Note::of("AB1062", &test.name, &text));
+    lines.push(of_test(IdentifyWarning::Remark { note }, &test.name));
     Ok((measurement, windage))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::identify::coast_down::{coasted, largest};
 use crate::identify::consequence::{false_reading, other_cause, rolls, slip_is_open, slips};
-use crate::identify::notes::{Note, grouped, noted};
+use crate::identify::notes::{IdentifyWarning, grouped, noted, of_test};
 use crate::identify::read::{Asked, Test};
 use crate::interruptible::{INTERRUPTED, interruptible};
 use crate::signals;
@@ -311,27 +311,31 @@ impl Found {
             }
             _ => Err("identify.rotor_friction.file is not given".to_string()),
         };
-        let mut lines: Vec<Note> = (unusable.iter())
-            .map(|(name, why)| Note::of("AB1060", name, &format!("it is not used: {why}")))
-            .collect();
-        let code = |doubt: &Doubt| match readings.contains(doubt) {
-            true => "AB1063",
-            false => "AB1061",
-        };
-        lines.extend(doubts.iter().map(|doubt| match doubt.test() {
-            Some(test) => Note::of(code(doubt), test, &doubt.finding()),
-            None => Note::of_all("AB1061", &doubt.finding()),
+        let mut lines: Vec<Warning> = Vec::new();
+        for (name, why) in &unusable {
+            let why = why.to_string();
+            lines.push(of_test(IdentifyWarning::Unused { why }, name));
+        }
+        lines.extend(doubts.iter().map(|doubt| {
+            let (finding, test) = (doubt.finding(), doubt.test());
+            let warning = match test.is_some() && readings.contains(doubt) {
+                true => IdentifyWarning::Reading { finding },
+                false => IdentifyWarning::Doubt { finding },
+            };
+            of_test(warning, test.unwrap_or_default())
         }));
         let unequal = moment.iter().filter_map(|moment| moment.unequal.as_ref());
-        lines.extend(unequal.map(|unequal| Note::of_all("AB1061", &unequal.finding())));
+        let unequal = unequal.map(|unequal| unequal.finding());
+        lines.extend(unequal.map(|finding| Warning::from(IdentifyWarning::Doubt { finding })));
+        let remark = |note: &String| Warning::from(IdentifyWarning::Remark { note: note.clone() });
         let notes = (moment.iter().flat_map(|moment| &moment.notes))
             .chain(map.iter().flat_map(|map| &map.notes))
             .chain(rotor.iter().flat_map(|rotor| &rotor.notes));
-        lines.extend(notes.map(|note| Note::of_all("AB1062", note)));
+        lines.extend(notes.map(remark));
         lines.extend(tests.iter().flat_map(|test| {
             let notes = (test.loss.iter().flat_map(|loss| &loss.notes))
                 .chain(test.dissipation.iter().flat_map(|found| &found.notes));
-            notes.map(|note| Note::of("AB1062", &test.name, note))
+            notes.map(|note| of_test(remark(note), &test.name))
         }));
         lines.append(&mut of_signals);
         Found {
@@ -395,7 +399,7 @@ fn measured(
     test: &Test,
     settling_time: f64,
     interrupt: &AtomicBool,
-    lines: &mut Vec<Note>,
+    lines: &mut Vec<Warning>,
 ) -> Result<(Measurement, Uncertain), String> {
     let found = signals::find(&test.asked, interrupt);
     lines.extend(noted(test, &found));
@@ -542,7 +546,7 @@ fn rubbed(
     test: &Test,
     bearing: &Known,
     interrupt: &AtomicBool,
-    lines: &mut Vec<Note>,
+    lines: &mut Vec<Warning>,
 ) -> Result<rotor_friction::RotorFriction, String> {
     let moment = (bearing.moment.as_ref()).map_err(|_| "the steady moment is not known")?;
     let found = signals::find(&test.asked, interrupt);

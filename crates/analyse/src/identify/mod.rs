@@ -19,7 +19,7 @@ mod coast_down;
 mod consequence;
 mod found;
 mod history;
-mod notes;
+pub mod notes;
 mod per_test;
 mod read;
 

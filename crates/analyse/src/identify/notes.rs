@@ -5,38 +5,29 @@ use crate::identify::read::Test;
 use crate::signals;
 use outcome::Warning;
 
-/// Something that is said of a test, or of all.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Note {
-    code: &'static str,
-    test: Option<String>,
-    text: String,
+problem::warnings! {
+    /// Of the tests of an identification.
+    pub enum IdentifyWarning {
+        Unused { why: words } "AB1060" Invalid ("it is not used: {}.", why.trim_end_matches('.'));
+        Doubt { finding: words } "AB1061" Uncertain ("{}.", finding.trim_end_matches('.'));
+        Remark { note: words } "AB1062" Note ("{}.", note.trim_end_matches('.'));
+        Reading { finding: words } "AB1063" Invalid ("{}.", finding.trim_end_matches('.'));
+    }
 }
 
-impl Note {
-    /// Said of one test.
-    ///
-    /// Where the text begins with the name, or says it again on the way, it is left out: the line names the test already, and a
-    /// name that is a number is none to be merged.
-    pub fn of(code: &'static str, test: &str, text: &str) -> Note {
-        let named = format!("{test}: ");
-        let text = text.replace(&format!(" {named}"), " ");
-        let text = text.trim_start_matches(named.as_str());
-        Note {
-            code,
-            test: Some(test.to_string()),
-            text: text.trim_end_matches('.').to_string(),
-        }
+/// A warning of one test; of all where it has no name.
+///
+/// Where the text begins with the name, or says it again on the way, it is left out: the line names the test already, and a name
+/// that is a number is none to be merged.
+pub(crate) fn of_test(warning: impl Into<Warning>, test: &str) -> Warning {
+    let mut warning = warning.into();
+    if test.is_empty() {
+        return warning;
     }
-
-    /// Said of all.
-    pub fn of_all(code: &'static str, text: &str) -> Note {
-        Note {
-            code,
-            test: None,
-            text: text.trim_end_matches('.').to_string(),
-        }
-    }
+    let named = format!("{test}: ");
+    let text = warning.text.replace(&format!(" {named}"), " ");
+    warning.text = text.trim_start_matches(named.as_str()).to_string();
+    warning.of_part(test)
 }
 
 /// A word with the number in it, where it is one: what stands before it, the number as written, what stands behind it.
@@ -92,9 +83,9 @@ fn merged(texts: &[&str]) -> String {
 }
 
 /// The lines: in the order in which each is said first.
-pub(crate) fn grouped(notes: &[Note]) -> Vec<Warning> {
-    let mut groups: Vec<Vec<&Note>> = Vec::new();
-    for one in notes {
+pub(crate) fn grouped(warnings: &[Warning]) -> Vec<Warning> {
+    let mut groups: Vec<Vec<&Warning>> = Vec::new();
+    for one in warnings {
         if groups.iter().any(|group| group.contains(&one)) {
             continue;
         }
@@ -102,10 +93,10 @@ pub(crate) fn grouped(notes: &[Note]) -> Vec<Warning> {
         let group = groups.iter_mut().find(|group| {
             let first = group[0];
             first.code == one.code
-                && first.test.is_some()
-                && group.iter().all(|member| member.test != one.test)
-                && one.test.is_some()
-                && alike(&first.text, &one.text)
+                && !first.part.is_empty()
+                && group.iter().all(|member| member.part != one.part)
+                && !one.part.is_empty()
+                && alike(without_stop(first), without_stop(one))
         });
         match group {
             Some(group) => group.push(one),
@@ -114,38 +105,53 @@ pub(crate) fn grouped(notes: &[Note]) -> Vec<Warning> {
     }
     (groups.iter())
         .map(|group| {
-            let names: Vec<&str> = group
-                .iter()
-                .filter_map(|note| note.test.as_deref())
-                .collect();
-            let texts: Vec<&str> = group.iter().map(|note| note.text.as_str()).collect();
-            let text = merged(&texts);
-            Warning {
-                code: group[0].code,
-                text: match names.is_empty() {
-                    true => format!("{text}."),
-                    false => format!("{}: {text}.", names.join(", ")),
-                },
-            }
+            let names: Vec<&str> = group.iter().map(|own| own.part.as_str()).collect();
+            let texts: Vec<&str> = group.iter().map(|own| without_stop(own)).collect();
+            let mut warning = group[0].clone().of_part(&names.join(", "));
+            warning.text = merged(&texts) + ".";
+            warning
         })
         .collect()
 }
 
+fn without_stop(warning: &Warning) -> &str {
+    warning.text.trim_end_matches('.')
+}
+
 /// What the estimators of the signals say.
-pub(super) fn noted(test: &Test, found: &signals::found::Found) -> Vec<Note> {
+pub(super) fn noted(test: &Test, found: &signals::found::Found) -> Vec<Warning> {
     (found.warnings.iter())
-        .map(|warning| Note::of(warning.code, &test.name, &warning.text))
+        .map(|warning| of_test(warning.clone(), &test.name))
         .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signals::warning_table::SignalsWarning;
 
-    fn texts(notes: &[Note]) -> Vec<String> {
+    fn of(code: &str, test: &str, text: &str) -> Warning {
+        let note = text.to_string();
+        let warning = match code {
+            "AB1060" => IdentifyWarning::Unused { why: note }.into(),
+            "AB1061" => IdentifyWarning::Doubt { finding: note }.into(),
+            "AB1062" => IdentifyWarning::Remark { note }.into(),
+            _ => {
+                let (about, note) = text.split_once(": ").unwrap();
+                let (about, note) = (about.to_string(), note.to_string());
+                match code {
+                    "AB1041" => Warning::from(SignalsWarning::Channel { about, note }),
+                    _ => SignalsWarning::Estimate { about, note }.into(),
+                }
+            }
+        };
+        of_test(warning, test)
+    }
+
+    fn texts(notes: &[Warning]) -> Vec<String> {
         grouped(notes)
             .into_iter()
-            .map(|warning| warning.text)
+            .map(|warning| warning.to_string())
             .collect()
     }
 
@@ -155,19 +161,19 @@ mod tests {
             format!("{count} of 8029 times lie outside 3.7 to 150 rad/s: nothing is reported there")
         };
         let notes = [
-            Note::of("AB1062", "fast", &outside(1446)),
-            Note::of(
+            of("AB1062", "fast", &outside(1446)),
+            of(
                 "AB1061",
                 "slow",
                 "it settles at 0.714 of M, -7.4 ± 0.13 N mm (2σ) apart.",
             ),
-            Note::of("AB1062", "slow", &outside(27)),
-            Note::of(
+            of("AB1062", "slow", &outside(27)),
+            of(
                 "AB1061",
                 "fast",
                 "it settles at 0.714 of M, -12.4 ± 0.13 N mm (2σ) apart",
             ),
-            Note::of_all("AB1062", "no SKF law is given."),
+            of("AB1062", "", "no SKF law is given."),
         ];
         assert_eq!(
             texts(&notes),
@@ -180,10 +186,10 @@ mod tests {
     }
     #[test]
     fn the_name_of_a_test_is_said_once_though_it_be_a_number() {
-        let notes: Vec<Note> = ["1300", "7200", "11500"]
+        let notes: Vec<Warning> = ["1300", "7200", "11500"]
             .iter()
-            .map(|name| Note::of("AB1062", name, &format!("{name}: no cage signal")))
-            .chain([Note::of("AB1060", "r1", "it is not used: r1: no mark")])
+            .map(|name| of("AB1062", name, &format!("{name}: no cage signal")))
+            .chain([of("AB1060", "r1", "r1: no mark")])
             .collect();
         assert_eq!(
             texts(&notes),
@@ -196,14 +202,14 @@ mod tests {
     #[test]
     fn what_differs_in_words_code_or_by_one_test_stays_apart() {
         let notes = [
-            Note::of("AB1043", "a", "Torque: 1 values are left out"),
-            Note::of("AB1043", "b", "Cage: 1 values are left out"),
-            Note::of("AB1041", "c", "Torque: 1 values are left out"),
-            Note::of("AB1043", "a", "Torque: 2 values are left out"),
-            Note::of("AB1043", "d", "Torque: 1 values are left out, and more"),
+            of("AB1043", "a", "Torque: 1 values are left out"),
+            of("AB1043", "b", "Cage: 1 values are left out"),
+            of("AB1041", "c", "Torque: 1 values are left out"),
+            of("AB1043", "a", "Torque: 2 values are left out"),
+            of("AB1043", "d", "Torque: 1 values are left out, and more"),
             // the very same of the same test is said once
-            Note::of("AB1043", "b", "Cage: 1 values are left out"),
-            Note::of_all("AB1062", "Torque: 1 values are left out"),
+            of("AB1043", "b", "Cage: 1 values are left out"),
+            of("AB1062", "", "Torque: 1 values are left out"),
         ];
         let said = texts(&notes);
         assert_eq!(said.len(), 6, "{said:?}");

@@ -7,7 +7,7 @@
 pub(crate) mod asked;
 pub(crate) mod levitated;
 pub(crate) mod quantities;
-pub(crate) mod warnings;
+pub mod warnings;
 
 use crate::interruptible::{INTERRUPTED, interruptible};
 pub use crate::rotor::asked::Asked;

@@ -2,9 +2,33 @@
 
 use crate::rotor::asked::{Asked, Found};
 use crate::rotor::levitated;
-use outcome::{Warning, warning};
+use outcome::Warning;
 use simulate::drop::shaft_results::against_spin;
 use units::number_text;
+
+problem::warnings! {
+    /// Of an analysis of a rotor.
+    pub enum RotorWarning {
+        Table { support: text, low: "rad/s", high: "rad/s", from: "rad/s", to: "rad/s" } "AB2020" Uncertain
+            ("The table of {support} goes from {} to {} rad/s, the diagrams from {} to {} rad/s: beyond the table its coefficients stay what they are at its ends.", number_text(low), number_text(high), number_text(from), number_text(to));
+        Grows { frequency: "rad/s", damping_ratio: "1" } "AB2021" Invalid
+            ("At the rated speed the mode of {frequency:.1} rad/s grows: its damping ratio is {damping_ratio:.2e}. The rotor whirls until something that is not modelled here limits it.");
+        PulledOver { rate: "1/s" } "AB2021" Invalid
+            ("At the rated speed the rotor is pulled over: a motion grows with {rate:.6} 1/s and does not whirl. Negative stiffness exceeds that of shaft and supports, and the rotor has no position at rest.");
+        Reduction { coordinates: "", error: "1" } "AB2022" Uncertain
+            ("In the {coordinates} coordinates kept, eigenvalues are wrong by up to {error:.1e}. A higher analysis.cutoff keeps more.");
+        NoSupport "AB2023" Uncertain
+            ("The rotor has no support: modes are those of the free rotor, and there is no sag, no response and no stiffness map.");
+        FewModes { modes: "", wanted: "" } "AB2025" Note
+            ("{modes} modes oscillate at the rated speed in the coordinates kept, and all are shown: fewer than the {wanted} of the default of analysis.modes. More elements give more.");
+        UnlistedPeak { speeds: text } "AB2040" Invalid
+            ("The response has a narrow peak at {speeds} rad/s, and no critical speed is listed within its half width: the list may lack one. A verdict on the separation that is not \"fail\" is undecided.");
+        PulledOverAtRest "AB2042" Invalid
+            ("At rest the rotor is pulled over: negative stiffness exceeds that of shaft and supports, and gyroscopic moments alone hold it at the rated speed. Sag and support loads do not exist.");
+        SpeedRange { from: "rad/s", to: "rad/s", low: "rad/s", high: "rad/s" } "AB2043" Invalid
+            ("Critical speeds and growth are looked for from {} to {} rad/s, and the operating speeds with their margin reach from {} to {} rad/s: analysis.speed_from and analysis.speed_to must take them in. A verdict on the separation that is not \"fail\" is undecided.", number_text(from.round()), number_text(to.round()), number_text(low.round()), number_text(high.round()));
+    }
+}
 
 /// Error of eigenvalues in the reduced coordinates from which a warning is given.
 const REDUCTION: f64 = 1e-5;
@@ -20,40 +44,28 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             continue;
         };
         if analysis.speed_from < low || analysis.speed_to > high {
-            out.push(warning(
-                "AB2020",
-                format!(
-                    "The table of {name} goes from {} to {} rad/s, the diagrams from {} to {} rad/s: beyond the table its \
-                     coefficients stay what they are at its ends.",
-                    number_text(low),
-                    number_text(high),
-                    number_text(analysis.speed_from),
-                    number_text(analysis.speed_to)
-                ),
-            ));
+            let warning = RotorWarning::Table {
+                support: name.clone(),
+                low,
+                high,
+                from: analysis.speed_from,
+                to: analysis.speed_to,
+            };
+            out.push(warning.into());
         }
     }
     if let Some(value) = found.growing {
-        let (frequency, ratio) = (value.im.abs(), -value.re / value.norm());
-        let text = match frequency > 0.01 * value.norm() {
-            true => format!(
-                "At the rated speed the mode of {frequency:.1} rad/s grows: its damping ratio is {ratio:.2e}. The rotor whirls until \
-                 something that is not modelled here limits it."
-            ),
-            false => format!(
-                "At the rated speed the rotor is pulled over: a motion grows with {:.6} 1/s and does not whirl. Negative stiffness \
-                 exceeds that of shaft and supports, and the rotor has no position at rest.",
-                value.re
-            ),
+        let (frequency, damping_ratio) = (value.im.abs(), -value.re / value.norm());
+        let warning = match frequency > 0.01 * value.norm() {
+            true => RotorWarning::Grows {
+                frequency,
+                damping_ratio,
+            },
+            false => RotorWarning::PulledOver { rate: value.re },
         };
-        out.push(warning("AB2021", text));
+        out.push(warning.into());
     } else if found.pulled_over {
-        out.push(warning(
-            "AB2042",
-            "At rest the rotor is pulled over: negative stiffness exceeds that of shaft and supports, and gyroscopic moments alone hold it at \
-             the rated speed. Sag and support loads do not exist."
-                .to_string(),
-        ));
+        out.push(RotorWarning::PulledOverAtRest.into());
     }
     if !found.unlisted.is_empty() {
         let speeds: Vec<String> = found
@@ -61,55 +73,31 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
             .iter()
             .map(|own| format!("{own:.2}"))
             .collect();
-        out.push(warning(
-            "AB2040",
-            format!(
-                "The response has a narrow peak at {} rad/s, and no critical speed is listed within its half width: the list may lack one. A \
-                 verdict on the separation that is not \"fail\" is undecided.",
-                speeds.join(", ")
-            ),
-        ));
+        let speeds = speeds.join(", ");
+        out.push(RotorWarning::UnlistedPeak { speeds }.into());
     }
     if let Some([low, high]) = analysis.not_looked_at() {
-        out.push(warning(
-            "AB2043",
-            format!(
-                "Critical speeds and growth are looked for from {} to {} rad/s, and the operating speeds with their margin reach from {} to {} rad/s: \
-                 analysis.speed_from and analysis.speed_to must take them in. A verdict on the separation that is not \"fail\" is undecided.",
-                number_text(analysis.speed_from.round()),
-                number_text(analysis.speed_to.round()),
-                number_text(low.round()),
-                number_text(high.round())
-            ),
-        ));
+        let (from, to) = (analysis.speed_from, analysis.speed_to);
+        let warning = RotorWarning::SpeedRange {
+            from,
+            to,
+            low,
+            high,
+        };
+        out.push(warning.into());
     }
     out.extend(against_spin(&analysis.model, analysis.speed));
     if let Some(error) = found.reduction_error.filter(|error| *error > REDUCTION) {
-        out.push(warning(
-            "AB2022",
-            format!(
-                "In the {} coordinates kept, eigenvalues are wrong by up to {error:.1e}. A higher \
-                 analysis.cutoff keeps more.",
-                asked.within.basis.len()
-            ),
-        ));
+        let coordinates = asked.within.basis.len() as f64;
+        out.push(RotorWarning::Reduction { coordinates, error }.into());
     }
     let (there, most) = (found.modes.len(), analysis.modes.most());
     if there < most {
-        out.push(warning(
-            "AB2025",
-            format!(
-                "{there} modes oscillate at the rated speed in the coordinates kept, and all are shown: fewer than the {most} of the default \
-                 of analysis.modes. More elements give more."
-            ),
-        ));
+        let (modes, wanted) = (there as f64, most as f64);
+        out.push(RotorWarning::FewModes { modes, wanted }.into());
     }
     if !asked.held {
-        out.push(warning(
-            "AB2023",
-            "The rotor has no support: modes are those of the free rotor, and there is no sag, no response and no stiffness map."
-                .to_string(),
-        ));
+        out.push(RotorWarning::NoSupport.into());
     }
     out
 }

@@ -1,5 +1,6 @@
 //! What was found in a measurement.
 
+use crate::signals::warning_table::SignalsWarning;
 use crate::signals::{cage, converter, shaft, steady, temperature, torque, vibration};
 use identify::coasting::Windage;
 use measure::cage_speed::CageSpeed;
@@ -34,11 +35,25 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    pub(crate) fn warn(&mut self, code: &'static str, part: &str, notes: &[String]) {
-        for note in notes {
-            let text = format!("{part}: {}.", note.trim_end_matches('.'));
-            self.warnings.push(Warning { code, text });
-        }
+    /// Warns of each note of an estimator.
+    pub(crate) fn warn(
+        &mut self,
+        about: &str,
+        notes: &[String],
+        of: fn(String, String) -> SignalsWarning,
+    ) {
+        let without_stop = |note: &String| note.trim_end_matches('.').to_string();
+        let all = notes.iter().map(without_stop);
+        self.warnings
+            .extend(all.map(|note| Warning::from(of(about.to_string(), note))));
+    }
+
+    /// Warns of what an estimator says of its result.
+    pub(crate) fn note(&mut self, about: &str, notes: &[String]) {
+        self.warn(about, notes, |about, note| SignalsWarning::Estimate {
+            about,
+            note,
+        });
     }
 
     /// Why a part that was asked for has no numbers.

@@ -26,11 +26,13 @@ mod temperature;
 pub(crate) mod torque;
 mod unit;
 mod vibration;
+pub mod warning_table;
 
 use crate::interruptible::{INTERRUPTED, interruptible};
 pub use crate::signals::asked::Asked;
 use crate::signals::asked::{capital, sampled};
 use crate::signals::found::Found;
+use crate::signals::warning_table::SignalsWarning;
 use identify::coasting::Windage;
 use outcome::options::Options;
 use outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
@@ -78,7 +80,7 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
         };
         match interruptible(interrupt, vibration) {
             Ok(vibration) => {
-                found.warn("AB1043", "Vibration", &vibration.notes);
+                found.note("Vibration", &vibration.notes);
                 found.vibration = Some(vibration);
             }
             Err(why) => found.refused.push(("vibration", why)),
@@ -103,9 +105,13 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
     match interruptible(interrupt, steady) {
         Ok(steady) => {
             if let Some(doubt) = &steady.doubt {
-                found.warn("AB1122", "Steady curve", std::slice::from_ref(doubt));
+                found.warn(
+                    "Steady curve",
+                    std::slice::from_ref(doubt),
+                    |about, note| SignalsWarning::SteadyCurve { about, note },
+                );
             }
-            found.warn("AB1043", "Steady curve", &steady.notes);
+            found.note("Steady curve", &steady.notes);
             found.steady = Some(steady);
         }
         Err(why) => found.refused.push(("steady", why)),
@@ -136,7 +142,9 @@ pub(crate) fn windage(
 /// Computes what is asked for, part by part until an interrupt.
 pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     let mut found = Found::default();
-    found.warn("AB1040", "The file", &asked.notes);
+    found.warn("The file", &asked.notes, |about, note| {
+        SignalsWarning::File { about, note }
+    });
     for series in sampled(asked) {
         let Some(converted) = converter::Converted::of(series) else {
             continue;
@@ -148,7 +156,11 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             .iter()
             .filter(|text| !(own && text.contains("clipped")));
         let told: Vec<String> = told.cloned().collect();
-        found.warn("AB1041", &format!("Channel {}", converted.name), &told);
+        found.warn(
+            &format!("Channel {}", converted.name),
+            &told,
+            |about, note| SignalsWarning::Channel { about, note },
+        );
         found.converted.push(converted);
     }
     let watched = asked
@@ -165,22 +177,26 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             Ok(shaft) => {
                 if let Some(doubt) = &shaft.doubt {
                     found.warn(
-                        "AB1044",
                         "Marks per revolution",
                         std::slice::from_ref(doubt),
+                        |about, note| SignalsWarning::MarksPerRevolution { about, note },
                     );
                 }
                 if let Some(odd) =
                     (asked.signals.speed.as_ref()).and_then(|wish| shaft.beside_set(wish))
                 {
-                    found.warn("AB1121", "Largest speed", &[odd]);
+                    found.warn("Largest speed", &[odd], |about, note| {
+                        SignalsWarning::LargestSpeed { about, note }
+                    });
                 }
                 if let shaft::Seen::Channel(channel) = &shaft.seen
                     && let Some(doubt) = &channel.doubt
                 {
-                    found.warn("AB1120", "Speed", std::slice::from_ref(doubt));
+                    found.warn("Speed", std::slice::from_ref(doubt), |about, note| {
+                        SignalsWarning::SpeedChannel { about, note }
+                    });
                 }
-                found.warn("AB1043", "Speed", &shaft.notes);
+                found.note("Speed", &shaft.notes);
                 found.shaft = Some(Arc::new(shaft));
             }
             Err(why) => found.refused.push(("speed", why)),
@@ -188,7 +204,11 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     }
     if let (Some(series), Some(_)) = (&asked.torque, &asked.signals.torque) {
         let faults = torque::faulty(series);
-        found.warn("AB1041", &format!("Channel {}", series.name), &faults.told);
+        found.warn(
+            &format!("Channel {}", series.name),
+            &faults.told,
+            |about, note| SignalsWarning::Channel { about, note },
+        );
         let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
         let torque = move || match (&own.torque, &own.signals.torque) {
             (Some(series), Some(wish)) => {
@@ -198,10 +218,8 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
         };
         match interruptible(interrupt, torque) {
             Ok(torque) => {
-                for (code, doubt) in &torque.doubts {
-                    found.warn(code, "Torque", std::slice::from_ref(doubt));
-                }
-                found.warn("AB1043", "Torque", &torque.notes);
+                found.warnings.extend(torque.doubts.iter().cloned());
+                found.note(torque::TORQUE, &torque.notes);
                 found.torque = Some(Arc::new(torque));
             }
             Err(why) => found.refused.push(("torque", why)),
@@ -215,12 +233,14 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
         };
         match interruptible(interrupt, cage) {
             Ok(cage) => {
-                found.warn("AB1043", "Cage", &cage.notes);
+                found.note("Cage", &cage.notes);
                 let marks = asked.signals.speed.as_ref();
                 let marks = marks.map_or(0, |speed| speed.marks_per_revolution);
                 let shaft = found.shaft.as_deref();
                 if let Some(doubt) = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft)) {
-                    found.warn("AB1045", &capital(&asked.place("cage")), &[doubt]);
+                    found.warn(&capital(&asked.place("cage")), &[doubt], |about, note| {
+                        SignalsWarning::Cage { about, note }
+                    });
                 }
                 found.cage = Some(cage);
             }
@@ -232,17 +252,14 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     let refused: Vec<Warning> = found
         .refused
         .iter()
-        .map(|(part, why)| Warning {
-            code: "AB1042",
-            text: format!(
-                "No {} from {}: {}.",
-                match *part {
-                    "steady" => "steady curve",
-                    other => other,
-                },
-                asked.place(part),
-                why.trim_end_matches('.')
-            ),
+        .map(|(part, why)| {
+            let what = match *part {
+                "steady" => "steady curve",
+                other => other,
+            };
+            let why = why.trim_end_matches('.').to_string();
+            let (what, place) = (what.to_string(), asked.place(part));
+            SignalsWarning::Refused { what, place, why }.into()
         })
         .collect();
     found.warnings.splice(0..0, refused);

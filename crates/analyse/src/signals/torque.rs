@@ -2,6 +2,7 @@
 
 use crate::signals::mains::hum;
 use crate::signals::read::Series;
+use crate::signals::warning_table::SignalsWarning;
 use crate::signals::{design, shaft, spectrum};
 use identify::signals::zero_at_rest;
 use measure::converter::{Fault, faults};
@@ -9,11 +10,14 @@ use measure::spectrum::Spectrum;
 use measure::torque_sensor::{
     Clipped, DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
+use outcome::Warning;
 use scenario::{Disturbance, SensorSource, TorqueSignal};
 use statistics::uncertain::Uncertain;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
+/// What its warnings concern.
+pub(crate) const TORQUE: &str = "Torque";
 /// Values at the ends that are left out without a word.
 const FEW: usize = 2;
 /// What a spectrum shows at least: so many times the frequency of the sensor, so many orders of the shaft.
@@ -42,7 +46,7 @@ pub(crate) struct Found {
     /// Why a part of the torque is not told, its peak with it; none where all of it is.
     pub hidden: Option<String>,
     /// What contradicts what is stated of the sensor: with its code.
-    pub doubts: Vec<(&'static str, String)>,
+    pub doubts: Vec<Warning>,
 }
 
 /// Values that are not to be trusted.
@@ -315,7 +319,7 @@ fn inverted(
     wish: &TorqueSignal,
     sensor: Sensor,
     shaft: Option<&shaft::Found>,
-    (notes, doubts): (&mut Vec<String>, &mut Vec<(&'static str, String)>),
+    (notes, doubts): (&mut Vec<String>, &mut Vec<Warning>),
 ) -> Result<Torque, String> {
     let (stated, sensor) = (sensor, resolved(sensor, series.interval, notes));
     let turning = shaft
@@ -370,15 +374,14 @@ fn inverted(
         && wish.disturbance != Disturbance::RunOut
         && rest.value.abs() > CONTRADICTS * stated.hypot(rest.deviation)
     {
-        doubts.push((
-            "AB1127",
-            format!(
-                "while the shaft rests the reading is {:.4} N mm, which is {:.0} times the zero_deviation stated, {:.4} N mm: the zero has moved, or a run-out holds it (signals.torque.disturbance = \"run-out\"); the rest counts",
-                1e3 * rest.value,
-                rest.value.abs() / stated,
-                1e3 * stated
-            ),
-        ));
+        let note = format!(
+            "while the shaft rests the reading is {:.4} N mm, which is {:.0} times the zero_deviation stated, {:.4} N mm: the zero has moved, or a run-out holds it (signals.torque.disturbance = \"run-out\"); the rest counts",
+            1e3 * rest.value,
+            rest.value.abs() / stated,
+            1e3 * stated
+        );
+        let about = TORQUE.to_string();
+        doubts.push(SignalsWarning::Zero { about, note }.into());
         zero.deviation = stated.hypot(rest.value);
     }
     let mut of_zero = "is as given";
@@ -426,7 +429,7 @@ fn inverted(
     notes.extend(torque.notes.iter().cloned());
     doubts.extend(torque.shown_frequency.map(|shown| {
         let hum = hum(shown, rests, series.interval);
-        let text = match hum {
+        let note = match hum {
             Some(amplitude) => format!(
                 "the reading swings at {shown:.1} Hz, by {:.3} N mm while the shaft rests as well: a hum of the mains, not the ringing of the sensor, which is {:.1} Hz as stated; the torque keeps its mean, its band is wider; look to the shield and the earth of the cable",
                 1e3 * amplitude, sensor.frequency.value
@@ -436,7 +439,8 @@ fn inverted(
             sensor.frequency.value
             ),
         };
-        ("AB1128", text)
+        let about = TORQUE.to_string();
+        Warning::from(SignalsWarning::Ringing { about, note })
     }));
     if turning.is_none() && wish.disturbance != Disturbance::None {
         torque.hold_what_swings();

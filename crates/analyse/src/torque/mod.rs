@@ -11,7 +11,7 @@
 
 pub(crate) mod asked;
 pub(crate) mod quantities;
-pub(crate) mod warnings;
+pub mod warnings;
 
 pub use crate::torque::asked::Asked;
 use crate::torque::asked::{Moments, law_of, name_of};

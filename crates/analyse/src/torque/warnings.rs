@@ -2,22 +2,25 @@
 
 use crate::torque::asked::{Asked, law_of};
 use outcome::Warning;
-use outcome::warning;
 use physics::friction::Friction;
 use physics::friction_range::{OperatingPoint, farthest};
-use scenario::{BearingType, DRAWN_ON, Moment, Scenario, drawn_on};
-use simulate::assumptions::{assumptions, bath, constants, law_range};
+use scenario::{BearingType, LubricantWarning, Moment, Scenario, drawn_on};
+use simulate::assumptions::{AssumptionWarning, assumptions, bath, constants, law_range};
+
+problem::warnings! {
+    /// Of the moments of a bearing.
+    pub enum TorqueWarning {
+        NotCompared { law: text, why: words } "AB1022" Note ("The law {law} is not compared: {why}.");
+        NoMoment { lubricant: text, first: words, more: words } "AB1023" Note ("No moment with {lubricant} everywhere: {first}{more}.");
+    }
+}
 
 /// All warnings, the most severe first.
 pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
     let torque = asked.torque;
     let mut list = Vec::new();
     if torque.moment == Moment::None {
-        list.push(warning(
-            "AB1016",
-            "The bearing has no friction moment (bearing.moment.law is none): only its inertia is shown."
-                .to_string(),
-        ));
+        list.push(AssumptionWarning::NoMomentShown.into());
     }
     list.extend(departures(asked, &asked.law, ""));
     list.extend(constants(scenario, "", &torque.moment, &torque.rated()));
@@ -30,10 +33,10 @@ pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
                 list.extend(departures(asked, &law, &format!(" ({})", compared.law)));
             }
             Ok(_) => {}
-            Err(why) => list.push(warning(
-                "AB1022",
-                format!("The law {} is not compared: {why}.", compared.law),
-            )),
+            Err(why) => {
+                let law = compared.law.to_string();
+                list.push(TorqueWarning::NotCompared { law, why }.into());
+            }
         }
     }
     for lubricant in &torque.lubricants {
@@ -45,44 +48,29 @@ pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
                 1 => String::new(),
                 several => format!(" ({several} temperatures in all)"),
             };
-            list.push(warning(
-                "AB1023",
-                format!(
-                    "No moment with {} everywhere: {first}{more}.",
-                    lubricant.name
-                ),
-            ));
+            let (lubricant, first) = (lubricant.name.clone(), first.clone());
+            let warning = TorqueWarning::NoMoment {
+                lubricant,
+                first,
+                more,
+            };
+            list.push(warning.into());
         }
     }
     list.extend(torque.lubricants.iter().filter_map(|lubricant| {
         let (oil, temperature) = lubricant.farthest(torque)?;
-        let text = drawn_on(&oil, temperature);
-        Some(warning(
-            DRAWN_ON,
-            format!(
-                "The viscosity of {} is extrapolated: {text}.",
-                lubricant.name
-            ),
-        ))
+        let how = drawn_on(&oil, temperature);
+        let lubricant = lubricant.name.clone();
+        Some(LubricantWarning::DrawnOf { lubricant, how }.into())
     }));
     if let Some(limit) = torque.limiting_speed
         && torque.speed_to > limit
     {
-        list.push(warning(
-            "AB1015",
-            format!(
-                "The largest speed is {:.1} times the limiting speed of the bearing ({:.0} rpm), which holds for continuous running.",
-                torque.speed_to / limit,
-                limit * 30.0 / std::f64::consts::PI
-            ),
-        ));
+        let factor = torque.speed_to / limit;
+        list.push(AssumptionWarning::LargestOverspeed { factor, limit }.into());
     }
     if torque.kind != BearingType::DeepGroove {
-        list.push(warning(
-            "AB1019",
-            "Balls and cage are computed as those of a deep groove bearing: the contact angle reaches nothing but the friction law."
-                .to_string(),
-        ));
+        list.push(AssumptionWarning::DeepGrooveMotion.into());
     }
     let assumed = scenario.resolved.values.iter();
     let assumed = assumed.filter(|value| value.provenance.mark() == "assumed");

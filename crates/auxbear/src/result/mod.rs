@@ -5,5 +5,4 @@ pub(crate) mod drawing;
 pub mod limits;
 pub mod list;
 pub mod outcome;
-pub mod severity;
 pub(crate) mod static_safety;

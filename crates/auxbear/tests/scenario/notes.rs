@@ -21,7 +21,7 @@ fn told(kind: &str, code: &str, sets: &[&str]) -> Vec<String> {
         .warnings()
         .into_iter()
         .filter(|warning| warning.code == code);
-    of_code.map(|warning| warning.text).collect()
+    of_code.map(|warning| warning.to_string()).collect()
 }
 
 fn refused(kind: &str, sets: &[&str]) -> String {

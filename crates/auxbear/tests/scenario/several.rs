@@ -280,7 +280,7 @@ fn warnings_of_a_repeated_run_are_those_of_all_members() {
         let warnings = outcome(&text, sets).warnings.into_iter();
         warnings
             .filter(|warning| warning.code == code)
-            .map(|warning| warning.text)
+            .map(|warning| warning.to_string())
             .collect()
     };
     // 0.7 of it are 10 500 rpm: the machine as given, 9 500 rpm here, is slower

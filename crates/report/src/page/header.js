@@ -293,11 +293,18 @@ function spreadOrigin(run) {
   return `spread of starts perturbed by ${by || "tiny amounts"} (see repeat.*): shows numerical chaos, not tolerances of the machine`;
 }
 
-// How severe a warning is: 0 the result is that of another machine, or destruction; 3 inputs that were assumed.
+// How severe a warning is: 0 what destroys, 1 results of another machine, 3 what is left out or assumed; summaries of the first format
+// have numbers, or none.
 const ASSUMED = "AB1013";
+const SEVERITIES = ["destroys", "invalid", "uncertain", "note"];
+const OF_FIRST_FORMAT = [1, 2, 3, 3];
 
-function graveness({ graveness }) {
-  return isNumber(graveness) ? graveness : 1;
+function severityRank({ severity, graveness }) {
+  return SEVERITIES.includes(severity) ? SEVERITIES.indexOf(severity) : OF_FIRST_FORMAT[graveness] ?? 2;
+}
+
+function isSevere(warning) {
+  return severityRank(warning) <= 1;
 }
 
 // The assumptions on which results hang most, first the most: what sets the speed-up and the first impact before what only forms them.
@@ -349,7 +356,7 @@ function warningBox(runs) {
     const plain = bearing ? text.slice(bearing.length + 2) : text;
     // what differs in its numbers alone stands in one entry, with the text of each
     const key = `${code} ${plain.replace(/[\d.,]+/g, "#")}`;
-    if (!found.has(key)) found.set(key, { code, graveness: warning.graveness, texts: new Map() });
+    if (!found.has(key)) found.set(key, { code, severity: warning.severity, graveness: warning.graveness, texts: new Map() });
     const { texts } = found.get(key);
     if (!texts.has(plain)) texts.set(plain, new Set());
     texts.get(plain).add(ofOneRun(runs) ? bearing || "" : run.letter);
@@ -368,8 +375,8 @@ function warningBox(runs) {
     return element("strong", {}, words + ": ");
   };
   const parts = (texts) => [...texts].flatMap(([text, names], index) => [index ? " " : null, who(names), text]);
-  const ranked = [...found.values()].sort((one, other) => graveness(one) - graveness(other));
-  const items = ranked.map((warning) => element("li", { class: graveness(warning) === 0 ? "grave" : null }, warning.code ? element("code", {}, warning.code) : null, " ", parts(warning.texts)));
+  const ranked = [...found.values()].sort((one, other) => severityRank(one) - severityRank(other));
+  const items = ranked.map((warning) => element("li", { class: isSevere(warning) ? "grave" : null }, warning.code ? element("code", {}, warning.code) : null, " ", parts(warning.texts)));
   return element("div", { class: "warnings" }, element("strong", {}, ranked.length ? "Warnings, the most severe first" : "What is assumed"), element("ul", {}, items, assumed));
 }
 

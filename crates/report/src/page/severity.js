@@ -30,7 +30,7 @@ function indexRows(run) {
 // warning no share is known: it stands at its limit. What rubs is said by its distance.
 function marginRows(machine) {
   const distances = distancesOf(machine).map(({ name, clearance, displacement }) => ({ name: `node.${name}`, words: `Clearance at ${wordsOf(name)}`, share: displacement / clearance, limit: `the shaft moves by ${engineeringText(displacement, "m", 4)} of ${engineeringText(clearance, "m", 4)}` }));
-  const severe = list(machine.summary.warnings).filter((warning) => warning && graveness(warning) === 0 && !(warning.code === RUB && distances.length));
+  const severe = list(machine.summary.warnings).filter((warning) => warning && isSevere(warning) && !(warning.code === RUB && distances.length));
   const warned = severe.map(({ code, text }) => ({ name: code, words: "Severe warning", share: Infinity, state: "severe", limit: text }));
   const held = limitsOf(machine).map((limit) => {
     const [part, whole] = limit.side === "most" ? [limit.value, limit.bound] : [limit.bound, limit.value];

@@ -5,8 +5,8 @@ use super::cells::{amount, rows, scaled, short};
 use super::{parallel, ranking};
 use crate::page::{STYLE, escape_text as plain};
 use crate::picture::{Panel, line, text};
+use outcome::Severity;
 use outcome::Verdict;
-use outcome::severity::severity;
 use run::study::Study;
 use run::study::answer::{Answer, Sensitivity};
 use run::study::table::{Column, Table, Warned};
@@ -78,9 +78,9 @@ fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
 fn warned(table: &Table) -> String {
     let all = table.members.len();
     let row = |warned: &Warned| {
-        let class = match severity(&warned.code) {
-            0 => " class=\"grave\"",
-            _ => "",
+        let class = match warned.severity() <= Severity::Invalid {
+            true => " class=\"grave\"",
+            false => "",
         };
         format!(
             "<li{class}><code>{}</code> {}: {}</li>\n",

@@ -5,6 +5,7 @@ use super::selection::Candidate;
 use super::table::Table;
 use outcome::limits;
 use outcome::{Judged, Spread, Value, Verdict};
+use scenario::notes::NO_QUALIFICATION;
 use scenario::{Limit, UNBALANCE_ANGLE};
 use statistics::design::Design;
 use statistics::elementary::{Effect, effects};
@@ -115,7 +116,7 @@ impl Study {
                 _ => limit_of(limit, unit, &values, is_sample),
             };
             found.judged = limits::whirl_sought(found.judged, self.unbalance_angles(table), false);
-            if table.warns(limits::NO_QUALIFICATION) {
+            if table.warns(NO_QUALIFICATION.code) {
                 found.judged = limits::withheld(found.judged);
             }
             found

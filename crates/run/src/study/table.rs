@@ -1,7 +1,7 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use outcome::severity::{more_severe, severity};
-use outcome::{Quantity, Value, Warning};
+use crate::warnings::rank;
+use outcome::{Quantity, Severity, Value, Warning};
 use problem::explain;
 use std::collections::BTreeMap;
 
@@ -62,9 +62,9 @@ pub struct Warned {
 }
 
 impl Warned {
-    /// Whether it says no more than what is left out or assumed.
-    pub fn is_remark(&self) -> bool {
-        severity(&self.code) > 1
+    /// How severe it is.
+    pub fn severity(&self) -> Severity {
+        rank(&self.code).0
     }
 
     /// Which of so many members have it, in words.
@@ -169,7 +169,7 @@ impl Table {
             })
         };
         let mut list: Vec<Warned> = self.columns.iter().filter_map(of).collect();
-        list.sort_by(|a, b| more_severe(&a.code, &b.code));
+        list.sort_by_cached_key(|own| (rank(&own.code), own.code.clone()));
         list
     }
 

@@ -3,8 +3,15 @@
 use physics::viscosity::{ICE_POINT, Viscosity, iso_grade_viscosity};
 use units::{Unit, parse_quantity};
 
-/// Code of the warning that a viscosity is extrapolated.
-pub const DRAWN_ON: &str = "AB2313";
+problem::warnings! {
+    /// Of lubricants.
+    pub enum LubricantWarning {
+        Drawn { key: words, how: words } "AB2313" [DRAWN_ON] Uncertain ("{key}: the viscosity of the lubricant is extrapolated: {how}.");
+        DrawnOf { lubricant: text, how: words } "AB2313" Uncertain ("The viscosity of {lubricant} is extrapolated: {how}.");
+        DrawnSince { time: "s", since: words, how: words, temperature: "K", at: words } "AB2313" Uncertain, run_out
+            ("The viscosity of the lubricant is extrapolated {since}: {how}{at}.");
+    }
+}
 
 /// How far an oil is drawn on at a temperature beyond its data, K, in words.
 pub fn drawn_on(oil: &Viscosity, temperature: f64) -> String {

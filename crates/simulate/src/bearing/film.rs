@@ -1,11 +1,12 @@
 //! The films between balls and races, reported after a run from its rows.
 
 use crate::bearing::run::BearingRun;
+use crate::bearing::warning_table::BearingWarning;
 use model::bearing::{BearingConstants, PlanarConstants};
 use model::system::sampling::Row;
 use outcome::list::origins;
 use outcome::list::results;
-use outcome::{Value, Warning, warning};
+use outcome::{Value, Warning};
 use physics::film::FilmRegime;
 use physics::lubricant::HIGHEST_PRESSURE;
 use physics::lubricant_traction::ContactState;
@@ -153,14 +154,8 @@ impl Summary {
             return list;
         };
         if self.contacts > 0 && self.share(self.mixed) > MOSTLY {
-            list.push(warning(
-                "AB1030",
-                format!(
-                    "In {:.0} % of the rows' loaded contacts the oil film is thinner at its minimum than the roughness (lambda below 1): \
-                     traction is mostly boundary friction, whose coefficient is bearing.traction.boundary_friction_coefficient.",
-                    1e2 * self.share(self.mixed)
-                ),
-            ));
+            let share = self.share(self.mixed);
+            list.push(BearingWarning::MixedFilm { share }.into());
         }
         let mut departures = Vec::new();
         if self.pressure >= 0.999 * HIGHEST_PRESSURE {
@@ -181,13 +176,8 @@ impl Summary {
             ));
         }
         if !departures.is_empty() {
-            list.push(warning(
-                "AB1031",
-                format!(
-                    "The law of the lubricant's traction has left its range: {}.",
-                    departures.join("; ")
-                ),
-            ));
+            let departures = departures.join("; ");
+            list.push(BearingWarning::FilmLaw { departures }.into());
         }
         list
     }

@@ -17,4 +17,5 @@ pub mod steady;
 pub(crate) mod traction;
 pub(crate) mod warm;
 pub(crate) mod warming;
+pub mod warning_table;
 pub mod warnings;

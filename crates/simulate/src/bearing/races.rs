@@ -3,13 +3,14 @@
 use crate::bearing::run::BearingRun;
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::bearing::warm::{Followed, Heated};
+use crate::bearing::warning_table::BearingWarning;
 use crate::coast_down::build::ICE_POINT;
 use model::bearing::BearingConstants;
 use model::system::layout::of_part;
 use model::system::race_record::RaceRecord;
 use outcome::list::results;
 use outcome::list::{not_given, origins};
-use outcome::{Quantity, Value, Warning, warning};
+use outcome::{Quantity, Value, Warning};
 use physics::life::{
     RatedBearing, add_points, bearing_damage, iso_life_factor, mean_damage, reference_viscosity,
     repetitions, temperature_factor,
@@ -38,15 +39,14 @@ impl BearingRun<'_> {
     pub fn hot_skid(&self) -> Option<(f64, Warning)> {
         let (side, flash) = self.races_of_balls()?.hottest();
         let rise = flash.rise.value;
-        let text = format!(
-            "Where a ball skids on the {} race, their surfaces flash up by {rise:.0} K ({:.2} ms: {:.0} N, slip {:.1} m/s): steel is \
-             tempered and may smear there, a lubricant is burnt, and the traction of this run no longer holds.",
-            SIDES[side],
-            1e3 * flash.rise.time,
-            flash.load,
-            flash.slip
-        );
-        (rise > STEEL_CHANGES).then(|| (rise, warning("AB2303", text)))
+        let warning = BearingWarning::HotSkid {
+            race: SIDES[side].to_string(),
+            rise,
+            time: flash.rise.time,
+            load: flash.load,
+            slip: flash.slip,
+        };
+        (rise > STEEL_CHANGES).then(|| (rise, warning.into()))
     }
 }
 

@@ -1,10 +1,11 @@
 //! How hard a run was on its bearing: safety of the ball loads, indentation, blows, warmth of the inner race.
 
 use crate::bearing::run::BearingRun;
+use crate::bearing::warning_table::BearingWarning;
 use model::system::sampling::Peak;
+use outcome::Warning;
 use outcome::list::origins;
 use outcome::list::results;
-use outcome::{Warning, warning};
 use physics::heat_exchange::line_holds;
 use physics::materials::BEARING_STEEL_SPECIFIC_HEAT;
 use physics::severity::{ball_load_safety, permanent_indentation};
@@ -40,14 +41,12 @@ pub(crate) fn inner_race_rise(run: &BearingRun, bearing: &Bearing) -> Result<f64
 /// A contact of rotor and race whose half-width under its largest force, m, is beyond the law of a line in a bore of a radius and with a radial
 /// clearance, m.
 pub(crate) fn wide_line(half_width: f64, bore: f64, clearance: f64) -> Option<Warning> {
-    let text = format!(
-        "The contact of rotor and race is beyond the law of its width: half-width {:.2} mm is {:.1} % of the bore's radius (10 % at most), the radial \
-         clearance {:.2} % of it (0.1 % at least). Temperatures of the patch and the conductance between rotor and race that follow from it are extrapolated.",
-        1e3 * half_width,
-        100.0 * half_width / bore,
-        100.0 * clearance / bore
-    );
-    (!line_holds(half_width, bore, clearance)).then(|| warning("AB2336", text))
+    let warning = BearingWarning::WideLine {
+        half_width,
+        bore,
+        clearance,
+    };
+    (!line_holds(half_width, bore, clearance)).then(|| warning.into())
 }
 
 results! {

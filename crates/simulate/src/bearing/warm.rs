@@ -2,12 +2,13 @@
 
 use crate::bearing::columns::Table;
 use crate::bearing::feedback::{Follows, State};
+use crate::bearing::warning_table::HeatWarning;
 use crate::coast_down::build::ICE_POINT;
 use crate::coast_down::warnings::{away, beyond_data, first_loose, loose_ring, to_take};
 use model::bearing_heat::{OfNodes, WarmBearing, Warmth, kinds};
+use outcome::Warning;
 use outcome::list::results;
 use outcome::list::{List, origins, relative};
-use outcome::{Warning, warning};
 use scenario::{Bearing, Feedback, Warm};
 use thermal::bearing_network::{GROUNDS, NODES, PASSES};
 
@@ -317,13 +318,8 @@ fn runs_away(followed: &Followed) -> Option<(f64, Warning)> {
 /// A clearance that closes.
 fn closed(followed: &Followed) -> Option<(f64, Warning)> {
     let State { least, closed, .. } = followed.state?;
-    let text = format!(
-        "The clearance closes after {:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' \
-         temperatures is known within a factor of two; so is the clearance that is needed.",
-        closed?,
-        -1e6 * least
-    );
-    Some((-least, warning("AB2312", text)))
+    let (time, closed) = (closed?, -least);
+    Some((closed, HeatWarning::Closes { time, closed }.into()))
 }
 
 /// A ring that loses its fit.
@@ -332,29 +328,29 @@ fn loose(followed: &Followed) -> Option<(f64, Warning)> {
     let times = [0, 1].map(|seat| of_clearance[seat].or(followed.warmth.loose[seat]));
     let (time, seat) = first_loose(times)?;
     let when = format!("{time:.3} s");
-    Some((1.0 / (1.0 + time), loose_ring(&when, seat)))
+    Some((1.0 / (1.0 + time), loose_ring(time, when, seat)))
 }
 
 /// What of a bearing does not follow its temperatures, though it is asked to.
 fn not_followed(followed: &Followed) -> Option<Warning> {
     let feedback = followed.heated.given.heat.feedback;
-    let text = match followed.broken {
-        Some((time, why)) => format!(
-            "From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}."
-        ),
-        None if feedback == Feedback::Full && !followed.heated.closes() => "The contact angle follows the temperatures, and the preload does not: it \
-             is that of springs. A rigid one rises as the inner ring warms."
-            .to_string(),
+    let warning = match followed.broken {
+        Some((time, why)) => {
+            let (time, why) = (*time, why.clone());
+            HeatWarning::FollowsNoMore { time, why }
+        }
+        None if feedback == Feedback::Full && !followed.heated.closes() => {
+            HeatWarning::PreloadOfSprings
+        }
         None if feedback != Feedback::None
-            && !(followed.heated.follows().iter()).any(|follows| follows.thins(followed.heated.bearing)) =>
+            && !(followed.heated.follows().iter())
+                .any(|follows| follows.thins(followed.heated.bearing)) =>
         {
-            "No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their \
-             viscosities, are not given, or its law knows no viscosity."
-                .to_string()
+            HeatWarning::FrictionStaysAlike
         }
         None => return None,
     };
-    Some(warning("AB2320", text))
+    Some(warning.into())
 }
 
 fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
@@ -368,13 +364,14 @@ fn too_hot(followed: &Followed) -> Option<(f64, Warning)> {
         let held = followed.warmth.held.as_deref();
         let taken =
             held.map(|held| to_take("this bearing", held.most_of_all, held.taken.iter().sum()));
-        let text = format!(
-            "Too hot: {} at {peak:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. \
-             Hardness, cage and lubricant may change there; this run does not follow that.{}",
-            name.replace('_', " "),
-            taken.unwrap_or_default()
-        );
-        (above, warning("AB2310", text))
+        let warning = HeatWarning::TooHot {
+            node: name.to_string(),
+            peak: peak + ICE_POINT,
+            time,
+            above,
+            taken: taken.unwrap_or_default(),
+        };
+        (above, warning.into())
     };
     hottest.map(told)
 }

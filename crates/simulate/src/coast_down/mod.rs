@@ -13,7 +13,7 @@ pub(crate) mod passages;
 pub(crate) mod quantities;
 pub(crate) mod ran;
 pub(crate) mod rows;
-pub(crate) mod warnings;
+pub mod warnings;
 
 use crate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::coast_down::course::{BEYOND, Course};

@@ -2,18 +2,33 @@
 
 use crate::assumptions;
 use crate::bearing::severity::wide_line;
+use crate::bearing::warning_table::{BearingWarning, HeatWarning};
 use crate::coast_down::build::{ICE_POINT, Part};
 use crate::coast_down::ran::{NodeOf, Ran};
 use crate::coast_down::rows::{End, Row};
 use model::system::sampling::Peak;
-use outcome::{Warning, warning};
+use outcome::Warning;
 use physics::friction::Friction;
 use physics::friction_range::{OperatingPoint, farthest};
 use physics::viscosity::Viscosity;
-use scenario::{DRAWN_ON, drawn_on};
+use scenario::{LubricantWarning, drawn_on};
 use thermal::bearing_network::{LUBRICANT, NODES};
 use thermal::oil_range::{self, BeyondData};
 use thermal::passage::Passage;
+
+problem::warnings! {
+    /// Of a run-out.
+    pub enum CoastDownWarning {
+        Overspeed { limit: "rad/s", how_long: words } "AB2314" Invalid, run_out
+            ("The speed stays above the limiting speed of the bearing, {limit:.0} rad/s, for {how_long}: friction and heat are extrapolated there.");
+        TurnsOn { time: "s", speed: "rad/s" } "AB2315" Uncertain, run_out
+            ("After {} the rotor still turns with {speed:.1} rad/s: every result is one of this time, not of the standstill.", words(time));
+        OnlyRolling "AB2316" Uncertain
+            ("The rotor rolls without whirl from the start: a whirl, lost contact, or the passing of a resonance makes more heat in seconds than rolling in minutes, and only a drop shows it. Conductances that were not given are right within a factor of two, and the rises of temperature with them.");
+        NoWindage { pressure: "Pa" } "AB2335" Uncertain, run_out
+            ("Gas of {:.3} bar cools the bearings and does not brake the rotor: rotor.windage is 0. The coast-down comes out too long by what the gas brakes, and turns, heat and life of the bearings with it. Give rotor.windage, or heat.atmosphere = \"vacuum\" where there is none.", 1e-5 * pressure);
+    }
+}
 
 /// Of a run-out by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
@@ -22,10 +37,10 @@ pub(super) fn of(ran: &Ran) -> Vec<Warning> {
         list.extend(
             law_range(ran, k)
                 .into_iter()
-                .map(|found| named(&part.name, found)),
+                .map(|found| found.of_part(&part.name)),
         );
     }
-    list.push(only_rolling());
+    list.push(CoastDownWarning::OnlyRolling.into());
     list
 }
 
@@ -45,22 +60,11 @@ pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
             wide(part),
         ];
         let found = closed.into_iter().chain(others.into_iter().flatten());
-        list.extend(found.map(|found| named(&part.name, found)));
+        list.extend(found.map(|found| found.of_part(&part.name)));
     }
     list.extend(gas(ran));
     list.extend(turns_on(ran));
     list
-}
-
-/// With the name of its bearing, where it has one.
-fn named(name: &str, found: Warning) -> Warning {
-    match name {
-        "" => found,
-        name => Warning {
-            text: format!("{name}: {}", found.text),
-            ..found
-        },
-    }
 }
 
 /// A time for people.
@@ -95,7 +99,7 @@ fn runs_away(ran: &Ran) -> Option<Warning> {
         value: row.growth,
         time: row.time,
     };
-    (!slight).then(|| named(name, away([at(row), at(most)], calm, changes)))
+    (!slight).then(|| away([at(row), at(most)], calm, changes).of_part(name))
 }
 
 /// A bearing that runs away, until a time, s, if it does no longer: its growth rate (1/s) as that begins and the largest, and what inner ring,
@@ -114,21 +118,21 @@ pub(crate) fn away([first, largest]: [Peak; 2], calm: Option<f64>, changes: [f64
         true => "by their own warmth",
         false => "as mounted",
     };
-    let [inner, balls, outer] = changes.map(|change| format!("{:+.1} µm", 1e6 * change));
-    warning(
-        "AB2311",
-        format!(
-            "{when} its balls are preloaded {by} and every kelvin makes more heat than it \
-             takes away; a disturbance grows {:.1} times each {} then ({:.2e} 1/s), and each {} at the largest rate, at {} ({:.2e} 1/s). To its \
-             clearance the inner ring had added {inner}, the balls {balls}, the outer ring {outer} as this began. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
-            std::f64::consts::E,
-            words(1.0 / first.value),
-            first.value,
-            words(1.0 / largest.value),
-            words(largest.time),
-            largest.value,
-        ),
-    )
+    let [inner, balls, outer] = changes;
+    let warning = HeatWarning::RunsAway {
+        time,
+        when,
+        by: by.to_string(),
+        each: words(1.0 / first.value),
+        rate: first.value,
+        each_largest: words(1.0 / largest.value),
+        at_largest: words(largest.time),
+        largest_rate: largest.value,
+        inner,
+        balls,
+        outer,
+    };
+    warning.into()
 }
 
 /// Which of both rings becomes loose first, with the time.
@@ -142,15 +146,10 @@ pub(crate) fn first_loose(times: [Option<f64>; 2]) -> Option<(f64, &'static str)
         .min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// A ring that is loose from a time on, in words.
-pub(crate) fn loose_ring(when: &str, seat: &str) -> Warning {
-    warning(
-        "AB2321",
-        format!(
-            "After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from \
-             there on, and it may creep, which this run does not follow."
-        ),
-    )
+/// A ring that is loose from a time on, s, which is `when` in words.
+pub(crate) fn loose_ring(time: f64, when: String, seat: &str) -> Warning {
+    let seat = seat.to_string();
+    HeatWarning::LooseRing { time, when, seat }.into()
 }
 
 /// A ring that loses its fit on the way.
@@ -169,7 +168,7 @@ fn loose(ran: &Ran, k: usize) -> Option<Warning> {
         later.map(|row| row.time)
     });
     let (time, seat) = first_loose(times)?;
-    Some(loose_ring(&words(time), seat))
+    Some(loose_ring(time, words(time), seat))
 }
 
 /// What holding the limits takes: the largest power, W, and all of it, J; of one bearing or of all.
@@ -223,16 +222,17 @@ fn limits(ran: &Ran) -> Option<Warning> {
             .fold(0.0, f64::max);
         to_take("all bearings", most, held.taken.iter().sum())
     });
-    Some(warning(
-        "AB2310",
-        format!(
-            "Too hot: {} above {limit:.0} °C after {}{others}, up to {most:.0} °C{hottest}. Hardness, size, cage and lubricant may change there; \
-             this run does not follow that.{}",
-            words_of(node),
-            words(at),
-            taken.unwrap_or_default()
-        ),
-    ))
+    let warning = HeatWarning::TooHotInRunOut {
+        node: words_of(node),
+        limit: limit + ICE_POINT,
+        time: at,
+        when: words(at),
+        others,
+        peak: most + ICE_POINT,
+        hottest,
+        taken: taken.unwrap_or_default(),
+    };
+    Some(warning.into())
 }
 
 /// Change of a clearance that was closed from the start which is worth a word, m.
@@ -260,13 +260,13 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
         false if at == first.time => "closes from the start".to_string(),
         false => format!("closes after {}, to {:.1} µm", words(at), 1e6 * least),
     };
-    Some(warning(
-        "AB2312",
-        format!(
-            "The clearance {when}: rings that warm unequally load the balls with up to {most:.0} N. The difference of the \
-             rings' temperatures is known within a factor of two; so is the clearance that is needed."
-        ),
-    ))
+    let warning = HeatWarning::ClosesInRunOut {
+        time: at,
+        clearance: least,
+        when,
+        load: most,
+    };
+    Some(warning.into())
 }
 
 /// Balls that dent the races on the way.
@@ -275,19 +275,14 @@ fn dents(ran: &Ran, k: usize) -> Option<Warning> {
     let hardest = ran
         .rows(k)
         .max_by(|a, b| a.largest_pressure.total_cmp(&b.largest_pressure))?;
-    let (pressure, most) = (hardest.largest_pressure, hardest.largest_ball_load());
+    let (pressure, load) = (hardest.largest_pressure, hardest.largest_ball_load());
     let limit = part.pressure_limit;
-    (pressure > limit).then(|| {
-        warning(
-            "AB1002",
-            format!(
-                "While it runs out a ball presses with up to {most:.0} N, {:.0} MPa, beyond the limit of {:.0} MPa: permanent dents must be expected, and the \
-                 elastic contact law is outside its range.",
-                1e-6 * pressure,
-                1e-6 * limit
-            ),
-        )
-    })
+    let warning = BearingWarning::PressureInRunOut {
+        load,
+        pressure,
+        limit,
+    };
+    (pressure > limit).then(|| warning.into())
 }
 
 fn viscosity(ran: &Ran, bearing: usize) -> Option<Warning> {
@@ -314,13 +309,15 @@ pub(crate) fn beyond_data(oil: &Viscosity, found: &BeyondData) -> Warning {
         true => format!(", after {}", words(found.at)),
         false => String::new(),
     };
-    warning(
-        DRAWN_ON,
-        format!(
-            "The viscosity of the lubricant is extrapolated {since}: {}{at}.",
-            drawn_on(oil, found.farthest + ICE_POINT)
-        ),
-    )
+    let temperature = found.farthest + ICE_POINT;
+    let warning = LubricantWarning::DrawnSince {
+        time: found.since,
+        since,
+        how: drawn_on(oil, temperature),
+        temperature,
+        at,
+    };
+    warning.into()
 }
 
 fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
@@ -330,13 +327,8 @@ fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
     let until = rows
         .map(|row| (row.time, row.speed))
         .find(|(_, speed)| *speed < limit);
-    Some(warning(
-        "AB2314",
-        format!(
-            "The speed stays above the limiting speed of the bearing, {limit:.0} rad/s, for {}: friction and heat are extrapolated there.",
-            until.map_or_else(|| "the whole run".to_string(), |(time, _)| words(time))
-        ),
-    ))
+    let how_long = until.map_or_else(|| "the whole run".to_string(), |(time, _)| words(time));
+    Some(CoastDownWarning::Overspeed { limit, how_long }.into())
 }
 
 /// The friction law outside its range, at the temperatures and loads of the run.
@@ -364,16 +356,9 @@ fn gas(ran: &Ran) -> Option<Warning> {
     let (_, part) = ran
         .parts()
         .find(|(_, part)| part.warm.heat.pressure() > BRAKES)?;
-    (rotor.drag == 0.0 && rotor.drag_square == 0.0).then(|| {
-        warning(
-            "AB2335",
-            format!(
-                "Gas of {:.3} bar cools the bearings and does not brake the rotor: rotor.windage is 0. The coast-down comes out too long by what the gas \
-                 brakes, and turns, heat and life of the bearings with it. Give rotor.windage, or heat.atmosphere = \"vacuum\" where there is none.",
-                1e-5 * part.warm.heat.pressure()
-            ),
-        )
-    })
+    let pressure = part.warm.heat.pressure();
+    (rotor.drag == 0.0 && rotor.drag_square == 0.0)
+        .then(|| CoastDownWarning::NoWindage { pressure }.into())
 }
 
 /// A rotor in an air clearance that the law of its line does not reach.
@@ -385,24 +370,6 @@ fn wide(part: &Part) -> Option<Warning> {
 }
 
 fn turns_on(ran: &Ran) -> Option<Warning> {
-    (ran.free.end == End::Late).then(|| {
-        warning(
-            "AB2315",
-            format!(
-                "After {} the rotor still turns with {:.1} rad/s: every result is one of this time, not of the standstill.",
-                words(ran.free.state.time),
-                ran.free.state.speed
-            ),
-        )
-    })
-}
-
-fn only_rolling() -> Warning {
-    warning(
-        "AB2316",
-        "The rotor rolls without whirl from the start: a whirl, lost contact, or the passing of a resonance makes more heat in seconds than \
-         rolling in minutes, and only a drop shows it. Conductances that were not given are right within a factor of two, and the rises of \
-         temperature with them."
-            .to_string(),
-    )
+    let (time, speed) = (ran.free.state.time, ran.free.state.speed);
+    (ran.free.end == End::Late).then(|| CoastDownWarning::TurnsOn { time, speed }.into())
 }

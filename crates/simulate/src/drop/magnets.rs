@@ -3,12 +3,13 @@
 use crate::bearing::columns::Table;
 use crate::bearing::run::BearingRun;
 use crate::drop::context::{Context, Setup};
+use crate::drop::warning_table::ShaftWarning;
 use crate::ending;
 use levitation::Amplifier;
 use model::system::machine::record::AtLimit;
 use outcome::list::results;
 use outcome::list::{List, origins};
-use outcome::{Column, Stop, Warning, warning};
+use outcome::{Column, Stop, Warning};
 use scenario::Shaft;
 
 /// Share of the time with power at a limit from which on it is reported.
@@ -106,38 +107,38 @@ pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
 /// The axis whose current was longest at the limit of its coil.
 pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
     let currents = &context.finished.record.currents;
-    let (axis, share, first) = longest(context, currents.iter().map(|peak| peak.limited))?;
+    let (axis, share, time) = longest(context, currents.iter().map(|peak| peak.limited))?;
     let given = context.setup.controlled()?;
     let own = given.model.levitation.as_ref()?.levitation.actuators();
     let [least, most] = [own[axis].lowest_current, own[axis].largest_current];
-    let text = format!(
-        "{} reaches the limit of its coil ({} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says \
-         of stability and response does not hold there.",
-        value_of(given, axis, "current"),
-        match -least == most {
-            true => format!("{most:.3}"),
-            false => format!("{least:.3} or {most:.3}"),
-        },
-        100.0 * share,
-        1e3 * first
-    );
-    Some((share, warning("AB2034", text)))
+    let limit = match -least == most {
+        true => format!("{most:.3}"),
+        false => format!("{least:.3} or {most:.3}"),
+    };
+    let channel = value_of(given, axis, "current");
+    let warning = ShaftWarning::CurrentLimit {
+        channel,
+        limit,
+        share,
+        time,
+    };
+    Some((share, warning.into()))
 }
 
 /// The axis whose amplifier was longest at its largest voltage.
 pub(crate) fn voltage_limited(context: &Context) -> Option<(f64, Warning)> {
     let given = context.setup.controlled()?;
     let voltages = context.finished.record.voltages.iter();
-    let (axis, share, first) = longest(context, voltages.copied())?;
-    let text = format!(
-        "{} reaches the largest of its amplifier ({}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the \
-         controller wants it, and what the linear analysis says of stability and response does not hold there.",
-        value_of(given, axis, "voltage"),
-        largest_voltage(given, axis).map_or(String::new(), |volts| format!("{volts} V, ")),
-        100.0 * share,
-        1e3 * first
-    );
-    Some((share, warning("AB2036", text)))
+    let (axis, share, time) = longest(context, voltages.copied())?;
+    let limit = largest_voltage(given, axis).map_or(String::new(), |volts| format!("{volts} V, "));
+    let channel = value_of(given, axis, "voltage");
+    let warning = ShaftWarning::VoltageLimit {
+        channel,
+        limit,
+        share,
+        time,
+    };
+    Some((share, warning.into()))
 }
 
 /// The axis that was longest at a limit, the share of the time with power, and since when, s.
@@ -166,12 +167,9 @@ pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
     let given = context.setup.controlled()?;
     let mut contacts = context.record(k).contacts.iter();
     let first = contacts.find(|contact| contact.start < given.power_lost)?;
-    let text = format!(
-        "The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may \
-         change what they do.",
-        1e3 * first.start
-    );
-    Some((given.power_lost - first.start, warning("AB2035", text)))
+    let time = first.start;
+    let warning = ShaftWarning::TouchesWithPower { time };
+    Some((given.power_lost - time, warning.into()))
 }
 
 origins! {

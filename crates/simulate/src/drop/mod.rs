@@ -24,6 +24,7 @@ pub mod shaft_results;
 mod slow_time;
 pub(crate) mod surfaces;
 mod torque;
+pub mod warning_table;
 pub(crate) mod warnings;
 mod went;
 mod window;

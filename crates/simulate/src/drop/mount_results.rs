@@ -1,10 +1,11 @@
 //! What the parts of a mount did in a run.
 
 use crate::drop::context::Context;
+use crate::drop::warning_table::DropWarning;
 use model::system::machine::bearing_record::MountPeaks;
+use outcome::Warning;
 use outcome::list::origins;
 use outcome::list::results;
-use outcome::{Warning, warning};
 use scenario::drop::mount::MountParts;
 
 pub(super) const SOURCE: &str = "crates/model/src/mount/; book/src/theory/drop.md, mounts";
@@ -34,15 +35,11 @@ results! {
 /// A hard stop that is hit, and its largest force, N.
 pub(super) fn stopped(context: &Context, k: usize) -> Option<(f64, Warning)> {
     let peaks = context.record(k).mount_parts.as_ref()?;
-    let first = peaks.first_stop?;
-    let gap = context.setup.given(k).mount.parts.stop_gap?;
-    let text = format!(
-        "The mount hits its hard stop: the outer race closes the gap of {:.0} µm at {:.2} ms, and the stop carries up to {:.0} N at {:.2} ms. The \
-         resilient part protects nothing then; a larger gap, a stiffer mount or more damping keeps them apart.",
-        1e6 * gap,
-        1e3 * first,
-        peaks.stop.value,
-        1e3 * peaks.stop.time
-    );
-    Some((peaks.stop.value, warning("AB1097", text)))
+    let warning = DropWarning::HardStop {
+        time: peaks.first_stop?,
+        gap: context.setup.given(k).mount.parts.stop_gap?,
+        force: peaks.stop.value,
+        peak_time: peaks.stop.time,
+    };
+    Some((peaks.stop.value, warning.into()))
 }

@@ -21,6 +21,7 @@ use model::system::machine::record::ROLLS;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Quantity, Stop, Value, Warning};
+use problem::warning::Declared;
 use scenario::RunOut;
 use std::sync::atomic::AtomicBool;
 use thermal::held::Held;
@@ -112,8 +113,8 @@ pub(crate) fn quantities(context: &Context, after: Option<&After>) -> Vec<Quanti
 
 impl After {
     /// Whether it warns of this.
-    pub(crate) fn says(&self, code: &str) -> bool {
-        self.warnings.iter().any(|warning| warning.code == code)
+    pub(crate) fn says(&self, kind: &Declared) -> bool {
+        self.warnings.iter().any(|warning| warning.is(kind))
     }
     fn none(quantities: Vec<Quantity>, stop: Stop) -> After {
         After {

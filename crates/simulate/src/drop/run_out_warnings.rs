@@ -6,8 +6,9 @@ use crate::coast_down::ran::Ran;
 use crate::coast_down::warnings;
 use crate::drop::context::Context;
 use crate::drop::returns::Return;
+use crate::drop::warning_table::DropWarning;
 use crate::drop::went::Went;
-use outcome::{Warning, warning};
+use outcome::Warning;
 
 /// What windows and returns say, the most severe first.
 pub(super) fn of(context: &Context, found: &Ran, went: &Went) -> Vec<Warning> {
@@ -31,19 +32,15 @@ const LATE: f64 = 0.3;
 
 /// A drop that ends before its impacts or its spin-up.
 fn ends_early(context: &Context, went: &Went) -> Option<Warning> {
-    let end = context.finished.ending.time;
+    let time = context.finished.ending.time;
     let lands = |k: usize| !context.record(k).contacts.is_empty();
-    let text = match went.bounced.late.filter(|late| *late > LATE * end) {
-        _ if !(0..context.setup.parts().count()).all(lands) => format!(
-            "run.duration ends after {end:.4} s, before the rotor has landed on every bearing: its impacts are in none of these results. Give run.duration more."
-        ),
-        Some(late) => format!(
-            "run.duration ends after {end:.4} s, while inner races still come to their speed: up to {late:.2} s more at the speed of that instant. Heat, sliding and life \
-             of these are in none of these results. Give run.duration that much more."
-        ),
-        None => return None,
-    };
-    Some(warning("AB2324", text))
+    match went.bounced.late.filter(|late| *late > LATE * time) {
+        _ if !(0..context.setup.parts().count()).all(lands) => {
+            Some(DropWarning::EndsBeforeLanding { time }.into())
+        }
+        Some(late) => Some(DropWarning::EndsBeforeSpinUp { time, late }.into()),
+        None => None,
+    }
 }
 
 /// A rotor that whirls against its spin in windows, or with it.
@@ -53,22 +50,14 @@ fn whirls(went: &Went) -> Vec<Warning> {
         false => format!("at {since:.1} s"),
     };
     let back = went.whirled(0).map(|times| {
-        let text = format!(
-            "Backward whirl while the rotor runs out: {} it runs round the bore against its spin in the windows that follow it. \
-             Contact forces of this kind destroy bearings and shafts.",
-            when(times)
-        );
-        warning("AB1014", text)
+        let (time, when) = (times[0], when(times));
+        DropWarning::BackwardWhirlInRunOut { time, when }
     });
     let with = went.whirled(1).map(|times| {
-        let text = format!(
-            "Forward whirl while the rotor runs out: {} unbalance throws it round the bore with its spin in the windows that follow it. One place of it \
-             stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.",
-            when(times)
-        );
-        warning("AB2302", text)
+        let (time, when) = (times[0], when(times));
+        DropWarning::ForwardWhirlInRunOut { time, when }
     });
-    back.into_iter().chain(with).collect()
+    back.into_iter().chain(with).map(Warning::from).collect()
 }
 
 /// Relative standard error of a window's power above which it is reported.
@@ -78,17 +67,9 @@ const SCATTERS: f64 = 0.1;
 fn scatters(went: &Went) -> Option<Warning> {
     let each = went.scatter();
     let worst = each.iter().copied().fold(0.0, f64::max);
-    (worst > SCATTERS).then(|| {
-        warning(
-            "AB2319",
-            format!(
-                "While the rotor does not roll, the mean power of a window is known within {:.0} % (standard error of {} windows, the worst): the \
-                 run-out is as uncertain there.",
-                100.0 * worst,
-                each.len()
-            ),
-        )
-    })
+    let windows = each.len() as f64;
+    let deviation = worst;
+    (worst > SCATTERS).then(|| DropWarning::WindowsScatter { deviation, windows }.into())
 }
 
 /// A bearing that the rotor hits harder in windows than in the drop.
@@ -101,34 +82,32 @@ fn hits_harder(
 ) -> Option<Warning> {
     let [force, time, speed] = went.peak(bearing)?;
     let before = context.record(bearing).peak_contact_force()?.value;
-    let on = on(name);
     let part = &found.built.parts[bearing];
     let most = found.rows(bearing).map(|row| row.largest_pressure);
     let most = most.fold(0.0, f64::max);
-    let share = (most / part.pressure_limit).powi(3);
-    (force > before).then(|| {
-        warning(
-            "AB2323",
-            format!(
-                "While it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses{on} with {force:.3e} N, and with {before:.3e} N at most in the \
-                 first {:.3} s. A ball takes {:.0} % of the load that dents a race there; pressures, sliding, cage forces and wear of this run are those of \
-                 the first alone.",
-                context.finished.ending.time,
-                100.0 * share
-            ),
-        )
-    })
+    let warning = DropWarning::HardestInRunOut {
+        part: name.to_string(),
+        on: on(name),
+        time,
+        speed,
+        force,
+        before,
+        end: context.finished.ending.time,
+        load_share: (most / part.pressure_limit).powi(3),
+    };
+    (force > before).then(|| warning.into())
 }
 
 /// A patch of rotor and race that gets too hot in windows.
 fn gets_hot(went: &Went, bearing: usize, name: &str) -> Option<Warning> {
     let [rise, time] = went.hottest(bearing)?;
-    let text = format!(
-        "While it runs out, after {time:.1} s, the patch where rotor and race rub{} is {rise:.0} K warmer than at the start, or more: steel softens and transforms \
-         there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.",
-        on(name)
-    );
-    (rise > STEEL_CHANGES).then(|| warning("AB2301", text))
+    let warning = DropWarning::HotContactInRunOut {
+        part: name.to_string(),
+        on: on(name),
+        time,
+        rise,
+    };
+    (rise > STEEL_CHANGES).then(|| warning.into())
 }
 
 /// Share of the energy lost in windows from which on friction of rotor and race is sliding, not the creep of one that rolls.
@@ -178,16 +157,16 @@ fn slid(context: &Context, found: &Ran, went: &Went) -> Option<Warning> {
             " and warms both bodies by halves: a race that stands is computed too warm, the rotor too cool"
         }
     };
-    Some(warning(
-        "AB2318",
-        format!(
-            "{when} the rotor slides on its races in the windows that follow it{slowest}: friction makes {}. \
-             It is in run_out.load_dependent_heat{shared}. sliding_distance \
-             and wear are those of the first {:.3} s alone.",
-            rubs.join(", "),
-            context.finished.ending.time
-        ),
-    ))
+    let warning = DropWarning::SlidesInRunOut {
+        time: begin,
+        duration: whole,
+        when,
+        slowest,
+        rubs: rubs.join(", "),
+        shared: shared.to_string(),
+        end: context.finished.ending.time,
+    };
+    Some(warning.into())
 }
 
 /// A bearing in words, where it has a name.
@@ -215,14 +194,14 @@ fn leaves_rolling(went: &Went) -> Option<Warning> {
         .copied()
         .max_by(|a, b| presses(a).total_cmp(&presses(b)))?;
     let ends = lifted.last()?.to;
-    let text = format!(
-        "Rolling does not last: unbalance lifts the rotor again, from {:.1} s and {:.0} rad/s on, the last time until {:.1} s and {:.0} rad/s, and it presses with up to {:.3e} N. \
-         Windows ball by ball follow it there, each as long as it likes at its speed: a rotor that passes quickly is lifted less.",
-        lifted[0].from[0],
-        lifted[0].from[1],
-        ends[0],
-        ends[1],
-        presses(worst)
-    );
-    Some(warning("AB2317", text))
+    let [time, speed] = lifted[0].from;
+    let [last_time, last_speed] = ends;
+    let warning = DropWarning::RollingDoesNotLast {
+        time,
+        speed,
+        last_time,
+        last_speed,
+        force: presses(worst),
+    };
+    Some(warning.into())
 }

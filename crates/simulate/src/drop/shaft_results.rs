@@ -5,9 +5,10 @@ use crate::bearing::run::BearingRun;
 use crate::drawing::{self, GIVEN};
 use crate::drop::context::{Context, Setup};
 use crate::drop::shaft::{BuiltShaft, HeldMode};
+use crate::drop::warning_table::{COMPARED, ShaftWarning};
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
-use outcome::{Column, Warning, warning};
+use outcome::{Column, Warning};
 use physics::magnet::Magnet;
 use scenario::{AuxiliaryBearing, RotorModel, Shaft};
 
@@ -147,17 +148,13 @@ pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> 
     );
     let node = named(given, built).chain(magnets(given, built)).nth(node)?;
     let (peak, clearance) = (context.finished.record.places[node.place], node.clearance?);
-    (peak.value >= clearance).then(|| {
-        let text = format!(
-            "At {} the rotor moves by up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands there, and \
-             this contact is not computed.",
-            node.name,
-            1e6 * peak.value,
-            1e3 * peak.time,
-            1e6 * clearance
-        );
-        (peak.value - clearance, warning("AB2030", text))
-    })
+    let warning = ShaftWarning::Rub {
+        part: node.name.to_string(),
+        displacement: peak.value,
+        time: peak.time,
+        clearance,
+    };
+    (peak.value >= clearance).then(|| (peak.value - clearance, warning.into()))
 }
 
 /// Modes up to fewer than so many times the speed and the first bending mode leave out what an impact bends.
@@ -172,21 +169,10 @@ pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
     let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
     let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
     let needed = FEW_MODES * bends.max(context.release_speed());
-    (given.cutoff < needed).then(|| {
-        warning(
-            "AB2031",
-            format!(
-                "rotor.cutoff = {:.0} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or \
-                 the first bending mode, {needed:.0} rad/s, is the least; compare with twice that.",
-                given.cutoff
-            ),
-        )
-    })
+    let cutoff = given.cutoff;
+    (cutoff < needed).then(|| ShaftWarning::FewModes { cutoff, needed }.into())
 }
 
-/// Largest stiffness of a contact at [`DEPTH`] and of a mount, N/m, and cutoff, rad/s, up to which first impacts of a default cutoff were
-/// compared with those of all modes: 0.7 % at these, 7.5 % at four and five times as stiff (a rotor that bends at 3126 rad/s).
-const COMPARED: (f64, f64, f64) = (6.19e8, 4e8, 60e3);
 /// Penetration at which contacts of different exponents are compared, m: 2e9 N/m^(10/9) is 6.19e8 N/m there.
 const DEPTH: f64 = 1e-5;
 
@@ -200,20 +186,12 @@ pub(crate) fn stiff(context: &Context) -> Option<Warning> {
     };
     let mut parts = context.setup.drop.auxiliary_bearings.iter();
     let hard = parts.find(|part| slope(part) > contact || part.mount.stiffness > mount)?;
-    (given.cutoff <= cutoff).then(|| {
-        warning(
-            "AB2081",
-            format!(
-                "{}: contact {:.2e} N/m at 10 µm of penetration and mount {:.2e} N/m are stiffer than those ({contact:.2e}, {mount:.2e} N/m) up to \
-                 which rotor.cutoff = {} rad/s was compared with all modes: first impacts may be several per cent wrong. Compare \
-                 with twice and four times the cutoff.",
-                hard.name,
-                slope(hard),
-                hard.mount.stiffness,
-                units::number_text(given.cutoff)
-            ),
-        )
-    })
+    let warning = ShaftWarning::StiffContact {
+        contact: slope(hard),
+        mount: hard.mount.stiffness,
+        cutoff: given.cutoff,
+    };
+    (given.cutoff <= cutoff).then(|| Warning::from(warning).of_part(&hard.name))
 }
 
 /// Supports and seals whose coefficients drive whirl of one sense, as xy differs from yx, about a rotor that turns backward.
@@ -228,16 +206,8 @@ pub fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
         .filter(|(_, own)| crosses(own))
         .map(|(name, _)| name.as_str());
     let names: Vec<&str> = names.collect();
-    (speed < 0.0 && !names.is_empty()).then(|| {
-        warning(
-            "AB2041",
-            format!(
-                "The rotor turns backward, and {} keep the signs of their xy and yx coefficients, which of a real seal change with the \
-                 spin: as given they drive whirl against it. Change their signs, or let the rotor turn forward.",
-                names.join(", ")
-            ),
-        )
-    })
+    let supports = names.join(", ");
+    (speed < 0.0 && !names.is_empty()).then(|| ShaftWarning::AgainstSpin { supports }.into())
 }
 
 /// A mode of the levitated rotor near the speed at which it is released, with its amplification.
@@ -266,12 +236,14 @@ pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
         true => format!("an amplification of {amplification:.1}"),
         false => "no damping".to_string(),
     };
-    let text = format!(
-        "The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({:.0} rad/s, {size}): it may turn with large \
-         orbits before it falls, and small changes of speed or unbalance change the drop much.",
-        worst.frequency.abs()
-    );
-    Some((amplification, warning("AB2032", text)))
+    let warning = ShaftWarning::Resonance {
+        speed,
+        held: held.to_string(),
+        frequency: worst.frequency.abs(),
+        amplification,
+        size,
+    };
+    Some((amplification, warning.into()))
 }
 
 /// Distance between a speed and a mode, over the speed, within which they are near.
@@ -351,17 +323,7 @@ pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
     let shaft = sides.into_iter().filter(|outer| *outer > 0.0);
     let shaft = shaft.fold(f64::INFINITY, f64::min);
     let bore = context.setup.given(k).contact.bore_diameter;
-    (shaft.is_finite() && shaft > bore).then(|| {
-        warning(
-            "AB2033",
-            format!(
-                "The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and \
-                 friction acts at the radius of the bore.",
-                1e3 * shaft,
-                1e3 * bore
-            ),
-        )
-    })
+    (shaft.is_finite() && shaft > bore).then(|| ShaftWarning::ThickShaft { shaft, bore }.into())
 }
 
 /// Beside a node, m.

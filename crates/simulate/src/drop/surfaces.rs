@@ -4,11 +4,12 @@ use crate::bearing::severity::{STEEL_CHANGES, wide_line};
 use crate::drop::context::Context;
 use crate::drop::context::touched;
 use crate::drop::layers::rotor_layer;
+use crate::drop::warning_table::DropWarning;
 use model::surface_heat::SurfaceHeat;
 use model::system::machine::record::BearingRecord;
+use outcome::Warning;
 use outcome::list::results;
 use outcome::list::{not_given, origins};
-use outcome::{Warning, warning};
 use physics::heat_exchange::line_half_width;
 use physics::severity::wear_volume;
 use scenario::AuxiliaryBearing;
@@ -85,32 +86,19 @@ pub(crate) fn judged(context: &Context, k: usize) -> Vec<(f64, Warning)> {
     let mut list: Vec<_> = wide.into_iter().collect();
     let rise = heat.contact.value;
     if rise > STEEL_CHANGES {
-        let text = format!(
-            "Where rotor and race rub, the patch warms by {rise:.0} K ({:.2} ms): steel softens and transforms there, the surfaces may \
-             smear or seize, and the friction coefficient of this run no longer holds.",
-            1e3 * heat.contact.time
-        );
-        list.push((rise, warning("AB2301", text)));
+        let time = heat.contact.time;
+        list.push((rise, DropWarning::HotContact { rise, time }.into()));
     }
     if heat.longest_stay > STAYS {
-        let text = format!(
-            "One place of the rotor stays in the contact for {:.0} ms: a hot spot, which bends the shaft and adds to its unbalance. \
-             This run spreads its heat over the rotor's track and bends nothing.",
-            1e3 * heat.longest_stay
-        );
-        list.push((heat.longest_stay, warning("AB2302", text)));
+        let stay = heat.longest_stay;
+        list.push((stay, DropWarning::HotSpot { stay }.into()));
     }
     let layer = rotor_layer(&context.setup.given(k).contact);
     let first = context.record(k).contacts.first();
     let since = first.map_or(0.0, |first| heat.surfaces[0].time - first.start);
     if context.record(k).warmth.is_none() && since > layer.through() {
-        let text = format!(
-            "The rotor's surface is hottest {since:.1} s after the first contact, and without heat.network = \"on\" its layer gives no heat to the metal \
-             behind it: from {:.1} s on its rise, contact_temperature_rise and the share of heat that the race takes are too high. A bushing has no \
-             network: a deeper contact.surface.rotor_layer is right for longer.",
-            layer.through()
-        );
-        list.push((since, warning("AB2331", text)));
+        let through = layer.through();
+        list.push((since, DropWarning::LayerIsWarm { since, through }.into()));
     }
     list
 }

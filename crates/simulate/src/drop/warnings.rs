@@ -3,21 +3,20 @@
 use crate::assumptions::speed_rating;
 use crate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::bearing::warm;
+use crate::bearing::warning_table::{CLOSES, RUNS_AWAY};
 use crate::bearing::warnings as shared;
 use crate::drop::context::Context;
 use crate::drop::quantities::residuals;
 use crate::drop::run_out::After;
+use crate::drop::warning_table::{BENDING_SHARE, DropWarning};
 use crate::drop::{magnets, method, mount_results, shaft_results, surfaces};
 use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
-use outcome::Warning;
-use outcome::warning;
+use outcome::{Scope, Warning};
 use scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
-/// Share of the first bending frequency from which on a rotor bends noticeably.
-const BENDING_SHARE: f64 = 0.7;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
 const LARGEST_DAMPING: f64 = 0.5;
 
@@ -30,7 +29,10 @@ fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
 type Graded = (f64, Warning);
 
 /// Judges every member: a warning of any of them once, as the one has it where it is most severe, with the number of those that have it.
-fn judged(contexts: &[Context], of: impl Fn(&Context) -> Vec<Graded>) -> Vec<Warning> {
+fn judged<I: IntoIterator<Item = Graded>>(
+    contexts: &[Context],
+    of: impl Fn(&Context) -> I,
+) -> Vec<Warning> {
     let mut found: Vec<(usize, usize, Graded)> = Vec::new();
     for (k, context) in contexts.iter().enumerate() {
         for (grade, warning) in of(context) {
@@ -47,11 +49,9 @@ fn judged(contexts: &[Context], of: impl Fn(&Context) -> Vec<Graded>) -> Vec<War
         }
     }
     let told = |(count, member, (_, mut warning)): (usize, usize, Graded)| {
-        if contexts.len() > 1 {
-            warning.text.push_str(&format!(
-                " In {count} of {} members; the numbers are those of member {member}.",
-                contexts.len()
-            ));
+        let all = contexts.len();
+        if all > 1 {
+            warning.scope = Scope::Each { count, all, member };
         }
         warning
     };
@@ -61,8 +61,7 @@ fn judged(contexts: &[Context], of: impl Fn(&Context) -> Vec<Graded>) -> Vec<War
 /// Warnings from rows, which of repeated runs the first member alone keeps.
 fn of_rows(contexts: &[Context], mut list: Vec<Warning>) -> Vec<Warning> {
     for warning in list.iter_mut().filter(|_| contexts.len() > 1) {
-        let text = " Judged in the unperturbed run alone: the other members keep no histories.";
-        warning.text.push_str(text);
+        warning.scope = Scope::Unperturbed;
     }
     list
 }
@@ -82,43 +81,26 @@ pub(crate) fn of(
     let drop = context.setup.drop;
     let names: Vec<&str> = context.setup.parts().collect();
     let each = |of: &dyn Fn(usize) -> Vec<Warning>| -> Vec<Warning> {
-        let named = |(k, name): (usize, &&str)| {
-            let mut list = of(k);
-            if !name.is_empty() {
-                for warning in &mut list {
-                    warning.text = format!("{name}: {}", warning.text);
-                }
-            }
-            list
-        };
-        names.iter().enumerate().flat_map(named).collect()
+        let parts = names.iter().enumerate();
+        let named = parts.flat_map(|(k, name)| of(k).into_iter().map(|own| own.of_part(name)));
+        named.collect()
     };
-    let mut list = each(&|k| judged(contexts, |member| whirl(member, k).into_iter().collect()));
+    let mut list = each(&|k| judged(contexts, |member| whirl(member, k)));
     for node in 0..shaft_results::clearances(context) {
         list.extend(judged(contexts, |member| {
-            shaft_results::reached(member, node).into_iter().collect()
+            shaft_results::reached(member, node)
         }));
     }
     list.extend(each(&|k| {
-        judged(contexts, |member| {
-            magnets::touched(member, k).into_iter().collect()
-        })
+        judged(contexts, |member| magnets::touched(member, k))
     }));
-    list.extend(judged(contexts, |member| {
-        magnets::limited(member).into_iter().collect()
-    }));
-    list.extend(judged(contexts, |member| {
-        magnets::voltage_limited(member).into_iter().collect()
-    }));
+    list.extend(judged(contexts, magnets::limited));
+    list.extend(judged(contexts, magnets::voltage_limited));
     list.extend(each(&|k| {
-        let mut list = judged(contexts, |member| hot(member, k).into_iter().collect());
-        list.extend(judged(contexts, |member| {
-            mount_results::stopped(member, k).into_iter().collect()
-        }));
+        let mut list = judged(contexts, |member| hot(member, k));
+        list.extend(judged(contexts, |member| mount_results::stopped(member, k)));
         list.extend(judged(contexts, |member| surfaces::judged(member, k)));
-        list.extend(judged(contexts, |member| {
-            member.bearing(k).hot_skid().into_iter().collect()
-        }));
+        list.extend(judged(contexts, |member| member.bearing(k).hot_skid()));
         list.extend(judged(contexts, |member| {
             (member.followed(k).as_ref()).map_or(Vec::new(), warm::judged)
         }));
@@ -126,14 +108,14 @@ pub(crate) fn of(
     }));
     if after[0].iter().any(|after| after.says(DRAWN_ON)) {
         // the run-out says it of all, from where the drop left the data on
-        list.retain(|warning| warning.code != DRAWN_ON);
+        list.retain(|warning| !warning.is(DRAWN_ON));
     }
     if after[0]
         .iter()
-        .any(|after| after.says("AB2312") || after.says("AB2311"))
+        .any(|after| after.says(CLOSES) || after.says(RUNS_AWAY))
     {
         // a bearing that closes on
-        list.retain(|warning| warning.code != "AB2312");
+        list.retain(|warning| !warning.is(CLOSES));
     }
     // of repeated runs those of the unperturbed run-out
     list.extend(of_rows(
@@ -145,16 +127,10 @@ pub(crate) fn of(
     list.extend(each(&|k| {
         judged(machines, |member| beyond_speeds(member, k))
     }));
-    list.extend(judged(machines, |member| {
-        bending(member).into_iter().collect()
-    }));
-    list.extend(judged(machines, |member| {
-        shaft_results::resonance(member).into_iter().collect()
-    }));
+    list.extend(judged(machines, bending));
+    list.extend(judged(machines, shaft_results::resonance));
     list.extend(one_motion(context));
-    list.extend(each(&|k| {
-        judged(contexts, |member| preload(member, k).into_iter().collect())
-    }));
+    list.extend(each(&|k| judged(contexts, |member| preload(member, k))));
     list.extend(each(&|k| {
         let mut list = judged(contexts, |member| loads(member, k));
         list.extend(of_rows(contexts, damping(context, k)));
@@ -165,11 +141,9 @@ pub(crate) fn of(
         let residual = residuals(member).0.ok();
         let graded =
             |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
-        residual.and_then(graded).into_iter().collect()
+        residual.and_then(graded)
     }));
-    list.extend(each(&|k| {
-        shaft_results::thick(context, k).into_iter().collect()
-    }));
+    list.extend(each(&|k| Vec::from_iter(shaft_results::thick(context, k))));
     list.extend(shaft_results::few_modes(context));
     list.extend(shaft_results::stiff(context));
     let shafts = context.setup.built.shaft.iter();
@@ -180,14 +154,8 @@ pub(crate) fn of(
     let stepping = method::stepping(drop, context.setup.built, known);
     list.extend(asked(context).warnings(stepping.steps));
     if drop.rotor.planes > 1 {
-        list.push(warning(
-            "AB1007",
-            format!(
-                "{} identical planes are computed as one by symmetry: mass, polar inertia and torques of the rotor are \
-                 shared equally, forces and heats are those of one plane. Conical motion is not described.",
-                drop.rotor.planes
-            ),
-        ));
+        let planes = f64::from(drop.rotor.planes);
+        list.push(DropWarning::Planes { planes }.into());
     }
     list.extend(each(&|k| {
         let run = context.bearing(k);
@@ -198,36 +166,21 @@ pub(crate) fn of(
             shared::law_range(bearing, run.fastest(), context.setup.drop.weight(k))
         }));
         let mut list = of_rows(contexts, list);
-        list.extend(judged(machines, |member| {
-            skids(member, k).into_iter().collect()
-        }));
+        list.extend(judged(machines, |member| skids(member, k)));
         list.extend(of_bearing(scenario, contexts, k));
         list
     }));
     list.extend(each(&|k| {
-        let contacts = context.record(k).contacts.len();
-        let late = (contacts > CHAOTIC_CONTACTS && context.members == 1).then(|| {
-            warning(
-                "AB1011",
-                format!(
-                    "{contacts} contacts: the first impacts, spin-up times and energies are reproducible, the late ones are \
-                     chaotic. Repeat the run to see the spread: --repeat 16 samples the unbalance angle too, unless \
-                     repeat.unbalance_angle = \"as given\"."
-                ),
-            )
-        });
+        let count = context.record(k).contacts.len();
+        let contacts = count as f64;
+        let late = (count > CHAOTIC_CONTACTS && context.members == 1)
+            .then(|| DropWarning::ManyContacts { contacts }.into());
         let kind = (context.setup.given(k).bearing.iter()).flat_map(shared::kind);
         late.into_iter().chain(kind).collect()
     }));
     if drop.rotor.first_bending_frequency.is_none() && drop.shaft.is_none() {
-        list.push(warning(
-            "AB1126",
-            format!(
-                "Whether the rotor bends was not checked: rotor.first_bending_frequency is not given. A rotor whose first free-free \
-                 bending mode lies below {:.0} rad/s is not rigid at this speed.",
-                drop.rotor.speed.abs() / BENDING_SHARE
-            ),
-        ));
+        let speed = drop.rotor.speed.abs();
+        list.push(DropWarning::BendingUnknown { speed }.into());
     }
     list.extend(shared::assumed(
         scenario,
@@ -247,13 +200,7 @@ pub(crate) fn of(
 /// A rotor that runs round the bore against its spin.
 fn whirl(context: &Context, k: usize) -> Option<Graded> {
     let back = -context.record(k).whirl_turns * context.setup.machine.constants.speed.signum();
-    (back >= 1.0).then(|| {
-        let text = format!(
-            "Backward whirl: the rotor runs {back:.0} turns round the bore against its spin. Contact forces of this kind destroy \
-             bearings and shafts."
-        );
-        (back, warning("AB1014", text))
-    })
+    (back >= 1.0).then(|| (back, DropWarning::BackwardWhirl { turns: back }.into()))
 }
 
 /// Speeds beyond those of the bearing and of its fit.
@@ -274,7 +221,7 @@ fn preload(context: &Context, k: usize) -> Option<Graded> {
     let peak = context.record(k).peak_contact_force();
     let peak = peak.map(|peak| (peak.value, peak.time));
     let bearing = context.setup.given(k).bearing.as_ref()?;
-    let warning = shared::preload_left("", bearing, ("weight", weight), peak)?;
+    let warning = shared::preload_left(bearing, ("weight", weight), peak)?;
     Some((peak.map_or(weight, |(force, _)| force.max(weight)), warning))
 }
 
@@ -295,27 +242,20 @@ fn bending(context: &Context) -> Option<Graded> {
     } else {
         "is near"
     };
-    (BENDING_SHARE * bending < speed).then(|| {
-        let text = format!(
-            "The first free-free bending mode ({bending:.0} rad/s) {side} the release speed ({speed:.0} rad/s): \
-             this rigid rotor is indicative only."
-        );
-        (speed / bending, warning("AB1001", text))
-    })
+    let warning = DropWarning::Bends {
+        bending,
+        side: side.to_string(),
+        speed,
+    };
+    (BENDING_SHARE * bending < speed).then(|| (speed / bending, warning.into()))
 }
 
 /// Several bearings under a rotor that does not tilt.
 fn one_motion(context: &Context) -> Option<Warning> {
     let count = context.setup.drop.auxiliary_bearings.len();
-    (count > 1 && context.setup.drop.shaft.is_none()).then(|| {
-        warning(
-            "AB1090",
-            format!(
-                "The rotor does not tilt: all {count} auxiliary bearings see one motion, wherever they stand on the shaft. \
-                 Forces of bearings that differ, or of a rotor whose mass is not midway, are indicative only."
-            ),
-        )
-    })
+    let bearings = count as f64;
+    (count > 1 && context.setup.drop.shaft.is_none())
+        .then(|| DropWarning::OneMotion { bearings }.into())
 }
 
 /// Pressures and forces beyond what bearing and laws stand.
@@ -325,24 +265,14 @@ fn loads(context: &Context, k: usize) -> Vec<Graded> {
     };
     let record = context.record(k);
     let pressures = context.bearing(k).pressures();
-    let grade = |code| match code {
-        "AB1070" => pressures.neighbours.unwrap_or(0.0),
-        _ => pressures.races,
-    };
-    let warnings = shared::pressure(bearing, &pressures).into_iter();
-    let mut list: Vec<Graded> = warnings
-        .map(|warning| (grade(warning.code), warning))
-        .collect();
+    let mut list = shared::pressure(bearing, &pressures);
     if let (Moment::Palmgren { .. }, Some(rating)) = (&bearing.moment, bearing.static_load_rating)
         && let Some(peak) = record.peak_contact_force()
         && peak.value > rating
     {
-        let text = format!(
-            "The contact force of {:.0} N exceeds the static load rating of {rating:.0} N: Palmgren's moment is \
-             outside its range.",
-            peak.value
-        );
-        list.push((peak.value / rating, warning("AB1005", text)));
+        let force = peak.value;
+        let warning = DropWarning::AboveLoadRating { force, rating };
+        list.push((force / rating, warning.into()));
     }
     list
 }
@@ -359,11 +289,7 @@ fn hot(context: &Context, k: usize) -> Option<Graded> {
     )
     .ok();
     let rise = rise.filter(|rise| *rise > HOT_RACE)?;
-    let text = format!(
-        "Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run \
-         does not follow them."
-    );
-    Some((rise, warning("AB2300", text)))
+    Some((rise, DropWarning::HotRace { rise }.into()))
 }
 
 /// A contact law outside its range.
@@ -373,25 +299,15 @@ fn damping(context: &Context, k: usize) -> Vec<Warning> {
         .filter(|row| row.probe[at.probe(PENETRATION)] > 0.0)
         .map(|row| row.probe[at.probe(PENETRATION_SPEED)].abs())
         .fold(0.0, f64::max);
-    let reached = context.setup.given(k).contact.damping * closing;
-    let text = format!(
-        "The damping of rotor and race reaches a·ḋ = {reached:.2}: the Hunt-Crossley law is meant for values well below 1."
-    );
-    let list = (reached > LARGEST_DAMPING).then(|| warning("AB1004", text));
-    list.into_iter().collect()
+    let damping = context.setup.given(k).contact.damping * closing;
+    let warning = (damping > LARGEST_DAMPING).then_some(DropWarning::ContactDamping { damping });
+    warning.into_iter().map(Warning::from).collect()
 }
 
 /// What a ring that does not turn does to a rotor, and what is not followed of it.
 fn bushing(context: &Context, k: usize) -> Warning {
     let friction = context.setup.given(k).contact.friction_coefficient;
-    warning(
-        "AB2330",
-        format!(
-            "The rotor rubs on a bushing with a friction coefficient of {friction}: no race comes to speed and ends that, so friction \
-             drives backward whirl for as long as the rotor turns. Whether a blow starts it depends on friction, damping and the release: \
-             vary them (--repeat). What warming and wear do to friction and clearance is not followed."
-        ),
-    )
+    DropWarning::Bushing { friction }.into()
 }
 
 /// What the laws of a bearing leave open.
@@ -408,14 +324,11 @@ fn of_bearing(scenario: &Scenario, contexts: &[Context], k: usize) -> Vec<Warnin
     list.extend(shared::no_moment(bearing));
     list.extend(shared::moment(scenario, &given.name, bearing));
     if bearing.drag.orbit != 0.0 || bearing.drag.spin != 0.0 || bearing.drag.cage != 0.0 {
-        let text = match bearing.fidelity {
-            Fidelity::Planar => {
-                "Balls or cage are dragged to the ground (bearing.drag): that reproduces reference cases, it is no \
-                 friction moment of a real bearing."
-            }
-            Fidelity::Rolling => "bearing.drag belongs to the planar fidelity and is ignored here.",
+        let warning = match bearing.fidelity {
+            Fidelity::Planar => DropWarning::Dragged,
+            Fidelity::Rolling => DropWarning::DragIgnored,
         };
-        list.push(warning("AB1010", text.to_string()));
+        list.push(warning.into());
     }
     list
 }

@@ -6,7 +6,6 @@ use crate::bearing::warnings as shared;
 use crate::rig::chain::{self, taps};
 use crate::rig::context::Context;
 use model::system::rig::layout::SHAFT;
-use outcome::warning;
 use outcome::{Quantity, Warning};
 use scenario::{Rig, Scenario};
 use std::f64::consts::TAU;
@@ -16,6 +15,20 @@ const FEWEST_SAMPLES: f64 = 4.0;
 
 /// By how much the peak acceleration may miss the wanted one without a word.
 const MISSED: f64 = 0.01;
+
+problem::warnings! {
+    /// Of a test on a rig.
+    pub enum RigWarning {
+        Clipped { count: "", channel: text } "AB1050" Uncertain
+            ("{count} values of channel {channel} lie beyond the range of the converter and are clipped in the raw file.");
+        PeakAcceleration { reached: "rad/s^2", wanted: "rad/s^2" } "AB1051" Uncertain
+            ("The peak acceleration of {reached:.4e} rad/s² is not the wanted one of {wanted:.4e} rad/s²: the clutch's ramp is found with balls that roll.");
+        Concentric "AB1052" Note
+            ("The outer race stays in the middle (rig.load.housing is concentric): the dead weight reaches the friction law, not the balls, which carry their preload alone.");
+        FewSamples { speed: "rad/s", passing: "s", interval: "s" } "AB1053" Uncertain
+            ("At {speed:.4} rad/s a mark passes the pickup every {:.3} ms, and its channel is sampled every {:.3} ms: {:.2} samples a mark, of which {FEWEST_SAMPLES} are needed to read the speed from the raw file.", 1e3 * passing, 1e3 * interval, passing / interval);
+    }
+}
 
 /// All warnings of a run, the most severe first.
 pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
@@ -29,12 +42,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         list.extend(judged.into_iter().map(|(_, warning)| warning));
     }
     for (name, count) in &context.clipped {
-        list.push(warning(
-            "AB1050",
-            format!(
-                "{count} values of channel {name} lie beyond the range of the converter and are clipped in the raw file."
-            ),
-        ));
+        let (count, channel) = (*count as f64, name.to_string());
+        list.push(RigWarning::Clipped { count, channel }.into());
     }
     list.extend(sampled(context.rig, speed));
     if let (Some(wanted), Some(reached)) = (
@@ -45,26 +54,16 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         shared::number(quantities, "peak_acceleration"),
     ) && (reached / wanted - 1.0).abs() > MISSED
     {
-        list.push(warning(
-            "AB1051",
-            format!(
-                "The peak acceleration of {reached:.4e} rad/s² is not the wanted one of {wanted:.4e} rad/s²: the clutch's \
-                 ramp is found with balls that roll."
-            ),
-        ));
+        list.push(RigWarning::PeakAcceleration { reached, wanted }.into());
     }
     if context.rig.load.hanging_mass.is_none() {
-        list.push(warning(
-            "AB1052",
-            "The outer race stays in the middle (rig.load.housing is concentric): the dead weight reaches the friction law, \
-             not the balls, which carry their preload alone."
-                .to_string(),
-        ));
+        list.push(RigWarning::Concentric.into());
     }
     list.extend(context.bearing().hot_skid().map(|(_, warning)| warning));
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
-    list.extend(shared::pressure(bearing, &context.bearing().pressures()));
+    let pressures = shared::pressure(bearing, &context.bearing().pressures()).into_iter();
+    list.extend(pressures.map(|(_, warning)| warning));
     list.extend(preload_of_rig(context.rig));
     list.extend(shared::film_rise(&context.bearing()));
     list.extend(shared::law_range(
@@ -86,7 +85,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
 pub fn preload_of_rig(rig: &Rig) -> Option<Warning> {
     rig.load.hanging_mass?;
     let load = ("dead weight", rig.load.radial_load);
-    shared::preload_left("", &rig.bearing, load, None)
+    shared::preload_left(&rig.bearing, load, None)
 }
 
 /// Marks that pass more quickly than their channel is sampled.
@@ -98,18 +97,12 @@ fn sampled(rig: &Rig, speed: f64) -> Option<Warning> {
     }
     let interval = taps(rig).first()?.interval;
     let passing = TAU / (speed * rig.pickup.marks as f64);
-    (passing < FEWEST_SAMPLES * interval).then(|| {
-        warning(
-            "AB1053",
-            format!(
-                "At {speed:.4} rad/s a mark passes the pickup every {:.3} ms, and its channel is sampled every {:.3} ms: {:.2} samples \
-                 a mark, of which {FEWEST_SAMPLES} are needed to read the speed from the raw file.",
-                1e3 * passing,
-                1e3 * interval,
-                passing / interval
-            ),
-        )
-    })
+    let warning = RigWarning::FewSamples {
+        speed,
+        passing,
+        interval,
+    };
+    (passing < FEWEST_SAMPLES * interval).then(|| warning.into())
 }
 
 #[cfg(test)]

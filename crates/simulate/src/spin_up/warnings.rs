@@ -6,7 +6,6 @@ use crate::bearing::warnings as shared;
 use crate::spin_up::context::{Context, asked};
 use crate::spin_up::quantities::rolling_start_to_end;
 use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
-use outcome::warning;
 use outcome::{Quantity, Warning};
 use physics::palmgren::FADING_SPEED;
 use scenario::{Bearing, Moment, Scenario};
@@ -16,7 +15,19 @@ pub fn preload_of_spin_up(bearing: &Bearing, load: f64) -> Option<Warning> {
     if bearing.inner_race_centre_held {
         return None;
     }
-    shared::preload_left("", bearing, ("radial load", load), None)
+    shared::preload_left(bearing, ("radial load", load), None)
+}
+
+problem::warnings! {
+    /// Of a spin-up.
+    pub enum SpinUpWarning {
+        CentreHeld "AB1020" Note
+            ("The centre of the inner race is held (the concentric rig): the radial load reaches the rotor's friction and the friction law, not the balls, which carry their preload alone.");
+        CorrectedForm { why: words } "AB1026" Uncertain
+            ("The corrected form of (21) does not hold in this run: {why}. The exact form does; the bounds of the path term are left out.");
+        Creeps { speed: "rad/s" } "AB1098" Uncertain
+            ("The inner race creeps with {speed:.2e} rad/s at most. The friction law fades below {TURNS} rad/s, so what drives the race is less than the moment that it needs: a real bearing stands still under it.");
+    }
 }
 
 /// Speed from which on friction acts in full, rad/s.
@@ -24,15 +35,8 @@ const TURNS: f64 = 10.0 * FADING_SPEED;
 
 /// A race that does not come to the speed at which its friction acts in full.
 fn creeps(bearing: &Bearing, speed: f64) -> Option<Warning> {
-    (bearing.moment != Moment::None && speed > 0.0 && speed < TURNS).then(|| {
-        warning(
-            "AB1098",
-            format!(
-                "The inner race creeps with {speed:.2e} rad/s at most. The friction law fades below {TURNS} rad/s, so what drives the race \
-                 is less than the moment that it needs: a real bearing stands still under it."
-            ),
-        )
-    })
+    (bearing.moment != Moment::None && speed > 0.0 && speed < TURNS)
+        .then(|| SpinUpWarning::Creeps { speed }.into())
 }
 
 /// All warnings of a run, the most severe first.
@@ -58,7 +62,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(speed_rating(bearing, speed));
     list.extend(shared::lift_off(bearing, speed));
     let run = context.bearing();
-    list.extend(shared::pressure(bearing, &run.pressures()));
+    let pressures = shared::pressure(bearing, &run.pressures()).into_iter();
+    list.extend(pressures.map(|(_, warning)| warning));
     list.extend(shared::films(&run, bearing));
     list.extend(preload_of_spin_up(bearing, load));
     list.extend(shared::law_range(bearing, speed, load));
@@ -68,23 +73,12 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     list.extend(shared::residual(quantities, most));
     list.extend(asked.warnings(asked.stepping(|| 0.0).steps));
     if bearing.inner_race_centre_held && load > 0.0 {
-        list.push(warning(
-            "AB1020",
-            "The centre of the inner race is held (the concentric rig): the radial load reaches the rotor's friction and \
-             the friction law, not the balls, which carry their preload alone."
-                .to_string(),
-        ));
+        list.push(SpinUpWarning::CentreHeld.into());
     }
     if context.ending.time > 0.0
         && let Err(why) = rolling_start_to_end(context)
     {
-        list.push(warning(
-            "AB1026",
-            format!(
-                "The corrected form of (21) does not hold in this run: {why}. The exact form does; the bounds of the path \
-                 term are left out."
-            ),
-        ));
+        list.push(SpinUpWarning::CorrectedForm { why }.into());
     }
     list.extend(shared::cage_inertia(bearing));
     list.extend(shared::rolling(bearing));

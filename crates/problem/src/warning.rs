@@ -1,0 +1,262 @@
+//! Warnings: what a user should know before trusting the numbers. Each home declares its own in one table:
+//!
+//! ```
+//! use problem::{warning::Warning, warnings};
+//!
+//! warnings! {
+//!     /// Of a drop.
+//!     enum DropWarning {
+//!         BackwardWhirl { turns: "1" } "AB1014" Destroys ("Backward whirl: {turns:.0} turns round the bore against the spin.");
+//!     }
+//! }
+//! let warning = Warning::from(DropWarning::BackwardWhirl { turns: 3.0 });
+//! assert_eq!(warning.of_part("drive_end").to_string(), "drive_end: Backward whirl: 3 turns round the bore against the spin.");
+//! ```
+//!
+//! A row has the fields of its variant with their kinds, a code, a severity and the sentence with its arguments, as `format!` takes
+//! them. Kinds of fields: an SI unit (a number), `text` (a name or word that is a value), `words` (a piece of the sentence alone). A
+//! number `time` in s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code
+//! names the kind, for code that joins or leaves out warnings of it. A word
+//! behind the severity says in which members of a repeated run it is looked for: `each`, `unperturbed` or `run_out`.
+
+use std::fmt;
+
+/// How severe a warning is, the most severe first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// What the results show destroys bearing, shaft or what stands around it.
+    Destroys,
+    /// The results are those of another machine, or of laws outside their range.
+    Invalid,
+    /// Results are less certain than they look.
+    Uncertain,
+    /// What is left out or assumed.
+    Note,
+}
+
+impl Severity {
+    /// All of them, the most severe first.
+    pub const ALL: [Severity; 4] = [
+        Severity::Destroys,
+        Severity::Invalid,
+        Severity::Uncertain,
+        Severity::Note,
+    ];
+
+    /// The word in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Severity::Destroys => "destroys",
+            Severity::Invalid => "invalid",
+            Severity::Uncertain => "uncertain",
+            Severity::Note => "note",
+        }
+    }
+
+    /// The severity of a word.
+    pub fn of_word(word: &str) -> Option<Severity> {
+        Severity::ALL.into_iter().find(|own| own.word() == word)
+    }
+}
+
+/// A kind of warning as its table declares it.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Declared {
+    /// Name of the variant.
+    pub name: &'static str,
+    /// Stable code, e.g. `AB1001`.
+    pub code: &'static str,
+    /// How severe it is.
+    pub severity: Severity,
+    /// In which members of a repeated run it is looked for.
+    pub judged: Judged,
+}
+
+/// In which members of a repeated run a kind of warning is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// It follows from the file: in the unperturbed one for all.
+    File,
+    /// In each.
+    Each,
+    /// In the unperturbed one alone.
+    Unperturbed,
+    /// In each, but in the run-out of the unperturbed one alone.
+    RunOut,
+}
+
+/// A value of a warning.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Amount {
+    /// A number, SI.
+    Number(f64),
+    /// A name or word.
+    Text(String),
+}
+
+/// In which members of a repeated run a warning was judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// The run was not repeated, or it concerns all members.
+    Alike,
+    /// In the unperturbed member alone.
+    Unperturbed,
+    /// In each: `count` of `all` have it, and the numbers are those of `member`, where it is most severe.
+    Each {
+        /// Members that have it.
+        count: usize,
+        /// Members in all.
+        all: usize,
+        /// Index of the most severe one.
+        member: usize,
+    },
+}
+
+/// Something the user should know. Prints as text with part and members.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// Stable code, e.g. `AB1001`.
+    pub code: &'static str,
+    /// How severe it is.
+    pub severity: Severity,
+    /// Name of the bearing, node or test concerned; empty where there is none.
+    pub part: String,
+    /// Instant, s, where it has one.
+    pub time: Option<f64>,
+    /// Values with names and units.
+    pub values: Vec<(&'static str, Amount, &'static str)>,
+    /// In which members it was judged.
+    pub scope: Scope,
+    /// One or two sentences.
+    pub text: String,
+    /// Whether the sentences name the part.
+    names_part: bool,
+}
+
+impl Warning {
+    /// A warning of a declared kind; what stands in `time` and `part` of its values becomes its own.
+    pub fn new(
+        kind: &Declared,
+        text: String,
+        mut values: Vec<(&'static str, Amount, &'static str)>,
+    ) -> Warning {
+        let (mut part, mut time) = (String::new(), None);
+        values.retain(|(name, amount, unit)| match (*name, amount, *unit) {
+            (_, Amount::Number(value), _) if !value.is_finite() => false,
+            ("time", Amount::Number(value), "s") => {
+                time = Some(*value);
+                false
+            }
+            ("part", Amount::Text(name), _) => {
+                part.clone_from(name);
+                false
+            }
+            _ => true,
+        });
+        Warning {
+            code: kind.code,
+            severity: kind.severity,
+            names_part: !part.is_empty(),
+            part,
+            time,
+            values,
+            scope: Scope::Alike,
+            text,
+        }
+    }
+
+    /// Whether it is of a kind.
+    pub fn is(&self, kind: &Declared) -> bool {
+        self.code == kind.code
+    }
+
+    /// The same of a part; one without a name adds nothing.
+    pub fn of_part(mut self, name: &str) -> Warning {
+        if !name.is_empty() {
+            self.part = name.to_string();
+            self.names_part = false;
+        }
+        self
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.names_part && !self.part.is_empty() {
+            write!(f, "{}: ", self.part)?;
+        }
+        f.write_str(&self.text)?;
+        match self.scope {
+            Scope::Alike => Ok(()),
+            Scope::Unperturbed => f.write_str(
+                " Judged in the unperturbed run alone: the other members keep no histories.",
+            ),
+            Scope::Each { count, all, member } => write!(
+                f,
+                " In {count} of {all} members; the numbers are those of member {member}."
+            ),
+        }
+    }
+}
+
+/// A table of warnings as an enum; see [`mod@crate::warning`].
+#[macro_export]
+macro_rules! warnings {
+    (@type text) => { String };
+    (@type words) => { String };
+    (@type $unit:literal) => { f64 };
+    (@judged) => { $crate::warning::Judged::File };
+    (@judged each) => { $crate::warning::Judged::Each };
+    (@judged unperturbed) => { $crate::warning::Judged::Unperturbed };
+    (@judged run_out) => { $crate::warning::Judged::RunOut };
+    (@declared $variant:ident $code:literal $severity:ident $($judged:ident)?) => {
+        $crate::warning::Declared {
+            name: stringify!($variant),
+            code: $code,
+            severity: $crate::warning::Severity::$severity,
+            judged: $crate::warnings!(@judged $($judged)?),
+        }
+    };
+    (@constant $vis:vis [] $($kind:tt)*) => {};
+    (@constant $vis:vis [$name:ident] $($kind:tt)*) => {
+        #[doc = concat!("The kind ", stringify!($($kind)*), ".")]
+        $vis const $name: &$crate::warning::Declared = &$crate::warnings!(@declared $($kind)*);
+    };
+    (@value $list:ident $field:ident words) => {};
+    (@value $list:ident $field:ident text) => {
+        $list.push((stringify!($field), $crate::warning::Amount::Text($field), ""))
+    };
+    (@value $list:ident $field:ident $unit:literal) => {
+        $list.push((stringify!($field), $crate::warning::Amount::Number($field), $unit))
+    };
+    ($(#[$doc:meta])* $vis:vis enum $table:ident {
+        $($variant:ident $({ $($field:ident: $kind:tt),* $(,)? })? $code:literal $([$name:ident])? $severity:ident $(, $judged:ident)? ($($sentence:tt)*);)*
+    }) => {
+        $(#[$doc])*
+        $vis enum $table {
+            $(#[doc = $code] $variant $({ $(#[doc = stringify!($kind)] $field: $crate::warnings!(@type $kind)),* })?,)*
+        }
+
+        $($crate::warnings!(@constant $vis [$($name)?] $variant $code $severity $($judged)?);)*
+
+        impl $table {
+            /// Every kind, in the order of the table.
+            pub const DECLARED: &[$crate::warning::Declared] = &[$($crate::warnings!(@declared $variant $code $severity $($judged)?)),*];
+        }
+
+        impl From<$table> for $crate::warning::Warning {
+            #[allow(unused_mut)]
+            fn from(warning: $table) -> Self {
+                match warning {
+                    $($table::$variant $({ $($field),* })? => {
+                        let kind = $crate::warnings!(@declared $variant $code $severity $($judged)?);
+                        let text = format!($($sentence)*);
+                        let mut values = Vec::new();
+                        $($($crate::warnings!(@value values $field $kind);)*)?
+                        $crate::warning::Warning::new(&kind, text, values)
+                    })*
+                }
+            }
+        }
+    };
+}

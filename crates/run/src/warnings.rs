@@ -1,0 +1,49 @@
+//! Every warning that a run may give, from the tables of their homes.
+
+use analyse::identify::notes::IdentifyWarning;
+use analyse::rotor::warnings::RotorWarning;
+use analyse::signals::warning_table::SignalsWarning;
+use analyse::torque::warnings::TorqueWarning;
+use outcome::Severity;
+use problem::warning::Declared;
+use scenario::LubricantWarning;
+use scenario::notes::ValueWarning;
+use simulate::assumptions::{ASSUMED, AssumptionWarning};
+use simulate::bearing::warning_table::{BearingWarning, HeatWarning};
+use simulate::coast_down::warnings::CoastDownWarning;
+use simulate::drop::warning_table::{DropWarning, ShaftWarning};
+use simulate::levitated::LevitationWarning;
+use simulate::rig::warnings::RigWarning;
+use simulate::spin_up::warnings::SpinUpWarning;
+use simulate::stepping::SteppingWarning;
+
+/// Every kind of warning, home by home; kinds with one code differ in their sentences.
+pub fn declared() -> impl Iterator<Item = &'static Declared> {
+    let homes = [
+        ValueWarning::DECLARED,
+        LubricantWarning::DECLARED,
+        AssumptionWarning::DECLARED,
+        BearingWarning::DECLARED,
+        HeatWarning::DECLARED,
+        DropWarning::DECLARED,
+        ShaftWarning::DECLARED,
+        CoastDownWarning::DECLARED,
+        SteppingWarning::DECLARED,
+        SpinUpWarning::DECLARED,
+        RigWarning::DECLARED,
+        LevitationWarning::DECLARED,
+        SignalsWarning::DECLARED,
+        IdentifyWarning::DECLARED,
+        RotorWarning::DECLARED,
+        TorqueWarning::DECLARED,
+    ];
+    homes.into_iter().flatten()
+}
+
+/// How severe a warning of a code is, and whether it says no more than what was assumed; a code that this version does not know is
+/// uncertain.
+pub fn rank(code: &str) -> (Severity, bool) {
+    let kind = declared().find(|kind| kind.code == code);
+    let severity = kind.map_or(Severity::Uncertain, |kind| kind.severity);
+    (severity, code == ASSUMED.code)
+}

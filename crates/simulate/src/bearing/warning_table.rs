@@ -1,0 +1,78 @@
+//! Warnings of a bearing and its heat that several systems give.
+
+use scenario::heat::ICE_POINT;
+use std::f64::consts::{E, PI};
+
+problem::warnings! {
+    /// Of a bearing.
+    pub enum BearingWarning {
+        Pressure { pressure: "Pa", limit: "Pa" } "AB1002" Invalid, each
+            ("The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: {DENTS}.", pressure * 1e-6, limit * 1e-6);
+        PressureInRunOut { load: "N", pressure: "Pa", limit: "Pa" } "AB1002" Invalid, run_out
+            ("While it runs out a ball presses with up to {load:.0} N, {:.0} MPa, beyond the limit of {:.0} MPa: {DENTS}.", 1e-6 * pressure, 1e-6 * limit);
+        Residual { residual: "1" } "AB1006" Invalid, each
+            ("The energy ledger misses {residual:.1e} of what was turned over: a smaller run.tolerance closes it.");
+        NoMoment "AB1008" Note
+            ("The bearing has no steady friction moment (bearing.moment.law is none): spin-up by the rotor is described; long coasting is too free, and a swing of the rotor in the bore after spin-up decays too slowly.");
+        Rolls "AB1009" Uncertain
+            ("The rolling bearing assumes that no ball skids: where the planar fidelity shows slip, its spin-up times and losses are not true.");
+        Hybrid "AB1012" Note
+            ("Silicon nitride balls on steel races: contact stiffness and ball mass follow the material; traction and damping are those given.");
+        Skids { speed: "rad/s", load: "N", capacity: "1", moment: "N m" } "AB1017" Invalid, each
+            ("The balls must skid: at {speed:.0} rad/s under {load:.0} N traction can carry {capacity:.2} times the friction moment of {:.1} N mm, and 1.2 times is needed. In a steady run the mean moment on the outer race is then less than that of the law.", moment.abs() * 1e3);
+        MixedFilm { share: "1" } "AB1030" Uncertain, unperturbed
+            ("In {:.0} % of the rows' loaded contacts the oil film is thinner at its minimum than the roughness (lambda below 1): traction is mostly boundary friction, whose coefficient is bearing.traction.boundary_friction_coefficient.", 1e2 * share);
+        FilmLaw { departures: words } "AB1031" Invalid, unperturbed ("The law of the lubricant's traction has left its range: {departures}.");
+        LooseFromTheStart "AB1032" Invalid, each
+            ("The inner ring is said to grow with its shaft (bearing.inner_race_growth), and no interference holds it there: bearing.fits.shaft_interference is needed.");
+        LiftsOff { speed: "rad/s" } "AB1032" Invalid, each
+            ("The inner ring lifts off its shaft at {:.0} rpm, below the speed of this run: bearing.inner_race_growth = \"with shaft\" does not hold there, and the ring may creep.", speed * 30.0 / PI);
+        WarmFilms { rise: "K", limit: "K" } "AB1035" Invalid, unperturbed
+            ("The contact films warm by {rise:.0} K: drag and traction that fall exponentially with temperature hold over some {limit:.0} K, and the bulk of the bearing would warm as well.");
+        Neighbours { pressure: "Pa", limit: "Pa", harm: words } "AB1070" Invalid, each
+            ("Neighbouring balls press each other with {:.0} MPa, beyond their limit of {:.0} MPa: {harm}.", pressure * 1e-6, limit * 1e-6);
+        CageInertia { gyration: "m", inner: "m", outer: "m" } "AB1071" Note
+            ("bearing.cage_inertia and bearing.cage_mass contradict each other: together they are a ring of {:.1} mm radius, and a cage lies between the races, from {:.1} to {:.1} mm. The cage turns with the inertia and moves with the mass.", gyration * 1e3, inner * 1e3, outer * 1e3);
+        AxialLoads { counted: "N", printed: words, preload: "N" } "AB1081" Uncertain
+            ("The friction law counts an axial load of {counted:.0} N{printed}, the contacts an axial preload of {preload:.0} N: each holds where it is used.");
+        PreloadLeft { preload: "N", limit: "N", how: words } "AB1096" Invalid, each
+            ("The axial preload of {preload:.0} N keeps all balls loaded up to a radial load of {limit:.0} N: {how}. Beyond it balls are unloaded and the contact angle changes, so ball loads, pressures and spin-up times are indicative only.");
+        DoubleRow "AB1125" Uncertain
+            ("A double row is computed as a single row of ball_count balls: loads, pressures and friction of balls that share two rows are not those of this run.");
+        HotSkid { race: text, rise: "K", time: "s", load: "N", slip: "m/s" } "AB2303" Invalid, each
+            ("Where a ball skids on the {race} race, their surfaces flash up by {rise:.0} K ({:.2} ms: {load:.0} N, slip {slip:.1} m/s): steel is tempered and may smear there, a lubricant is burnt, and the traction of this run no longer holds.", 1e3 * time);
+        WideLine { half_width: "m", bore: "m", clearance: "m" } "AB2336" Invalid, run_out
+            ("The contact of rotor and race is beyond the law of its width: half-width {:.2} mm is {:.1} % of the bore's radius (10 % at most), the radial clearance {:.2} % of it (0.1 % at least). Temperatures of the patch and the conductance between rotor and race that follow from it are extrapolated.", 1e3 * half_width, 100.0 * half_width / bore, 100.0 * clearance / bore);
+    }
+}
+
+/// What a pressure beyond its limit does to steel.
+pub(crate) const DENTS: &str =
+    "permanent dents must be expected, and the elastic contact law is outside its range";
+
+problem::warnings! {
+    /// Of the heat of a bearing.
+    pub enum HeatWarning {
+        TooHot { node: text, peak: "K", time: "s", above: "K", taken: words } "AB2310" Destroys, each
+            ("Too hot: {} at {:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. Hardness, cage and lubricant may change there; this run does not follow that.{taken}", node.replace('_', " "), peak - ICE_POINT);
+        TooHotInRunOut { node: text, limit: "K", time: "s", when: words, others: words, peak: "K", hottest: words, taken: words } "AB2310" Destroys, run_out
+            ("Too hot: {node} above {:.0} °C after {when}{others}, up to {:.0} °C{hottest}. Hardness, size, cage and lubricant may change there; this run does not follow that.{taken}", limit - ICE_POINT, peak - ICE_POINT);
+        RunsAway { time: "s", when: words, by: words, each: words, rate: "1/s", each_largest: words, at_largest: words, largest_rate: "1/s",
+            inner: "m", balls: "m", outer: "m" } "AB2311" [RUNS_AWAY] Destroys, run_out (
+            "{when} its balls are preloaded {by} and every kelvin makes more heat than it takes away; a disturbance grows {E:.1} times each {each} then ({rate:.2e} 1/s), and each {each_largest} at the largest rate, at {at_largest} ({largest_rate:.2e} 1/s). To its clearance the inner ring had added {:+.1} µm, the balls {:+.1} µm, the outer ring {:+.1} µm as this began. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
+            1e6 * inner, 1e6 * balls, 1e6 * outer
+        );
+        Closes { time: "s", closed: "m" } "AB2312" [CLOSES] Invalid, each
+            ("The clearance closes after {time:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' temperatures is known within a factor of two; so is the clearance that is needed.", 1e6 * closed);
+        ClosesInRunOut { time: "s", clearance: "m", when: words, load: "N" } "AB2312" Invalid, run_out
+            ("The clearance {when}: rings that warm unequally load the balls with up to {load:.0} N. The difference of the rings' temperatures is known within a factor of two; so is the clearance that is needed.");
+        FollowsNoMore { time: "s", why: words } "AB2320" Uncertain, each
+            ("From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}.");
+        PreloadOfSprings "AB2320" Uncertain, each
+            ("The contact angle follows the temperatures, and the preload does not: it is that of springs. A rigid one rises as the inner ring warms.");
+        FrictionStaysAlike "AB2320" Uncertain, each
+            ("No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their viscosities, are not given, or its law knows no viscosity.");
+        LooseRing { time: "s", when: words, seat: text } "AB2321" Uncertain, run_out
+            ("After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from there on, and it may creep, which this run does not follow.");
+    }
+}

@@ -1,0 +1,89 @@
+//! Warnings of a drop, its magnets, its flexible rotor and its run-out.
+
+/// Share of the first bending frequency from which on a rotor bends noticeably.
+pub(crate) const BENDING_SHARE: f64 = 0.7;
+
+problem::warnings! {
+    /// Of a drop.
+    pub enum DropWarning {
+        Bends { bending: "rad/s", side: words, speed: "rad/s" } "AB1001" Invalid, each
+            ("The first free-free bending mode ({bending:.0} rad/s) {side} the release speed ({speed:.0} rad/s): this rigid rotor is indicative only.");
+        ContactDamping { damping: "1" } "AB1004" Invalid, unperturbed
+            ("The damping of rotor and race reaches a·ḋ = {damping:.2}: the Hunt-Crossley law is meant for values well below 1.");
+        AboveLoadRating { force: "N", rating: "N" } "AB1005" Invalid, each
+            ("The contact force of {force:.0} N exceeds the static load rating of {rating:.0} N: Palmgren's moment is outside its range.");
+        Planes { planes: "" } "AB1007" Note
+            ("{planes} identical planes are computed as one by symmetry: mass, polar inertia and torques of the rotor are shared equally, forces and heats are those of one plane. Conical motion is not described.");
+        Dragged "AB1010" Note
+            ("Balls or cage are dragged to the ground (bearing.drag): that reproduces reference cases, it is no friction moment of a real bearing.");
+        DragIgnored "AB1010" Note ("bearing.drag belongs to the planar fidelity and is ignored here.");
+        ManyContacts { contacts: "" } "AB1011" Note, unperturbed
+            ("{contacts} contacts: the first impacts, spin-up times and energies are reproducible, the late ones are chaotic. Repeat the run to see the spread: --repeat 16 samples the unbalance angle too, unless repeat.unbalance_angle = \"as given\".");
+        BackwardWhirl { turns: "1" } "AB1014" Destroys, each
+            ("Backward whirl: the rotor runs {turns:.0} turns round the bore against its spin. Contact forces of this kind destroy bearings and shafts.");
+        BackwardWhirlInRunOut { time: "s", when: words } "AB1014" Destroys, run_out
+            ("Backward whirl while the rotor runs out: {when} it runs round the bore against its spin in the windows that follow it. Contact forces of this kind destroy bearings and shafts.");
+        StaticLoad { load: "N", factor: "1", rating: "N" } "AB1029" Invalid
+            ("The static radial load of {load:.0} N is {factor:.1} times the static load rating of {rating:.0} N: permanent dents must be expected, and the laws of contact and friction are outside their range.");
+        OneMotion { bearings: "" } "AB1090" Invalid
+            ("The rotor does not tilt: all {bearings} auxiliary bearings see one motion, wherever they stand on the shaft. Forces of bearings that differ, or of a rotor whose mass is not midway, are indicative only.");
+        HardStop { gap: "m", time: "s", force: "N", peak_time: "s" } "AB1097" Invalid, each
+            ("The mount hits its hard stop: the outer race closes the gap of {:.0} µm at {:.2} ms, and the stop carries up to {force:.0} N at {:.2} ms. The resilient part protects nothing then; a larger gap, a stiffer mount or more damping keeps them apart.", 1e6 * gap, 1e3 * time, 1e3 * peak_time);
+        BendingUnknown { speed: "rad/s" } "AB1126" Note
+            ("Whether the rotor bends was not checked: rotor.first_bending_frequency is not given. A rotor whose first free-free bending mode lies below {:.0} rad/s is not rigid at this speed.", speed / BENDING_SHARE);
+        HotRace { rise: "K" } "AB2300" Destroys, each
+            ("Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run does not follow them.");
+        HotContact { rise: "K", time: "s" } "AB2301" Destroys, each
+            ("Where rotor and race rub, the patch warms by {rise:.0} K ({:.2} ms): steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.", 1e3 * time);
+        HotContactInRunOut { part: text, on: words, time: "s", rise: "K" } "AB2301" Destroys, run_out
+            ("While it runs out, after {time:.1} s, the patch where rotor and race rub{on} is {rise:.0} K warmer than at the start, or more: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.");
+        HotSpot { stay: "s" } "AB2302" Invalid, each
+            ("One place of the rotor stays in the contact for {:.0} ms: a hot spot, which bends the shaft and adds to its unbalance. This run spreads its heat over the rotor's track and bends nothing.", 1e3 * stay);
+        ForwardWhirlInRunOut { time: "s", when: words } "AB2302" Invalid, run_out
+            ("Forward whirl while the rotor runs out: {when} unbalance throws it round the bore with its spin in the windows that follow it. One place of it stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.");
+        RollingDoesNotLast { time: "s", speed: "rad/s", last_time: "s", last_speed: "rad/s", force: "N" } "AB2317" Uncertain, run_out
+            ("Rolling does not last: unbalance lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, and it presses with up to {force:.3e} N. Windows ball by ball follow it there, each as long as it likes at its speed: a rotor that passes quickly is lifted less.");
+        SlidesInRunOut { time: "s", duration: "s", when: words, slowest: words, rubs: words, shared: words, end: "s" } "AB2318" Uncertain, run_out
+            ("{when} the rotor slides on its races in the windows that follow it{slowest}: friction makes {rubs}. It is in run_out.load_dependent_heat{shared}. sliding_distance and wear are those of the first {end:.3} s alone.");
+        WindowsScatter { deviation: "1", windows: "" } "AB2319" Uncertain, run_out
+            ("While the rotor does not roll, the mean power of a window is known within {:.0} % (standard error of {windows} windows, the worst): the run-out is as uncertain there.", 100.0 * deviation);
+        HardestInRunOut { part: text, on: words, time: "s", speed: "rad/s", force: "N", before: "N", end: "s", load_share: "1" } "AB2323" Invalid, run_out
+            ("While it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses{on} with {force:.3e} N, and with {before:.3e} N at most in the first {end:.3} s. A ball takes {:.0} % of the load that dents a race there; pressures, sliding, cage forces and wear of this run are those of the first alone.", 100.0 * load_share);
+        EndsBeforeLanding { time: "s" } "AB2324" Invalid, run_out
+            ("run.duration ends after {time:.4} s, before the rotor has landed on every bearing: its impacts are in none of these results. Give run.duration more.");
+        EndsBeforeSpinUp { time: "s", late: "s" } "AB2324" Invalid, run_out
+            ("run.duration ends after {time:.4} s, while inner races still come to their speed: up to {late:.2} s more at the speed of that instant. Heat, sliding and life of these are in none of these results. Give run.duration that much more.");
+        Bushing { friction: "1" } "AB2330" Uncertain, each
+            ("The rotor rubs on a bushing with a friction coefficient of {friction}: no race comes to speed and ends that, so friction drives backward whirl for as long as the rotor turns. Whether a blow starts it depends on friction, damping and the release: vary them (--repeat). What warming and wear do to friction and clearance is not followed.");
+        LayerIsWarm { since: "s", through: "s" } "AB2331" Uncertain, each
+            ("The rotor's surface is hottest {since:.1} s after the first contact, and without heat.network = \"on\" its layer gives no heat to the metal behind it: from {through:.1} s on its rise, contact_temperature_rise and the share of heat that the race takes are too high. A bushing has no network: a deeper contact.surface.rotor_layer is right for longer.");
+    }
+}
+
+problem::warnings! {
+    /// Of the flexible rotor of a drop and its magnets.
+    pub enum ShaftWarning {
+        Rub { part: text, displacement: "m", time: "s", clearance: "m" } "AB2030" Destroys, each
+            ("At {part} the rotor moves by up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands there, and this contact is not computed.", 1e6 * displacement, 1e3 * time, 1e6 * clearance);
+        FewModes { cutoff: "rad/s", needed: "rad/s" } "AB2031" Invalid
+            ("rotor.cutoff = {cutoff:.0} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or the first bending mode, {needed:.0} rad/s, is the least; compare with twice that.");
+        Resonance { speed: "rad/s", held: words, frequency: "rad/s", amplification: "1", size: words } "AB2032" Invalid, each
+            ("The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({frequency:.0} rad/s, {size}): it may turn with large orbits before it falls, and small changes of speed or unbalance change the drop much.");
+        ThickShaft { shaft: "m", bore: "m" } "AB2033" Invalid
+            ("The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and friction acts at the radius of the bore.", 1e3 * shaft, 1e3 * bore);
+        CurrentLimit { channel: text, limit: words, share: "1", time: "s" } "AB2034" Uncertain, each
+            ("{channel} reaches the limit of its coil ({limit} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
+        TouchesWithPower { time: "s" } "AB2035" Invalid, each
+            ("The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may change what they do.", 1e3 * time);
+        VoltageLimit { channel: text, limit: words, share: "1", time: "s" } "AB2036" Uncertain, each
+            ("{channel} reaches the largest of its amplifier ({limit}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the controller wants it, and what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
+        AgainstSpin { supports: text } "AB2041" Uncertain
+            ("The rotor turns backward, and {supports} keep the signs of their xy and yx coefficients, which of a real seal change with the spin: as given they drive whirl against it. Change their signs, or let the rotor turn forward.");
+        StiffContact { contact: "N/m", mount: "N/m", cutoff: "rad/s" } "AB2081" Uncertain
+            ("contact {contact:.2e} N/m at 10 µm of penetration and mount {mount:.2e} N/m are stiffer than those ({:.2e}, {:.2e} N/m) up to which rotor.cutoff = {} rad/s was compared with all modes: first impacts may be several per cent wrong. Compare with twice and four times the cutoff.", COMPARED.0, COMPARED.1, units::number_text(cutoff));
+    }
+}
+
+/// Largest stiffness of a contact at 10 µm of penetration and of a mount, N/m, and cutoff, rad/s, up to which first impacts of a default
+/// cutoff were compared with those of all modes: 0.7 % at these, 7.5 % at four and five times as stiff (a rotor that bends at 3126 rad/s).
+pub(crate) const COMPARED: (f64, f64, f64) = (6.19e8, 4e8, 60e3);
