@@ -155,6 +155,21 @@ fn an_instant_that_does_not_come_is_judged_as_in_a_single_run() {
 }
 
 #[test]
+fn members_with_a_warning_break_its_limit() {
+    let first = "quantity = \"first_impact_force\"\nmost = \"1 N\"";
+    // whether the rotor bends is said by all of them
+    let limits = "warning = \"AB1126\"\n[[limit]]\nseverity = \"destroys\"";
+    let text = STUDY.replace(first, limits);
+    let folder = folder(&text.replace("members = 130", "members = 4"));
+    let done = whole(folder.path(), "out");
+    let limits = done.answer.limits.iter();
+    let judged: Vec<_> = limits
+        .map(|own| (own.judged.verdict, own.judged.hold))
+        .collect();
+    assert_eq!(judged, [(Verdict::Fail, 0), (Verdict::Pass, 4)]);
+}
+
+#[test]
 fn damaged_and_foreign_parts_are_found() {
     let folder = folder(STUDY);
     let path = folder.path();

@@ -14,11 +14,13 @@
 //! What is not known, of a run that ended early or a result that does not exist, neither holds nor breaks a bound: the verdict
 //! is one that stands either way, or none.
 
+use crate::forbidden;
 use crate::list::NOT_GIVEN;
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
+use problem::warning::Declared;
 use problem::{Code, Problem, did_you_mean, question};
 use scenario::notes::NO_QUALIFICATION;
-use scenario::{Limit, Side, UNBALANCE_ANGLE};
+use scenario::{Limit, Scenario, Side, UNBALANCE_ANGLE};
 use statistics::share::{
     CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
     shows_reached,
@@ -34,8 +36,16 @@ const MOST_NAMES: usize = 8;
 
 /// Refuses limits of results that a run does not have, or of another dimension; `known` are its results, without values
 /// where these are not known before the run. A `*` in the name of one stands for what the run finds.
-pub fn check(limits: &[Limit], known: &[Quantity]) -> Result<(), Box<Problem>> {
+pub fn check(
+    limits: &[Limit],
+    known: &[Quantity],
+    declared: &[&'static Declared],
+) -> Result<(), Box<Problem>> {
     for limit in limits {
+        if let Some(forbids) = &limit.forbids {
+            forbidden::check(limit, forbids, declared)?;
+            continue;
+        }
         let named = |known: &&Quantity| {
             is_name(&known.name, &limit.quantity) || fits(&limit.quantity, known)
         };
@@ -157,7 +167,7 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
 }
 
 /// The verdicts of a run.
-pub fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
+pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]) -> Vec<Judged> {
     // a member that draws none has that of the file
     let angle_of = |drawn: &Vec<(String, String)>| {
         let mut drawn = drawn.iter();
@@ -170,21 +180,25 @@ pub fn of(limits: &[Limit], outcome: &Outcome) -> Vec<Judged> {
     let judged = |limit: &Limit| {
         let mut quantities = outcome.quantities.iter();
         let quantity = quantities.find(|quantity| quantity.name == limit.quantity);
-        let (unit, values, why) = match quantity {
-            Some(quantity) => {
+        let (unit, values, why) = match (&limit.forbids, quantity) {
+            (Some(forbids), _) => {
+                let (values, why) = forbidden::values(scenario, outcome, declared, forbids);
+                ("", values, why)
+            }
+            (None, Some(quantity)) => {
                 let (values, why) = values_of(quantity, limit.bound, outcome);
                 (quantity.unit, values, why)
             }
-            None => ("", vec![None], "this run has no such result".to_string()),
+            (None, None) => ("", vec![None], "this run has no such result".to_string()),
         };
-        let judged = judge(limit, unit, &values, &why);
+        let judged = forbidden::worded(judge(limit, unit, &values, &why), outcome);
         let judged = whirl_sought(judged, angles.len().max(1), !spins_up(limit, outcome));
         match no_qualification {
             true => withheld(judged),
             false => judged,
         }
     };
-    let limits = named(limits, &outcome.quantities);
+    let limits = named(&scenario.limits, &outcome.quantities);
     limits.iter().map(judged).collect()
 }
 
@@ -433,6 +447,7 @@ mod tests {
             side,
             bound,
             share,
+            forbids: None,
             dimension: Dimension::NONE,
             text: units::number_text(bound),
             place: Place::Whole,

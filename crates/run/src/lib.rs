@@ -75,7 +75,8 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = system.map_err(|problem| scenario.locate(problem))?;
     let machine = Machine { scenario, system };
     if !scenario.limits.is_empty() {
-        limits::check(&scenario.limits, &machine.results())
+        let declared: Vec<_> = warnings::declared().collect();
+        limits::check(&scenario.limits, &machine.results(), &declared)
             .map_err(|problem| scenario.locate(problem))?;
     }
     Ok(machine)
@@ -86,7 +87,8 @@ impl Machine<'_> {
     pub fn run(&self, options: &Options) -> Outcome {
         let mut outcome = self.computed(options);
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
-        outcome.limits = limits::of(&self.scenario.limits, &outcome);
+        let declared: Vec<_> = warnings::declared().collect();
+        outcome.limits = limits::of(self.scenario, &outcome, &declared);
         outcome
     }
 

@@ -332,9 +332,13 @@ impl Document {
             && first == LIMIT
         {
             let quantity = Raw::Text(quantity.join("."));
-            let keys = [("quantity", quantity), (word.as_str(), raw)];
-            let keys = keys.map(|(key, raw)| (key.to_string(), raw, Place::Set));
-            self.limits.push(keys.to_vec());
+            let mut keys = vec![("quantity", quantity), (word.as_str(), raw)];
+            // of a warning or a severity
+            keys.retain(|(_, raw)| raw != &Raw::Text(String::new()));
+            let keys = keys
+                .into_iter()
+                .map(|(key, raw)| (key.to_string(), raw, Place::Set));
+            self.limits.push(keys.collect());
             return Ok(());
         }
         if path.len() > 2 && self.system.has_shaft() && kind_at(&path[..2].join(".")).is_some() {

@@ -62,7 +62,7 @@ pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
-pub use limit::{Limit, Side};
+pub use limit::{Forbidden, Limit, Side};
 pub use locate::UNNAMED;
 pub use problem::provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};

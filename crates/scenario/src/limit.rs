@@ -5,6 +5,9 @@
 //! quantity = "drive_end.peak_contact_force"   # a result; "*.peak_contact_force" is that of every bearing
 //! most = "5 kN"                               # or least
 //! share = 0.95                                # of the members of a repeated run; 1 unless given
+//!
+//! [[limit]]
+//! severity = "destroys"                       # no warning that severe or worse; warning = "AB2030": none of that code
 //! ```
 //! An override is `--set limit.drive_end.peak_contact_force.most="4 kN"`: it changes the limit of that result, or adds one.
 //! Whether a run has such a result is known when its machine is built: `result/limits.rs`.
@@ -17,7 +20,8 @@ use problem::key::{Key, Kind, quoted};
 use problem::raw::{Raw, Written};
 use problem::read::unreadable;
 use problem::table::Table;
-use problem::{Code, Place, Problem, question};
+use problem::warning::Severity;
+use problem::{Code, Place, Problem, did_you_mean, question};
 use units::{Dimension, parse_quantity};
 
 /// What a result must hold.
@@ -31,6 +35,8 @@ pub struct Limit {
     pub bound: f64,
     /// Share of the members of a repeated run that must hold it; 1: all of them.
     pub share: f64,
+    /// Warnings that must not come: the result is then their number in a member, 0 or 1.
+    pub forbids: Option<Forbidden>,
     /// Dimension of the bound.
     pub dimension: Dimension,
     /// The bound as a file has it.
@@ -39,6 +45,33 @@ pub struct Limit {
     pub place: Place,
     /// Where the bound stands.
     pub bound_place: Place,
+}
+
+/// Warnings that must not come.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Forbidden {
+    /// Those of a code.
+    Code(String),
+    /// Those of a severity or worse.
+    Severity(Severity),
+}
+
+impl Forbidden {
+    /// Key and value in a file.
+    pub fn written(&self) -> (&'static str, &str) {
+        match self {
+            Forbidden::Code(code) => (WARNING, code),
+            Forbidden::Severity(severity) => (SEVERITY, severity.word()),
+        }
+    }
+
+    /// Whether a warning of this code and severity is one of them.
+    pub fn meets(&self, code: &str, severity: Severity) -> bool {
+        match self {
+            Forbidden::Code(own) => own == code,
+            Forbidden::Severity(least) => severity <= *least,
+        }
+    }
 }
 
 /// The side of a bound on which a result must stay; the bound itself holds.
@@ -68,14 +101,18 @@ impl Side {
     }
 }
 
-const NEEDED: &str = "tables [[limit]] with quantity = \"…\" and most or least are needed";
+const WARNING: &str = "warning";
+const SEVERITY: &str = "severity";
+const NEEDED: &str = "tables [[limit]] with quantity = \"…\" and most or least, or with warning or severity, are needed";
 const BOUND: &str = "a quantity with the unit of the result is needed, e.g. most = \"5 kN\"; a bare number where it has none";
 const SHARE: &str = "a share above 0 and not above 1 is needed, e.g. 0.95";
 #[rustfmt::skip]
 const KEYS: &[Key] = &[
-    Key::new("limit.quantity", Kind::Text, "peak_contact_force", "Name of the result."),
+    Key::new("limit.quantity", Kind::Text, "peak_contact_force", "Name of the result.").optional("a warning or a severity is limited"),
     Key::new("limit.most", Kind::Any(BOUND), "5 kN", "Most that it may be.").optional("it is bounded below"),
     Key::new("limit.least", Kind::Any(BOUND), "1 mm", "Least that it may be.").optional("it is bounded above"),
+    Key::new("limit.warning", Kind::Text, "AB2030", "Code of a warning that must not come.").optional("a result is limited"),
+    Key::new("limit.severity", Kind::Text, "destroys", "Severity of which, or worse, no warning must come: destroys, invalid, uncertain or note.").optional("a result is limited"),
     Key::new("limit.share", Kind::Any(SHARE), "0.95", "Share of the members of a repeated run that must hold it.").optional("all of them"),
 ];
 /// Words that people write for those of a limit.
@@ -99,6 +136,9 @@ impl Limit {
             1.0 => String::new(),
             share => format!("share = {}\n", units::number_text(share)),
         };
+        if let Some((key, value)) = self.forbids.as_ref().map(Forbidden::written) {
+            return format!("[[{LIMIT}]]\n{key} = {}\n{share}", quoted(value));
+        }
         format!(
             "[[{LIMIT}]]\nquantity = {}\n{} = {}\n{share}",
             quoted(&self.quantity),
@@ -110,7 +150,8 @@ impl Limit {
     /// A problem with the name of the result.
     pub fn problem(&self, code: Code, found: String, allowed: String) -> Problem {
         let problem = Problem::new(code, UNNAMED, found, allowed);
-        problem.at(self.place).on_key(format!("{LIMIT}.quantity"))
+        let key = (self.forbids.as_ref()).map_or("quantity", |forbids| forbids.written().0);
+        problem.at(self.place).on_key(format!("{LIMIT}.{key}"))
     }
 
     /// A problem with the bound.
@@ -127,6 +168,11 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
     for written in &document.limits {
         let table = read(document, written)?;
         let share = share_of(document, &table)?;
+        if let Some(limit) = forbidding(&table, share)? {
+            limits.retain(|known| table.place != Place::Set || known.quantity != limit.quantity);
+            limits.push(limit);
+            continue;
+        }
         let quantity = table.text("quantity").unwrap_or_default().trim();
         let changes = table.place == Place::Set;
         let own = |limit: &&mut Limit| changes && limit.quantity == quantity;
@@ -167,6 +213,7 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
                 side,
                 bound,
                 share: share.unwrap_or(1.0),
+                forbids: None,
                 dimension,
                 text,
                 place: table.place_of("quantity"),
@@ -175,6 +222,62 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
         }
     }
     Ok(limits)
+}
+
+/// A limit of warnings: at most 0 of them in a member. None where a result is limited.
+fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Problem>> {
+    let refused = |code, key: &str, found: String, needed: &str| {
+        Err(Box::new(table.problem(code, key, found, needed)))
+    };
+    let given = |key: &&str| table.raw(key).is_some();
+    let all = ["quantity", WARNING, SEVERITY];
+    let mut keys = all.into_iter().filter(given);
+    let (first, second) = (keys.next(), keys.next());
+    if let (Some(first), Some(second)) = (first, second) {
+        let found = format!("{first} and {second} in one limit");
+        return refused(Code::Conflict, second, found, NEEDED);
+    }
+    let key = match first {
+        None => {
+            return refused(
+                Code::MissingKey,
+                "",
+                "a limit of nothing".to_string(),
+                NEEDED,
+            );
+        }
+        Some("quantity") => return Ok(None),
+        Some(key) => key,
+    };
+    if let Some(bound) = ["most", "least"].into_iter().find(given) {
+        let found = format!("{bound} beside {key}");
+        let needed = "no bound is needed: the limit holds when no such warning comes";
+        return refused(Code::Conflict, bound, found, needed);
+    }
+    let word = table.text(key).unwrap_or_default().trim();
+    let forbids = match (key, Severity::of_word(&word.to_lowercase())) {
+        (WARNING, _) => Forbidden::Code(word.to_uppercase()),
+        (_, Some(severity)) => Forbidden::Severity(severity),
+        (_, None) => {
+            let words = Severity::ALL.map(Severity::word);
+            let needed = format!("one of {} is needed", words.join(", "));
+            let hint = did_you_mean(word, words);
+            let problem = table.problem(Code::UnknownWord, key, quoted(word), needed);
+            return Err(Box::new(problem.with_hint(hint)));
+        }
+    };
+    let (key, word) = forbids.written();
+    Ok(Some(Limit {
+        quantity: format!("{key}.{word}"),
+        side: Side::Most,
+        bound: 0.0,
+        share: share.unwrap_or(1.0),
+        dimension: Dimension::NONE,
+        text: "0".to_string(),
+        place: table.place_of(key),
+        bound_place: table.place_of(key),
+        forbids: Some(forbids),
+    }))
 }
 
 fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>> {

@@ -20,6 +20,7 @@ use crate::system::SystemName;
 use crate::table;
 use crate::values::{COMPARED_LAWS, LAW};
 use problem::read::FILLED_IN;
+use problem::warning::Severity;
 use serde_json::{Map, Value, json};
 
 /// Dialect of the schema.
@@ -165,6 +166,14 @@ fn limits(system: SystemName) -> Value {
         ("quantity", json!({ "type": "string", "description": name })),
         ("most", with("Bound that the result must not exceed.")),
         ("least", with("Bound that the result must not fall below.")),
+        (
+            "warning",
+            json!({ "type": "string", "pattern": "^AB[0-9]{4}$", "description": "Code of a warning that must not come." }),
+        ),
+        (
+            "severity",
+            json!({ "enum": Severity::ALL.map(Severity::word), "description": "Severity of which, or worse, no warning must come." }),
+        ),
     ];
     if system.falls() {
         let share = json!({ "anyOf": [
@@ -176,9 +185,13 @@ fn limits(system: SystemName) -> Value {
     for (key, schema) in keys {
         properties(&mut one, "").insert(key.to_string(), schema);
     }
-    one["required"] = json!(["quantity"]);
-    one["anyOf"] = json!([given("most"), given("least")]);
-    one["not"] = json!({ "required": ["most", "least"] });
+    let bounded = |side| json!({ "required": ["quantity", side] });
+    one["oneOf"] = json!([
+        bounded("most"),
+        bounded("least"),
+        given("warning"),
+        given("severity")
+    ]);
     json!({ "type": "array", "items": one, "description": "Limits that results must hold, each with a verdict." })
 }
 

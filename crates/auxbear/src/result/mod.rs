@@ -2,6 +2,7 @@
 
 pub(crate) mod assumptions;
 pub(crate) mod drawing;
+mod forbidden;
 pub mod limits;
 pub mod list;
 pub mod outcome;

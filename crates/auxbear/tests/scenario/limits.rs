@@ -3,8 +3,9 @@
 use super::several::{HEAD, TWINS, outcome, read};
 use auxbear::outcome::{Judged, Value, Verdict};
 use auxbear::problem::Code;
-use auxbear::run::build;
+use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario, Side, SystemName, template};
+use std::sync::atomic::AtomicBool;
 
 /// The head of a drop with a limit of these lines.
 fn limited(lines: &str) -> String {
@@ -107,6 +108,121 @@ fn members_too_few_for_the_share_do_not_decide() {
         &["repeat.count=6", "limit.first_impact_force.share=1"],
     );
     assert_eq!(all[0].verdict, Verdict::Pass);
+}
+
+/// The verdict of a limit of warnings, and why.
+fn without(key: &str, sets: &[&str]) -> (Verdict, String) {
+    let judged = judged(&limited(key), sets).remove(0);
+    (judged.verdict, judged.why)
+}
+
+#[test]
+fn a_warning_that_must_not_come_is_a_limit() {
+    let soft = ["bearing.hertz_pressure_limit=500 MPa"];
+    let (verdict, why) = without("warning = \"AB2030\"", &[]);
+    assert_eq!((verdict, why.as_str()), (Verdict::Pass, "no such warning"));
+    assert_eq!(without("severity = \"destroys\"", &soft).0, Verdict::Pass);
+    for key in [
+        "warning = \"AB1002\"",
+        "severity = \"invalid\"",
+        "severity = \"note\"",
+    ] {
+        assert_eq!(without(key, &soft).0, Verdict::Fail, "{key}");
+    }
+    let (_, why) = without("warning = \"ab1002\"", &soft);
+    assert!(why.starts_with("AB1002 The peak Hertz pressure"), "{why}");
+    // by --set alone
+    let set = ["limit.severity=destroys", "limit.warning=AB1002", soft[0]];
+    let verdicts: Vec<Verdict> = (judged(HEAD, &set).iter()).map(|own| own.verdict).collect();
+    assert_eq!(verdicts, [Verdict::Pass, Verdict::Fail]);
+}
+
+#[test]
+fn a_warning_that_did_not_come_yet_decides_nothing() {
+    let text = limited("severity = \"destroys\"");
+    let scenario = read(&text, &[]).unwrap();
+    let ended = run(&scenario, &Options::unwatched(&AtomicBool::new(true))).unwrap();
+    assert!(ended.stop.interrupted());
+    assert_eq!(ended.limits[0].verdict, Verdict::Undecided);
+    assert!(
+        ended.limits[0].why.contains("nterrupted"),
+        "{:?}",
+        ended.limits
+    );
+    // what came stays so
+    let text = limited("warning = \"AB1094\"");
+    let scenario = read(&text, &["rotor.unbalance_eccentricity=100 um"]).unwrap();
+    let ended = run(&scenario, &Options::unwatched(&AtomicBool::new(true))).unwrap();
+    assert_eq!(ended.limits[0].verdict, Verdict::Fail);
+}
+
+#[test]
+fn members_with_a_warning_count_where_it_is_looked_for() {
+    let four = "repeat.count=4";
+    let soft = [four, "bearing.hertz_pressure_limit=500 MPa"];
+    let (verdict, why) = without("warning = \"AB1002\"", &soft);
+    assert_eq!(verdict, Verdict::Fail);
+    assert!(why.starts_with("4 of 4 members break it: AB1002 "), "{why}");
+    let (verdict, why) = without("severity = \"destroys\"", &[four]);
+    assert_eq!(verdict, Verdict::Pass, "{why}");
+    assert!(why.starts_with("all 4 members hold it"), "{why}");
+    let (verdict, why) = without("warning = \"AB1004\"", &[four]);
+    assert_eq!(verdict, Verdict::Undecided);
+    assert!(
+        why.contains("AB1004 is looked for in the unperturbed member alone"),
+        "{why}"
+    );
+    // a share that one of the members decides
+    let some = [four, "limit.warning=AB1126"];
+    assert_eq!(judged(HEAD, &some)[0].verdict, Verdict::Fail);
+}
+
+#[test]
+fn limits_of_warnings_are_written_back_and_refused_with_near_names() {
+    let lines = "severity = \"invalid\"\nshare = 0.9\n\n[[limit]]\nwarning = \"AB2030\"";
+    let scenario = read(&limited(lines), &[]).unwrap();
+    let again = read(&scenario.resolved.toml(), &[]).unwrap();
+    let known = |scenario: &Scenario| -> Vec<_> {
+        let limits = scenario.limits.iter();
+        limits.map(|own| (own.forbids.clone(), own.share)).collect()
+    };
+    assert_eq!(known(&again), known(&scenario));
+    assert_eq!(known(&again).len(), 2);
+    for (lines, code, told) in [
+        (
+            "warning = \"AB2039\"",
+            Code::UnknownQuantity,
+            "Did you mean \"AB2030\"",
+        ),
+        (
+            "warning = \"AB0103\"",
+            Code::UnknownQuantity,
+            "which is no warning",
+        ),
+        (
+            "severity = \"destroy\"",
+            Code::UnknownWord,
+            "Did you mean \"destroys\"?",
+        ),
+        (
+            "severity = \"note\"\nmost = 1",
+            Code::Conflict,
+            "no bound is needed",
+        ),
+        (
+            "severity = \"note\"\nwarning = \"AB2030\"",
+            Code::Conflict,
+            "warning and severity in one limit",
+        ),
+        ("share = 0.5", Code::MissingKey, "a limit of nothing"),
+    ] {
+        let problem = match read(&limited(lines), &[]) {
+            Err(problem) => problem,
+            Ok(scenario) => build(&scenario).err().unwrap_or_else(|| panic!("{lines}")),
+        };
+        assert_eq!(problem.code, code, "{problem}");
+        assert!(problem.to_string().contains(told), "{problem}");
+    }
 }
 
 #[test]

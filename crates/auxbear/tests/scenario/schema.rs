@@ -76,6 +76,13 @@ fn right(schema: &Value, value: &Value) -> bool {
             .as_array()
             .is_none_or(|items| items.len() as u64 <= rule.as_u64().unwrap()),
         "anyOf" => list(rule).iter().any(|schema| right(schema, value)),
+        "oneOf" => {
+            let fit = list(rule)
+                .iter()
+                .filter(|schema| right(schema, value))
+                .count();
+            fit == 1
+        }
         "allOf" => list(rule).iter().all(|schema| right(schema, value)),
         "not" => !right(rule, value),
         "if" => {
@@ -176,11 +183,14 @@ fn a_limit_is_right_with_one_bound_and_no_other_key() {
     };
     assert!(with("quantity = \"contact_count\"\nmost = 5\nshare = 0.9"));
     assert!(with("quantity = \"peak_contact_force\"\nleast = \"5 kN\""));
+    assert!(with("warning = \"AB2030\"") && with("severity = \"destroys\"\nshare = 0.9"));
     for wrong in [
         "quantity = \"contact_count\"",
         "most = 5",
         "quantity = \"contact_count\"\nmost = 5\nleast = 4",
         "quantity = \"contact_count\"\nmax = 5",
+        "warning = \"AB2030\"\nseverity = \"note\"",
+        "severity = \"bad\"",
         "quantity = \"contact_count\"\nmost = 5\nshare = 2",
     ] {
         assert!(!with(wrong), "{wrong}");

@@ -68,6 +68,7 @@ impl Study {
                 .file
                 .limits
                 .iter()
+                .filter(|limit| limit.forbids.is_none())
                 .map(|limit| limit.quantity.clone())
                 .collect(),
         };
@@ -104,7 +105,7 @@ impl Study {
         };
         let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
-            let decisive = self.decisive(table, &limit.quantity, limit.bound);
+            let decisive = self.limited(table, limit);
             let values: Vec<Option<f64>> = some.iter().map(|at| decisive[*at]).collect();
             let unit = unit.map_or("", |known| known.unit);
             let mut found = match design {

@@ -3,6 +3,7 @@
 use super::Study;
 use super::table::{Column, LATE, Table};
 use crate::Options;
+use scenario::Limit;
 
 /// What columns of results at design accuracy begin with.
 pub const CONFIRMED: &str = "confirmed.";
@@ -12,7 +13,10 @@ impl Study {
     pub fn nearest(&self, table: &Table) -> Vec<usize> {
         let mut near: Vec<usize> = Vec::new();
         for limit in &self.file.limits {
-            let values = table.values(&limit.quantity);
+            let values = match limit.forbids {
+                Some(_) => continue,
+                None => table.values(&limit.quantity),
+            };
             let members = table.members.iter().zip(values);
             let apart = members.filter_map(|(k, value)| Some((*k, (value? - limit.bound).abs())));
             let mut apart: Vec<(usize, f64)> = apart.collect();
@@ -56,6 +60,14 @@ impl Study {
                     values,
                 });
             }
+        }
+    }
+
+    /// What a limit holds, of each member: a result, or whether a warning came.
+    pub(super) fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
+        match &limit.forbids {
+            Some(forbids) => table.met(forbids),
+            None => self.decisive(table, &limit.quantity, limit.bound),
         }
     }
 

@@ -103,7 +103,8 @@ impl Study {
         }
         drop(machine);
         let own = file.limits.len() - file.scenario.limits.len();
-        limits::check(&file.limits[..own], &known).map_err(|mut problem| {
+        let declared: Vec<_> = run::warnings::declared().collect();
+        limits::check(&file.limits[..own], &known, &declared).map_err(|mut problem| {
             problem.file.clone_from(&file.file);
             problem
         })?;

@@ -115,7 +115,7 @@ impl Study {
         };
         let limits: Vec<Judged> = (self.file.limits.iter())
             .map(|limit| {
-                let values = of(&self.decisive(table, &limit.quantity, limit.bound));
+                let values = of(&self.limited(table, limit));
                 let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
                 limits::whirl_sought(judged, self.unbalance_angles(table), false)
             })

@@ -3,6 +3,7 @@
 use crate::warnings::rank;
 use outcome::{Quantity, Severity, Value, Warning};
 use problem::explain;
+use scenario::Forbidden;
 use std::collections::BTreeMap;
 
 /// Members with what they drew and gave; what a member does not have is not a number.
@@ -135,6 +136,23 @@ impl Table {
         let values = &mut self.columns[at].values;
         values.resize(self.members.len() - 1, f64::NAN);
         values.push(value);
+    }
+
+    /// Whether each member has a warning of these, 1 or 0; not known of those that failed without one.
+    pub(super) fn met(&self, forbids: &Forbidden) -> Vec<Option<f64>> {
+        let meets = |column: &&Column| {
+            let code = column.name.strip_prefix(WARNING);
+            code.is_some_and(|code| forbids.meets(code, rank(code).0))
+        };
+        let columns: Vec<&Column> = self.columns.iter().filter(meets).collect();
+        let of = |(row, member): (usize, &usize)| {
+            let has = columns.iter().any(|column| !column.values[row].is_nan());
+            match has {
+                true => Some(1.0),
+                false => (!self.failed.contains_key(member)).then_some(0.0),
+            }
+        };
+        self.members.iter().enumerate().map(of).collect()
     }
 
     /// Whether some member has a warning.

@@ -1,0 +1,97 @@
+//! Limits of warnings: whether one came that must not.
+
+use crate::{Judged, Outcome, Scope, Verdict, Warning};
+use problem::warning::{Declared, Judged as LookedFor};
+use problem::{Code, Problem, did_you_mean};
+use scenario::{Forbidden, Limit, Scenario, System};
+
+/// Refuses a code that no warning has.
+pub(super) fn check(
+    limit: &Limit,
+    forbids: &Forbidden,
+    declared: &[&'static Declared],
+) -> Result<(), Box<Problem>> {
+    let Forbidden::Code(code) = forbids else {
+        return Ok(());
+    };
+    if declared.iter().any(|kind| kind.code == code) {
+        return Ok(());
+    }
+    let found = format!("\"{code}\", which is no warning");
+    let allowed = "the code of a warning is needed, e.g. AB2030".to_string();
+    let problem = limit.problem(Code::UnknownQuantity, found, allowed);
+    let hint = did_you_mean(code, declared.iter().map(|kind| kind.code));
+    Err(Box::new(problem.with_hint(hint)))
+}
+
+/// Warnings of a run that must not come.
+fn came<'a>(forbids: &Forbidden, outcome: &'a Outcome) -> Vec<&'a Warning> {
+    let all = outcome.warnings.iter();
+    all.filter(|own| forbids.meets(own.code, own.severity))
+        .collect()
+}
+
+/// Their number in each member, 0 or 1, and why some are not known: the run ended early, or no member but the unperturbed one is
+/// looked at.
+pub(super) fn values(
+    scenario: &Scenario,
+    outcome: &Outcome,
+    declared: &[&'static Declared],
+    forbids: &Forbidden,
+) -> (Vec<Option<f64>>, String) {
+    let all = outcome.work.members.max(1);
+    let in_run_out = matches!(&scenario.system, System::Drop(drop) if drop.run_out.is_some());
+    let mut kinds = declared.iter();
+    let unseen = kinds.find(|kind| {
+        forbids.meets(kind.code, kind.severity)
+            && match kind.judged {
+                LookedFor::File => !scenario.vary.is_empty(),
+                LookedFor::Each => false,
+                LookedFor::Unperturbed => true,
+                LookedFor::RunOut => in_run_out,
+            }
+    });
+    // members that have one of them for certain, and those that may
+    let (mut least, mut most) = (0, 0);
+    for warning in came(forbids, outcome) {
+        let (certain, possible) = match warning.scope {
+            Scope::Each { count, .. } => (count, count),
+            Scope::Alike if scenario.vary.is_empty() => (all, all),
+            Scope::Alike | Scope::Unperturbed => (1, all),
+        };
+        (least, most) = (least.max(certain), most + possible);
+    }
+    let (known, why) = match unseen {
+        _ if !outcome.stop.complete() => (0, outcome.stop.text.trim_end_matches('.').to_string()),
+        Some(kind) if all > 1 => (
+            1,
+            format!(
+                "{} is looked for in the unperturbed member alone",
+                kind.code
+            ),
+        ),
+        _ => (all, "which of them it is in is not known".to_string()),
+    };
+    let mut values = vec![Some(1.0); least.min(all)];
+    values.resize(values.len() + known.saturating_sub(most), Some(0.0));
+    values.resize(all, None);
+    (values, why)
+}
+
+/// A verdict on warnings in their words.
+pub(super) fn worded(mut judged: Judged, outcome: &Outcome) -> Judged {
+    let Some(forbids) = &judged.limit.forbids else {
+        return judged;
+    };
+    match (judged.verdict, came(forbids, outcome).first()) {
+        (Verdict::Fail, Some(first)) if judged.members > 1 => {
+            judged.why = format!("{}: {} {first}", judged.why, first.code);
+        }
+        (Verdict::Fail, Some(first)) => judged.why = format!("{} {first}", first.code),
+        (Verdict::Pass, None) if judged.members == 1 => {
+            judged.why = "no such warning".to_string();
+        }
+        _ => {}
+    }
+    judged
+}
