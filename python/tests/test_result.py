@@ -46,6 +46,8 @@ def test_warnings_are_python_warnings_too(drop):
         result = drop.run()
     codes = [str(warning.message).split(":")[0] for warning in caught]
     assert codes == [warning.code for warning in result.warnings]
+    words = ("destroys", "invalid", "uncertain", "note")
+    assert all(warning.severity in words and warning.text for warning in result.warnings)
 
 
 def test_a_history_goes_to_readers_of_arrow(result):

@@ -50,7 +50,7 @@ fn a_run_directory_is_whole() {
     assert_eq!(fs::read_dir(place.path("deep")).unwrap().count(), 1);
 
     let summary = place.summary("deep/run");
-    assert_eq!(summary["format"], "auxbear.summary/1");
+    assert_eq!(summary["format"], "auxbear.summary/2");
     assert_eq!(summary["complete"], true);
     assert_eq!(summary["stop"]["reason"], "finished");
     for name in PROMISED {

@@ -132,18 +132,14 @@ mod tests {
 
     fn of(code: &str, test: &str, text: &str) -> Warning {
         let note = text.to_string();
-        let warning = match code {
+        let (about, rest) = text.split_once(": ").unwrap_or_default();
+        let (about, rest) = (about.to_string(), rest.to_string());
+        let warning: Warning = match code {
             "AB1060" => IdentifyWarning::Unused { why: note }.into(),
             "AB1061" => IdentifyWarning::Doubt { finding: note }.into(),
             "AB1062" => IdentifyWarning::Remark { note }.into(),
-            _ => {
-                let (about, note) = text.split_once(": ").unwrap();
-                let (about, note) = (about.to_string(), note.to_string());
-                match code {
-                    "AB1041" => Warning::from(SignalsWarning::Channel { about, note }),
-                    _ => SignalsWarning::Estimate { about, note }.into(),
-                }
-            }
+            "AB1041" => SignalsWarning::Channel { about, note: rest }.into(),
+            _ => SignalsWarning::Estimate { about, note: rest }.into(),
         };
         of_test(warning, test)
     }

@@ -89,18 +89,11 @@ pub(crate) fn number(quantities: &[Quantity], name: &str) -> Option<f64> {
 /// Balls that traction cannot turn against the friction moment.
 pub(crate) fn skids(steady: Option<&SteadyFinding>) -> Option<Warning> {
     let steady = steady.filter(|steady| steady.skids())?;
-    let SteadyFinding {
-        speed,
-        load,
-        capacity,
-        moment,
-        ..
-    } = *steady;
     let warning = BearingWarning::Skids {
-        speed,
-        load,
-        capacity,
-        moment,
+        speed: steady.speed,
+        load: steady.load,
+        capacity: steady.capacity,
+        moment: steady.moment,
     };
     Some(warning.into())
 }
