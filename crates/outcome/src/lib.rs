@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod forbidden;
 pub mod limits;
 pub mod list;
 pub mod options;
