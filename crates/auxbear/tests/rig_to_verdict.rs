@@ -1,6 +1,6 @@
 //! A rig is simulated, its logger's raw files are written, read and identified: end to end.
 
-use crate::outcomes::number;
+use crate::outcomes::{has_declared_columns, number};
 use auxbear::outcome::{Attached, Value};
 use auxbear::report::directory;
 use auxbear::run::{Options, Outcome, run};
@@ -15,7 +15,9 @@ fn scenarios() -> PathBuf {
 
 fn attempted(scenario: &Scenario) -> Outcome {
     let interrupt = AtomicBool::new(false);
-    run(scenario, &Options::unwatched(&interrupt)).expect("it builds")
+    let outcome = run(scenario, &Options::unwatched(&interrupt)).expect("it builds");
+    has_declared_columns(scenario, &outcome);
+    outcome
 }
 
 fn simulated(scenario: &Scenario) -> Outcome {

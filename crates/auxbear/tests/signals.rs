@@ -1,7 +1,7 @@
 //! A measurement through its front: the made-up spin-up against the motion it was made from, and files that are wrong.
 
 use crate::measurement_file::{TORQUE, problem, table};
-use crate::outcomes::number;
+use crate::outcomes::{has_declared_columns, number};
 use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, build, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -10,7 +10,9 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 fn computed(scenario: &Scenario) -> Outcome {
-    run(scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
+    let outcome = run(scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+    has_declared_columns(scenario, &outcome);
+    outcome
 }
 
 fn example(sets: &[&str]) -> Outcome {

@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod columns;
 pub mod forbidden;
 pub mod limits;
 pub mod list;
@@ -277,7 +278,9 @@ pub struct Column {
     pub unit: &'static str,
     /// What it is, in words.
     pub meaning: String,
-    /// The values.
+    /// True where the data of a run decide whether it is there.
+    pub optional: bool,
+    /// The values; none before a run.
     pub values: Vec<f64>,
 }
 

@@ -264,6 +264,7 @@ mod tests {
             name: name.to_string(),
             unit,
             meaning: format!("meaning of {name} µ"),
+            optional: false,
             values,
         }
     }

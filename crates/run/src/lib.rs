@@ -19,10 +19,10 @@ pub mod warnings;
 use analyse::{identify, signals};
 use analyse::{rotor, torque};
 pub use each::each;
-use outcome::Quantity;
 use outcome::limits;
 pub use outcome::options::{Options, start_pool};
 pub use outcome::{self, Outcome};
+use outcome::{Column, Quantity};
 use problem::Problem;
 pub use recording::file::parquet::panic_is_caught;
 use scenario::{CoastDown, Drop, Rig, Scenario, SpinUp, System};
@@ -118,6 +118,20 @@ impl Machine<'_> {
             outcome.quantities.extend(changes);
         }
         outcome
+    }
+
+    /// The columns of a run's history, without values; each `*` in a name stands for what only a run or its data decide.
+    pub fn columns(&self) -> Vec<Column> {
+        match &self.system {
+            Built::Drop(of, built, _) => drop::columns(of, built),
+            Built::SpinUp(of, built) => spin_up::columns(of, built),
+            Built::Rig(of, built) => rig::columns(of, built),
+            Built::CoastDown(_, built) => coast_down::columns(built),
+            Built::Torque(asked) => torque::columns(asked),
+            Built::Signals(asked) => signals::columns(asked),
+            Built::Identify(asked) => identify::columns(asked),
+            Built::Rotor(asked) => rotor::columns(asked),
+        }
     }
 
     /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.

@@ -25,11 +25,16 @@ mod read;
 
 use found::Found;
 use outcome::options::Options;
-use outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
+use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Warning, Work};
 pub use read::Asked;
 use scenario::Scenario;
 use simulate::assumptions::assumptions;
 use std::time::Instant;
+
+/// The columns of its history, without values.
+pub fn columns(asked: &Asked) -> Vec<Column> {
+    history::columns(asked, None)
+}
 
 /// The results of such an identification, without values.
 pub fn results(asked: &Asked) -> Vec<Quantity> {
@@ -42,7 +47,7 @@ pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
     let found = Found::of(asked, options);
     let mut warnings = found.warnings.clone();
     warnings.extend(assumed(scenario, asked));
-    let history = history::columns(&found);
+    let history = history::columns(asked, Some(&found));
     let end = history.first().and_then(|time| time.values.last().copied());
     let stop = match (&found.moment, found.interrupted) {
         (Ok(_), false) if found.unused.is_some() => Stop {

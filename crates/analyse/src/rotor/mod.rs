@@ -12,11 +12,17 @@ pub mod warnings;
 use crate::interruptible::{INTERRUPTED, interruptible};
 pub use crate::rotor::asked::Asked;
 use crate::rotor::asked::{Found, Motion, sense};
+use outcome::columns::{Columns, columns};
 use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 use scenario::Scenario;
 use std::sync::Arc;
 use std::time::Instant;
+
+/// The columns of its history, without values.
+pub fn columns(asked: &Asked) -> Vec<Column> {
+    history(asked, None)
+}
 
 /// The results of such an analysis, without values.
 pub fn results(asked: &Asked) -> Vec<Quantity> {
@@ -47,7 +53,7 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
             .clone()
             .unwrap_or_else(|| "Rotor".to_string()),
         quantities: found.map_or_else(Vec::new, |found| quantities::name(asked, Some(found))),
-        history: found.map_or_else(Vec::new, |found| history(asked, found)),
+        history: found.map_or_else(Vec::new, |found| history(asked, Some(found))),
         contacts: Vec::new(),
         warnings: found.map_or_else(Vec::new, |found| warnings::of(asked, found)),
         stop: Stop {
@@ -75,65 +81,46 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
 }
 
 /// The curves over speed, which is the first column.
-fn history(asked: &Asked, found: &Found) -> Vec<Column> {
-    let diagram = &found.diagram;
-    let mut columns = vec![Column {
-        name: "speed".to_string(),
-        unit: "rad/s",
-        meaning: "speed of the rotor".to_string(),
-        values: found.speeds.clone(),
-    }];
-    let mut add = |name: String, unit, meaning: String, values: Vec<f64>| {
-        columns.push(Column {
-            name,
-            unit,
-            meaning,
-            values,
-        });
+fn history(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
+    // a speed with its place in the diagram: those close to critical ones are of the responses alone
+    let diagram = found.map(|found| &found.diagram);
+    let at = |speed: &f64| {
+        let speeds = &diagram?.speeds;
+        speeds.binary_search_by(|own| own.total_cmp(speed)).ok()
     };
-    for (number, branch) in (1..).zip(&diagram.branches) {
-        let column = |value: fn(&rotor::Mode) -> f64| -> Vec<f64> {
-            // speeds close to critical ones are of the responses alone
-            let at = |speed: &f64| {
-                diagram
-                    .speeds
-                    .binary_search_by(|own| own.total_cmp(speed))
-                    .ok()
-            };
-            let mode = |speed: &f64| branch.modes[at(speed)?].as_ref().map(value);
-            (found.speeds.iter())
-                .map(|speed| mode(speed).unwrap_or(f64::NAN))
-                .collect()
+    let speeds = found.iter().flat_map(|found| found.speeds.iter());
+    let rows: Vec<(usize, f64, Option<usize>)> = (speeds.enumerate())
+        .map(|(row, speed)| (row, *speed, at(speed)))
+        .collect();
+    let mut table = Columns::over(&rows);
+    columns! { table, |row| "speed": "rad/s", "speed of the rotor" => row.1; }
+    let branches: Vec<(String, Option<&rotor::Branch>)> = match diagram {
+        Some(diagram) => (1..)
+            .zip(&diagram.branches)
+            .map(|(number, branch): (usize, _)| (number.to_string(), Some(branch)))
+            .collect(),
+        None => vec![("*".to_string(), None)],
+    };
+    for (number, branch) in branches {
+        let of = |row: &(usize, f64, Option<usize>), value: fn(&rotor::Mode) -> f64| {
+            let mode = row.2.and_then(|at| branch?.modes[at].as_ref());
+            mode.map_or(f64::NAN, value)
         };
-        add(
-            format!("branch_{number}.frequency"),
-            "rad/s",
-            format!("damped natural frequency of branch {number}"),
-            column(rotor::Mode::frequency),
-        );
-        add(
-            format!("branch_{number}.damping_ratio"),
-            "1",
-            format!("damping ratio of branch {number}"),
-            column(rotor::Mode::damping_ratio),
-        );
-        add(
-            format!("branch_{number}.whirl"),
-            "1",
-            format!("whirl of branch {number}: 1 forward, -1 backward, 0 planar"),
-            column(|mode| sense(mode.whirl)),
-        );
+        columns! { table, |row|
+            "branch_{number}.frequency": "rad/s", "damped natural frequency of branch {number}" => of(row, rotor::Mode::frequency);
+            "branch_{number}.damping_ratio": "1", "damping ratio of branch {number}" => of(row, rotor::Mode::damping_ratio);
+            "branch_{number}.whirl": "1", "whirl of branch {number}: 1 forward, -1 backward, 0 planar" => of(row, |mode| sense(mode.whirl));
+        }
     }
+    if !asked.responds() {
+        return table.list;
+    }
+    let of = |row: usize, value: &dyn Fn(&rotor::Response) -> f64| {
+        let response = found.and_then(|found| found.responses[row].as_ref());
+        response.map_or(f64::NAN, value)
+    };
     for watched in asked.watched() {
         let (name, motion) = (&watched.name, watched.motion);
-        let of = |value: &dyn Fn(&rotor::Response) -> f64| -> Vec<f64> {
-            let all = found.responses.iter();
-            all.map(|one| one.as_ref().map_or(f64::NAN, value))
-                .collect()
-        };
-        if found.responses.is_empty() {
-            continue;
-        }
         let (what, label) = name.split_once('.').unwrap_or_default();
         let meaning = match what {
             "force" => {
@@ -144,21 +131,14 @@ fn history(asked: &Asked, found: &Found) -> Vec<Column> {
             ),
             _ => format!("response to unbalance at {label}: half the longer axis of the orbit"),
         };
-        let amplitude = of(&|response| motion.amplitude(response));
-        add(
-            format!("{name}.amplitude"),
-            motion.unit(),
-            meaning,
-            amplitude,
-        );
+        columns! { table, |row|
+            "{name}.amplitude": motion.unit(), "{meaning}" => of(row.0, &|response| motion.amplitude(response));
+        }
         if let Motion::Of(at) = motion {
-            add(
-                format!("{name}.lag"),
-                "rad",
-                format!("how far x at {label} is behind the mark that phases count from"),
-                of(&|response| response.lag(at)),
-            );
+            columns! { table, |row|
+                "{name}.lag": "rad", "how far x at {label} is behind the mark that phases count from" => of(row.0, &|response| response.lag(at));
+            }
         }
     }
-    columns
+    table.list
 }

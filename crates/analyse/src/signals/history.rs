@@ -2,8 +2,15 @@
 
 use crate::signals::asked::{Asked, Signal};
 use crate::signals::found::Found;
+use crate::signals::unit::unit_in_si;
+use crate::signals::{cage, shaft};
+use measure::cage_speed::CageSpeed;
+use measure::order::Order;
 use measure::speed::Motion;
+use measure::torque_sensor::Torque;
 use outcome::Column;
+use outcome::columns::{Columns, columns};
+use scenario::{PickupKind, SpeedSignal};
 use statistics::interpolation;
 
 /// Rows of a history at equal times.
@@ -11,194 +18,151 @@ const ROWS: usize = 4000;
 /// Rows more around a quick change.
 const ROWS_OF_CHANGE: usize = 1500;
 
-/// Channels over time.
-pub(crate) fn columns(asked: &Asked, found: &Found) -> Vec<Column> {
-    let times = times(asked, found);
-    let mut columns = vec![Column {
-        name: "time".to_string(),
-        unit: "s",
-        meaning: "time on the clock of the file".to_string(),
-        values: times.clone(),
-    }];
-    let mut add = |name: &str, unit, meaning: &str, value: &dyn Fn(f64) -> f64| {
-        columns.push(Column {
-            name: name.to_string(),
-            unit,
-            meaning: meaning.to_string(),
-            values: times.iter().map(|&time| value(time)).collect(),
-        });
-    };
-    if let Some(shaft) = &found.shaft {
-        let motions: Vec<Motion> = times.iter().map(|&time| shaft.speed.at(time)).collect();
-        let (first, last) = (shaft.watched.0, shaft.told_until());
-        let row = |time: f64| {
-            times
-                .partition_point(|t| *t < time)
-                .min(times.len().saturating_sub(1))
-        };
-        let of = |time: f64, value: &dyn Fn(&Motion) -> f64| match motions.get(row(time)) {
-            Some(motion) if time >= first && time <= last => value(motion),
-            _ => f64::NAN,
-        };
-        let (name, meaning) = match shaft.pulses() {
-            Ok(_) => (
-                "shaft.pulse_speed",
-                "pitch over the time between the pulses around, as raw as pulses are",
-            ),
-            Err(_) => ("shaft.reading", "speed as the instrument shows it"),
-        };
-        add(name, "rad/s", meaning, &|t| shaft.raw_speed(t));
-        add(
-            "shaft.angle",
-            "rad",
-            "angle of the shaft from the first mark that passed; of a speed from the first value or the engagement on",
-            &|t| of(t, &|m| m.angle),
-        );
-        add("shaft.speed", "rad/s", "speed of the shaft", &|t| {
-            of(t, &|m| m.speed)
-        });
-        add(
-            "shaft.speed_deviation",
-            "rad/s",
-            "standard deviation of that speed",
-            &|t| of(t, &Motion::speed_uncertainty),
-        );
-        add(
-            "shaft.acceleration",
-            "rad/s^2",
-            "acceleration of the shaft",
-            &|t| of(t, &|m| m.acceleration),
-        );
-        add(
-            "shaft.acceleration_deviation",
-            "rad/s^2",
-            "standard deviation of that acceleration",
-            &|t| of(t, &Motion::acceleration_uncertainty),
-        );
+/// Channels over time; what an estimator refuses has none.
+pub(crate) fn columns(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
+    let times = found.map_or_else(Vec::new, |found| times(asked, found));
+    let mut table = Columns::over(&times);
+    columns! { table, |time| "time": "s", "time on the clock of the file" => *time; }
+    let signals = &asked.signals;
+    let shaft = found.and_then(|found| found.shaft.as_deref());
+    if let Some(speed) = &signals.speed {
+        let there = found.map(|_| shaft.is_some());
+        table.optional(there, |table| of_shaft(table, &times, speed, shaft));
     }
     if let Some(series) = &asked.torque {
         let reading = |time: f64| {
             let place = (time - series.first) / series.interval;
             interpolation::at_index(&series.values, place).unwrap_or(f64::NAN)
         };
-        add(
-            "torque.reading",
-            "N m",
-            "reading of the torque sensor as it is",
-            &reading,
-        );
+        columns! { table, |time| "torque.reading": "N m", "reading of the torque sensor as it is" => reading(*time); }
     }
-    if let Some(torque) = found
-        .torque
-        .as_ref()
-        .and_then(|found| found.torque.as_ref())
-    {
-        let of = |time: f64, values: &[f64]| at(time, &torque.time, values);
-        let change = found.shaft.as_ref().and_then(|shaft| shaft.speed.change);
-        let lock = change.and_then(|change| change.end).map(|end| end.0);
-        let beside = |time: f64| lock.and_then(|lock| beside_a_jump(time, lock, &torque.time));
-        add(
-            "torque.torque",
-            "N m",
-            "torque that the sensor felt; at a lock it jumps",
-            &|t| match beside(t) {
-                Some(k) => torque.torque[k] + torque.rate[k] * (t - torque.time[k]),
-                None => of(t, &torque.torque),
-            },
-        );
-        add(
-            "torque.deviation",
-            "N m",
-            "standard deviation of that torque",
-            &|t| match beside(t) {
-                Some(k) => torque.deviation[k],
-                None => of(t, &torque.deviation),
-            },
-        );
-        add(
-            "torque.disturbance",
-            "N m",
-            "amplitude of the disturbance once a turn",
-            &|t| of(t, &torque.disturbance),
-        );
-        add(
-            "torque.disturbance_deviation",
-            "N m",
-            "standard deviation of that amplitude",
-            &|t| of(t, &torque.disturbance_deviation),
-        );
+    if (signals.torque.as_ref()).is_some_and(|torque| torque.sensor.is_some()) {
+        let torque = found.and_then(|found| found.torque.as_ref()?.torque.as_ref());
+        let there = found.map(|_| torque.is_some());
+        table.optional(there, |table| of_torque(table, torque, shaft));
     }
-    if let Some(seen) = &found.cage {
-        let cage = &seen.told;
-        let of = |time: f64, values: &[f64]| at(time, &cage.time, values);
-        // the slip is smooth where the shaft's speed has kinks: the cage's speed is that of the row's shaft with its slip
-        let motion = |time: f64| {
-            let shaft = found.shaft.as_ref()?;
-            let ratio = seen.rolling_ratio;
-            let slip = of(time, &cage.slip);
-            let motion = shaft.speed.at(time);
-            (slip.is_finite()).then_some((ratio, slip, motion))
-        };
-        add(
-            "cage.speed",
-            "rad/s",
-            "speed of the cage",
-            &|t| match motion(t) {
-                Some((ratio, slip, motion)) => ratio * motion.speed * (1.0 - slip),
-                None => of(t, &cage.speed),
-            },
-        );
-        add(
-            "cage.speed_deviation",
-            "rad/s",
-            "standard deviation of that speed",
-            &|t| match motion(t) {
-                Some((ratio, slip, motion)) => {
-                    let own = ratio * motion.speed * of(t, &cage.slip_deviation);
-                    own.hypot(ratio * (1.0 - slip) * motion.speed_uncertainty())
-                }
-                None => of(t, &cage.deviation),
-            },
-        );
-        add(
-            "cage.slip",
-            "1",
-            "slip of the cage: 0 where it rolls, 1 where it rests",
-            &|t| of(t, &cage.slip),
-        );
-        add(
-            "cage.slip_deviation",
-            "1",
-            "standard deviation of that slip",
-            &|t| of(t, &cage.slip_deviation),
-        );
+    if signals.cage.is_some() {
+        let cage = found.and_then(|found| found.cage.as_ref());
+        let there = found.map(|_| cage.is_some());
+        table.optional(there, |table| of_cage(table, cage, shaft));
     }
-    if let Some((part, found)) = found
-        .vibration
-        .as_ref()
-        .and_then(|part| Some((part, part.orders.as_ref()?)))
-    {
-        for order in &found.orders {
-            let amplitude = order.amplitude();
+    if let (Some(wish), Some(series)) = (&signals.vibration, &asked.vibration) {
+        let unit = unit_in_si(&series.unit).0;
+        let orders = found.and_then(|found| found.vibration.as_ref()?.orders.as_ref());
+        for (k, order) in wish.orders.iter().enumerate() {
+            let own = orders.map(|found| (&found.time, &found.orders[k]));
+            let there = found.map(|_| own.is_some());
             // a point parts the names of a column
-            let name = format!("vibration.order_{}", order.order).replacen('.', "\0", 1);
-            let name = name.replace('.', "_").replace('\0', ".");
-            let words = format!("of order {} of the vibration, peak", order.order);
-            add(
-                &format!("{name}_amplitude"),
-                part.unit,
-                &format!("amplitude {words}"),
-                &|t| at(t, &found.time, &amplitude),
-            );
-            add(
-                &format!("{name}_deviation"),
-                part.unit,
-                &format!("standard deviation of the amplitude {words}"),
-                &|t| at(t, &found.time, &order.deviation),
-            );
+            let name = format!("{order}").replace('.', "_");
+            table.optional(there, |table| of_order(table, (&name, *order, unit), own));
         }
     }
-    columns
+    table.list
+}
+
+/// Motion of the shaft.
+fn of_shaft(
+    table: &mut Columns<f64>,
+    times: &[f64],
+    wish: &SpeedSignal,
+    shaft: Option<&shaft::Found>,
+) {
+    let motions: Vec<Motion> = (shaft.iter())
+        .flat_map(|shaft| times.iter().map(|&time| shaft.speed.at(time)))
+        .collect();
+    let told = shaft.map(|shaft| shaft.watched.0..=shaft.told_until());
+    let of = |time: &f64, value: fn(&Motion) -> f64| {
+        let row = times.partition_point(|t| t < time);
+        let inside = told.as_ref().is_some_and(|told| told.contains(time));
+        let motion = motions.get(row.min(times.len() - 1));
+        motion.filter(|_| inside).map_or(f64::NAN, value)
+    };
+    let raw = |time: &f64| shaft.map_or(f64::NAN, |shaft| shaft.raw_speed(*time));
+    let shows_speed = matches!(wish.kind, PickupKind::Speed { .. });
+    columns! { table, |time|
+        "shaft.pulse_speed": "rad/s", "pitch over the time between the pulses around, as raw as pulses are" when !shows_speed => raw(time);
+        "shaft.reading": "rad/s", "speed as the instrument shows it" when shows_speed => raw(time);
+        "shaft.angle": "rad", "angle of the shaft from the first mark that passed; of a speed from the first value or the engagement on"
+            => of(time, |motion| motion.angle);
+        "shaft.speed": "rad/s", "speed of the shaft" => of(time, |motion| motion.speed);
+        "shaft.speed_deviation": "rad/s", "standard deviation of that speed" => of(time, Motion::speed_uncertainty);
+        "shaft.acceleration": "rad/s^2", "acceleration of the shaft" => of(time, |motion| motion.acceleration);
+        "shaft.acceleration_deviation": "rad/s^2", "standard deviation of that acceleration" => of(time, Motion::acceleration_uncertainty);
+    }
+}
+
+/// Torque without the swing of its sensor.
+fn of_torque(table: &mut Columns<f64>, torque: Option<&Torque>, shaft: Option<&shaft::Found>) {
+    let change = shaft.and_then(|shaft| shaft.speed.change);
+    let lock = change.and_then(|change| change.end).map(|end| end.0);
+    let of = |time: &f64, values: fn(&Torque) -> &[f64]| {
+        torque.map_or(f64::NAN, |torque| at(*time, &torque.time, values(torque)))
+    };
+    let beside = |time: &f64| {
+        let torque = torque?;
+        Some((torque, beside_a_jump(*time, lock?, &torque.time)?))
+    };
+    columns! { table, |time|
+        "torque.torque": "N m", "torque that the sensor felt; at a lock it jumps" => match beside(time) {
+            Some((torque, k)) => torque.torque[k] + torque.rate[k] * (time - torque.time[k]),
+            None => of(time, |torque| &torque.torque),
+        };
+        "torque.deviation": "N m", "standard deviation of that torque" => match beside(time) {
+            Some((torque, k)) => torque.deviation[k],
+            None => of(time, |torque| &torque.deviation),
+        };
+        "torque.disturbance": "N m", "amplitude of the disturbance once a turn" => of(time, |torque| &torque.disturbance);
+        "torque.disturbance_deviation": "N m", "standard deviation of that amplitude" => of(time, |torque| &torque.disturbance_deviation);
+    }
+}
+
+/// Speed and slip of the cage.
+fn of_cage(table: &mut Columns<f64>, cage: Option<&cage::Found>, shaft: Option<&shaft::Found>) {
+    let of = |time: &f64, values: fn(&CageSpeed) -> &[f64]| {
+        cage.map_or(f64::NAN, |cage| {
+            at(*time, &cage.told.time, values(&cage.told))
+        })
+    };
+    // the slip is smooth where the shaft's speed has kinks: the cage's speed is that of the row's shaft with its slip
+    let motion = |time: &f64| {
+        let ratio = cage?.rolling_ratio;
+        let slip = of(time, |cage| &cage.slip);
+        let motion = shaft?.speed.at(*time);
+        (slip.is_finite()).then_some((ratio, slip, motion))
+    };
+    columns! { table, |time|
+        "cage.speed": "rad/s", "speed of the cage" => match motion(time) {
+            Some((ratio, slip, motion)) => ratio * motion.speed * (1.0 - slip),
+            None => of(time, |cage| &cage.speed),
+        };
+        "cage.speed_deviation": "rad/s", "standard deviation of that speed" => match motion(time) {
+            Some((ratio, slip, motion)) => {
+                let own = ratio * motion.speed * of(time, |cage| &cage.slip_deviation);
+                own.hypot(ratio * (1.0 - slip) * motion.speed_uncertainty())
+            }
+            None => of(time, |cage| &cage.deviation),
+        };
+        "cage.slip": "1", "slip of the cage: 0 where it rolls, 1 where it rests" => of(time, |cage| &cage.slip);
+        "cage.slip_deviation": "1", "standard deviation of that slip" => of(time, |cage| &cage.slip_deviation);
+    }
+}
+
+/// An order of the vibration, with its times.
+fn of_order(
+    table: &mut Columns<f64>,
+    (name, order, unit): (&str, f64, &'static str),
+    found: Option<(&Vec<f64>, &Order)>,
+) {
+    let amplitude = found.map(|(_, order)| order.amplitude());
+    let of = |time: &f64, values: Option<&Vec<f64>>| match found.zip(values) {
+        Some(((times, _), values)) => at(*time, times, values),
+        None => f64::NAN,
+    };
+    columns! { table, |time|
+        "vibration.order_{name}_amplitude": unit, "amplitude of order {order} of the vibration, peak" => of(time, amplitude.as_ref());
+        "vibration.order_{name}_deviation": unit, "standard deviation of the amplitude of order {order} of the vibration, peak"
+            => of(time, found.map(|(_, order)| &order.deviation));
+    }
 }
 
 /// Rows at equal times over all that was read, and closer ones around a quick change.

@@ -35,7 +35,7 @@ use crate::signals::found::Found;
 use crate::signals::warning_table::SignalsWarning;
 use identify::coasting::Windage;
 use outcome::options::Options;
-use outcome::{Members, Outcome, Picture, Quantity, Stop, Warning, Work};
+use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Warning, Work};
 use scenario::{Scenario, SensorSource, SteadySignal};
 use simulate::assumptions::assumptions;
 use std::sync::Arc;
@@ -266,6 +266,11 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     found
 }
 
+/// The columns of its history, without values.
+pub fn columns(asked: &Asked) -> Vec<Column> {
+    history::columns(asked, None)
+}
+
 /// The results of such a measurement, without values.
 pub fn results(asked: &Asked) -> Vec<Quantity> {
     answer::name(asked, None)
@@ -276,7 +281,7 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
     let clock = Instant::now();
     let mut found = find(asked, options.interrupt);
     found.warnings.extend(assumed(scenario, asked, &found));
-    let history = history::columns(asked, &found);
+    let history = history::columns(asked, Some(&found));
     let end = history.first().and_then(|time| time.values.last().copied());
     Outcome {
         system: "signals",

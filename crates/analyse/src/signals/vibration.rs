@@ -29,7 +29,6 @@ pub(crate) struct Picture {
 
 /// What a vibration shows.
 pub(crate) struct Found {
-    pub unit: &'static str,
     pub orders: Option<Orders>,
     pub over_time: Result<Picture, String>,
     pub over_order: Result<Picture, String>,
@@ -97,7 +96,6 @@ impl Found {
                 picture(found.time, &found.order, found.amplitude)
             });
         Ok(Found {
-            unit,
             orders: found,
             over_time,
             over_order,

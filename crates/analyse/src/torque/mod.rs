@@ -14,12 +14,17 @@ pub(crate) mod quantities;
 pub mod warnings;
 
 pub use crate::torque::asked::Asked;
-use crate::torque::asked::{Moments, law_of, name_of};
+use crate::torque::asked::{law_of, name_of};
+use outcome::columns::{Columns, columns};
 use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 
-use physics::friction::MomentParts;
 use scenario::Scenario;
 use std::time::Instant;
+
+/// The columns of its history, without values.
+pub fn columns(asked: &Asked) -> Vec<Column> {
+    history(asked, &[])
+}
 
 /// The results of such a computation, without values.
 pub fn results(asked: &Asked) -> Vec<Quantity> {
@@ -30,7 +35,7 @@ pub fn results(asked: &Asked) -> Vec<Quantity> {
 pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     let clock = Instant::now();
     let torque = asked.torque;
-    let history = history(asked);
+    let history = history(asked, &asked.speeds());
     let quantities = quantities::name(asked, Some(asked));
     let named = torque.name.as_deref().unwrap_or("bearing");
     Outcome {
@@ -67,119 +72,56 @@ pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
     }
 }
 
-/// The curves over speed, which is the first column.
-fn history(asked: &Asked) -> Vec<Column> {
+/// The curves over these speeds, which are the first column.
+fn history(asked: &Asked, speeds: &[f64]) -> Vec<Column> {
     let torque = asked.torque;
-    let speeds = asked.speeds();
-    let mut columns = Vec::new();
-    let mut add = |name: String, unit, meaning: String, value: &dyn Fn(f64) -> f64| {
-        columns.push(Column {
-            name,
-            unit,
-            meaning,
-            values: speeds.iter().map(|&speed| value(speed)).collect(),
-        });
-    };
-    add(
-        "speed".to_string(),
-        "rad/s",
-        "speed of the inner race".to_string(),
-        &|speed| speed,
-    );
-    let steady = |speed| asked.moments(speed, 0.0).friction;
-    let under = format!("under {} N", asked.load());
-    for (name, words, part) in [
-        (
-            "speed_dependent",
-            "speed-dependent part M0",
-            (|parts| parts.speed_dependent) as fn(MomentParts<f64>) -> f64,
-        ),
-        ("load_dependent", "load-dependent part M1", |parts| {
-            parts.load_dependent
-        }),
-        ("moment", "steady moment M = M0 + M1", |parts| parts.sum()),
-    ] {
-        add(
-            format!("friction.{name}"),
-            "N m",
-            format!("{words} of the friction {under}"),
-            &|speed| part(steady(speed)),
-        );
+    let load = asked.load();
+    let steady = |speed: &f64| asked.moments(*speed, 0.0).friction;
+    let mut table = Columns::over(speeds);
+    columns! { table, |speed|
+        "speed": "rad/s", "speed of the inner race" => *speed;
+        "friction.speed_dependent": "N m", "speed-dependent part M0 of the friction under {load} N" => steady(speed).speed_dependent;
+        "friction.load_dependent": "N m", "load-dependent part M1 of the friction under {load} N" => steady(speed).load_dependent;
+        "friction.moment": "N m", "steady moment M = M0 + M1 of the friction under {load} N" => steady(speed).sum();
+        "friction.power": "W", "power M Ω that the steady moment takes under {load} N" => speed * steady(speed).sum();
     }
-    add(
-        "friction.power".to_string(),
-        "W",
-        format!("power M Ω that the steady moment takes {under}"),
-        &|speed| speed * steady(speed).sum(),
-    );
-    for (number, &acceleration) in (1..).zip(&torque.accelerations) {
-        let at = format!("at {acceleration} rad/s^2 {under}");
-        for (name, words, part) in [
-            (
-                "inner_race.inertia",
-                "inertia of balls and cage at the inner race, J_I Ω̇,",
-                (|moments: Moments| moments.inner_inertia) as fn(Moments) -> f64,
-            ),
-            (
-                "outer_race.inertia",
-                "inertia of balls and cage at the outer race, -J_O Ω̇,",
-                |moments| moments.outer_inertia,
-            ),
-            (
-                "loss",
-                "pocket friction F at both races, arm F,",
-                |moments| moments.loss,
-            ),
-            (
-                "inner_race.moment",
-                "moment t_I that resists the inner race",
-                |moments| moments.inner(),
-            ),
-            (
-                "outer_race.moment",
-                "moment t_O on the outer race",
-                |moments| moments.outer(),
-            ),
-        ] {
-            add(
-                format!("acceleration_{number}.{name}"),
-                "N m",
-                format!("{words} {at}"),
-                &|speed| part(asked.moments(speed, acceleration)),
-            );
+    for (k, &at) in (1..).zip(&torque.accelerations) {
+        let moments = |speed: &f64| asked.moments(*speed, at);
+        columns! { table, |speed|
+            "acceleration_{k}.inner_race.inertia": "N m", "inertia of balls and cage at the inner race, J_I Ω̇, at {at} rad/s^2 under {load} N"
+                => moments(speed).inner_inertia;
+            "acceleration_{k}.outer_race.inertia": "N m", "inertia of balls and cage at the outer race, -J_O Ω̇, at {at} rad/s^2 under {load} N"
+                => moments(speed).outer_inertia;
+            "acceleration_{k}.loss": "N m", "pocket friction F at both races, arm F, at {at} rad/s^2 under {load} N" => moments(speed).loss;
+            "acceleration_{k}.inner_race.moment": "N m", "moment t_I that resists the inner race at {at} rad/s^2 under {load} N"
+                => moments(speed).inner();
+            "acceleration_{k}.outer_race.moment": "N m", "moment t_O on the outer race at {at} rad/s^2 under {load} N" => moments(speed).outer();
         }
     }
-    for (number, &load) in (1..).zip(&torque.loads) {
-        add(
-            format!("load_{number}.friction.moment"),
-            "N m",
-            format!("steady moment M under {load} N"),
-            &|speed| asked.friction(&asked.law, speed, load).sum(),
-        );
+    for (k, &load) in (1..).zip(&torque.loads) {
+        columns! { table, |speed|
+            "load_{k}.friction.moment": "N m", "steady moment M under {load} N" => asked.friction(&asked.law, *speed, load).sum();
+        }
     }
     for compared in &torque.laws {
         let moment = compared.moment.as_ref().ok();
+        let (word, name) = (compared.law, name_of(compared.law));
         if let Some(law) = moment.and_then(|moment| law_of(torque, moment).ok()) {
-            add(
-                format!("{}.friction.moment", name_of(compared.law)),
-                "N m",
-                format!("steady moment M by the law {} {under}", compared.law),
-                &|speed| asked.friction(&law, speed, asked.load()).sum(),
-            );
+            columns! { table, |speed|
+                "{name}.friction.moment": "N m", "steady moment M by the law {word} under {load} N" => asked.friction(&law, *speed, load).sum();
+            }
         }
     }
-    for (number, lubricant) in (1..).zip(&torque.lubricants) {
+    for (k, lubricant) in (1..).zip(&torque.lubricants) {
         let moment = lubricant
             .at(torque.temperature)
             .map(|viscosity| torque.moment.with_viscosity(viscosity));
+        let name = &lubricant.name;
         if let Some(law) = moment.ok().and_then(|moment| law_of(torque, &moment).ok()) {
-            add(
-                format!("lubricant_{number}.friction.moment"),
-                "N m",
-                format!("steady moment M with {} {under}", lubricant.name),
-                &|speed| asked.friction(&law, speed, asked.load()).sum(),
-            );
+            columns! { table, |speed|
+                "lubricant_{k}.friction.moment": "N m", "steady moment M with {name} under {load} N" => asked.friction(&law, *speed, load).sum();
+            }
         }
     }
-    columns
+    table.list
 }

@@ -7,6 +7,7 @@ use crate::coast_down::build::ICE_POINT;
 use crate::coast_down::warnings::{away, beyond_data, first_loose, loose_ring, to_take};
 use model::bearing_heat::{OfNodes, WarmBearing, Warmth, kinds};
 use outcome::Warning;
+use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, origins, relative};
 use scenario::{Bearing, Feedback, Warm};
@@ -248,48 +249,40 @@ results! {
     }
 }
 
-/// Temperatures over time.
-pub(crate) fn columns<'a>(followed: &Followed<'a>, table: &mut Table<'a>) {
-    let (part, warmth) = (followed.heated.part, followed.warmth);
-    for (node, name) in followed.heated.nodes() {
+/// Temperatures over time of a bearing where they are followed; without a run they are not known yet.
+pub(crate) fn columns<'a>(
+    heated: Option<Heated<'a>>,
+    warmth: Option<&'a Warmth>,
+    table: &mut Table<'a>,
+) {
+    let Some(heated) = heated else { return };
+    let (part, bearing, run) = (heated.part, heated.bearing, table.run);
+    let at = |node, time| warmth.map_or(f64::NAN, |warmth| warmth.at(part, node, time));
+    for (node, name) in heated.nodes() {
         let words = name.replace('_', " ");
-        table.add(
-            &format!("{name}.temperature"),
-            "K",
-            &format!("temperature of the {words}, of one temperature throughout"),
-            move |row| warmth.at(part, node, row.time) + ICE_POINT,
-        );
-    }
-    let nodes_at = move |time: f64| -> Vec<f64> {
-        let nodes = 0..NODES.len();
-        nodes.map(|node| warmth.at(part, node, time)).collect()
-    };
-    let bearing = followed.heated.bearing;
-    let tilts = (followed.heated.follows()).filter(|follows| follows.tilts(bearing));
-    if let Some(follows) = tilts {
-        table.add(
-            "bearing.contact_angle",
-            "rad",
-            "contact angle of a pair that springs press",
-            move |row| follows.contact_angle(bearing, &nodes_at(row.time)),
-        );
-    }
-    if let (true, Some(follows)) = (followed.heated.closes(), followed.heated.follows()) {
-        let run = table.run;
-        table.add(
-            "bearing.clearance",
-            "m",
-            "diametral clearance; negative is preload",
-            move |row| follows.clearance(&nodes_at(row.time), run.speed(row)),
-        );
-        if warmth.growth.largest.is_some() {
-            table.add(
-                "heat.growth_rate",
-                "1/s",
-                "rate at which a disturbance of the temperatures grows while the balls are preloaded; above 0 they run away",
-                move |row| warmth.growth.at(row.time),
-            );
+        columns! { table.columns, |row|
+            "{name}.temperature": "K", "temperature of the {words}, of one temperature throughout" => at(node, row.time) + ICE_POINT;
         }
+    }
+    let Some(follows) = heated.follows() else {
+        return;
+    };
+    let nodes_at =
+        |time: f64| -> Vec<f64> { (0..NODES.len()).map(|node| at(node, time)).collect() };
+    columns! { table.columns, |row|
+        "bearing.contact_angle": "rad", "contact angle of a pair that springs press" when follows.tilts(bearing)
+            => follows.contact_angle(bearing, &nodes_at(row.time));
+        "bearing.clearance": "m", "diametral clearance; negative is preload" when heated.closes()
+            => follows.clearance(&nodes_at(row.time), run.speed(row));
+    }
+    if heated.closes() && part.losses.is_some() {
+        let there = warmth.map(|warmth| warmth.growth.largest.is_some());
+        table.columns.optional(there, |columns| {
+            columns! { columns, |row|
+                "heat.growth_rate": "1/s", "rate at which a disturbance of the temperatures grows while the balls are preloaded; above 0 they run away"
+                    => warmth.map_or(f64::NAN, |warmth| warmth.growth.at(row.time));
+            }
+        });
     }
 }
 

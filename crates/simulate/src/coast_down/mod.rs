@@ -19,6 +19,7 @@ use crate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::coast_down::course::{BEYOND, Course};
 use crate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
+use outcome::columns::{Columns, columns};
 use outcome::list::List;
 use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
@@ -32,6 +33,11 @@ pub fn results(built: &Built) -> Vec<Quantity> {
     let mut list = List::default();
     quantities::name(&mut list, &built.parts, None);
     list.quantities
+}
+
+/// The columns of its history, without values.
+pub fn columns(built: &Built) -> Vec<Column> {
+    history(&built.parts, &[])
 }
 
 /// Computes it and names what it finds.
@@ -137,75 +143,34 @@ pub(crate) fn stop(course: &Course) -> Stop {
 
 /// Columns over time of these bearings.
 pub(crate) fn history(parts: &[Part], rows: &[Row]) -> Vec<Column> {
-    let mut columns = Vec::new();
-    let mut add = |name: String, unit, meaning: String, value: &dyn Fn(&Row) -> f64| {
-        columns.push(Column {
-            name,
-            unit,
-            meaning,
-            values: rows.iter().map(value).collect(),
-        });
-    };
-    add("time".into(), "s", "time since the start".into(), &|row| {
-        row.time
-    });
-    add(
-        "rotor.speed".into(),
-        "rad/s",
-        "speed of rotor and inner races".into(),
-        &|row| row.speed,
-    );
+    let mut table = Columns::over(rows);
+    columns! { table, |row|
+        "time": "s", "time since the start" => row.time;
+        "rotor.speed": "rad/s", "speed of rotor and inner races" => row.speed;
+    }
     for (k, part) in parts.iter().enumerate() {
         for node in part.nodes(k) {
-            let name = node.name();
-            add(
-                of_part(&part.name, &format!("{name}.temperature")),
-                "K",
-                format!("temperature of the {}", name.replace('_', " ")),
-                &|row| row.temperatures[node.place()] + ICE_POINT,
-            );
+            let words = node.name().replace('_', " ");
+            let name = of_part(&part.name, &format!("{}.temperature", node.name()));
+            columns! { table, |row| "{name}": "K", "temperature of the {words}" => row.temperatures[node.place()] + ICE_POINT; }
         }
     }
-    for (at, (name, words)) in [
-        (
-            "speed_dependent",
-            "speed-dependent moment M0 of all bearings",
-        ),
-        ("load_dependent", "load-dependent moment M1 of all bearings"),
-        ("windage", "moment of the gas"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        add(format!("{name}.moment"), "N m", words.into(), &|row| {
-            row.moments[at]
-        });
+    columns! { table, |row|
+        "speed_dependent.moment": "N m", "speed-dependent moment M0 of all bearings" => row.moments[0];
+        "load_dependent.moment": "N m", "load-dependent moment M1 of all bearings" => row.moments[1];
+        "windage.moment": "N m", "moment of the gas" => row.moments[2];
+        "heat.power": "W", "heat made in all bearings" => row.speed * (row.moments[0] + row.moments[1]);
     }
-    add(
-        "heat.power".into(),
-        "W",
-        "heat made in all bearings".into(),
-        &|row| row.speed * (row.moments[0] + row.moments[1]),
-    );
     for (k, part) in parts.iter().enumerate() {
-        add(
-            of_part(&part.name, "bearing.clearance"),
-            "m",
-            "diametral clearance; negative is preload".into(),
-            &|row| row.bearings[k].clearance,
-        );
-        add(
-            of_part(&part.name, "bearing.largest_ball_load"),
-            "N",
-            "load of the most loaded ball".into(),
-            &|row| row.bearings[k].largest_ball_load(),
-        );
+        let [clearance, load] = ["bearing.clearance", "bearing.largest_ball_load"]
+            .map(|name| of_part(&part.name, name));
+        columns! { table, |row|
+            "{clearance}": "m", "diametral clearance; negative is preload" => row.bearings[k].clearance;
+            "{load}": "N", "load of the most loaded ball" => row.bearings[k].largest_ball_load();
+        }
     }
-    add(
-        "heat.growth_rate".into(),
-        "1/s",
-        "rate at which a disturbance of the temperatures grows; above 0 they run away".into(),
-        &|row| row.growth,
-    );
-    columns
+    columns! { table, |row|
+        "heat.growth_rate": "1/s", "rate at which a disturbance of the temperatures grows; above 0 they run away" => row.growth;
+    }
+    table.list
 }

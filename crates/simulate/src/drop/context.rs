@@ -11,6 +11,7 @@ use model::auxiliary_bearing::probe;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
+use model::system::sampling::Peak;
 use scenario::{AuxiliaryBearing, Drop, Shaft};
 
 /// A drop before its run.
@@ -49,6 +50,28 @@ impl<'a> Setup<'a> {
             constants: &self.machine.constants.bearings[k].bearing,
             factors: &self.built.bearings[k].pressure_factors,
         })
+    }
+    /// A bearing as it is before a run.
+    pub fn bearing(self, k: usize) -> BearingRun<'a> {
+        let at = &self.machine.layout().bearings[k];
+        BearingRun {
+            bearing: &self.machine.constants.bearings[k].bearing,
+            states: at.own(),
+            detail: at.detail,
+            largest_loads: [probe::LARGEST_INNER_LOAD, probe::LARGEST_OUTER_LOAD]
+                .map(|kind| at.probe(kind)),
+            cage_forces: [probe::LARGEST_POCKET_FORCE, probe::LAND_FORCE]
+                .map(|kind| at.probe(kind)),
+            pressure_factors: self.built.bearings[k].pressure_factors,
+            loads: [Peak::NONE; 2],
+            cage: [Peak::NONE; 2],
+            part: &self.machine.constants.bearings[k].name,
+            layout: self.machine.layout(),
+            end: &[],
+            motion: Box::new(move |state| at.motion(state)),
+            rows: Vec::new(),
+            races: None,
+        }
     }
 }
 
@@ -130,25 +153,14 @@ impl<'a> Context<'a> {
         warmed.map(|warmed| &warmed.renewals)
     }
     pub fn bearing(&self, bearing: usize) -> BearingRun<'a> {
-        let (machine, record) = (self.setup.machine, self.record(bearing));
-        let at = machine.layout().bearings[bearing];
+        let record = self.record(bearing);
         BearingRun {
-            bearing: &machine.constants.bearings[bearing].bearing,
-            states: at.own(),
-            detail: at.detail,
-            largest_loads: [probe::LARGEST_INNER_LOAD, probe::LARGEST_OUTER_LOAD]
-                .map(|kind| at.probe(kind)),
-            cage_forces: [probe::LARGEST_POCKET_FORCE, probe::LAND_FORCE]
-                .map(|kind| at.probe(kind)),
-            pressure_factors: self.setup.built.bearings[bearing].pressure_factors,
             loads: [record.largest_inner_load, record.largest_outer_load],
             cage: [record.largest_pocket_force, record.largest_land_force],
-            part: &machine.constants.bearings[bearing].name,
-            layout: machine.layout(),
             end: &self.finished.ending.state,
-            motion: Box::new(move |state| at.motion(state)),
             rows: self.finished.record.rows().collect(),
             races: record.races.as_ref(),
+            ..self.setup.bearing(bearing)
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::drop::warning_table::ShaftWarning;
 use crate::ending;
 use levitation::Amplifier;
 use model::system::machine::record::AtLimit;
+use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use outcome::{Column, Stop, Warning};
@@ -87,21 +88,20 @@ results! {
 }
 
 /// Control currents of all axes.
-pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
-    let machine = context.setup.machine;
-    let Some(given) = &context.setup.drop.shaft else {
+pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
+    let machine = setup.machine;
+    let Some(given) = &setup.drop.shaft else {
         return Vec::new();
     };
     let mut table = Table::over(run);
     for (axis, own) in machine.axes().enumerate() {
         let angle = own.direction.y.atan2(own.direction.x).to_degrees();
-        let meaning = format!("control current of the magnet's axis at {angle:.0} degrees from x");
         let name = value_of(given, axis, "current");
-        table.add(&name, "A", &meaning, |row| {
-            machine.currents(row.time, row.state)[axis]
-        });
+        columns! { table.columns, |row|
+            "{name}": "A", "control current of the magnet's axis at {angle:.0} degrees from x" => machine.currents(row.time, row.state)[axis];
+        }
     }
-    table.columns
+    table.columns.list
 }
 
 /// The axis whose current was longest at the limit of its coil.

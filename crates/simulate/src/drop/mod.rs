@@ -40,18 +40,29 @@ use crate::ending::settings_at;
 use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
 use outcome::options::Options;
-use outcome::{Contact, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Work};
+use outcome::{Column, Contact, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Work};
 use rayon::prelude::*;
 use scenario::{Drop, Scenario};
 use std::time::Instant;
 
-/// The results of a drop, without values.
-pub fn results(drop: &Drop, built: &Built) -> Vec<Quantity> {
-    let machine = RotorMachine::new(built.constants.clone());
+/// The columns of its history, without values.
+pub fn columns(drop: &Drop, built: &Built) -> Vec<Column> {
+    let machine = &RotorMachine::new(built.constants.clone());
     let setup = Setup {
         drop,
         built,
-        machine: &machine,
+        machine,
+    };
+    columns::history(setup, None)
+}
+
+/// The results of a drop, without values.
+pub fn results(drop: &Drop, built: &Built) -> Vec<Quantity> {
+    let machine = &RotorMachine::new(built.constants.clone());
+    let setup = Setup {
+        drop,
+        built,
+        machine,
     };
     let mut list = quantities::name(setup, None);
     if drop.run_out.is_some() {
@@ -145,7 +156,7 @@ pub fn run(
                 && !quantity.name.ends_with("residual");
         }
     }
-    let history = columns::history(first);
+    let history = columns::history(first.setup, Some(first));
     let counted = Some((history.as_slice(), first.counted_from()));
     named.extend(orders::named(first.setup.parts(), counted));
     Outcome {

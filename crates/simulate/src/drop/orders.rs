@@ -187,6 +187,7 @@ mod tests {
             name: name.to_string(),
             unit: "",
             meaning: String::new(),
+            optional: false,
             values,
         };
         let time: Vec<f64> = (0..4000).map(|k| 1e-4 * f64::from(k)).collect();

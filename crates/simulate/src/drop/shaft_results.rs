@@ -6,6 +6,7 @@ use crate::drawing::{self, GIVEN};
 use crate::drop::context::{Context, Setup};
 use crate::drop::shaft::{BuiltShaft, HeldMode};
 use crate::drop::warning_table::{COMPARED, ShaftWarning};
+use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Column, Warning};
@@ -112,24 +113,20 @@ impl<'a> Bent<'a> {
 }
 
 /// Displacements along the shaft.
-pub(crate) fn columns(context: &Context, run: &BearingRun) -> Vec<Column> {
-    let (Some(given), Some(built)) = (&context.setup.drop.shaft, &context.setup.built.shaft) else {
+pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
+    let (Some(given), Some(built)) = (&setup.drop.shaft, &setup.built.shaft) else {
         return Vec::new();
     };
-    let machine = context.setup.machine;
     let mut table = Table::over(run);
     for (place, node) in built.places.iter().enumerate() {
-        let z = 1e3 * given.model.rotor.nodes[*node];
-        for (axis, way) in [("x", "to the right"), ("y", "upwards")] {
-            let name = format!("shape.{}.{axis}", place + 1);
-            let meaning = format!("displacement of the shaft at {z:.1} mm, {way}");
-            table.add(&name, "m", &meaning, |row| {
-                let at = machine.place(place, row.state);
-                if axis == "x" { at.x } else { at.y }
-            });
+        let (number, z) = (place + 1, 1e3 * given.model.rotor.nodes[*node]);
+        let at = |state| setup.machine.place(place, state);
+        columns! { table.columns, |row|
+            "shape.{number}.x": "m", "displacement of the shaft at {z:.1} mm, to the right" => at(row.state).x;
+            "shape.{number}.y": "m", "displacement of the shaft at {z:.1} mm, upwards" => at(row.state).y;
         }
     }
-    table.columns
+    table.columns.list
 }
 
 /// Number of places whose clearance may be watched.

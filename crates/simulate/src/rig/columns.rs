@@ -1,13 +1,17 @@
 //! The history of a test on a rig as columns: what happened, not what the logger saw.
 
 use crate::bearing::columns::Table;
-use crate::bearing::warm::{self, Followed};
-use crate::rig::context::Context;
+use crate::bearing::warm::{self, Heated};
+use crate::rig::build::Built;
+use crate::rig::context::{Context, bearing};
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
     ARM, BEARING, FLYWHEEL, HOUSING, PROBES, SHAFT, TEMPERATURE, THERMOCOUPLE,
 };
+use model::system::sampling::Row;
 use outcome::Column;
+use outcome::columns::columns;
+use scenario::Rig;
 use thermal::bearing_network::OUTER_RACE;
 
 /// What the probes of the model are, in their order; empty where another column has it.
@@ -39,82 +43,50 @@ const MEANINGS: [&str; PROBES.len()] = [
 ];
 
 /// All columns; `time` first.
-pub(crate) fn history(context: &Context) -> Vec<Column> {
-    let machine = &context.built.machine;
+pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Column> {
+    let machine = &built.machine;
     let layout = machine.layout();
-    let run = context.bearing();
-    let mut table = Table::over(&run);
-    table.add("time", "s", "time since the start", |row| row.time);
-    for (name, unit, meaning, channel) in [
-        (
-            "bearing.inner_race.speed",
-            "rad/s",
-            "spin of the shaft with the inner race",
-            SHAFT + 1,
-        ),
-        (
-            "flywheel.speed",
-            "rad/s",
-            "spin of the flywheel",
-            FLYWHEEL + 1,
-        ),
-        (
-            "arm.reading",
-            "N m",
-            "torque that the swinging arm indicates, before its gauges",
-            ARM,
-        ),
-    ] {
-        table.channel(name, unit, meaning, channel);
+    let of = run.map_or_else(|| bearing(built), Context::bearing);
+    let mut table = Table::over(&of);
+    columns! { table.columns, |row|
+        "time": "s", "time since the start" => row.time;
+        "bearing.inner_race.speed": "rad/s", "spin of the shaft with the inner race" => row.state[SHAFT + 1];
+        "flywheel.speed": "rad/s", "spin of the flywheel" => row.state[FLYWHEEL + 1];
+        "arm.reading": "N m", "torque that the swinging arm indicates, before its gauges" => row.state[ARM];
     }
-    let (rise, of_bearing) = (
-        "bearing.temperature_rise",
-        "temperature of the outer race above that at the start",
-    );
-    let (reading, of_bead) = (
-        "thermocouple.temperature_rise",
-        "what the thermocouple has of it",
-    );
-    match (context.warming, context.bead) {
-        (Some(warming), Some(bead)) => {
-            let Followed { heated, warmth, .. } = warming.followed();
-            let part = heated.part;
-            table.add(rise, "K", of_bearing, move |row| {
-                warmth.at(part, OUTER_RACE, row.time) - part.start
-            });
-            let start = bead.at(0.0);
-            table.add(reading, "K", of_bead, move |row| bead.at(row.time) - start);
+    let heated = Heated::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
+    let warming = run.and_then(|run| run.warming);
+    let warmth = warming.map(|warming| warming.followed().warmth);
+    let bead = run
+        .and_then(|run| run.bead)
+        .map(|bead| (bead, bead.at(0.0)));
+    // a network has the temperatures, or two states of the model
+    let rise = |row: &Row| match (heated, warmth) {
+        (Some(Heated { part, .. }), Some(warmth)) => {
+            warmth.at(part, OUTER_RACE, row.time) - part.start
         }
-        _ => {
-            table.channel(rise, "K", of_bearing, TEMPERATURE);
-            table.channel(reading, "K", of_bead, THERMOCOUPLE);
-        }
+        _ => row.state[TEMPERATURE],
+    };
+    let reading = |row: &Row| match bead {
+        Some((bead, start)) => bead.at(row.time) - start,
+        None => row.state[THERMOCOUPLE],
+    };
+    let centre_moves = !machine.constants.housing.centre_held;
+    columns! { table.columns, |row|
+        "bearing.temperature_rise": "K", "temperature of the outer race above that at the start" => rise(row);
+        "thermocouple.temperature_rise": "K", "what the thermocouple has of it" => reading(row);
+        "housing.x": "m", "centre of the outer race, to the right" when centre_moves => row.state[HOUSING];
+        "housing.y": "m", "centre of the outer race, upwards" when centre_moves => row.state[HOUSING + 1];
     }
-    if !machine.constants.housing.centre_held {
-        for (k, (name, meaning)) in [
-            ("housing.x", "centre of the outer race, to the right"),
-            ("housing.y", "centre of the outer race, upwards"),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            table.channel(name, "m", meaning, HOUSING + k);
-        }
+    for (probe, ((name, unit), meaning)) in PROBES.into_iter().zip(MEANINGS).enumerate() {
+        columns! { table.columns, |row| "{name}": unit, "{meaning}" when !meaning.is_empty() => row.probe[probe]; }
     }
-    for (probe, ((name, unit), meaning)) in PROBES.iter().zip(MEANINGS).enumerate() {
-        if !meaning.is_empty() {
-            table.probe(name, unit, meaning, probe);
-        }
-    }
-    if let BearingConstants::Rolling(_) = machine.constants.bearing {
-        table.channel("bearing.cage.angle", "rad", "angle of the cage", BEARING);
-    }
+    let rolls = matches!(of.bearing, BearingConstants::Rolling(_));
+    columns! { table.columns, |row| "bearing.cage.angle": "rad", "angle of the cage" when rolls => row.state[BEARING]; }
     table.bearing();
-    table.flows(layout, |_| run.bearing);
+    table.flows(layout, |_| of.bearing);
     table.outer_race_works("shaft", "shaft", layout);
-    table.energies(|row| context.balance(row.time, row.content, row.state));
-    if let Some(warming) = context.warming {
-        warm::columns(&warming.followed(), &mut table);
-    }
-    table.columns
+    table.energies(|row| run.map(|run| run.balance(row.time, row.content, row.state)));
+    warm::columns(heated, warmth, &mut table);
+    table.columns.list
 }

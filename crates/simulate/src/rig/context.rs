@@ -54,22 +54,34 @@ impl<'a> Context<'a> {
         self.balance(f64::INFINITY, self.machine_at_end().content(end), end)
     }
     pub fn bearing(&self) -> BearingRun<'a> {
-        let (machine, record) = (&self.built.machine, self.record);
+        let record = self.record;
         BearingRun {
-            bearing: &machine.constants.bearing,
-            states: machine.layout().bearing(),
-            detail: DETAIL,
-            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-            pressure_factors: self.built.pressure_factors,
             loads: [record.largest_inner_load, record.largest_outer_load],
             cage: [record.largest_pocket_force, Peak::NONE],
-            part: "",
-            layout: machine.layout(),
             end: &self.ending.state,
-            motion: Box::new(race_motion),
-            rows: self.record.rows().collect(),
-            races: Some(&self.record.races),
+            rows: record.rows().collect(),
+            races: Some(&record.races),
+            ..bearing(self.built)
         }
+    }
+}
+
+/// The bearing as it is before a run.
+pub(crate) fn bearing(built: &Built) -> BearingRun<'_> {
+    BearingRun {
+        bearing: &built.machine.constants.bearing,
+        states: built.machine.layout().bearing(),
+        detail: DETAIL,
+        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+        pressure_factors: built.pressure_factors,
+        loads: [Peak::NONE; 2],
+        cage: [Peak::NONE; 2],
+        part: "",
+        layout: built.machine.layout(),
+        end: &[],
+        motion: Box::new(race_motion),
+        rows: Vec::new(),
+        races: None,
     }
 }

@@ -28,12 +28,17 @@ use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
 use model::system::rig::{self as rig_model, Record, RigMachine, simulate_warming};
 use outcome::options::Options;
-use outcome::{Members, Outcome, Picture, Quantity, Work};
+use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
 use scenario::{Rig, RigProgram, Scenario};
 use std::iter;
 use std::time::Instant;
 use thermal::bearing_network::OUTER_RACE;
 use thermocouple::Bead;
+
+/// The columns of its history, without values.
+pub fn columns(rig: &Rig, built: &Built) -> Vec<Column> {
+    columns::history(rig, built, None)
+}
 
 /// The results of a test, without values.
 pub fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
@@ -94,7 +99,7 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
     let rolling_cage_ratio = machine.constants.bearing.rolling_cage_ratio();
     Outcome {
         system: "rig",
-        history: columns::history(&context),
+        history: columns::history(rig, built, Some(&context)),
         contacts: Vec::new(),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,

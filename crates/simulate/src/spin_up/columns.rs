@@ -1,11 +1,13 @@
 //! The history of a spin-up as columns.
 
 use crate::bearing::columns::Table;
-use crate::bearing::warm;
-use crate::spin_up::context::Context;
+use crate::bearing::warm::{self, Heated};
+use crate::spin_up::build::Built;
+use crate::spin_up::context::{Context, bearing};
 use model::system::spin_up::layout::{INNER, LARGEST_POCKET_FORCE, PROBES, ROTOR};
 use outcome::Column;
-use scenario::Drive;
+use outcome::columns::columns;
+use scenario::{Drive, SpinUp};
 
 /// What the probes of the model are, in their order.
 const MEANINGS: [&str; PROBES.len()] = [
@@ -30,30 +32,29 @@ const MEANINGS: [&str; PROBES.len()] = [
 ];
 
 /// All columns; `time` first.
-pub(crate) fn history(context: &Context) -> Vec<Column> {
-    let machine = context.machine();
-    let layout = machine.layout();
-    let run = context.bearing();
-    let mut table = Table::over(&run);
-
-    table.add("time", "s", "time since the start", |row| row.time);
-    let slides = matches!(context.spin_up.drive, Drive::SlidingRotor { .. });
-    if slides {
-        table.channel("rotor.speed", "rad/s", "spin of the rotor", ROTOR + 1);
+pub(crate) fn history(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Vec<Column> {
+    let layout = built.machine.layout();
+    let of = run.map_or_else(|| bearing(built), Context::bearing);
+    let mut table = Table::over(&of);
+    let slides = matches!(spin_up.drive, Drive::SlidingRotor { .. });
+    columns! { table.columns, |row|
+        "time": "s", "time since the start" => row.time;
+        "rotor.speed": "rad/s", "spin of the rotor" when slides => row.state[ROTOR + 1];
     }
     table.inner_race(INNER);
-    for (probe, ((name, unit), meaning)) in PROBES.iter().zip(MEANINGS).enumerate() {
+    for (probe, ((name, unit), meaning)) in PROBES.into_iter().zip(MEANINGS).enumerate() {
         // what holds the cage follows with the balls
-        if probe < LARGEST_POCKET_FORCE && (slides || !name.starts_with("rotor.")) {
-            table.probe(name, unit, meaning, probe);
-        }
+        let there = probe < LARGEST_POCKET_FORCE && (slides || !name.starts_with("rotor."));
+        columns! { table.columns, |row| "{name}": unit, "{meaning}" when there => row.probe[probe]; }
     }
     table.bearing();
-    table.flows(layout, |_| run.bearing);
+    table.flows(layout, |_| of.bearing);
     table.outer_race_works("inner race", "race", layout);
-    table.energies(|row| context.balance(row.time, row.content, row.state));
-    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
-        warm::columns(&followed, &mut table);
-    }
-    table.columns
+    table.energies(|row| run.map(|run| run.balance(row.time, row.content, row.state)));
+    let (warm, given) = (spin_up.warm.as_deref(), &spin_up.bearing);
+    let heated = Heated::of(warm, given, built.warm.as_deref());
+    let warming = run.and_then(|run| run.warming);
+    let warmth = warming.map(|warming| warming.followed().warmth);
+    warm::columns(heated, warmth, &mut table);
+    table.columns.list
 }

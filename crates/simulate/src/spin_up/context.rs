@@ -5,6 +5,7 @@ use crate::bearing::warming::Warming;
 use crate::spin_up::build::Built;
 use crate::stepping::Asked;
 use model::system::energy::{Balance, Content};
+use model::system::sampling::Peak;
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
@@ -51,21 +52,33 @@ impl<'a> Context<'a> {
     pub fn bearing(&self) -> BearingRun<'a> {
         let record = self.record;
         BearingRun {
-            bearing: &self.machine().constants.bearing,
-            states: self.machine().layout().bearing(),
-            detail: DETAIL,
-            largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-            cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-            pressure_factors: self.built.pressure_factors,
             loads: [record.largest_inner_load, record.largest_outer_load],
             cage: [record.largest_pocket_force, record.largest_land_force],
-            part: "",
-            layout: self.machine().layout(),
             end: &self.ending.state,
-            motion: Box::new(race_motion),
-            rows: self.record.rows().collect(),
-            races: Some(&self.record.races),
+            rows: record.rows().collect(),
+            races: Some(&record.races),
+            ..bearing(self.built)
         }
+    }
+}
+
+/// The bearing as it is before a run.
+pub(crate) fn bearing(built: &Built) -> BearingRun<'_> {
+    BearingRun {
+        bearing: &built.machine.constants.bearing,
+        states: built.machine.layout().bearing(),
+        detail: DETAIL,
+        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
+        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
+        pressure_factors: built.pressure_factors,
+        loads: [Peak::NONE; 2],
+        cage: [Peak::NONE; 2],
+        part: "",
+        layout: built.machine.layout(),
+        end: &[],
+        motion: Box::new(race_motion),
+        rows: Vec::new(),
+        races: None,
     }
 }
 

@@ -15,10 +15,15 @@ use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::simulate::simulate;
 use outcome::options::Options;
-use outcome::{Members, Outcome, Picture, Quantity, Work};
+use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
 use scenario::{Scenario, SpinUp};
 use solve::{Ending, Flow, Observer, Step};
 use std::time::Instant;
+
+/// The columns of its history, without values.
+pub fn columns(spin_up: &SpinUp, built: &Built) -> Vec<Column> {
+    columns::history(spin_up, built, None)
+}
 
 /// The results of a spin-up, without values.
 pub fn results(spin_up: &SpinUp, built: &Built) -> Vec<Quantity> {
@@ -47,7 +52,7 @@ pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Optio
             .title
             .clone()
             .unwrap_or_else(|| "Spin-up of an inner race".to_string()),
-        history: columns::history(&context),
+        history: columns::history(spin_up, built, Some(&context)),
         contacts: Vec::new(),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,
