@@ -13,7 +13,7 @@ const PLANNED: [&str; 2] = ["qualify", "mount"];
 
 /// Prints or writes the starting file of a kind.
 pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
-    let text = template(kind).ok_or_else(|| unknown("auxbear new", kind))?;
+    let text = template(kind).ok_or_else(|| unknown("auxbear new", kind, KINDS))?;
     // A dash stands for the standard output.
     let Some(path) = path.filter(|path| *path != Path::new("-")) else {
         return console::print(&text);
@@ -33,14 +33,14 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
     })
 }
 
-/// What is wrong with a kind of file that a command does not have.
-pub fn unknown(command: &str, kind: &str) -> Box<Problem> {
-    let needed = format!("a kind is needed: {}", KINDS.join(", "));
+/// What is wrong with a kind of file that a command does not have; it has these.
+pub fn unknown(command: &str, kind: &str, kinds: &[&str]) -> Box<Problem> {
+    let needed = format!("a kind is needed: {}", kinds.join(", "));
     Box::new(if PLANNED.contains(&kind) {
         let found = format!("\"{kind}\", which is planned but not built yet");
         Problem::new(Code::NotBuilt, command, found, needed)
     } else {
         Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed)
-            .with_hint(did_you_mean(kind, KINDS.iter().copied()))
+            .with_hint(did_you_mean(kind, kinds.iter().copied()))
     })
 }

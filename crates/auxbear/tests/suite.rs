@@ -5,6 +5,7 @@ mod cage_forces;
 mod catalogue;
 mod catalogue_file;
 mod coast_loads;
+mod declared;
 mod drop_method;
 mod extremes;
 mod exudyn_cage_spin_up;

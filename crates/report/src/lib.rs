@@ -8,6 +8,7 @@
 //! | `history` | `history.parquet`: time histories with unit and meaning of every column |
 //! | [`page`] | one run or several as an HTML page |
 //! | [`picture`] | one run as a picture |
+//! | [`schema`] | JSON Schemas of scenarios, studies and `summary.json` |
 //! | [`export`] | results and histories as CSV files or a workbook |
 //! | [`study`] | a study directory: parts of members, summary, page |
 //! | [`service`] | many drops of several kinds, and what they do to the bearings together |
@@ -22,6 +23,7 @@ pub mod page;
 mod page_summary;
 mod per_bearing;
 pub mod picture;
+pub mod schema;
 pub mod service;
 pub mod study;
 mod summary;

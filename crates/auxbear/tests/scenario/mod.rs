@@ -20,7 +20,7 @@ mod resolved;
 mod rotor;
 mod rotor_inputs;
 mod rotor_supports;
-mod schema;
+pub mod schema;
 mod several;
 mod spin_up;
 mod spin_up_runs;

@@ -16,7 +16,7 @@ fn schema_of(kind: &str) -> Value {
 }
 
 /// Whether a value is right by a schema.
-fn right(schema: &Value, value: &Value) -> bool {
+pub fn right(schema: &Value, value: &Value) -> bool {
     let rules = match schema {
         Value::Bool(verdict) => return *verdict,
         other => other.as_object().unwrap(),
@@ -25,7 +25,12 @@ fn right(schema: &Value, value: &Value) -> bool {
     let member = |name: &str| schema.get(name).cloned().unwrap_or(json!(true));
     rules.iter().all(|(word, rule)| match word.as_str() {
         "$schema" | "title" | "description" | "default" | "examples" | "then" | "else" => true,
+        "type" if rule.is_array() => {
+            let mut any = list(rule).into_iter();
+            any.any(|one| right(&json!({ "type": one }), value))
+        }
         "type" => match rule.as_str().unwrap() {
+            "null" => value.is_null(),
             "object" => value.is_object(),
             "array" => value.is_array(),
             "string" => value.is_string(),
@@ -48,13 +53,9 @@ fn right(schema: &Value, value: &Value) -> bool {
             both.all(|(schema, value)| right(schema, value))
         }),
         "additionalProperties" => {
-            assert_eq!(rule, &json!(false));
             let known = member("properties");
-            let mut names = value
-                .as_object()
-                .into_iter()
-                .flat_map(|object| object.keys());
-            names.all(|name| known.get(name).is_some())
+            let mut all = value.as_object().into_iter().flatten();
+            all.all(|(name, value)| known.get(name).is_some() || right(rule, value))
         }
         "required" => value.as_object().is_none_or(|object| {
             let names = list(rule);
