@@ -42,7 +42,7 @@ pub enum Command {
         #[arg(long, value_name = "PATH=VALUE")]
         set: Vec<String>,
     },
-    /// List the results that a run of a file finds, with units and meanings; run nothing
+    /// List results and columns of a run of a file, with units and meanings; run nothing
     Results {
         /// Scenario file
         file: PathBuf,
@@ -59,7 +59,7 @@ pub enum Command {
     },
     /// Print the JSON Schema of a kind of file, by which editors complete and check it
     Schema {
-        #[arg(help = format!("Kind of file: {}", KINDS.join(", ")))]
+        #[arg(help = format!("Kind of file: {}, summary (of a run directory)", KINDS.join(", ")))]
         kind: String,
     },
     /// Draw the HTML report of one run again, or of several side by side
@@ -87,6 +87,9 @@ pub enum Command {
         /// Folder or file to write [csv/ or run.xlsx in the run directory]
         #[arg(long, value_name = "PATH")]
         out: Option<PathBuf>,
+        /// Write this result or column alone, with others that are named so; * stands for one name between dots, as in '*.peak_contact_force'
+        #[arg(long, value_name = "NAME")]
+        only: Vec<String>,
     },
     /// Run published and reference cases and print how far the results lie from them
     Validate {

@@ -105,10 +105,11 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             directory,
             csv,
             out,
+            only,
             ..
         } => {
             let format = if *csv { Format::Csv } else { Format::Xlsx };
-            let written = export::export(directory, format, out.as_deref())?;
+            let written = export::export(directory, format, out.as_deref(), only)?;
             console::print(&format!("{}\n", written.display()))?;
         }
         Command::Validate { cases, json } => {

@@ -1,14 +1,15 @@
-//! `auxbear results`: what a run of a file will find, before it is run.
+//! `auxbear results`: results and columns of a run of a file, before it is run.
 
 use crate::console;
 use crate::run::listen;
 use auxbear::problem::Problem;
 use auxbear::scenario::{BuiltIn, STUDY_FORMAT, Scenario, StudyFile};
-use std::fmt::Write;
 use std::path::Path;
 
 /// Says what stands for a part of a name that no file decides.
 const PATTERNS: &str = "\n* stands for a number or name that only the run or its data decide.\n";
+/// Marks a column that a run may lack.
+const OPTIONAL: &str = " (if found)";
 
 pub fn perform(file: &Path, sets: &[String]) -> Result<(), Box<Problem>> {
     // of a study its scenario
@@ -17,16 +18,32 @@ pub fn perform(file: &Path, sets: &[String]) -> Result<(), Box<Problem>> {
         read => read?,
     };
     listen(false);
-    let results = auxbear::run::build(&scenario)?.results();
-    let longest = |of: &dyn Fn(usize) -> usize| (0..results.len()).map(of).max().unwrap_or(0);
-    let name = longest(&|k| results[k].name.chars().count());
-    let unit = longest(&|k| results[k].unit.chars().count());
-    let mut text = String::new();
-    for result in &results {
-        let (named, measured) = (&result.name, result.unit);
-        let _ = writeln!(text, "{named:name$}  {measured:unit$}  {}", result.meaning);
-    }
-    if results.iter().any(|result| result.name.contains('*')) {
+    let machine = auxbear::run::build(&scenario)?;
+    let (results, columns) = (machine.results(), machine.columns());
+    let results = results.iter().map(|of| [&of.name, of.unit, of.meaning, ""]);
+    let columns = columns.iter().map(|of| {
+        let mark = if of.optional { OPTIONAL } else { "" };
+        [&of.name, of.unit, &of.meaning, mark]
+    });
+    let listed = |rows: &[[&str; 4]]| {
+        let longest = |at: usize| rows.iter().map(|row| row[at].chars().count()).max();
+        let (name, unit) = (longest(0).unwrap_or(0), longest(1).unwrap_or(0));
+        let lines = rows.iter().map(|[named, measured, meaning, mark]| {
+            format!("{named:name$}  {measured:unit$}  {meaning}{mark}\n")
+        });
+        lines.collect::<String>()
+    };
+    let (results, columns) = (results.collect::<Vec<_>>(), columns.collect::<Vec<_>>());
+    let mut text = format!(
+        "{}\nColumns of the history:\n{}",
+        listed(&results),
+        listed(&columns)
+    );
+    if results
+        .iter()
+        .chain(&columns)
+        .any(|row| row[0].contains('*'))
+    {
         text.push_str(PATTERNS);
     }
     console::print(&text)

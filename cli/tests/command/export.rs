@@ -104,3 +104,40 @@ fn what_a_killed_export_left_is_taken_over() {
         .refused(&["AB0301"]);
     assert_eq!(fs::read_to_string(place.path("page.html")).unwrap(), page);
 }
+
+#[test]
+fn results_and_columns_are_chosen_by_name_and_pattern() {
+    let place = Place::new();
+    place.short_run(&["--out", "run", "--repeat", "2"]).done();
+    let chosen = [
+        "--only",
+        "*.peak_contact_force",
+        "--only",
+        "bearing.*.speed",
+    ];
+    let words = [&["export", "run", "--csv"], &chosen[..]].concat();
+    place.call(&words).done();
+    let first = |table: &str| -> Vec<String> {
+        let rows = rows(&place.path(&format!("run/csv/{table}.csv")));
+        rows.into_iter().next().unwrap()
+    };
+    assert_eq!(
+        first("history"),
+        [
+            "time [s]",
+            "bearing.inner_race.speed [rad/s]",
+            "bearing.cage.speed [rad/s]"
+        ]
+    );
+    assert_eq!(first("members"), ["member", "peak_contact_force [N]"]);
+    let results = fs::read_to_string(place.path("run/csv/results.csv")).unwrap();
+    assert!(results.lines().count() == 2 && results.contains("\npeak_contact_force,"));
+    for (name, near) in [
+        ("*.peak_contact_forse", "peak_contact_force"),
+        ("bearing.lode", "bearing.load"),
+    ] {
+        let words = ["export", "run", "--csv", "--out", "x", "--only", name];
+        place.call(&words).refused(&["AB0340", name, near]);
+    }
+    assert!(!place.path("x").exists());
+}

@@ -115,8 +115,27 @@ pub fn named(limits: &[Limit], known: &[Quantity]) -> Vec<Limit> {
 /// Whether a pattern stands for a number among the results: `*.x` for x of each bearing, and of the only one.
 pub fn fits(pattern: &str, known: &Quantity) -> bool {
     let is_number = matches!(known.value, Value::Number(_) | Value::None { .. });
-    let is_named = is_name(pattern, &known.name) || pattern.strip_prefix("*.") == Some(&known.name);
-    pattern.contains('*') && is_number && is_named
+    pattern.contains('*') && is_number && stands_for(pattern, &known.name)
+}
+
+/// Whether a name or pattern stands for this name of a result or column.
+pub fn stands_for(pattern: &str, name: &str) -> bool {
+    is_name(pattern, name) || pattern.strip_prefix("*.") == Some(name)
+}
+
+/// The names that may be meant, as a question: those that end alike, as with several bearings each has its own, or are spelled alike.
+pub fn meant(name: &str, known: &[&str]) -> Option<String> {
+    let ends: Vec<&str> = known
+        .iter()
+        .filter_map(|known| known.rsplit('.').next())
+        .collect();
+    let end = name.rsplit('.').next().unwrap_or(name);
+    let alike = known.iter().zip(&ends).filter(|(_, own)| **own == end);
+    let alike: Vec<&str> = alike.map(|(known, _)| *known).take(3).collect();
+    question(&alike).or_else(|| match name.starts_with('*') {
+        true => did_you_mean(end, ends),
+        false => did_you_mean(name, known.iter().copied()),
+    })
 }
 
 /// Whether a listed name stands for this one: each `*` of it is one or more characters without a point.
@@ -140,21 +159,9 @@ fn dimension_of(unit: &str) -> Option<Dimension> {
 /// A limit of a result that is not there, with what is.
 fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
     let name = limit.quantity.as_str();
-    let names = || known.iter().map(|known| known.name.as_str());
-    // with several bearings each has its own, with one none has a prefix
-    let last = name.rsplit('.').next().unwrap_or(name);
-    let mut near: Vec<&str> = names()
-        .filter(|known| known.rsplit('.').next() == Some(last))
-        .collect();
-    near.truncate(3);
-    let lasts = || names().map(|known| known.rsplit('.').next().unwrap_or(known));
-    let hint = question(&near).or_else(|| match name.starts_with('*') {
-        true => did_you_mean(last, lasts()),
-        false => did_you_mean(name, names()),
-    });
+    let names: Vec<&str> = known.iter().map(|known| known.name.as_str()).collect();
     let allowed = if known.len() <= MOST_NAMES {
-        let all: Vec<&str> = names().collect();
-        format!("the results are {}", all.join(", "))
+        format!("the results are {}", names.join(", "))
     } else {
         format!(
             "the name of one of the {} results is needed; auxbear results FILE lists them, e.g. {}",
@@ -163,7 +170,7 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
         )
     };
     let found = format!("\"{name}\", which is no result of this run");
-    Box::new((limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(hint))
+    Box::new((limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(meant(name, &names)))
 }
 
 /// The verdicts of a run.

@@ -16,6 +16,7 @@ use super::directory::{NewDirectory, new_file, read};
 use super::page::PageRun;
 use super::table::{Cell, Table};
 use super::workbook;
+use outcome::limits::{meant, stands_for};
 use problem::{Code, Problem};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -37,19 +38,24 @@ pub enum Format {
 }
 
 /// Writes the tables of a run directory; returns the file or folder. Without a place it is `csv/` or `run.xlsx` in the run
-/// directory. What exists there is never written over.
+/// directory. What exists there is never written over. `only` names the results and columns that are wanted, also by patterns with `*`
+/// for a name between dots; all without any.
 pub fn export(
     directory: &Path,
     format: Format,
     out: Option<&Path>,
+    only: &[String],
 ) -> Result<PathBuf, Box<Problem>> {
-    let run = read(directory)?;
-    let summary: Summary = serde_json::from_str(&run.summary_json).map_err(|error| {
+    let mut run = read(directory)?;
+    let mut summary: Summary = serde_json::from_str(&run.summary_json).map_err(|error| {
         let found = format!("what cannot be read as a summary ({error})");
         let needed = "a run directory, as auxbear run writes it, is needed";
         let path = directory.join("summary.json");
         Box::new(Problem::at_path(Code::FileUnreadable, &path, found, needed))
     })?;
+    if !only.is_empty() {
+        keep(directory, &mut run, &mut summary, only)?;
+    }
     let tables = tables(&run, &summary);
     let own = match format {
         Format::Csv => "csv",
@@ -61,6 +67,36 @@ pub fn export(
         Format::Xlsx => xlsx(&place, &tables)?,
     }
     Ok(place)
+}
+
+/// Leaves results and columns that one of these names stands for; with columns the first one, over which they are.
+fn keep(
+    directory: &Path,
+    run: &mut PageRun,
+    summary: &mut Summary,
+    only: &[String],
+) -> Result<(), Box<Problem>> {
+    let results = summary.quantities.0.iter().map(|(name, _)| name.as_str());
+    let columns = run.columns.iter().map(|column| column.name.as_str());
+    let known: Vec<&str> = results.chain(columns).collect();
+    let is_known = |only: &str| known.iter().any(|name| stands_for(only, name));
+    if let Some(unknown) = only.iter().find(|only| !is_known(only)) {
+        let found = format!("\"{unknown}\", which is no result and no column of this run");
+        let needed = "a name that auxbear results FILE lists is needed, or a pattern with * for a name between dots";
+        let problem = Problem::at_path(Code::UnknownQuantity, directory, found, needed);
+        return Err(Box::new(problem.with_hint(meant(unknown, &known))));
+    }
+    let wanted = |name: &str| only.iter().any(|only| stands_for(only, name));
+    summary.quantities.0.retain(|(name, _)| wanted(name));
+    for member in &mut summary.members {
+        member.0.retain(|(name, _)| wanted(name));
+    }
+    let mut first = true;
+    (run.columns).retain(|column| std::mem::take(&mut first) || wanted(&column.name));
+    if run.columns.len() == 1 && !wanted(&run.columns[0].name) {
+        run.columns.clear();
+    }
+    Ok(())
 }
 
 /// What is read of a summary; older ones have less.

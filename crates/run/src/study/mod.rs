@@ -131,8 +131,8 @@ impl Study {
                 known.name == *name && matches!(known.value, Value::Number(_) | Value::None { .. })
             };
             if !known.iter().any(|quantity| number(&quantity)) {
-                use problem::{Code, did_you_mean};
-                let names = known.iter().map(|known| known.name.as_str());
+                use problem::Code;
+                let names: Vec<&str> = known.iter().map(|known| known.name.as_str()).collect();
                 let problem = Problem::new(
                     Code::UnknownQuantity,
                     &file.file,
@@ -140,7 +140,7 @@ impl Study {
                     "the name of a result is needed; auxbear results FILE lists them",
                 );
                 let problem = problem.at(*place).on_key(key);
-                return Err(Box::new(problem.with_hint(did_you_mean(name, names))));
+                return Err(Box::new(problem.with_hint(limits::meant(name, &names))));
             }
         }
         Ok(Study { file, known })
