@@ -15,7 +15,7 @@ from auxbear._auxbear import version as _version
 from auxbear._problem import Problem
 from auxbear.catalogue import bearing, bearings
 from auxbear.recording import Recording
-from auxbear.result import Evaluated, ModelWarning, Quantity, Result, RunWarning, Spread, Table
+from auxbear.result import Declared, Evaluated, ModelWarning, Quantity, Result, RunWarning, Spread, Table
 from auxbear.scenario import Scenario, explain, schema, template
 from auxbear.study import Study, StudyResult
 
@@ -28,6 +28,7 @@ __version__: str = _version()
 _PAGES = ("distributed", "figures", "laws", "optimise")
 
 __all__ = [
+    "Declared",
     "Evaluated",
     "ModelWarning",
     "Problem",

@@ -12,6 +12,7 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from auxbear import _auxbear, _si
+from auxbear._names import Completing
 
 if TYPE_CHECKING:
     import numpy
@@ -33,6 +34,14 @@ class RunWarning(NamedTuple):
     part: str
     time: float | None
     values: dict[str, tuple[float | str, str]]
+
+
+class Declared(NamedTuple):
+    """A result or column before a run."""
+
+    name: str
+    unit: str
+    meaning: str
 
 
 class Spread(NamedTuple):
@@ -152,7 +161,7 @@ class Quantity:
         return f"<{self.name} = {self}>"
 
 
-class Table:
+class Table(Completing):
     """Columns of equal length, each with name, unit and meaning.
 
     Readers of Arrow take it without a copy: ``polars.DataFrame(table)``, ``pyarrow.table(table)``,
@@ -234,7 +243,7 @@ class Evaluated(NamedTuple):
     failed: dict[int, str]
 
 
-class Result(Mapping[str, Quantity]):
+class Result(Completing, Mapping[str, Quantity]):
     """Everything known after a run: named results as in a dict, and what stands in its run directory."""
 
     def __init__(self, native: _auxbear.Outcome) -> None:

@@ -14,7 +14,7 @@ from typing import Any
 
 from auxbear import _auxbear, _progress, _toml
 from auxbear._progress import Progress
-from auxbear.result import Evaluated, ModelWarning, Result, RunWarning, Table
+from auxbear.result import Declared, Evaluated, ModelWarning, Result, RunWarning, Table
 
 
 class Scenario:
@@ -116,6 +116,14 @@ class Scenario:
         """Builds the machine, runs nothing, and returns what should be known before a run."""
         return [RunWarning(*warning) for warning in self._native.check()]
 
+    def results(self) -> list[Declared]:
+        """Name, unit and meaning of each result of a run, without running it. A ``*`` stands for what only a run decides."""
+        return [Declared(*of) for of in self._native.results()]
+
+    def columns(self) -> list[Declared]:
+        """Name, unit and meaning of each column of the history, without a run."""
+        return [Declared(*of) for of in self._native.columns()]
+
     def run(
         self,
         *,
@@ -178,7 +186,7 @@ def template(kind: str) -> str:
 
 
 def schema(kind: str) -> str:
-    """The JSON Schema of a kind of file, for editors."""
+    """The JSON Schema of a kind of file, for editors; of ``"summary"`` that of a run's ``summary.json``."""
     return _known(kind, _auxbear.schema(kind))
 
 

@@ -6,7 +6,8 @@ use crate::table::Table;
 use crate::watched::{PATIENCE, watched};
 use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
 use auxbear::problem::explain::explain as page_of;
-use auxbear::run::build;
+use auxbear::report;
+use auxbear::run::{Machine, build};
 use auxbear::scenario::{self, BuiltIn};
 use auxbear::study::evaluate;
 use auxbear::units;
@@ -75,6 +76,23 @@ impl Scenario {
         Ok(warnings.iter().map(warned).collect())
     }
 
+    /// Name, unit and meaning of each result of a run; nothing is run.
+    fn results(&self, py: Python<'_>) -> PyResult<Vec<Declared>> {
+        self.declared(py, |machine| {
+            let all = machine.results().into_iter();
+            all.map(|of| (of.name, of.unit, of.meaning.to_string()))
+                .collect()
+        })
+    }
+
+    /// The same of each column of its history.
+    fn columns(&self, py: Python<'_>) -> PyResult<Vec<Declared>> {
+        self.declared(py, |machine| {
+            let all = machine.columns().into_iter();
+            all.map(|of| (of.name, of.unit, of.meaning)).collect()
+        })
+    }
+
     #[pyo3(signature = (threads, progress))]
     fn run(
         &self,
@@ -114,6 +132,23 @@ impl Scenario {
     }
 }
 
+/// Name, unit and meaning of a result or column.
+type Declared = (String, &'static str, String);
+
+impl Scenario {
+    fn declared(
+        &self,
+        py: Python<'_>,
+        list: impl FnOnce(&Machine) -> Vec<Declared> + Send + 'static,
+    ) -> PyResult<Vec<Declared>> {
+        let scenario = self.0.clone();
+        let found = watched(py, None, None, PATIENCE, move |_, _| {
+            build(&scenario).map(|machine| list(&machine))
+        })?;
+        found.map_err(|problem| raised(py, problem))
+    }
+}
+
 fn of(
     py: Python<'_>,
     read: Result<scenario::Scenario, Box<auxbear::problem::Problem>>,
@@ -131,7 +166,7 @@ pub fn template(kind: &str) -> Option<String> {
 
 #[pyfunction]
 pub fn schema(kind: &str) -> Option<String> {
-    scenario::schema(kind)
+    report::schema::schema(kind)
 }
 
 #[pyfunction]

@@ -8,6 +8,7 @@ import warnings
 import auxbear
 import numpy
 import pytest
+from conftest import SCENARIOS
 
 
 def test_a_result_is_a_number_with_unit_and_law(result):
@@ -125,3 +126,38 @@ def test_a_result_computes_compares_and_formats(result):
     with pytest.raises(ValueError, match="quantity in N"):
         force > "1 m"
     assert force != time and force != "no number" and result["whirl_direction"] == result["whirl_direction"].value
+
+
+def test_names_are_completed(drop, result):
+    assert result._ipython_key_completions_() == list(result)
+    assert {"first_impact_force", "history", "stop"} <= set(dir(result))
+    assert result.first_impact_force == result["first_impact_force"]
+    history = result.history
+    assert history._ipython_key_completions_() == history.columns
+    assert {"time", "rotor", "bearing"} <= set(dir(history))
+    assert {"cage", "inner_race"} <= set(dir(history.bearing))
+    assert (history.bearing.inner_race.speed == history["bearing.inner_race.speed"]).all()
+    with pytest.raises(AttributeError):
+        history.bearing.inner_rice
+    assert not hasattr(result, "_repr_latex_")
+
+
+def test_names_of_several_bearings_are_completed_by_bearing():
+    scenario = auxbear.Scenario.load(SCENARIOS / "two_bearings_drop.toml")
+    result = scenario.set("run.duration", "2 ms").run()
+    bearing = next(name.partition(".")[0] for name in result if name.endswith(".peak_contact_force"))
+    part = getattr(result, bearing)
+    assert "peak_contact_force" in dir(part)
+    assert part.peak_contact_force.name == f"{bearing}.peak_contact_force"
+
+
+def test_results_and_columns_are_known_before_a_run(drop, result):
+    assert [of.name for of in drop.results()] == list(result)
+    assert all(of.unit == result[of.name].unit and of.meaning for of in drop.results())
+    history = result.history
+    assert drop.columns() == [(name, history.units[name], history.meanings[name]) for name in history]
+
+
+def test_a_summary_has_the_keys_of_its_schema(result):
+    schema = json.loads(auxbear.schema("summary"))
+    assert set(result.summary) <= set(schema["properties"])
