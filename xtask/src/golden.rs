@@ -1,5 +1,6 @@
-//! Golden values: what some shipped scenarios gave last time, in `xtask/golden.json`. Compared with 1e-9, the work exactly; a
-//! change that is meant is written by `cargo xtask golden`, and its difference is reviewed.
+//! Golden values: what some shipped scenarios gave last time, in `xtask/golden.json`, which also decides what is compared: to add a
+//! result write its name with `null`. Compared with 1e-9, the work exactly; a change that is meant is written by
+//! `cargo xtask golden`, and its difference is reviewed.
 //!
 //! Only what is reproducible is kept: first impacts, times of the spin-up, energies of smooth runs. The program compared with
 //! itself is a regression test, no validation.
@@ -15,140 +16,42 @@ pub const FILE: &str = "xtask/golden.json";
 /// Largest relative difference: the last digits that another compiler may round in another way.
 const TOLERANCE: f64 = 1e-9;
 
-/// Quantities of a drop that tiny changes of the start do not change much.
-const DROP: &[&str] = &[
-    "time_to_first_contact",
-    "first_impact_force",
-    "inner_race_time_to_50_percent",
-    "inner_race_time_to_95_percent",
-];
-/// Quantities of a spin-up.
-const SPIN_UP: &[&str] = &[
-    "inner_race_time_to_95_percent",
-    "inner_race_mean_moment",
-    "outer_race_mean_moment",
-    "dissipated_energy",
-];
-
-/// The scenarios, and what is compared of each.
-const SCENARIOS: [(&str, &[&str]); 17] = [
-    ("reference_drop", DROP),
-    ("oil_lubricated_drop", DROP),
-    ("full_complement_drop", DROP),
-    ("spin_up_6005", SPIN_UP),
-    ("spin_up_rolling", SPIN_UP),
-    (
-        "rig_test_2",
-        &["peak_acceleration", "clutch_heat", "dissipated_energy"],
-    ),
-    (
-        "spin_up_warming",
-        &[
-            "heat_made",
-            "peak_lubricant_temperature",
-            "smallest_clearance",
-        ],
-    ),
-    (
-        "rig_test_3_warming",
-        &[
-            "heat_made",
-            "peak_lubricant_temperature",
-            "work_of_warm_rings",
-        ],
-    ),
-    (
-        "coast_down_closing",
-        &[
-            "stop_time",
-            "closing_time",
-            "peak_growth_rate",
-            "life_share",
-        ],
-    ),
-    (
-        "machine_run_up",
-        &[
-            "thrust_end.time_to_first_contact",
-            "thrust_end.first_impact_force",
-        ],
-    ),
-    (
-        "machine_compressor",
-        &[
-            "drive_end.time_to_first_contact",
-            "drive_end.first_impact_force",
-        ],
-    ),
-    (
-        "rotor_levitated",
-        &[
-            "critical_1.speed",
-            "critical_5.damping_ratio",
-            "mode_6.frequency",
-            "largest_sag",
-        ],
-    ),
-    (
-        "rotor_overhung",
-        &[
-            "critical_7.speed",
-            "mode_6.damping_ratio",
-            "response.wheel.peak_amplitude",
-        ],
-    ),
-    (
-        "signals_spin_up",
-        &["peak_acceleration", "peak_torque", "median_cage_slip"],
-    ),
-    (
-        "identify_with_ramp",
-        &["test_1.dissipated_energy", "test_2.peak_acceleration"],
-    ),
-    (
-        "study_reference_drop",
-        &["first_impact_force", "time_to_first_contact"],
-    ),
-    (
-        "study_selection",
-        &["first_impact_force", "time_to_first_contact"],
-    ),
-];
-
 /// Counts of work that must be the same.
 const WORK: [&str; 3] = ["steps", "rejected", "rate_calls"];
 
-/// What a summary holds of a scenario's golden values; none where the scenario has none.
-fn kept(scenario: &str, summary: &Value) -> Option<Value> {
-    let (_, names) = SCENARIOS.iter().find(|(name, _)| *name == scenario)?;
-    let quantities: Map<String, Value> = names
-        .iter()
-        .map(|name| {
-            (
-                name.to_string(),
-                summary["quantities"][name]["value"].clone(),
-            )
-        })
-        .filter(|(_, value)| !value.is_null())
-        .collect();
-    let work: Map<String, Value> = WORK
-        .iter()
-        .map(|count| (count.to_string(), summary["work"][count].clone()))
-        .filter(|(_, value)| !value.is_null())
-        .collect();
-    Some(json!({ "quantities": quantities, "work": work }))
+/// What a summary holds of the results that golden values of a scenario name.
+fn kept(golden: &Value, summary: &Value) -> Value {
+    let of = |names: &mut dyn Iterator<Item = &str>, found: &dyn Fn(&str) -> Value| -> Value {
+        let known = names.map(|name| (name.to_owned(), found(name)));
+        known
+            .filter(|(_, value)| !value.is_null())
+            .collect::<Map<_, _>>()
+            .into()
+    };
+    let mut names = golden["quantities"]
+        .as_object()
+        .into_iter()
+        .flat_map(Map::keys)
+        .map(String::as_str);
+    json!({
+        "quantities": of(&mut names, &|name| summary["quantities"][name]["value"].clone()),
+        "work": of(&mut WORK.into_iter(), &|count| summary["work"][count].clone()),
+    })
 }
 
-/// Differences of a scenario's run from its golden values.
+/// Golden values by scenario.
+fn values(repository: &Repository) -> Result<Map<String, Value>, String> {
+    let text = repository.text(FILE).unwrap_or_default();
+    serde_json::from_str(&text).map_err(|error| format!("{FILE}: {error}"))
+}
+
+/// Differences of a scenario's run from its golden values; none where it has no golden values.
 pub fn differences(repository: &Repository, scenario: &str, summary: &Value) -> Vec<String> {
-    let Some(found) = kept(scenario, summary) else {
-        return Vec::new();
-    };
-    let golden = repository.text(FILE).unwrap_or_default();
-    let Ok(golden) = serde_json::from_str::<Value>(&golden) else {
-        return vec![format!("{FILE} is no JSON: cargo xtask golden writes it")];
-    };
-    compare(&golden[scenario], &found)
+    match values(repository) {
+        Ok(golden) => (golden.get(scenario))
+            .map_or_else(Vec::new, |golden| compare(golden, &kept(golden, summary))),
+        Err(error) => vec![error],
+    }
 }
 
 fn compare(golden: &Value, found: &Value) -> Vec<String> {
@@ -185,15 +88,13 @@ fn compare(golden: &Value, found: &Value) -> Vec<String> {
 }
 
 /// Golden values of runs in a folder, as the file has them.
-pub fn of_runs(runs: &Path) -> Result<String, String> {
-    let mut golden = Map::new();
-    for (name, names) in SCENARIOS {
-        let summary = shipped::summary_in(&runs.join(name))?;
-        let kept = kept(name, &summary).unwrap_or_default();
-        if kept["quantities"].as_object().is_none_or(Map::is_empty) {
-            return Err(format!("{name} has none of {}", names.join(", ")));
+pub fn of_runs(repository: &Repository, runs: &Path) -> Result<String, String> {
+    let mut golden = values(repository)?;
+    for (name, values) in &mut golden {
+        *values = kept(values, &shipped::summary_in(&runs.join(name))?);
+        if values["quantities"].as_object().is_none_or(Map::is_empty) {
+            return Err(format!("{name} has none of the results that {FILE} names"));
         }
-        golden.insert(name.to_owned(), kept);
     }
     let text = serde_json::to_string_pretty(&golden).map_err(|error| error.to_string())?;
     Ok(text + "\n")

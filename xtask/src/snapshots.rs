@@ -155,7 +155,7 @@ fn written() -> Result<(), String> {
     // what differs from the values before is what this is called for
     scenarios::run_all(&repository, &program, &folder);
     let runs = folder.join("runs");
-    let golden = golden::of_runs(&runs)?;
+    let golden = golden::of_runs(&repository, &runs)?;
     of_runs(&repository, &program, &runs)?;
     let _ = std::fs::remove_dir_all(&folder);
     let path = repository.root.join(golden::FILE);
