@@ -69,18 +69,18 @@ fn head(occasions: &[Occasion]) -> Vec<String> {
 fn row(mode: &Mode) -> Vec<String> {
     let value = match (&mode.value, mode.band) {
         (Err(why), _) => format!("- ({why})"),
-        (Ok(value), None) => readable(*value, mode.unit),
+        (Ok(value), None) => readable(*value, &mode.unit),
         (Ok(value), Some(band)) => format!(
             "{} ± {}",
-            readable(*value, mode.unit),
-            readable(band, mode.unit)
+            readable(*value, &mode.unit),
+            readable(band, &mode.unit)
         ),
     };
     let how = if mode.adds { "" } else { ", the worst" };
     let mut row = vec![mode.bearing.clone(), format!("{}{how}", mode.what), value];
     if mode.value.is_ok() {
         let parts = mode.parts.iter();
-        row.extend(parts.map(|part| readable(*part, mode.unit)));
+        row.extend(parts.map(|part| readable(*part, &mode.unit)));
     }
     row
 }

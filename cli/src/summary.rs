@@ -91,17 +91,16 @@ fn row(quantity: &Quantity) -> Option<[String; 2]> {
 
 /// The torque of slow runs at the lowest, middle and highest speed at which it is known.
 fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
-    let list = |name: &str| {
-        let known = outcome.quantities.iter().find(|q| q.name == name)?;
-        match &known.value {
-            Value::List(values) => Some(values.as_slice()),
-            _ => None,
-        }
+    let list = |quantity: Option<&Quantity>| match &quantity?.value {
+        Value::List(values) => Some(values.clone()),
+        _ => None,
     };
-    let row = |(word, name): (&str, &str)| {
-        let speeds = list("steady_speeds")?;
-        let torques = list(&format!("steady_{word}_torques"))?;
-        let deviations = list(&format!("steady_{word}_deviations"))?;
+    let all = || outcome.quantities.iter();
+    let row = |quantity: &Quantity| {
+        let words = quantity.words_in("steady_torques")?;
+        let speeds = list(all().find(|one| one.words_in("slow_speeds").is_some()))?;
+        let torques = list(Some(quantity))?;
+        let deviations = list(outcome.quantity(&quantity.name.replace("torques", "deviations")))?;
         let known: Vec<usize> = (0..torques.len())
             .filter(|k| torques[*k].is_finite())
             .collect();
@@ -115,14 +114,9 @@ fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
             )
         });
         let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| [format!("  {name}"), told.join("; ")])
+        (!told.is_empty()).then(|| [format!("  steady torque, {words}"), told.join("; ")])
     };
-    let curves = [
-        ("direct", "steady torque by the sensor"),
-        ("inertial", "steady torque by the slope of the speed"),
-        ("up", "steady torque while the speed rises"),
-    ];
-    curves.into_iter().filter_map(row).collect()
+    all().filter_map(row).collect()
 }
 
 fn value(quantity: &Quantity) -> String {

@@ -1,8 +1,8 @@
 //! What `auxbear torque` prints: tables over acceleration, load, law and lubricant.
 
-use crate::digits::four_digits;
+use crate::digits::{four_digits, readable};
 use crate::{console, limits};
-use auxbear::outcome::{Outcome, Value};
+use auxbear::outcome::{Outcome, Quantity, Value};
 use auxbear::units;
 use std::path::Path;
 
@@ -11,21 +11,22 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     let found = Found(outcome);
     let mut text = format!("{}\n{}\n", outcome.title, found.place());
     text.push_str(&format!("\n{}", console::table(&found.accelerations())));
-    if let Some(Value::Number(power)) = found.value("power_loss") {
-        text.push_str(&format!("power loss M Ω {} W\n", four_digits(*power)));
+    for result in found.in_figure("torque_lines") {
+        if let (Value::Number(number), Some(words)) =
+            (&result.value, result.words_in("torque_lines"))
+        {
+            text.push_str(&format!("{words} {}\n", readable(*number, result.unit)));
+        }
     }
-    if let Some(Value::Number(_)) = found.value("starting_moment") {
-        let moment = found.number("starting_moment", "N mm");
-        text.push_str(&format!("at rest {moment} N mm to start\n"));
-    }
-    if found.list("loads").len() > 1 {
-        text.push_str(&format!("\n{}", console::table(&found.loads())));
-    }
-    if found.laws().len() > 1 {
-        text.push_str(&format!("\n{}", console::table(&found.laws())));
-    }
-    if found.lubricants().len() > 1 {
-        text.push_str(&format!("\n{}", console::table(&found.lubricants())));
+    // of one load the first table has all
+    for (table, least) in [
+        (found.loads(), 2),
+        (found.laws(), 1),
+        (found.lubricants(), 1),
+    ] {
+        if table.len() > least {
+            text.push_str(&format!("\n{}", console::table(&table)));
+        }
     }
     text.push('\n');
     text.push_str(&limits::text(outcome));
@@ -33,151 +34,136 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     text
 }
 
-/// What was computed, by name.
+/// What was computed, by the figures that show it.
 struct Found<'a>(&'a Outcome);
 
-impl Found<'_> {
-    fn value(&self, name: &str) -> Option<&Value> {
-        let mut quantities = self.0.quantities.iter();
-        let quantity = quantities.find(|quantity| quantity.name == name);
-        quantity.map(|quantity| &quantity.value)
-    }
-
-    fn list(&self, name: &str) -> &[f64] {
-        match self.value(name) {
-            Some(Value::List(list)) => list,
-            _ => &[],
-        }
-    }
-
-    /// A number in a unit, without the unit; a dash where there is none.
-    fn number(&self, name: &str, unit: &str) -> String {
-        match self.value(name) {
-            Some(Value::Number(number)) => in_unit(*number, unit),
-            _ => "-".to_string(),
-        }
-    }
-
-    /// Why a number is not there; empty where it is.
-    fn why(&self, name: &str) -> String {
-        match self.value(name) {
-            Some(Value::None { why }) => why.clone(),
-            _ => String::new(),
-        }
+impl<'a> Found<'a> {
+    fn in_figure(&self, figure: &'static str) -> impl Iterator<Item = &'a Quantity> {
+        let all = self.0.quantities.iter();
+        all.filter(move |quantity| quantity.words_in(figure).is_some())
     }
 
     /// Where the tables hold that vary one thing.
     fn place(&self) -> String {
-        let part = |name, unit: &str| match self.value(name) {
-            Some(Value::Number(number)) => Some(format!("{} {unit}", in_unit(*number, unit))),
-            _ => None,
-        };
-        let parts = [
-            part("speed", "rad/s"),
-            part("radial_load", "N"),
-            part("temperature", "degC"),
-            part("viscosity", "mm^2/s"),
-        ];
-        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        let parts = self.in_figure("place").filter_map(|quantity| {
+            let unit = quantity.words_in("place")?;
+            match quantity.value {
+                Value::Number(number) => Some(format!("{} {unit}", in_unit(number, unit))),
+                _ => None,
+            }
+        });
+        let parts: Vec<String> = parts.collect();
         format!("at {}; moments in N mm", parts.join(", "))
     }
 
-    fn accelerations(&self) -> Vec<[String; 8]> {
-        let head = [
-            "acceleration",
-            "M0",
-            "M1",
-            "inertia, inner",
-            "inertia, outer",
-            "loss F",
-            "t_I",
-            "t_O",
+    /// Lists beside each other under their words: what is varied, then the moments.
+    fn over(&self, figure: &'static str, unit: &str, fixed: &[(&str, String)]) -> Vec<Vec<String>> {
+        let columns: Vec<_> = self
+            .in_figure(figure)
+            .filter_map(|quantity| match &quantity.value {
+                Value::List(list) => Some((quantity.words_in(figure)?, list)),
+                _ => None,
+            })
+            .collect();
+        let words = |range: std::ops::Range<usize>| {
+            columns[range].iter().map(|column| column.0.to_string())
+        };
+        let (first, all) = (columns.len().min(1), columns.len());
+        let mut rows = vec![
+            words(0..first)
+                .chain(fixed.iter().map(|one| one.0.to_string()))
+                .chain(words(first..all))
+                .collect(),
         ];
-        let steady = ["speed_dependent_moment", "load_dependent_moment"];
-        let [m0, m1] = steady.map(|name| self.number(name, "N mm"));
-        let columns = [
-            "inner_race_inertia_moments",
-            "outer_race_inertia_moments",
-            "acceleration_loss_moments",
-            "inner_race_moments",
-            "outer_race_moments",
-        ]
-        .map(|name| self.list(name));
-        let mut rows = vec![head.map(String::from)];
-        for (row, acceleration) in self.list("accelerations").iter().enumerate() {
-            let [inner, outer, loss, t_i, t_o] = columns.map(|column| {
-                column
-                    .get(row)
-                    .map_or("-".into(), |si| in_unit(*si, "N mm"))
+        let [(_, varied), moments @ ..] = columns.as_slice() else {
+            return rows;
+        };
+        rows.extend(varied.iter().enumerate().map(|(row, at)| {
+            let at = format!("{} {unit}", four_digits(*at));
+            let moments = moments.iter().map(|(_, list)| {
+                list.get(row)
+                    .map_or("-".to_string(), |si| in_unit(*si, "N mm"))
             });
-            let acceleration = format!("{} rad/s^2", four_digits(*acceleration));
-            rows.push([
-                acceleration,
-                m0.clone(),
-                m1.clone(),
-                inner,
-                outer,
-                loss,
-                t_i,
-                t_o,
-            ]);
+            [at].into_iter()
+                .chain(fixed.iter().map(|one| one.1.clone()))
+                .chain(moments)
+                .collect()
+        }));
+        rows
+    }
+
+    fn accelerations(&self) -> Vec<Vec<String>> {
+        let parts = self.in_figure("parts").take(2);
+        let parts: Vec<_> = parts
+            .map(|part| {
+                (
+                    part.words_in("parts").unwrap_or_default(),
+                    value(part, "N mm"),
+                )
+            })
+            .collect();
+        self.over("by_acceleration", "rad/s^2", &parts)
+    }
+
+    fn loads(&self) -> Vec<Vec<String>> {
+        self.over("by_load", "N", &[])
+    }
+
+    /// Results under the head, one row for those of equal words in a figure.
+    fn rows(
+        &self,
+        figure: &'static str,
+        head: &[&str],
+        row: impl Fn(&str, &[&Quantity]) -> Vec<String>,
+    ) -> Vec<Vec<String>> {
+        let mut rows = vec![head.iter().map(ToString::to_string).collect()];
+        let all: Vec<&Quantity> = self.in_figure(figure).collect();
+        for some in all.chunk_by(|one, other| one.words_in(figure) == other.words_in(figure)) {
+            rows.push(row(some[0].words_in(figure).unwrap_or_default(), some));
         }
         rows
     }
 
-    fn loads(&self) -> Vec<[String; 3]> {
-        let mut rows = vec![["load", "M1", "M"].map(String::from)];
-        let m1 = self.list("load_dependent_moments_over_load");
-        let sums = self.list("friction_moments_over_load");
-        for ((load, m1), sum) in self.list("loads").iter().zip(m1).zip(sums) {
-            rows.push([
-                format!("{} N", four_digits(*load)),
-                in_unit(*m1, "N mm"),
-                in_unit(*sum, "N mm"),
-            ]);
-        }
-        rows
+    fn laws(&self) -> Vec<Vec<String>> {
+        self.rows("by_law", &["law", "M0", "M1", "M", ""], |law, moments| {
+            let cells = moments.iter().map(|moment| value(moment, "N mm"));
+            [law.to_string()]
+                .into_iter()
+                .chain(cells)
+                .chain(moments.last().map(|moment| why(moment)))
+                .collect()
+        })
     }
 
-    fn laws(&self) -> Vec<[String; 5]> {
-        const END: &str = "_friction_moment";
-        let mut rows = vec![["law", "M0", "M1", "M", ""].map(String::from)];
-        let names = self
-            .0
-            .quantities
-            .iter()
-            .map(|quantity| quantity.name.as_str());
-        for name in names.filter(|name| name.starts_with("law_") && name.ends_with(END)) {
-            let law = name.trim_end_matches(END);
-            let part = |end: &str| self.number(&format!("{law}_{end}"), "N mm");
-            rows.push([
-                law.trim_start_matches("law_").replace('_', " "),
-                part("speed_dependent_moment"),
-                part("load_dependent_moment"),
-                part("friction_moment"),
-                self.why(name),
-            ]);
-        }
-        rows
+    fn lubricants(&self) -> Vec<Vec<String>> {
+        self.rows(
+            "by_lubricant",
+            &["lubricant", "mm^2/s", "M", ""],
+            |_, results| match results {
+                [name, viscosity, moment, ..] => vec![
+                    value(name, ""),
+                    value(viscosity, "mm^2/s"),
+                    value(moment, "N mm"),
+                    why(moment),
+                ],
+                _ => Vec::new(),
+            },
+        )
     }
+}
 
-    fn lubricants(&self) -> Vec<[String; 4]> {
-        let mut rows = vec![["lubricant", "mm^2/s", "M", ""].map(String::from)];
-        for number in 1.. {
-            let name = format!("lubricant_{number}");
-            let Some(Value::Text(lubricant)) = self.value(&name) else {
-                break;
-            };
-            let moment = format!("{name}_friction_moment");
-            rows.push([
-                lubricant.clone(),
-                self.number(&format!("{name}_viscosity"), "mm^2/s"),
-                self.number(&moment, "N mm"),
-                self.why(&moment),
-            ]);
-        }
-        rows
+/// A value in a unit, without the unit; a dash where there is none.
+fn value(quantity: &Quantity, unit: &str) -> String {
+    match &quantity.value {
+        Value::Number(number) => in_unit(*number, unit),
+        Value::Text(text) => text.clone(),
+        _ => "-".to_string(),
     }
+}
+
+/// Why a result is not there; empty where it is.
+fn why(quantity: &Quantity) -> String {
+    quantity.value.why_absent().unwrap_or_default().to_string()
 }
 
 /// The number alone, to four digits.

@@ -84,25 +84,14 @@ def _of(name: str, bearing: str | None) -> bool:
 
 
 def _instants(result: Result) -> list[tuple[float, str]]:
-    """Instants worth a mark: the first contact, half and full spin-up, the stop, limits passed."""
-    named = [
-        ("time_to_first_contact", "first contact"),
-        ("inner_race_time_to_50_percent", "race at 50 %"),
-        ("inner_race_time_to_95_percent", "race at 95 %"),
-        ("closing_time", "clearance closed"),
-    ]
-    release = result["release_time"].value if "release_time" in result else None
-    release = release if isinstance(release, float) else 0.0
-    found = []
-    for name in result:
-        words = next((words for end, words in named if name == end or name.endswith("." + end)), None)
-        if words is None and name.endswith("_limit_time"):
-            words = name.removesuffix("_limit_time").replace("_", " ") + " at its limit"
-        value = result[name].value if words else None
-        if isinstance(value, float) and value > 0.0:
-            # the axis of time begins with the run
-            found.append((value + release if "time_to_" in name else value, words))
-    return found
+    """Instants worth a mark, with their words, as the tables of results place them in figures."""
+    quantities: dict[str, Any] = result.summary["quantities"]
+    shown = [(of.get("value"), of.get("shown", {})) for of in quantities.values()]
+    release = next((value for value, words in shown if words.get("instants") == "release"), None) or 0.0
+    # the axis of time begins with the run
+    starts = {"instants": 0.0, "instants_after_release": release}
+    found = [(value + starts[figure], words[figure]) for value, words in shown if value for figure in starts if figure in words]
+    return [(at, words) for at, words in found if at > 0.0]
 
 
 def _over_time(graph: Any, result: Result, title: str, axis: str, columns: list[tuple[str, str]], shown: Any) -> Any:

@@ -109,6 +109,17 @@ pub struct Quantity {
     pub spread: Option<Spread>,
     /// True of an instant that the run waits for: where it has no value it is later than the end of the run.
     pub awaited: bool,
+    /// Figures and tables of the fronts that show it, each with its words there.
+    pub shown: Vec<(&'static str, String)>,
+}
+
+impl Quantity {
+    /// The words that a figure has for it; none of a figure that does not show it.
+    pub fn words_in(&self, figure: &str) -> Option<&str> {
+        let mut shown = self.shown.iter();
+        let found = shown.find(|(known, _)| *known == figure);
+        found.map(|(_, words)| words.as_str())
+    }
 }
 
 /// Named results of the members of a repeated run: each name once, with a column of values.

@@ -13,7 +13,8 @@
 //! names, units and meanings, which is how results are known before a run. Whether a row is there follows from the setup alone
 //! (`when`), and so does the reason of a result that no such run has (`unless`, an `Option<String>`).
 //!
-//! A row that is `headline` is among the results that a run prints.
+//! A row that is `headline` is among the results that a run prints. `in figure "words"`, once or more, places a result in a figure
+//! or table of the fronts, where these words stand for it: fronts ask for figures, not for names.
 //!
 //! Kinds of rows: `number`, `instant` (a number that the run waits for), `list`, `text`. Each `*` of a name stands for what
 //! `List::named` puts there: the number of a critical speed, the name of a node.
@@ -45,6 +46,8 @@ pub struct Declared {
     pub meaning: &'static str,
     /// Whether it is among those that are looked at first.
     pub headline: bool,
+    /// Figures and tables that show it, each with its words there.
+    pub shown: &'static [(&'static str, &'static str)],
 }
 
 /// Kinds of values.
@@ -79,7 +82,7 @@ pub use crate::origins;
 #[macro_export]
 macro_rules! results {
     ($($(#[$doc:meta])* $vis:vis fn $table:ident($setup:ident: &$of:ty, $run:ident: &$after:ty) {
-        $($name:literal : $kind:ident $unit:literal $($headline:ident)?, $origin:expr, $meaning:literal $(when $there:expr)? $(, unless $why:expr)? => $value:expr;)*
+        $($name:literal : $kind:ident $unit:literal $($headline:ident)?, $origin:expr, $meaning:literal $(in $figure:ident $words:literal)* $(when $there:expr)? $(, unless $why:expr)? => $value:expr;)*
     })*) => {
         $($(#[$doc])*
         $vis fn $table(list: &mut $crate::list::List, $setup: &$of, after: Option<&$after>) {
@@ -95,6 +98,7 @@ macro_rules! results {
                         const WORDS: &[&str] = &[$(stringify!($headline))?];
                         !WORDS.is_empty()
                     },
+                    shown: &[$((stringify!($figure), $words)),*],
                 };
                 if true $(&& $there)? {
                     let absent: Option<String> = None$(.or($why))?;
@@ -168,10 +172,11 @@ impl From<String> for Value {
 impl List {
     /// Adds a declared result: its value, or before a run none.
     pub fn add(&mut self, declared: &'static Declared, value: Option<Value>) {
-        let mut name = declared.name.to_string();
-        for star in &self.stars {
-            name = name.replacen('*', star, 1);
-        }
+        let filled = |pattern: &str, stars: &[String]| {
+            let text = pattern.to_string();
+            (stars.iter()).fold(text, |text, star| text.replacen('*', star, 1))
+        };
+        let name = filled(declared.name, &self.stars);
         let value = value.unwrap_or_else(|| match declared.kind {
             Kind::number | Kind::instant => Value::None {
                 why: BEFORE_THE_RUN.to_string(),
@@ -191,6 +196,13 @@ impl List {
         if let Some(last) = self.quantities.last_mut() {
             last.awaited = declared.kind == Kind::instant;
             last.headline = declared.headline && is_missed;
+            let plain: Vec<String> = (self.stars.iter())
+                .map(|star| star.replace('_', " "))
+                .collect();
+            let shown = declared.shown.iter();
+            last.shown = shown
+                .map(|(figure, words)| (*figure, filled(words, &plain)))
+                .collect();
         }
     }
     /// Adds results whose names have something in the place of each `*`.
@@ -251,6 +263,7 @@ impl List {
             chaotic: false,
             spread: None,
             awaited: false,
+            shown: Vec::new(),
         });
     }
     /// The results of a run that ended at an instant, s, or of none: no number has a value where it ended before its first step.

@@ -35,12 +35,17 @@ pub(super) fn windows(summary_json: &str) -> BTreeMap<String, [f64; 2]> {
             [start, start + (end - start).clamp(SHORTEST, LONGEST)],
         ))
     });
-    let quantity = |name: &str| summary["quantities"][name]["value"].as_f64();
-    let engaged = quantity("engagement_time");
-    let settled = quantity("clutch_lock_time").or(quantity("change_end_time"));
-    let quick = engaged.zip(settled).filter(|(begin, end)| end > begin);
+    // the instants of a quick change, as the table lists them
+    let all = summary["quantities"].as_object();
+    let change = all.into_iter().flat_map(|all| all.values());
+    let instants = change.filter(|quantity| quantity["shown"]["change"].is_string());
+    let known = instants.map(|quantity| quantity["value"].as_f64());
+    let known: Vec<f64> = known.collect::<Option<_>>().unwrap_or_default();
+    let begin = known.iter().copied().fold(f64::INFINITY, f64::min);
+    let end = known.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let quick = (begin < end).then(|| (String::new(), [begin, end]));
     first
-        .chain(quick.map(|(begin, end)| (String::new(), [begin, end])))
+        .chain(quick)
         .map(|(bearing, [begin, end])| {
             let length = end - begin;
             (bearing, [begin - BEFORE * length, end + BEHIND * length])
@@ -88,15 +93,17 @@ mod tests {
 
     #[test]
     fn the_engagement_of_a_test_is_seen_closely() {
-        let text = |end: &str| {
+        let text = |figure: &str| {
+            let instant =
+                |value: f64| format!("{{\"value\": {value}, \"shown\": {{\"{figure}\": \"\"}}}}");
             format!(
-                "{{\"quantities\": {{\"engagement_time\": {{\"value\": 0.2}}, \"{end}\": {{\"value\": 0.226}}}}}}"
+                "{{\"quantities\": {{\"begin\": {}, \"end\": {}}}}}",
+                instant(0.2),
+                instant(0.226)
             )
         };
-        for end in ["clutch_lock_time", "change_end_time"] {
-            let [begin, end] = window(&text(end));
-            assert!((begin - 0.1974).abs() < 1e-9 && (end - 0.2299).abs() < 1e-9);
-        }
+        let [begin, end] = window(&text("change"));
+        assert!((begin - 0.1974).abs() < 1e-9 && (end - 0.2299).abs() < 1e-9);
         assert!(windows(&text("elsewhere")).is_empty());
     }
 

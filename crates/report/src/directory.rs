@@ -7,6 +7,7 @@
 //! The process that fills `DIR.partial` holds a lock on it, which goes with the process: one without a lock was left behind by
 //! a process that was killed, and the next takes it over.
 
+use super::figures::with_figures;
 use super::page::{self, PageColumn, PageRun};
 use super::picture;
 use super::{history, summary};
@@ -370,11 +371,14 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
     Ok(PageRun {
         name: name_of(path),
         directory: path.display().to_string(),
-        summary_json: text(SUMMARY, |text| {
-            let head: Result<Head, _> = serde_json::from_str(text);
-            let error = head.err()?;
-            Some(format!("what cannot be read as a summary ({error})"))
-        })?,
+        summary_json: with_figures(
+            text(SUMMARY, |text| {
+                let head: Result<Head, _> = serde_json::from_str(text);
+                let error = head.err()?;
+                Some(format!("what cannot be read as a summary ({error})"))
+            })?,
+            &path.join(SCENARIO),
+        ),
         scenario_toml: text(SCENARIO, |text| {
             let table: Result<toml::Table, _> = toml::from_str(text);
             match table {

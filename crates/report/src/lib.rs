@@ -18,6 +18,7 @@
 mod closely;
 pub mod directory;
 pub mod export;
+mod figures;
 mod history;
 pub mod page;
 mod page_summary;

@@ -37,7 +37,7 @@ pub struct Mode {
     /// Name of the bearing; empty where it is the only one.
     pub bearing: String,
     /// What, in words.
-    pub what: &'static str,
+    pub what: String,
     /// Whether drops add up; else the worst of them counts.
     pub adds: bool,
     /// Of the whole service, or why it is not known.
@@ -45,7 +45,7 @@ pub struct Mode {
     /// Half of the width within which 90 % of such services lie, by the spread between drops.
     pub band: Option<f64>,
     /// Unit; "1" of shares, of which 1 is the limit.
-    pub unit: &'static str,
+    pub unit: String,
     /// What each kind of drop would do alone, in the order of the occasions.
     pub parts: Vec<f64>,
 }
@@ -62,48 +62,10 @@ pub struct Service {
 }
 
 const FATIGUE: &str = "rolling fatigue, of L10";
-const KINDS: [(&str, &[&[&str]], bool, &str); 6] = [
-    (
-        FATIGUE,
-        &[
-            &["life_share_with_lubricant", "life_share"],
-            &["run_out.life_share_with_lubricant", "run_out.life_share"],
-        ],
-        true,
-        "1",
-    ),
-    ("wear depth", &[&["wear_depth"]], true, "m"),
-    (
-        "dents by ball loads",
-        &[&["indentation_index"], &["run_out.indentation_index"]],
-        false,
-        "1",
-    ),
-    (
-        "inner race too hot",
-        &[
-            &["inner_race_temperature_index", "heat_index"],
-            &["run_out.inner_race_temperature_index"],
-        ],
-        false,
-        "1",
-    ),
-    (
-        "balls that skid too hot",
-        &[&["skid_temperature_index"]],
-        false,
-        "1",
-    ),
-    (
-        "contact of rotor and race too hot",
-        &[
-            &["contact_temperature_index"],
-            &["run_out.contact_temperature_index"],
-        ],
-        false,
-        "1",
-    ),
-];
+/// Figures of the results that use a bearing up: of those that add up, and those of which the worst counts.
+const FIGURES: [(&str, bool); 2] = [("added_up", true), ("worst", false)];
+/// What begins the names of the results of a run-out.
+const RUN_OUT: &str = "run_out.";
 
 /// 90 % of a normal distribution lie within so many deviations.
 const BAND: f64 = 1.645;
@@ -112,6 +74,7 @@ const BAND: f64 = 1.645;
 struct Run<'a> {
     count: f64,
     directory: &'a Path,
+    text: String,
     summary: Value,
 }
 
@@ -133,6 +96,7 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
             directory: &occasion.directory,
             // it was read as a summary already
             summary: serde_json::from_str(&run.summary_json).unwrap_or_default(),
+            text: run.summary_json,
         });
     }
     let bearings = runs.first().map(Run::bearings).unwrap_or_default();
@@ -160,11 +124,17 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
             return Err(Box::new(Problem::at_path(code, path, found, needed)));
         }
     }
-    let each = bearings
-        .iter()
-        .flat_map(|bearing| KINDS.iter().map(move |kind| (bearing, kind)));
-    let modes: Vec<Mode> = each
-        .map(|(bearing, kind)| mode(&runs, bearing, kind))
+    let modes: Vec<Mode> = (bearings.iter())
+        .flat_map(|bearing| {
+            let kinds = runs
+                .first()
+                .map(|run| run.kinds(bearing))
+                .unwrap_or_default();
+            kinds
+                .into_iter()
+                .map(|kind| mode(&runs, bearing, kind))
+                .collect::<Vec<_>>()
+        })
         .collect();
     let equal = runs.first().map_or(1, Run::planes);
     let damages: Option<Vec<f64>> = (modes.iter())
@@ -190,18 +160,17 @@ fn listed(names: &[String]) -> String {
     }
 }
 
-fn mode(
-    runs: &[Run],
-    bearing: &str,
-    (what, sums, adds, unit): &(&'static str, &[&[&str]], bool, &'static str),
-) -> Mode {
+/// A way in which bearings are used up: its words, whether drops add up, and its unit.
+type Kind = (String, bool, String);
+
+fn mode(runs: &[Run], bearing: &str, (what, adds, unit): Kind) -> Mode {
     let mut parts = Vec::new();
     let mut why = None;
     let mut variance = 0.0;
     for run in runs {
         let (mut part, mut known) = (0.0, 0);
-        for names in *sums {
-            match run.first(bearing, names) {
+        for start in ["", RUN_OUT] {
+            match run.last(bearing, start, &what) {
                 Ok(Some(found)) => {
                     part = match adds {
                         true => part + found.mean,
@@ -220,9 +189,9 @@ fn mode(
         if known == 0 && why.is_none() {
             why = Some(format!("{} has no such result", run.directory.display()));
         }
-        parts.push(if *adds { run.count * part } else { part });
+        parts.push(if adds { run.count * part } else { part });
     }
-    let total = match (adds, *what == FATIGUE) {
+    let total = match (adds, what == FATIGUE) {
         (true, true) => together(runs, bearing).unwrap_or_else(|lacks| {
             why.get_or_insert(lacks);
             f64::NAN
@@ -236,9 +205,9 @@ fn mode(
     Mode {
         bearing: bearing.to_string(),
         what,
-        adds: *adds,
+        adds,
         value: why.map_or(Ok(total), Err),
-        band: (*adds && variance > 0.0).then(|| BAND * variance.sqrt()),
+        band: (adds && variance > 0.0).then(|| BAND * variance.sqrt()),
         unit,
         parts,
     }
@@ -252,7 +221,7 @@ fn together(runs: &[Run], bearing: &str) -> Result<f64, String> {
     let mut rings = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for run in runs {
         let mut known = false;
-        for part in ["", "run_out."] {
+        for part in ["", RUN_OUT] {
             for (side, ring) in ["inner", "outer"].into_iter().zip(&mut rings) {
                 let name = format!("{part}{side}_life_share_by_point");
                 let points = run.list(bearing, &name);
@@ -276,20 +245,47 @@ impl Run<'_> {
         let numbers = found.into_iter().flatten().filter_map(Value::as_f64);
         numbers.collect()
     }
-    /// Names of its bearings, of those that a drop has alone: an only one has none.
+    /// Names of its bearings; an only one has none, and a run without bearings that can be used up has no bearing.
     fn bearings(&self) -> Vec<String> {
-        const OF_BEARING: &str = "indentation_index";
-        const RUN_OUT: &str = "run_out";
+        let several = self.summary["auxiliary_bearings"].as_array();
+        let names = several
+            .into_iter()
+            .flatten()
+            .filter_map(|one| one["name"].as_str());
+        let names: Vec<String> = names.map(str::to_string).collect();
+        match names.is_empty() && !self.kinds("").is_empty() {
+            true => vec![String::new()],
+            false => names,
+        }
+    }
+    /// Results of a bearing that figures of use show, in the order of their table: name without that of the bearing, kind, result.
+    fn used_up(&self, bearing: &str) -> Vec<(&str, Kind, &Value)> {
         let all = self.summary["quantities"].as_object();
-        let names = all.into_iter().flat_map(|all| all.keys());
-        names
-            .filter_map(|name| match name.strip_suffix(OF_BEARING)? {
-                "" => Some(String::new()),
-                part => part.strip_suffix('.').map(str::to_string),
-            })
-            // the same bearings while they run out
-            .filter(|part| part != RUN_OUT && !part.ends_with(&format!(".{RUN_OUT}")))
-            .collect()
+        let own = all.into_iter().flatten().filter_map(|(name, result)| {
+            let name = match bearing {
+                "" => name.as_str(),
+                _ => name.strip_prefix(bearing)?.strip_prefix('.')?,
+            };
+            let (words, adds) = FIGURES
+                .iter()
+                .find_map(|(figure, adds)| Some((result["shown"][figure].as_str()?, *adds)))?;
+            let unit = result["unit"].as_str().unwrap_or_default().to_string();
+            Some((name, (words.to_string(), adds, unit), result))
+        });
+        let mut own: Vec<_> = own.collect();
+        // a map of JSON is sorted by name
+        own.sort_by_key(|(name, ..)| self.text.find(&format!("\"{}\":", of_part(bearing, name))));
+        own
+    }
+    fn kinds(&self, bearing: &str) -> Vec<Kind> {
+        let mut kinds: Vec<Kind> = Vec::new();
+        for (name, kind, _) in self.used_up(bearing) {
+            if !name.starts_with(RUN_OUT) && !kinds.contains(&kind) {
+                kinds.push(kind);
+            }
+        }
+        kinds.sort_by_key(|(what, adds, _)| (what != FATIGUE, !adds));
+        kinds
     }
     /// Equal planes of which one was computed.
     fn planes(&self) -> u32 {
@@ -300,15 +296,13 @@ impl Run<'_> {
             .find_map(|input| input["value"].as_str()?.parse().ok());
         planes.unwrap_or(1)
     }
-    /// The first of these results that there is; the reason why it has no value.
-    fn first(&self, bearing: &str, names: &[&str]) -> Result<Option<Found>, String> {
+    /// The last result of a kind that has a value, which knows most, of the drop or of its run-out; the reason where none has one.
+    fn last(&self, bearing: &str, start: &str, what: &str) -> Result<Option<Found>, String> {
         let mut why = None;
-        for name in names {
-            let name = of_part(bearing, name);
-            let found = &self.summary["quantities"][&name];
-            if found.is_null() {
-                continue;
-            }
+        let all = self.used_up(bearing).into_iter().rev();
+        for (name, _, found) in all.filter(|(name, kind, _)| {
+            kind.0 == what && name.starts_with(RUN_OUT) != start.is_empty()
+        }) {
             let spread = &found["spread"];
             let alone = found["value"].as_f64();
             if let Some(mean) = spread["mean"].as_f64().or(alone) {
@@ -320,7 +314,11 @@ impl Run<'_> {
                 }));
             }
             let said = found["why"].as_str().unwrap_or("no value");
-            why = Some(format!("{name} of {}: {said}", self.directory.display()));
+            why.get_or_insert(format!(
+                "{} of {}: {said}",
+                of_part(bearing, name),
+                self.directory.display()
+            ));
         }
         why.map_or(Ok(None), Err)
     }

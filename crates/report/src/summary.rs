@@ -81,7 +81,13 @@ fn told<'a>(
 }
 
 /// Name and value in the order given: a JSON object.
-struct Named<'a, T>(Vec<(&'a str, T)>);
+pub(super) struct Named<'a, T>(Vec<(&'a str, T)>);
+
+impl<T> Named<'_, T> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
 
 impl<T: Serialize> Serialize for Named<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -150,6 +156,8 @@ struct Found<'a> {
     valid: &'static str,
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     chaotic: bool,
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    shown: Named<'a, &'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     spread: Option<Range>,
 }
@@ -219,6 +227,13 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// The figures that show a result, each with its words there.
+pub(super) fn shown(quantity: &Quantity) -> Named<'_, &str> {
+    let headline = quantity.headline.then_some(("headline", quantity.meaning));
+    let others = (quantity.shown.iter()).map(|(figure, words)| (*figure, words.as_str()));
+    Named(headline.into_iter().chain(others).collect())
+}
+
 fn result(quantity: &Quantity) -> Found<'_> {
     let why = quantity.value.why_absent();
     let value = match &quantity.value {
@@ -236,6 +251,7 @@ fn result(quantity: &Quantity) -> Found<'_> {
         source: quantity.source,
         valid: quantity.valid,
         chaotic: quantity.chaotic,
+        shown: shown(quantity),
         spread: quantity.spread.as_ref().map(range),
     }
 }
@@ -317,6 +333,7 @@ mod tests {
             valid: "",
             chaotic: false,
             awaited: false,
+            shown: Vec::new(),
             spread: Some(Spread {
                 members: 2,
                 mean: f64::NAN,

@@ -19,34 +19,34 @@ pub fn name(list: &mut List, model: &RotorModel) {
 
 results! {
     fn parts(model: &RotorModel, run: &Drawn) {
-        "node_positions": list "m", GIVEN, "positions of the nodes" => run.rotor.nodes.clone();
-        "piece_starts": list "m", GIVEN, "where each piece of the shaft begins" => run.over_pieces(|l| l.from);
-        "piece_ends": list "m", GIVEN, "where each piece ends" => run.over_pieces(|l| l.to);
-        "piece_outer_starts": list "m", GIVEN, "outer diameter of each piece where it begins" => run.over_pieces(|l| l.start.outer);
-        "piece_outer_ends": list "m", GIVEN, "outer diameter of each piece where it ends" => run.over_pieces(|l| l.end.outer);
-        "piece_inner_starts": list "m", GIVEN, "inner diameter of each piece where it begins" => run.over_pieces(|l| l.start.inner);
-        "piece_inner_ends": list "m", GIVEN, "inner diameter of each piece where it ends" => run.over_pieces(|l| l.end.inner);
-        "piece_carries": list "1", GIVEN, "1 for a piece that bends with the shaft, else 0" => run.over_pieces(|l| f64::from(u8::from(l.carries)));
-        "disk_positions": list "m", GIVEN, "positions of the disks" => run.at(run.rotor.disks.iter().map(|disk| disk.node));
-        "disk_masses": list "kg", GIVEN, "masses of the disks" => run.rotor.disks.iter().map(|disk| disk.mass).collect::<Vec<_>>();
-        "disk_diameters": list "m", GIVEN, "diameters of the disks, 0 where not given" => run.over_disks(|size| size.0);
-        "disk_widths": list "m", GIVEN, "widths of the disks, 0 where not given" => run.over_disks(|size| size.1);
-        "support_positions": list "m", GIVEN, "positions of the supports" => run.at(run.on_nodes(false).map(|(_, node)| node));
-        "seal_positions": list "m", GIVEN, "positions of the seals" => run.at(run.on_nodes(true).map(|(_, node)| node));
-        "mass_positions": list "m", GIVEN, "positions of the point masses" => run.at(run.rotor.masses.iter().map(|mass| mass.node));
-        "point_masses": list "kg", GIVEN, "point masses" => run.rotor.masses.iter().map(|mass| mass.mass).collect::<Vec<_>>();
-        "unbalance_positions": list "m", GIVEN, "positions of the unbalances" => run.at(run.rotor.unbalance.iter().map(|unbalance| unbalance.node));
-        "named_node_positions": list "m", GIVEN, "positions of the named nodes" => run.at(run.nodes.iter().map(|(_, node)| *node));
-        "magnet_positions": list "m", GIVEN, "positions of the magnets" => run.at(run.magnets().map(|(_, magnet, _)| *magnet));
-        "sensor_positions": list "m", GIVEN, "positions of their sensors" => run.at(run.magnets().map(|(_, _, sensor)| *sensor));
-        "piece_materials": text "", GIVEN, "materials of the pieces" => lines(run.pieces.iter().map(|piece| &piece.material));
-        "piece_names": text "", GIVEN, "names of the pieces" => lines(run.pieces.iter().map(|piece| &piece.name));
-        "disk_names": text "", GIVEN, "names of the disks" => lines(run.disks.iter());
-        "unbalance_names": text "", GIVEN, "names of the unbalances" => lines(run.unbalance.iter());
-        "named_node_names": text "", GIVEN, "names of the named nodes" => lines(run.nodes.iter().map(|(name, _)| name));
-        "magnet_names": text "", GIVEN, "names of the magnets" => lines(run.magnets().map(|(name, _, _)| name));
-        "support_names": text "", GIVEN, "names of the supports" => lines(run.on_nodes(false).map(|(name, _)| name));
-        "seal_names": text "", GIVEN, "names of the seals" => lines(run.on_nodes(true).map(|(name, _)| name));
+        "node_positions": list "m", GIVEN, "positions of the nodes" in nodes "place" => run.rotor.nodes.clone();
+        "piece_starts": list "m", GIVEN, "where each piece of the shaft begins" in pieces "start" => run.over_pieces(|l| l.from);
+        "piece_ends": list "m", GIVEN, "where each piece ends" in pieces "end" => run.over_pieces(|l| l.to);
+        "piece_outer_starts": list "m", GIVEN, "outer diameter of each piece where it begins" in pieces "outer start" => run.over_pieces(|l| l.start.outer);
+        "piece_outer_ends": list "m", GIVEN, "outer diameter of each piece where it ends" in pieces "outer end" => run.over_pieces(|l| l.end.outer);
+        "piece_inner_starts": list "m", GIVEN, "inner diameter of each piece where it begins" in pieces "inner start" => run.over_pieces(|l| l.start.inner);
+        "piece_inner_ends": list "m", GIVEN, "inner diameter of each piece where it ends" in pieces "inner end" => run.over_pieces(|l| l.end.inner);
+        "piece_carries": list "1", GIVEN, "1 for a piece that bends with the shaft, else 0" in pieces "carries" => run.over_pieces(|l| f64::from(u8::from(l.carries)));
+        "disk_positions": list "m", GIVEN, "positions of the disks" in disks "place" => run.at(run.rotor.disks.iter().map(|disk| disk.node));
+        "disk_masses": list "kg", GIVEN, "masses of the disks" in disks "mass" => run.rotor.disks.iter().map(|disk| disk.mass).collect::<Vec<_>>();
+        "disk_diameters": list "m", GIVEN, "diameters of the disks, 0 where not given" in disks "diameter" => run.over_disks(|size| size.0);
+        "disk_widths": list "m", GIVEN, "widths of the disks, 0 where not given" in disks "width" => run.over_disks(|size| size.1);
+        "support_positions": list "m", GIVEN, "positions of the supports" in supports "place" => run.at(run.on_nodes(false).map(|(_, node)| node));
+        "seal_positions": list "m", GIVEN, "positions of the seals" in seals "place" => run.at(run.on_nodes(true).map(|(_, node)| node));
+        "mass_positions": list "m", GIVEN, "positions of the point masses" in masses "place" => run.at(run.rotor.masses.iter().map(|mass| mass.node));
+        "point_masses": list "kg", GIVEN, "point masses" in masses "mass" => run.rotor.masses.iter().map(|mass| mass.mass).collect::<Vec<_>>();
+        "unbalance_positions": list "m", GIVEN, "positions of the unbalances" in unbalances "place" => run.at(run.rotor.unbalance.iter().map(|unbalance| unbalance.node));
+        "named_node_positions": list "m", GIVEN, "positions of the named nodes" in named_places "place" => run.at(run.nodes.iter().map(|(_, node)| *node));
+        "magnet_positions": list "m", GIVEN, "positions of the magnets" in magnets "place" => run.at(run.magnets().map(|(_, magnet, _)| *magnet));
+        "sensor_positions": list "m", GIVEN, "positions of their sensors" in sensors "place" => run.at(run.magnets().map(|(_, _, sensor)| *sensor));
+        "piece_materials": text "", GIVEN, "materials of the pieces" in pieces "material" => lines(run.pieces.iter().map(|piece| &piece.material));
+        "piece_names": text "", GIVEN, "names of the pieces" in pieces "name" => lines(run.pieces.iter().map(|piece| &piece.name));
+        "disk_names": text "", GIVEN, "names of the disks" in disks "name" => lines(run.disks.iter());
+        "unbalance_names": text "", GIVEN, "names of the unbalances" in unbalances "name" => lines(run.unbalance.iter());
+        "named_node_names": text "", GIVEN, "names of the named nodes" in named_places "name" => lines(run.nodes.iter().map(|(name, _)| name));
+        "magnet_names": text "", GIVEN, "names of the magnets" in magnets "name" in sensors "name" => lines(run.magnets().map(|(name, _, _)| name));
+        "support_names": text "", GIVEN, "names of the supports" in supports "name" => lines(run.on_nodes(false).map(|(name, _)| name));
+        "seal_names": text "", GIVEN, "names of the seals" in seals "name" => lines(run.on_nodes(true).map(|(name, _)| name));
     }
 }
 

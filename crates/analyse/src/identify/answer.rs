@@ -63,7 +63,7 @@ results! {
     }
 
     fn probability(explanation: &Explanation, run: &Found) {
-        "probability_of_*": number "1", VERDICT, "probability of this explanation" => run.verdict().map(|verdict| verdict.of(*explanation).probability);
+        "probability_of_*": number "1", VERDICT, "probability of this explanation" in explanations "*" => run.verdict().map(|verdict| verdict.of(*explanation).probability);
     }
 
     fn explained(asked: &Asked, run: &Found) {
@@ -92,33 +92,33 @@ results! {
         "largest_parameter_correlation": number "1", CURVE, "largest correlation of two parameters" => {
             run.moment().and_then(|moment| largest_correlation(moment).ok_or_else(|| "one parameter".to_string()))
         };
-        "steady_moment_speeds": list "rad/s", CURVE, "speeds of the steady moment" => run.curve_speeds();
-        "steady_moments": list "N m", CURVE, "steady moment at these" => run.curve(|moment| moment.value);
-        "steady_moment_deviations": list "N m", CURVE, "its standard deviations" => run.curve(|moment| moment.deviation);
+        "steady_moment_speeds": list "rad/s", CURVE, "speeds of the steady moment" in steady_curve "speed" => run.curve_speeds();
+        "steady_moments": list "N m", CURVE, "steady moment at these" in steady_curve "moment" => run.curve(|moment| moment.value);
+        "steady_moment_deviations": list "N m", CURVE, "its standard deviations" in steady_curve "deviation" => run.curve(|moment| moment.deviation);
         "windage_torques": list "N m", WINDAGE, "torque of the windage at these" when asked.has_windage() => run.windage(|w, speed| w.at(speed));
         "windage_deviations": list "N m", WINDAGE, "its standard deviations" when asked.has_windage() => {
             run.windage(|w, speed| w.covariance(speed, speed).map(f64::sqrt))
         };
-        "coast_down_speeds": list "rad/s", COAST_DOWN, "speeds of the slow tests" => run.measured_curve().0;
-        "coast_down_torques": list "N m", COAST_DOWN, "torques of the slow tests" => run.measured_curve().1;
+        "coast_down_speeds": list "rad/s", COAST_DOWN, "speeds of the slow tests" in steady_points "speed" => run.measured_curve().0;
+        "coast_down_torques": list "N m", COAST_DOWN, "torques of the slow tests" in steady_points "torque" => run.measured_curve().1;
         "effective_steady_data": number "", WORTH, "effective number of data of the steady moment" => run.moment().map(|moment| moment.effective_data);
     }
 
     fn loss_map(asked: &Asked, run: &Result<[Vec<f64>; 5], &String>) {
-        "loss_map_speeds": list "rad/s", MAP, "speeds of the map of F" => column(run, 0);
-        "loss_map_accelerations": list "rad/s^2", MAP, "accelerations of the map of F" => column(run, 1);
-        "loss_map_friction": list "N", MAP, "pocket friction F there" => column(run, 2);
-        "loss_map_deviations": list "N", MAP, "its standard deviations" => column(run, 3);
-        "loss_map_known": list "", MAP, "1 where data are near" => column(run, 4);
+        "loss_map_speeds": list "rad/s", MAP, "speeds of the map of F" in friction_map "speed" => column(run, 0);
+        "loss_map_accelerations": list "rad/s^2", MAP, "accelerations of the map of F" in friction_map "acceleration" => column(run, 1);
+        "loss_map_friction": list "N", MAP, "pocket friction F there" in friction_map "friction" => column(run, 2);
+        "loss_map_deviations": list "N", MAP, "its standard deviations" in friction_map "deviation" => column(run, 3);
+        "loss_map_known": list "", MAP, "1 where data are near" in friction_map "known" => column(run, 4);
     }
 
     fn rotor(asked: &Asked, run: &Found) {
-        "rotor_friction_coefficient": number "1" headline, ROTOR, "mean coefficient of friction" => run.rotor().map(|rotor| rotor.mean().friction.value);
+        "rotor_friction_coefficient": number "1" headline, ROTOR, "mean coefficient of friction" in tile "Friction rotor/race" => run.rotor().map(|rotor| rotor.mean().friction.value);
         "rotor_friction_coefficient_deviation": number "1" headline, ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);
-        "rotor_friction_slips": list "m/s", ROTOR, "slips of rotor and race" => run.over_slip(|p| p.slip.value);
+        "rotor_friction_slips": list "m/s", ROTOR, "slips of rotor and race" in rotor_friction "slip" => run.over_slip(|p| p.slip.value);
         "rotor_friction_slip_deviations": list "m/s", ROTOR, "their standard deviations" => run.over_slip(|p| p.slip.deviation);
-        "rotor_friction_coefficients": list "1", ROTOR, "coefficient of friction at these" => run.over_slip(|p| p.friction.value);
-        "rotor_friction_deviations": list "1", ROTOR, "its standard deviations" => run.over_slip(|p| p.friction.deviation);
+        "rotor_friction_coefficients": list "1", ROTOR, "coefficient of friction at these" in rotor_friction "coefficient" => run.over_slip(|p| p.friction.value);
+        "rotor_friction_deviations": list "1", ROTOR, "its standard deviations" in rotor_friction "deviation" => run.over_slip(|p| p.friction.deviation);
     }
 }
 

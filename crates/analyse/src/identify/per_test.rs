@@ -50,9 +50,9 @@ results! {
             run.dissipation.as_ref().map(|d| d.window.1 - run.measurement.begin()).map_err(Clone::clone)
         };
         "test_*.printed_form": text "", ENERGY, "verdict on (21) as printed" => run.energy().map(|found| found.printed_verdict());
-        "test_*.slip_probability": number "1" headline, SLIP, "largest probability of a slip of the cage" when of.cage => run.slip_probability();
+        "test_*.slip_probability": number "1" headline, SLIP, "largest probability of a slip of the cage" in slips "cage slipped" when of.cage => run.slip_probability();
         "test_*.rolling_established_at": number "s", ROLLS, "time after the engagement from which on the cage rolls" when of.cage => run.rolling_established();
-        "test_*.skid_probability": number "1", SKID, "probability that balls skid" => run.skid_probability();
+        "test_*.skid_probability": number "1", SKID, "probability that balls skid" in slips "balls skidded, if M holds" => run.skid_probability();
     }
 }
 

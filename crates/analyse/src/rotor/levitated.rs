@@ -232,36 +232,36 @@ const SPEEDS: [&str; 2] = ["standstill", "rated"];
 
 results! {
     fn closed_loop(model: &LevitationModel, run: &Levitated) {
-        "levitation.slowest_eigenvalue": number "1/s" headline, POLES, "largest real part of an eigenvalue" => {
+        "levitation.slowest_eigenvalue": number "1/s" headline, POLES, "largest real part of an eigenvalue" in note "Largest sensitivity: slowest eigenvalue" => {
             run.poles.iter().map(|pole| pole.value.re).fold(f64::MIN, f64::max)
         };
-        "levitation.pole_real_parts": list "1/s", POLES, "real parts of the eigenvalues in the band" => run.shown(|pole| pole.value.re);
-        "levitation.pole_imaginary_parts": list "rad/s", POLES, "their imaginary parts" => run.shown(|pole| pole.value.im);
-        "levitation.pole_damping_ratios": list "", POLES, "their damping ratios" => run.shown(Pole::damping_ratio);
+        "levitation.pole_real_parts": list "1/s", POLES, "real parts of the eigenvalues in the band" in poles "Re λ" => run.shown(|pole| pole.value.re);
+        "levitation.pole_imaginary_parts": list "rad/s", POLES, "their imaginary parts" in poles "Im λ" => run.shown(|pole| pole.value.im);
+        "levitation.pole_damping_ratios": list "", POLES, "their damping ratios" in poles "damping ratio" => run.shown(Pole::damping_ratio);
         "levitation.coordinates": number "", POLES, "number of coordinates of the rotor" => run.coordinates as f64;
-        "levitation.largest_sensitivity": number "" headline, SENSITIVITY, "largest sensitivity of all axes" => run.largest_sensitivity();
-        "levitation.zone": text "" headline, SENSITIVITY, "zone of ISO 14839-3 of all axes" => zone(run.largest_sensitivity()).to_string();
-        "levitation.axes": text "", GIVEN, "names of the axes" => {
+        "levitation.largest_sensitivity": number "" headline, SENSITIVITY, "largest sensitivity of all axes" in tile "Largest sensitivity" => run.largest_sensitivity();
+        "levitation.zone": text "" headline, SENSITIVITY, "zone of ISO 14839-3 of all axes" in note "Largest sensitivity: zone" => zone(run.largest_sensitivity()).to_string();
+        "levitation.axes": text "", GIVEN, "names of the axes" in levitated_axes "axis" => {
             let names: Vec<&str> = model.levitation.actuators().iter().map(|a| a.axis.name.as_str()).collect();
             names.join("\n")
         };
     }
 
     fn axis(of: &(&LevitationModel, usize), run: &Levitated) {
-        "levitation.*.static_stiffness": number "N/m" headline, STATIC, "static stiffness" => static_stiffness(of.0, of.1, run);
-        "levitation.*.static_current": number "A" headline, STATIC, "control current at rest" => run.rest.currents[of.1];
-        "levitation.*.static_displacement": number "m", STATIC, "displacement at rest" => run.rest.gaps[of.1];
+        "levitation.*.static_stiffness": number "N/m" headline, STATIC, "static stiffness" in magnet_axes "static stiffness" => static_stiffness(of.0, of.1, run);
+        "levitation.*.static_current": number "A" headline, STATIC, "control current at rest" in magnet_axes "static current" => run.rest.currents[of.1];
+        "levitation.*.static_displacement": number "m", STATIC, "displacement at rest" in magnet_axes "static displacement" => run.rest.gaps[of.1];
         "levitation.*.position_stiffness_rise": number "", STATIC, "rise of the position stiffness at rest" => rise(of.0, of.1, &run.rest.slopes);
-        "levitation.*.unbalance_current": number "A", TURNING, "amplitude of the current under unbalance" => {
+        "levitation.*.unbalance_current": number "A", TURNING, "amplitude of the current under unbalance" in magnet_axes "unbalance current" => {
             let turning = run.turning.as_ref().map(|turning| turning.currents[of.1].norm());
             turning.ok_or_else(|| "no [[rotor.unbalance]] is given".to_string())
         };
     }
 
     fn open_loops(setup: &(), run: &OpenLoop) {
-        "levitation.*.*.sensitivity_peak": number "" headline, SENSITIVITY, "largest sensitivity" => run.peak().size;
-        "levitation.*.*.sensitivity_peak_frequency": number "Hz", SENSITIVITY, "frequency of the largest sensitivity" => run.peak().at / TAU;
-        "levitation.*.*.zone": text "", SENSITIVITY, "zone of ISO 14839-3" => zone(run.peak().size).to_string();
+        "levitation.*.*.sensitivity_peak": number "" headline, SENSITIVITY, "largest sensitivity" in sensitivities "peak |S|" => run.peak().size;
+        "levitation.*.*.sensitivity_peak_frequency": number "Hz", SENSITIVITY, "frequency of the largest sensitivity" in sensitivities "at" => run.peak().at / TAU;
+        "levitation.*.*.zone": text "", SENSITIVITY, "zone of ISO 14839-3" in sensitivities "zone" => zone(run.peak().size).to_string();
         "levitation.*.*.phase_margin": number "rad" headline, SENSITIVITY, "phase margin" => run.margin(|margins| margins.phase);
         "levitation.*.*.gain_margin_up": number "", SENSITIVITY, "largest factor on the gain that is stable" => run.margin(|margins| margins.upper_gain);
         "levitation.*.*.gain_margin_down": number "", SENSITIVITY, "smallest factor on the gain that is stable" => run.margin(|margins| margins.lower_gain);

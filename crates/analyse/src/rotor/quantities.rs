@@ -59,96 +59,96 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 
 results! {
     fn body(asked: &Asked, run: &Found) {
-        "mass": number "kg" headline, BODY, "mass of the rotor" => rotor::properties(asked.rotor()).mass;
-        "mass_centre": number "m" headline, BODY, "position of its centre of mass" => rotor::properties(asked.rotor()).centre;
-        "polar_inertia": number "kg m^2", BODY, "polar moment of inertia" => rotor::properties(asked.rotor()).polar;
-        "transverse_inertia": number "kg m^2", BODY, "transverse moment of inertia" => rotor::properties(asked.rotor()).transverse;
-        "length": number "m", BODY, "length from the first node to the last" => asked.length();
-        "rated_speed": number "rad/s", GIVEN, "rated speed" => asked.analysis.speed;
-        "node_count": number "", ELEMENT, "number of nodes" => asked.rotor().nodes.len() as f64;
+        "mass": number "kg" headline, BODY, "mass of the rotor" in properties "mass" in rotor_line "mass" => rotor::properties(asked.rotor()).mass;
+        "mass_centre": number "m" headline, BODY, "position of its centre of mass" in properties "mass centre" => rotor::properties(asked.rotor()).centre;
+        "polar_inertia": number "kg m^2", BODY, "polar moment of inertia" in properties "polar inertia" => rotor::properties(asked.rotor()).polar;
+        "transverse_inertia": number "kg m^2", BODY, "transverse moment of inertia" in properties "transverse inertia" => rotor::properties(asked.rotor()).transverse;
+        "length": number "m", BODY, "length from the first node to the last" in properties "length" in rotor_line "length" => asked.length();
+        "rated_speed": number "rad/s", GIVEN, "rated speed" in rated "rated" in rotor_line "rated" => asked.analysis.speed;
+        "node_count": number "", ELEMENT, "number of nodes" in properties "nodes" => asked.rotor().nodes.len() as f64;
     }
 
     fn criticals(asked: &Asked, run: &Found) {
-        "first_critical_speed": number "rad/s" headline, CRITICAL, "lowest critical speed that is not of backward whirl" => run.first_critical();
+        "first_critical_speed": number "rad/s" headline, CRITICAL, "lowest critical speed that is not of backward whirl" in tile "First critical speed" => run.first_critical();
         "critical_speeds": list "rad/s", CRITICAL, "critical speeds" => run.criticals.iter().map(|one| one.speed).collect::<Vec<_>>();
-        "critical_whirls": text "", CRITICAL, "sense of whirl at each of them" => run.whirls();
+        "critical_whirls": text "", CRITICAL, "sense of whirl at each of them" in criticals_whirl "whirl" => run.whirls();
     }
 
     fn critical(asked: &Asked, run: &Critical) {
-        "critical_*.speed": number "rad/s" headline, CRITICAL, "critical speed" => run.speed;
+        "critical_*.speed": number "rad/s" headline, CRITICAL, "critical speed" in criticals "speed" => run.speed;
         "critical_*.damping_ratio": number "", MODE, "damping ratio of the mode there" => run.mode.damping_ratio();
-        "critical_*.amplification": number "" headline, AMPLIFICATION, "amplification factor of the mode there" => amplification(run);
-        "critical_*.separation": number "" headline, SEPARATION, "separation margin to the operating speeds" => {
+        "critical_*.amplification": number "" headline, AMPLIFICATION, "amplification factor of the mode there" in criticals "amplification" => amplification(run);
+        "critical_*.separation": number "" headline, SEPARATION, "separation margin to the operating speeds" in criticals "separation [%]" => {
             Some(asked.separation(run)).filter(|share| share.is_finite()).ok_or_else(|| "the operating speeds are standstill".to_string())
         };
-        "critical_*.verdict": text "" headline, SEPARATION, "verdict on its margin" when asked.analysis.separation_margin.is_some() => asked.verdict(run);
+        "critical_*.verdict": text "" headline, SEPARATION, "verdict on its margin" in criticals "verdict" when asked.analysis.separation_margin.is_some() => asked.verdict(run);
     }
 
     fn stability(asked: &Asked, run: &Found) {
-        "separation_verdict": text "" headline, SEPARATION, "verdict on all critical speeds", unless asked.no_margin() => asked.whole_verdict(run);
+        "separation_verdict": text "" headline, SEPARATION, "verdict on all critical speeds" in tile "Separation" in bound "fail", unless asked.no_margin() => asked.whole_verdict(run);
         "first_unstable_speed": number "rad/s" headline, STABILITY, "lowest speed at which a motion grows" => asked.first_unstable(run);
     }
 
     fn bending(asked: &Asked, run: &Found) {
-        "free_bending_frequencies": list "rad/s", MODE, "natural frequencies of bending of the free rotor at rest" => {
+        "free_bending_frequencies": list "rad/s", MODE, "natural frequencies of bending of the free rotor at rest" in free_bending "frequency" => {
             asked.bending().map(|k| asked.full.frequencies[k]).collect::<Vec<_>>()
         };
-        "first_bending_frequency": number "rad/s" headline, MODE, "lowest of them" => {
+        "first_bending_frequency": number "rad/s" headline, MODE, "lowest of them" in tile "First free bending mode [Hz]" => {
             asked.bending().next().map(|k| asked.full.frequencies[k]).ok_or_else(|| "a rotor without elements does not bend".to_string())
         };
     }
 
     fn bending_mode(of: &(&Asked, usize), run: &Found) {
-        "free_mode_*.shape": list "", MODE, "shape of a bending mode of the free rotor at its nodes" => of.0.bending_shape(of.1);
+        "free_mode_*.shape": list "", MODE, "shape of a bending mode of the free rotor at its nodes" in free_mode_shapes "shape" => of.0.bending_shape(of.1);
     }
 
     fn mode(asked: &Asked, run: &Mode) {
-        "mode_*.frequency": number "rad/s", MODE, "damped natural frequency at the rated speed" => run.frequency();
-        "mode_*.damping_ratio": number "", MODE, "damping ratio at the rated speed" => run.damping_ratio();
-        "mode_*.whirl": text "", MODE, "sense of whirl at the rated speed" => whirl_word(run.whirl);
-        "mode_*.shape": list "", MODE, "shape at the nodes, of its larger sense of whirl" => shape(run, asked.rotor().nodes.len());
+        "mode_*.frequency": number "rad/s", MODE, "damped natural frequency at the rated speed" in modes "frequency" => run.frequency();
+        "mode_*.damping_ratio": number "", MODE, "damping ratio at the rated speed" in modes "ζ [%]" => run.damping_ratio();
+        "mode_*.whirl": text "", MODE, "sense of whirl at the rated speed" in modes "whirl" => whirl_word(run.whirl);
+        "mode_*.shape": list "", MODE, "shape at the nodes, of its larger sense of whirl" in mode_shapes "shape" => shape(run, asked.rotor().nodes.len());
     }
 
     fn branches(asked: &Asked, run: &Found) {
-        "branch_senses": list "", MODE, "whirl of each branch of the diagram: 1 forward, -1 backward, 0 planar" => run.branch_senses();
+        "branch_senses": list "", MODE, "whirl of each branch of the diagram: 1 forward, -1 backward, 0 planar" in branches "sense" => run.branch_senses();
     }
 
     fn response(of: &Shown, run: &Found) {
-        "*.peak_amplitude": number "m" headline, RESPONSE, "largest response to unbalance, half the longer axis" when !of.is_force() => of.amplitude(run, of.peak(run));
-        "*.peak_amplitude": number "N" headline, RESPONSE, "largest force under unbalance, half the longer axis" when of.is_force() => of.amplitude(run, of.peak(run));
-        "*.peak_speed": number "rad/s" headline, RESPONSE, "speed at which it is largest" => of.peak(run).map(|one| one.speed).ok_or_else(|| no_response(run));
-        "*.rated_amplitude": number "m" headline, RESPONSE, "response to unbalance at the rated speed" when !of.is_force() => of.amplitude(run, of.rated(run));
-        "*.rated_amplitude": number "N" headline, RESPONSE, "force under unbalance at the rated speed" when of.is_force() => of.amplitude(run, of.rated(run));
+        "*.peak_amplitude": number "m" headline, RESPONSE, "largest response to unbalance, half the longer axis" in responses "largest amplitude" when !of.is_force() => of.amplitude(run, of.peak(run));
+        "*.peak_amplitude": number "N" headline, RESPONSE, "largest force under unbalance, half the longer axis" in responses "largest amplitude" when of.is_force() => of.amplitude(run, of.peak(run));
+        "*.peak_speed": number "rad/s" headline, RESPONSE, "speed at which it is largest" in responses "at" => of.peak(run).map(|one| one.speed).ok_or_else(|| no_response(run));
+        "*.rated_amplitude": number "m" headline, RESPONSE, "response to unbalance at the rated speed" in responses "at the rated speed" when !of.is_force() => of.amplitude(run, of.rated(run));
+        "*.rated_amplitude": number "N" headline, RESPONSE, "force under unbalance at the rated speed" in responses "at the rated speed" when of.is_force() => of.amplitude(run, of.rated(run));
     }
 
     fn deflection(asked: &Asked, run: &Response) {
-        "deflection_*.speed": number "rad/s", RESPONSE, "speed of a deflected shape" => run.speed;
+        "deflection_*.speed": number "rad/s", RESPONSE, "speed of a deflected shape" in deflections "speed" => run.speed;
         "deflection_*.x": list "m", RESPONSE, "x of each node when the mark passes" => asked.over_nodes(|node| run.planes(node).0.re);
         "deflection_*.y": list "m", RESPONSE, "y of each node when the mark passes" => asked.over_nodes(|node| run.planes(node).1.re);
-        "deflection_*.amplitude": list "m", RESPONSE, "half the longer axis of the orbit of each node" => asked.over_nodes(|node| run.amplitude(node));
+        "deflection_*.amplitude": list "m", RESPONSE, "half the longer axis of the orbit of each node" in deflections "amplitude" => asked.over_nodes(|node| run.amplitude(node));
     }
 
     fn sag(asked: &Asked, run: &Found) {
-        "largest_sag": number "m" headline, SAG, "largest sag under weight" => asked.sag(run).map(|all| all.into_iter().fold(0.0, f64::max));
-        "sag": list "m", SAG, "sag of each node under weight" => asked.sag(run);
+        "largest_sag": number "m" headline, SAG, "largest sag under weight" in tile "Largest sag" => asked.sag(run).map(|all| all.into_iter().fold(0.0, f64::max));
+        "sag": list "m", SAG, "sag of each node under weight" in sag "sag" => asked.sag(run);
     }
 
     fn support_load(of: &(&Asked, usize), run: &Found) {
-        "load.*": number "N" headline, SAG, "weight that a support carries" => of.0.support_load(run, of.1);
+        "load.*": number "N" headline, SAG, "weight that a support carries" in support_loads "*" => of.0.support_load(run, of.1);
     }
 
     fn map(asked: &Asked, run: &Found) {
-        "map_stiffnesses": list "N/m", MAP, "stiffnesses of the supports in the map" => run.map.iter().map(|point| point.stiffness).collect::<Vec<_>>();
+        "map_stiffnesses": list "N/m", MAP, "stiffnesses of the supports in the map" in stiffness_map "stiffness" => run.map.iter().map(|point| point.stiffness).collect::<Vec<_>>();
     }
 
     fn mapped(forward: &bool, run: &Vec<f64>) {
-        "map_forward_*": list "rad/s", MAP, "critical speed of forward whirl at each of them" when *forward => run.clone();
-        "map_backward_*": list "rad/s", MAP, "critical speed of backward whirl at each of them" when !*forward => run.clone();
+        "map_forward_*": list "rad/s", MAP, "critical speed of forward whirl at each of them" in stiffness_map "forward" when *forward => run.clone();
+        "map_backward_*": list "rad/s", MAP, "critical speed of backward whirl at each of them" in stiffness_map "backward" when !*forward => run.clone();
     }
 
     fn reduction(asked: &Asked, run: &Found) {
-        "coordinates": number "" headline, REDUCTION, "number of coordinates kept" => asked.within.basis.len() as f64;
-        "reduction_error": number "" headline, REDUCTION, "largest relative error of eigenvalues that this makes" => {
+        "coordinates": number "" headline, REDUCTION, "number of coordinates kept" in properties "coordinates of the diagrams" => asked.within.basis.len() as f64;
+        "reduction_error": number "" headline, REDUCTION, "largest relative error of eigenvalues that this makes" in tile "Error of the reduction" => {
             run.reduction_error.ok_or_else(|| "all coordinates are kept".to_string())
         };
         "receptance_error": number "", REDUCTION, "largest relative error of receptances that this makes" => {

@@ -30,7 +30,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 
 results! {
     fn file(asked: &Asked, run: &Found) {
-        "channels": text "" headline, FILE, "channels of the file with unit, number of values and rate" => asked.channels();
+        "channels": text "" headline, FILE, "channels of the file with unit, number of values and rate" in channels "channels" => asked.channels();
         "file_notes": text "", FILE, "what to know of the file" => match asked.notes.as_slice() {
             [] => "none".to_string(),
             notes => notes.join("; "),
@@ -41,39 +41,39 @@ results! {
         "speed_noise": number "rad/s", CHANNEL, "noise of one value of the channel" when asked.holds_speed() => run.channel().map(|c| c.noise);
         "speed_step": number "rad/s", CHANNEL, "smallest step of the channel" when asked.holds_speed() => run.channel().map(|c| c.step);
         "pulse_count": number "" headline, PULSES, "number of pulses" => run.pulses().map(|pulses| pulses.times.len() as f64);
-        "pulses_repaired_share": number "1" headline, PULSES, "share of pulses that were missing or double" => run.pulses().map(|pulses| pulses.repaired);
+        "pulses_repaired_share": number "1" headline, PULSES, "share of pulses that were missing or double" in repairs "pulses that were missing or too many, share" => run.pulses().map(|pulses| pulses.repaired);
         "pickup_silent_from": list "s", SILENT, "beginnings of the gaps in the signal" => run.over_gaps(|gap| gap.from);
         "pickup_silent_to": list "s", SILENT, "ends of the gaps in the signal" => run.over_gaps(|gap| gap.to);
-        "pulse_timing_factor": number "1", SPEED, "scatter of the pulses over that stated" => {
+        "pulse_timing_factor": number "1", SPEED, "scatter of the pulses over that stated" in repairs "scatter of the pulses over what their flanks promise" => {
             run.pulses().and_then(|_| run.shaft().map(|s| s.speed.timing_factor))
         };
-        "largest_mark_error_share_of_pitch": number "1", PITCH, "largest error of a mark over the pitch" => run.shaft().and_then(|s| s.largest_mark_error());
+        "largest_mark_error_share_of_pitch": number "1", PITCH, "largest error of a mark over the pitch" in repairs "largest error of a mark, share of the pitch (taken out)" => run.shaft().and_then(|s| s.largest_mark_error());
         "mean_speed": number "rad/s", SPEED, "mean speed of the record" => run.shaft().map(|s| s.mean_speed());
-        "peak_speed": number "rad/s" headline, SPEED, "largest speed" => run.shaft().map(|s| s.fastest.speed);
+        "peak_speed": number "rad/s" headline, SPEED, "largest speed" in tile "Largest speed" in shaft_speed "speed" => run.shaft().map(|s| s.fastest.speed);
         "peak_speed_deviation": number "rad/s", SPEED, "its standard deviation" => run.shaft().map(|s| s.fastest.speed_uncertainty());
-        "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration" => run.shaft().map(|s| s.peak.acceleration);
+        "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration" in tile "Largest acceleration" => run.shaft().map(|s| s.peak.acceleration);
         "peak_acceleration_deviation": number "rad/s^2" headline, SPEED, "its standard deviation" => run.shaft().map(|s| s.peak.acceleration_uncertainty());
         "time_of_peak_acceleration": number "s", SPEED, "when the acceleration is largest" => run.shaft().map(|s| s.peak.time);
-        "engagement_time": number "s" headline, CHANGE, "when the quick change of speed begins" => run.change().map(|c| c.engagement.0);
+        "engagement_time": number "s" headline, CHANGE, "when the quick change of speed begins" in tile "Engagement" in instants "engaged" in change "engaged" => run.change().map(|c| c.engagement.0);
         "engagement_time_deviation": number "s", CHANGE, "its standard deviation" => run.change().map(|c| c.engagement.1);
-        "change_end_time": number "s", CHANGE, "when the quick change of speed ends" => run.change_end().map(|end| end.0);
+        "change_end_time": number "s", CHANGE, "when the quick change of speed ends" in instants "end of the change" in change "end of the change" => run.change_end().map(|end| end.0);
         "change_end_time_deviation": number "s", CHANGE, "its standard deviation" => run.change_end().map(|end| end.1);
-        "pulses_in_change": number "", CHANGE, "number of pulses in it" => run.change().and_then(|c| run.pulses().map(|_| c.pulses as f64));
+        "pulses_in_change": number "", CHANGE, "number of pulses in it" in pulses "in the change" => run.change().and_then(|c| run.pulses().map(|_| c.pulses as f64));
         "change_from_rest": text "", CHANGE, "whether the shaft rested before it" => run.change().map(|c| if c.from_rest { "yes" } else { "no" });
     }
 
     fn reading(asked: &Asked, run: &Faulty) {
-        "torque_clipped_values": number "", FAULTS, "values at the limit of the converter" => run.clipped as f64;
-        "torque_stuck_values": number "", FAULTS, "values held without noise" => run.stuck as f64;
-        "torque_missing_values": number "", FAULTS, "values that are no numbers" => run.missing as f64;
+        "torque_clipped_values": number "", FAULTS, "values at the limit of the converter" in repairs "torque: values at the limit of the converter" => run.clipped as f64;
+        "torque_stuck_values": number "", FAULTS, "values held without noise" in repairs "torque: values held without noise" => run.stuck as f64;
+        "torque_missing_values": number "", FAULTS, "values that are no numbers" in repairs "torque: values that are no numbers" => run.missing as f64;
     }
 
     fn torque(asked: &Asked, run: &Found) {
-        "sensor_frequency": number "Hz" headline, SENSOR, "natural frequency of the sensor" => run.sensor().map(|s| s.frequency.value);
+        "sensor_frequency": number "Hz" headline, SENSOR, "natural frequency of the sensor" in sensor "sensor" => run.sensor().map(|s| s.frequency.value);
         "sensor_frequency_deviation": number "Hz", SENSOR, "its standard deviation" => run.sensor().map(|s| s.frequency.deviation);
         "sensor_damping_ratio": number "1", SENSOR, "damping ratio of the sensor" => run.sensor().map(|s| s.damping_ratio.value);
         "sensor_damping_ratio_deviation": number "1", SENSOR, "its standard deviation" => run.sensor().map(|s| s.damping_ratio.deviation);
-        "peak_torque": number "N m" headline, TORQUE, "largest torque" => run.whole_torque().map(|t| at_largest(&t.torque, &t.torque));
+        "peak_torque": number "N m" headline, TORQUE, "largest torque" in tile "Largest torque" in sensor_torque "the torque without the sensor's swing" => run.whole_torque().map(|t| at_largest(&t.torque, &t.torque));
         "peak_torque_deviation": number "N m", TORQUE, "its standard deviation" => run.whole_torque().map(|t| at_largest(&t.torque, &t.deviation));
         "time_of_peak_torque": number "s", TORQUE, "when the torque is largest" => run.whole_torque().map(|t| at_largest(&t.torque, &t.time));
         "median_torque_deviation": number "N m" headline, TORQUE, "median of the standard deviation of the torque" => run.whole_torque().map(|t| median(&t.deviation));
@@ -84,19 +84,19 @@ results! {
         "torque_zero": number "N m", TORQUE, "zero of the reading" => run.inverted().map(|t| t.zero.value);
         "torque_zero_deviation": number "N m", TORQUE, "its standard deviation" => run.inverted().map(|t| t.zero.deviation);
         "torque_noise": number "N m", TORQUE, "noise of the reading" => run.inverted().map(|t| t.noise);
-        "torque_spectrum_frequencies": list "Hz", SPECTRUM, "frequencies in the reading" => run.torque(|t| &t.spectrum).map(|s| s.frequency.clone());
-        "torque_spectrum_amplitudes": list "N m", SPECTRUM, "amplitudes of the reading at these" => run.torque(|t| &t.spectrum).map(|s| s.amplitude.clone());
-        "sensor_design_frequencies": list "Hz", DESIGN, "frequencies of other sensors" => run.designs(|e| e.frequency);
-        "sensor_design_raw_errors": list "N m", DESIGN, "error of the reading of each of them" => run.designs(|e| e.raw);
-        "sensor_design_inverted_errors": list "N m", DESIGN, "error of the torque from each of them" => run.designs(|e| e.inverted);
+        "torque_spectrum_frequencies": list "Hz", SPECTRUM, "frequencies in the reading" in spectrum "frequency [Hz]" => run.torque(|t| &t.spectrum).map(|s| s.frequency.clone());
+        "torque_spectrum_amplitudes": list "N m", SPECTRUM, "amplitudes of the reading at these" in spectrum "amplitude" => run.torque(|t| &t.spectrum).map(|s| s.amplitude.clone());
+        "sensor_design_frequencies": list "Hz", DESIGN, "frequencies of other sensors" in sensor_design "frequency of the sensor [Hz]" => run.designs(|e| e.frequency);
+        "sensor_design_raw_errors": list "N m", DESIGN, "error of the reading of each of them" in sensor_design "reading as it is" => run.designs(|e| e.raw);
+        "sensor_design_inverted_errors": list "N m", DESIGN, "error of the torque from each of them" in sensor_design "inverted" => run.designs(|e| e.inverted);
     }
 
     fn cage(asked: &Asked, run: &Found) {
-        "median_cage_slip": number "1" headline, CAGE, "median of the slip of the cage" => run.cage(|c| median(&c.slip));
+        "median_cage_slip": number "1" headline, CAGE, "median of the slip of the cage" in tile "Median slip of the cage [%]" => run.cage(|c| median(&c.slip));
         "median_cage_slip_deviation": number "1" headline, CAGE, "median of its standard deviation" => run.cage(|c| median(&c.slip_deviation));
         "cage_slip_at_end": number "1", CAGE, "slip of the cage at the end" => run.cage(|c| last(&c.slip));
         "cage_slip_at_end_deviation": number "1", CAGE, "its standard deviation" => run.cage(|c| last(&c.slip_deviation));
-        "cage_speed_at_end": number "rad/s", CAGE, "speed of the cage at the end" => run.cage(|c| last(&c.speed));
+        "cage_speed_at_end": number "rad/s", CAGE, "speed of the cage at the end" in cage_speed "the cage" => run.cage(|c| last(&c.speed));
         "cage_angle_noise": number "rad", CAGE, "noise of the angle of the cage" => run.cage(|c| c.noise);
     }
 }

@@ -26,16 +26,16 @@ pub(crate) fn name(list: &mut List, asked: &Asked, found: Option<&Found>) {
 
 results! {
     fn converter(asked: &Asked, run: &Found) {
-        "converter_clipped_values": number "", CONVERTER, "values at the limits" => run.converted.iter().map(|one| one.clipped as f64).sum::<f64>();
-        "converter_rounding_share_of_noise": number "1", CONVERTER, "largest share of the noise that is rounding" => {
+        "converter_clipped_values": number "", CONVERTER, "values at the limits" in repairs "values at the limits of the converter, all its channels" => run.converted.iter().map(|one| one.clipped as f64).sum::<f64>();
+        "converter_rounding_share_of_noise": number "1", CONVERTER, "largest share of the noise that is rounding" in repairs "rounding of the converter, largest share of a channel's noise" => {
             run.converted.iter().map(|one| one.rounding_share).fold(0.0, f64::max)
         };
     }
 
     /// The amplitudes are in the unit of the channel.
     fn orders(asked: &Asked, run: &Found) {
-        "vibration_orders": list "1", ORDERS, "orders of the shaft" => run.orders(|o| o.order);
-        "vibration_order_amplitudes": list "1", ORDERS, "median amplitude of each order" => run.orders(|o| median(&o.amplitude()));
+        "vibration_orders": list "1", ORDERS, "orders of the shaft" in orders "order" => run.orders(|o| o.order);
+        "vibration_order_amplitudes": list "1", ORDERS, "median amplitude of each order" in orders "amplitude" => run.orders(|o| median(&o.amplitude()));
     }
 
     fn spectrograms(asked: &Asked, run: &Found) {
@@ -48,20 +48,20 @@ results! {
     }
 
     fn steady(asked: &Asked, run: &Found) {
-        "steady_inertia": number "kg m^2", INERTIA, "moment of inertia of what coasts" => run.steady(|p| &p.inertia).map(|i| i.value);
+        "steady_inertia": number "kg m^2", INERTIA, "moment of inertia of what coasts" in slow_inertia "I" => run.steady(|p| &p.inertia).map(|i| i.value);
         "steady_inertia_deviation": number "kg m^2", INERTIA, "its standard deviation" => run.steady(|p| &p.inertia).map(|i| i.deviation);
-        "steady_speeds": list "rad/s", STEADY, "speeds of the curves" => run.slow().map(|p| p.speed.clone());
-        "steady_direct_torques": list "N m", STEADY, "torque by the sensor as the speed falls" => run.steady(|p| &p.direct).map(|c| c.torque.clone());
+        "steady_speeds": list "rad/s", STEADY, "speeds of the curves" in slow_speeds "speed" => run.slow().map(|p| p.speed.clone());
+        "steady_direct_torques": list "N m", STEADY, "torque by the sensor as the speed falls" in steady_torques "by the sensor, speed falling" => run.steady(|p| &p.direct).map(|c| c.torque.clone());
         "steady_direct_deviations": list "N m", STEADY, "its standard deviations" => run.steady(|p| &p.direct).map(SteadyCurve::whole_deviation);
-        "steady_inertial_torques": list "N m", STEADY, "torque by inertia and deceleration" => run.steady(|p| &p.inertial).map(|c| c.torque.clone());
+        "steady_inertial_torques": list "N m", STEADY, "torque by inertia and deceleration" in steady_torques "−I dΩ/dt, less windage where it is given" => run.steady(|p| &p.inertial).map(|c| c.torque.clone());
         "steady_inertial_deviations": list "N m", STEADY, "its standard deviations" => run.steady(|p| &p.inertial).map(SteadyCurve::whole_deviation);
-        "steady_up_torques": list "N m", STEADY, "torque by the sensor as the speed rises" => run.steady(|p| &p.up).map(|c| c.torque.clone());
+        "steady_up_torques": list "N m", STEADY, "torque by the sensor as the speed rises" in steady_torques "by the sensor, speed rising" => run.steady(|p| &p.up).map(|c| c.torque.clone());
         "steady_up_deviations": list "N m", STEADY, "its standard deviations" => run.steady(|p| &p.up).map(SteadyCurve::whole_deviation);
-        "steady_windage_torques": list "N m", WINDAGE, "torque of the windage" when asked.has_windage() => run.windage(|w, speed| w.at(speed));
+        "steady_windage_torques": list "N m", WINDAGE, "torque of the windage" in steady_torques "windage" when asked.has_windage() => run.windage(|w, speed| w.at(speed));
         "steady_windage_deviations": list "N m", WINDAGE, "its standard deviations" when asked.has_windage() => {
             run.windage(|w, speed| w.covariance(speed, speed).map(f64::sqrt))
         };
-        "steady_direct_less_inertial": number "N m", COMPARED, "mean of the torque by the sensor less that by inertia" => {
+        "steady_direct_less_inertial": number "N m", COMPARED, "mean of the torque by the sensor less that by inertia" in differences "by the sensor less −I dΩ/dt" => {
             run.steady(|p| &p.direct_less_inertial).map(|d| d.mean.value)
         };
         "steady_direct_less_inertial_deviation": number "N m", COMPARED, "its standard deviation" => {
@@ -70,7 +70,7 @@ results! {
         "steady_direct_less_inertial_chance": number "1", COMPARED, "chance of this where both are equal" => {
             run.steady(|p| &p.direct_less_inertial).map(|d| d.chance)
         };
-        "steady_up_less_down": number "N m", COMPARED, "mean of the torque up less that down" => run.steady(|p| &p.up_less_down).map(|d| d.mean.value);
+        "steady_up_less_down": number "N m", COMPARED, "mean of the torque up less that down" in differences "rising less falling speed" => run.steady(|p| &p.up_less_down).map(|d| d.mean.value);
         "steady_up_less_down_deviation": number "N m", COMPARED, "its standard deviation" => run.steady(|p| &p.up_less_down).map(|d| d.mean.deviation);
         "steady_up_less_down_chance": number "1", COMPARED, "chance of this where both are equal" => run.steady(|p| &p.up_less_down).map(|d| d.chance);
     }

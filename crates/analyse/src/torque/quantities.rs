@@ -35,18 +35,18 @@ pub(crate) fn name(asked: &Asked, after: Option<&Asked>) -> Vec<Quantity> {
 
 results! {
     fn steady(asked: &Asked, run: &Asked) {
-        "speed": number "rad/s", GIVEN, "speed of the inner race" => run.torque.speed;
-        "radial_load": number "N", GIVEN, "radial load" => run.load();
-        "viscosity": number "m^2/s", VISCOSITY, "kinematic viscosity of the oil" => {
+        "speed": number "rad/s", GIVEN, "speed of the inner race" in place "rad/s" => run.torque.speed;
+        "radial_load": number "N", GIVEN, "radial load" in place "N" => run.load();
+        "viscosity": number "m^2/s", VISCOSITY, "kinematic viscosity of the oil" in place "mm^2/s" => {
             run.torque.moment.viscosity().ok_or_else(|| "this law sees no lubricant".to_string())
         };
-        "temperature": number "K", GIVEN, "temperature of the oil" => {
+        "temperature": number "K", GIVEN, "temperature of the oil" in place "degC" => {
             run.torque.temperature.ok_or_else(|| "the viscosity is given as it is".to_string())
         };
-        "speed_dependent_moment": number "N m", FRICTION, "speed-dependent part M0 of the friction" => run.steady().speed_dependent;
-        "load_dependent_moment": number "N m", FRICTION, "load-dependent part M1 of the friction" => run.steady().load_dependent;
-        "friction_moment": number "N m", FRICTION, "steady moment M = M0 + M1" => run.steady().sum();
-        "power_loss": number "W", POWER, "power of the steady moment" => run.steady().sum() * run.torque.speed;
+        "speed_dependent_moment": number "N m", FRICTION, "speed-dependent part M0 of the friction" in parts "M0" => run.steady().speed_dependent;
+        "load_dependent_moment": number "N m", FRICTION, "load-dependent part M1 of the friction" in parts "M1" => run.steady().load_dependent;
+        "friction_moment": number "N m", FRICTION, "steady moment M = M0 + M1" in parts "M" => run.steady().sum();
+        "power_loss": number "W", POWER, "power of the steady moment" in torque_lines "power loss M Ω" => run.steady().sum() * run.torque.speed;
         "static_safety": number "1", AT_THE_LOAD, "static load rating over equivalent static load" => {
             static_safety(&run.torque.rated(), &StaticLoad {
                 radial: run.torque.loads.iter().copied().fold(0.0, f64::max),
@@ -54,7 +54,7 @@ results! {
                 contact_angle: None,
             })
         };
-        "starting_moment": number "N m", STARTING, "moment at standstill" => match &run.law {
+        "starting_moment": number "N m", STARTING, "moment at standstill" in torque_lines "to start from standstill" => match &run.law {
             Friction::Skf(law) => Ok(law.starting_moment(run.load(), run.torque.moment.axial_load())),
             _ => Err("only the SKF model knows a moment at standstill".to_string()),
         };
@@ -66,43 +66,43 @@ results! {
 
 results! {
     fn over_acceleration(asked: &Asked, run: &Asked) {
-        "accelerations": list "rad/s^2", GIVEN, "accelerations of the inner race" => run.torque.accelerations.clone();
-        "inner_race_inertia_moments": list "N m", INNER_INERTIA, "inertia of balls and cage at the inner race" => run.accelerated(|m| m.inner_inertia);
-        "outer_race_inertia_moments": list "N m", OUTER_INERTIA, "inertia of balls and cage at the outer race" => run.accelerated(|m| m.outer_inertia);
-        "acceleration_loss_moments": list "N m", LOSS, "pocket friction at both races" => run.accelerated(|m| m.loss);
-        "inner_race_moments": list "N m", INNER, "moment that resists the inner race" => run.accelerated(Moments::inner);
-        "outer_race_moments": list "N m", OUTER, "moment on the outer race" => run.accelerated(Moments::outer);
+        "accelerations": list "rad/s^2", GIVEN, "accelerations of the inner race" in by_acceleration "acceleration" => run.torque.accelerations.clone();
+        "inner_race_inertia_moments": list "N m", INNER_INERTIA, "inertia of balls and cage at the inner race" in by_acceleration "inertia, inner" => run.accelerated(|m| m.inner_inertia);
+        "outer_race_inertia_moments": list "N m", OUTER_INERTIA, "inertia of balls and cage at the outer race" in by_acceleration "inertia, outer" => run.accelerated(|m| m.outer_inertia);
+        "acceleration_loss_moments": list "N m", LOSS, "pocket friction at both races" in by_acceleration "loss F" => run.accelerated(|m| m.loss);
+        "inner_race_moments": list "N m", INNER, "moment that resists the inner race" in by_acceleration "t_I" => run.accelerated(Moments::inner);
+        "outer_race_moments": list "N m", OUTER, "moment on the outer race" in by_acceleration "t_O" => run.accelerated(Moments::outer);
     }
 }
 
 results! {
     fn over_load(asked: &Asked, run: &Asked) {
-        "loads": list "N", GIVEN, "radial loads" => run.torque.loads.clone();
-        "load_dependent_moments_over_load": list "N m", FRICTION, "load-dependent part M1 under each load" => run.loaded(|parts| parts.load_dependent);
-        "friction_moments_over_load": list "N m", FRICTION, "steady moment M under each load" => run.loaded(|parts| parts.sum());
+        "loads": list "N", GIVEN, "radial loads" in by_load "load" => run.torque.loads.clone();
+        "load_dependent_moments_over_load": list "N m", FRICTION, "load-dependent part M1 under each load" in by_load "M1" => run.loaded(|parts| parts.load_dependent);
+        "friction_moments_over_load": list "N m", FRICTION, "steady moment M under each load" in by_load "M" => run.loaded(|parts| parts.sum());
     }
 }
 
 results! {
     /// By another law.
     fn by_law(setup: &(), run: &Result<MomentParts<f64>, String>) {
-        "law_*_speed_dependent_moment": number "N m", FRICTION, "speed-dependent part M0 by this law" => run.clone().map(|parts| parts.speed_dependent);
-        "law_*_load_dependent_moment": number "N m", FRICTION, "load-dependent part M1 by this law" => run.clone().map(|parts| parts.load_dependent);
-        "law_*_friction_moment": number "N m", FRICTION, "steady moment M by this law" => run.clone().map(|parts| parts.sum());
+        "law_*_speed_dependent_moment": number "N m", FRICTION, "speed-dependent part M0 by this law" in by_law "*" => run.clone().map(|parts| parts.speed_dependent);
+        "law_*_load_dependent_moment": number "N m", FRICTION, "load-dependent part M1 by this law" in by_law "*" => run.clone().map(|parts| parts.load_dependent);
+        "law_*_friction_moment": number "N m", FRICTION, "steady moment M by this law" in by_law "*" => run.clone().map(|parts| parts.sum());
     }
 }
 
 results! {
     /// With another lubricant.
     fn lubricants(setup: &(), run: &Lubricated) {
-        "lubricant_*": text "", GIVEN, "name of the lubricant" => run.lubricant.name.as_str();
-        "lubricant_*_viscosity": number "m^2/s", VISCOSITY, "its viscosity" => run.viscosity(run.asked.torque.temperature);
-        "lubricant_*_friction_moment": number "N m", FRICTION, "steady moment M with it" => {
+        "lubricant_*": text "", GIVEN, "name of the lubricant" in by_lubricant "*" => run.lubricant.name.as_str();
+        "lubricant_*_viscosity": number "m^2/s", VISCOSITY, "its viscosity" in by_lubricant "*" => run.viscosity(run.asked.torque.temperature);
+        "lubricant_*_friction_moment": number "N m", FRICTION, "steady moment M with it" in by_lubricant "*" => {
             run.viscosity(run.asked.torque.temperature).and_then(|viscosity| run.moment(viscosity))
         };
-        "lubricant_*_temperatures": list "K", GIVEN, "temperatures at which all of this is known" => run.over_temperature(0);
-        "lubricant_*_viscosities": list "m^2/s", VISCOSITY, "its viscosity at each of them" => run.over_temperature(1);
-        "lubricant_*_friction_moments": list "N m", FRICTION, "steady moment M with it at each of them" => run.over_temperature(2);
+        "lubricant_*_temperatures": list "K", GIVEN, "temperatures at which all of this is known" in by_lubricant "*" => run.over_temperature(0);
+        "lubricant_*_viscosities": list "m^2/s", VISCOSITY, "its viscosity at each of them" in by_lubricant "*" => run.over_temperature(1);
+        "lubricant_*_friction_moments": list "N m", FRICTION, "steady moment M with it at each of them" in by_lubricant "*" => run.over_temperature(2);
     }
 }
 

@@ -71,7 +71,7 @@ function engagementSection(runs) {
   const span = closeSpan(shown);
   if (!span) return section("engagement", "The engagement, closely", runs.map((run) => notInThisRun("nothing engages in it", run)));
   const look = (label, part, width = 1.5, dash = undefined) => ({ label, colour: SERIES_COLOURS[part], width, dash });
-  const marks = shown.flatMap((run) => [["engagement_time", "engaged"], ["clutch_lock_time", "locked"]].map(([name, words]) => ({ at: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : PALE_INK })));
+  const marks = instantsOf(shown, PALE_INK).map((mark) => ({ ...mark, at: mark.instant }));
   const draw = (title, note, upright, height, more, series) => (series.length ? figure(title, note, curves({ series, ...closeAxes(upright, marks, height), ...more })) : null);
   const of = (name, scale, ...rest) => closeLines(shown, span, name, scale, look(...rest));
   return section(

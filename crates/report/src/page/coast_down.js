@@ -23,12 +23,7 @@ function nodesOf(run) {
 
 function limitMarks(run) {
   const { factor } = longTime(run);
-  const first = nodesOf(run)
-    .map((node) => ({ at: numberOf(run, `${node}_limit_time`), words: `${wordsOf(node)} at its limit`, colour: SERIES_COLOURS.limit }))
-    .filter(({ at }) => at !== null);
-  const closes = numberOf(run, "closing_time");
-  const all = closes === null || closes === 0 ? first : [...first, { at: closes, words: "clearance closed", colour: SERIES_COLOURS.quiet }];
-  return all.map((mark) => ({ ...mark, at: mark.at * factor })).sort((one, other) => one.at - other.at);
+  return instantsOf([run]).map(({ instant, ...mark }) => ({ ...mark, at: instant * factor })).sort((one, other) => one.at - other.at);
 }
 
 function temperatureFigures(run, runs) {
@@ -60,7 +55,7 @@ function closingSection(runs) {
 }
 
 function takenFigure(run, runs, note) {
-  const held = listOf(run, "held_times");
+  const held = tableOf(run, "held")("time");
   const of = lastNumber(held) >= 7200 ? { factor: 1 / 3600, words: "time since the start, held [h]" } : { factor: 1, words: "time since the start, held [s]" };
   const taken = nodesOf(run)
     .map((node) => ({ label: wordsOf(node), colour: NODE_COLOURS[node], x: held.map((time) => time * of.factor), y: listOf(run, `${node}_powers_to_take`) }))
@@ -103,11 +98,10 @@ function runOutVerdict(run) {
     "div",
     { class: "tiles" },
     stateTile(run),
-    quantityTile(run, "Stands after", "stop_time", () => engineeringText(numberOf(run, "rotor_energy"), "J", 4) + " to lose"),
+    tilesOf(run, "machine_tile"),
     most ? tile("Hottest", `${numberText(most.peak - ZERO_CELSIUS, 3)} °C`, [wordsOf(most.node), passed.length ? `limit passed: ${passed.map(wordsOf).join(", ")}` : "every node below its limit"], verdictState(run, passed.length > 0)) : null,
     tile("Smallest clearance", engineeringText(clearance, "m", 3), [growth > 0 && clearance < 0 ? "runs away" : clearance < 0 ? "preloaded by warmth" : "open"], verdictState(run, growth > 0 && clearance < 0)),
-    quantityTile(run, "Life used by one run-out", "life_share", () => "rolling fatigue alone; of L10"),
-    quantityTile(run, "Heat residual", "relative_heat_residual", () => "of the heat made", (residual) => verdictState(run, Math.abs(residual) > 1e-9)),
+    tilesOf(run),
   );
 }
 
@@ -122,9 +116,8 @@ function runOutLine(run) {
 
 // The run-out that followed a drop, as a run of its own with its own times; null where there is none.
 function runOutOf(run) {
-  const start = "run_out.";
-  const own = Object.entries(run.quantities).filter(([name]) => name.startsWith(start));
-  const quantities = Object.fromEntries(own.map(([name, quantity]) => [name.slice(start.length), quantity]));
+  const own = Object.entries(run.quantities).filter(([name]) => name.startsWith(RUN_OUT));
+  const quantities = Object.fromEntries(own.map(([name, quantity]) => [name.slice(RUN_OUT.length), quantity]));
   const course = "over_time.";
   const lists = Object.entries(quantities).filter(([name, { value }]) => name.startsWith(course) && Array.isArray(value) && value.length);
   const columns = new Map(lists.map(([name, { value, unit }]) => [name.slice(course.length), { name: name.slice(course.length), unit, values: value }]));
@@ -132,13 +125,16 @@ function runOutOf(run) {
 }
 
 function asksForRunOut(run) {
-  return Object.keys(run.quantities).some((name) => name.startsWith("run_out."));
+  return Object.keys(run.quantities).some((name) => name.startsWith(RUN_OUT));
 }
 
 function runOutFigures(run, runs) {
   const slow = runOutOf(run);
   const way = element("p", {}, run.prefix ? run.letter + ": " : null, (run.summary.stop || {}).text || "");
-  if (!slow) return [notInThisRun(quantityOf(run, "run_out.stop_time").why || "there is no run-out", run)];
+  if (!slow) {
+    const absent = Object.entries(run.quantities).find(([name, { why }]) => name.startsWith(RUN_OUT) && why);
+    return [notInThisRun(absent ? absent[1].why : "there is no run-out", run)];
+  }
   return [way, ...temperatureFigures(slow, runs), ...closingFigures(slow, runs), ...heatFigures(slow, runs)];
 }
 

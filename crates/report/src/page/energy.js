@@ -69,7 +69,7 @@ function balance(run) {
     else went.push({ name: "taken out: " + source.name, amount: -amount, colour: SERIES_COLOURS.limit });
   }
   // rings that close on their balls as they warm
-  const rings = numberOf(run, "work_of_warm_rings") || 0;
+  const rings = shownIn(run, "sources").map(({ value }) => value || 0).find(Boolean) || 0;
   if (rings !== 0) (rings > 0 ? came : went).push({ name: "work of warm rings", amount: Math.abs(rings), colour: SERIES_COLOURS.cage });
   const missed = columnOf(run, "energy.residual") ? lastNumber(columnOf(run, "energy.residual")) : 0;
   if (missed !== 0) (missed > 0 ? went : came).push({ name: "residual", amount: Math.abs(missed), colour: SERIES_COLOURS.limit });
@@ -99,8 +99,6 @@ function balanceFigure(run, runs) {
   const largest = Math.max(1e-300, ...[...came, ...went].map((entry) => entry.amount));
   const head = (words, total) => element("tr", { class: "head" }, element("th", { colspan: 2 }, words), element("td", {}, engineeringText(total, "J", 5)), element("td", {}, "100 %"));
   const residual = columnOf(run, "energy.residual");
-  const relative = quantityOf(run, "energy_residual");
-  const share = isNumber(relative.value) ? numberText(relative.value, 3) + " of the largest energy of the ledger" : relative.why;
   return figure(
     title,
     "Sources = change of stored energy + heats of all bearings + residual. Every entry stands on the side where its amount is positive.",
@@ -111,7 +109,7 @@ function balanceFigure(run, runs) {
       element("tbody", {}, head("Went to", used), barRows(went, largest, used)),
     ),
     residual
-      ? element("p", {}, "Residual at the end: ", engineeringText(lastNumber(residual), "J", 3), share ? ` (energy_residual: ${share}).` : ".")
+      ? element("p", {}, `Residual at the end: ${engineeringText(lastNumber(residual), "J", 3)}.`)
       : notInThisRun("an energy residual over time"),
   );
 }

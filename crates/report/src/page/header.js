@@ -1,8 +1,5 @@
 // The verdict: what an engineer wants to know before any picture.
 
-// The warning of an energy ledger that misses too much.
-const MISSED_BY_THE_LEDGER = "AB1006";
-
 // A value with what it may be off below it: twice the standard deviation.
 function bandValue([value, band], unit) {
   const whole = (text) => `${text} ${unit}`.trim();
@@ -40,16 +37,44 @@ function worstOf(quantity, measure) {
   return Math.max(...[quantity.value, min, max].filter(isNumber).map(measure));
 }
 
-function quantityTile(run, title, name, note, state) {
-  const quantity = quantityOf(run, name);
-  if (!isNumber(quantity.value)) return tile(title, "–", ["not in this run: " + (quantity.why || "no reason given")]);
+// Tiles of the results that their tables give one, each with the notes of its title. A bound is a number or the code of a warning; the worst
+// member is judged, and a rotor that touched nothing is not.
+function tilesOf(run, figure = "tile", more = {}) {
+  const own = ({ name }) => figure !== "tile" || !name.startsWith(RUN_OUT);
+  const notes = shownIn(run, "note").map(({ words, quantity }) => ({ of: words.split(": ")[0], words: words.slice(words.indexOf(": ") + 2), quantity }));
+  return shownIn(run, figure).filter(own).map(({ name, words: title, quantity }) => resultTile(run, { title, name, quantity, notes: notes.filter(({ of }) => of === title), more: more[title], untouched: figure === "tile" && systemOf(run).touches && !run.contacts.length }));
+}
+
+function exceeds(run, quantity) {
+  const { bound } = quantity.shown;
+  if (bound === undefined || quantity.value === null) return null;
+  if (typeof quantity.value === "string") return quantity.value === bound;
+  return Number.isNaN(Number(bound)) ? warningsOf(run, bound).length > 0 : worstOf(quantity, Math.abs) > Number(bound);
+}
+
+function noteText(run, { words, quantity }) {
+  const last = Array.isArray(quantity.value) ? lastNumber(quantity.value) : quantity.value;
+  if (last === null || (Array.isArray(quantity.value) && !quantity.value.length)) return quantity.shown.bound ? `${words}: ${quantity.why}` : null;
+  const worst = quantity.shown.bound && worstOf(quantity, Math.abs) > Math.abs(last) ? `, ${numberIn(words, worstOf(quantity, Math.abs), quantity.unit, 3)} in the worst member` : "";
+  return `${words.replace(/ \[.*\]$/, "")} ${isNumber(last) ? numberIn(words, last, quantity.unit, 4) : last}${worst}`;
+}
+
+function resultTile(run, { title, name, quantity, notes, more, untouched }) {
+  const shownTitle = title.replace(/ \[.*\]$/, "");
+  const said = [...list(more), ...notes.map((note) => noteText(run, note))];
+  if (quantity.value === null) return tile(shownTitle, "–", [`${NOT_IN_THIS_RUN}: ${quantity.why || "no reason given"}`, said]);
   const deviation = numberOf(run, name + "_deviation");
   const shown = () => {
-    const [unit, scale] = readableUnit(Math.max(Math.abs(quantity.value), BAND * deviation), quantity.unit);
+    const [own, factor] = askedUnit(title) || [];
+    const [unit, scale] = own ? [own, 1 / factor] : readableUnit(Math.max(Math.abs(quantity.value), BAND * deviation), quantity.unit);
     return bandValue(bandParts(quantity.value / scale, (BAND * deviation) / scale), unit);
   };
-  const radians = quantity.unit === "rad/s" ? `${numberText(quantity.value, 4)} rad/s` : null;
-  return tile(title, deviation === null ? engineeringText(quantity.value, quantity.unit, 4) : shown(), [radians, meanNote(quantity), note && note(quantity.value)], state && state(quantity.value));
+  const plain = () => (isNumber(quantity.value) ? numberIn(title, quantity.value, quantity.unit, 4) : quantity.value);
+  const radians = quantity.unit === "rad/s" && isNumber(quantity.value) ? `${numberText(quantity.value, 4)} rad/s` : null;
+  const after = "instants_after_release" in quantity.shown ? `after ${countedFrom(run)}` : null;
+  const judged = [quantity, ...notes.map((note) => note.quantity)].map((one) => exceeds(run, one)).filter((bad) => bad !== null);
+  const state = judged.length && !(untouched && !judged.includes(true)) ? verdictState(run, judged.includes(true)) : null;
+  return tile(shownTitle, deviation === null ? plain() : shown(), [radians, meanNote(quantity), after, said], state);
 }
 
 function stateTile(run) {
@@ -62,30 +87,6 @@ function stateTile(run) {
   // how a run-out went stands with its pictures
   const last = reason.split(/(?<=\.) (?=[A-Z])/).at(-1);
   return tile("Run", complete ? word : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, word !== "complete"));
-}
-
-function forceNote(run) {
-  const peak = peakContact(run);
-  const count = numberOf(run, "contact_count");
-  const parts = [peak && `${engineeringText(peak.peak_time_s - releaseOf(run), "s", 4)} after ${countedFrom(run)}`, isNumber(count) && count + (count === 1 ? " contact" : " contacts")];
-  return parts.filter(Boolean);
-}
-
-function pressureNote(run, pressure) {
-  const limit = run.summary.hertz_pressure_limit_Pa;
-  if (!isNumber(limit)) return "no limit is given for these balls";
-  const where = pressure <= limit ? "below" : "ABOVE";
-  const races = `${where} the limit of ${engineeringText(limit, "Pa", 4)}: ${percentText(pressure / limit)} of it`;
-  const neighbours = numberOf(run, "peak_ball_ball_pressure");
-  if (neighbours === null) return races;
-  const share = numberOf(run, "hertz_pressure_share_of_limit");
-  const apart = share > pressure / limit ? `, ${percentText(share)} of their limit` : "";
-  return [races, `between balls ${engineeringText(neighbours, "Pa", 4)}${apart}`];
-}
-
-function spinUpNote(run) {
-  const half = numberOf(run, "inner_race_time_to_50_percent");
-  return [half === null ? null : "50 % at " + engineeringText(half, "s", 4), "after the release"];
 }
 
 // Unbalance angles of the members of a run: it decides whether friction starts backward whirl.
@@ -102,8 +103,9 @@ const ANGLES_FOR_WHIRL = 8;
 function whirlNotSought(run) {
   const angles = unbalanceAngles(run);
   const few = angles < ANGLES_FOR_WHIRL ? `none seen from ${angles} unbalance ${angles === 1 ? "angle" : "angles"}; ${ANGLES_FOR_WHIRL} at least are needed (--repeat ${ANGLES_FOR_WHIRL})` : null;
-  const { value, spread } = quantityOf(run, "inner_race_time_to_95_percent");
-  const slips = "inner_race_time_to_95_percent" in run.quantities && (spread ? spread.members < (run.summary.members_total || list(run.summary.members).length) : !isNumber(value));
+  const { value, spread, law } = quantityOf(run, "inner_race_time_to_95_percent");
+  const members = run.summary.members_total || list(run.summary.members).length;
+  const slips = law !== undefined && (spread ? spread.members < members : !isNumber(value));
   return [few, slips ? "ends before the inner race reaches 95 % of the speed" : null].filter(Boolean);
 }
 
@@ -124,46 +126,11 @@ function whirlTile(run) {
   return tile("Whirl", shown, [others, unknown, count, rule, mean && `${mean} members; counter-clockwise is positive`], unknown.length ? null : verdictState(run, bad));
 }
 
-function displacementTile(run) {
-  if (!("max_rotor_displacement" in run.quantities)) return null;
-  const clearance = run.summary.clearance_radius_m;
-  const beside = isNumber(clearance) ? `clearance ${engineeringText(clearance, "m", 4)}` : null;
-  return quantityTile(run, "Largest rotor displacement", "max_rotor_displacement", () => ["of its centre from the line of levitation", beside]);
-}
-
-// From when on the rotor rolls, and what comes again after that.
-function rollingNote(run) {
-  const start = numberOf(run, "run_out.start_time");
-  if (start === null) return "it never loses only what laws of rolling say";
-  const again = listOf(run, "run_out.return_end_times");
-  const rolls = "rolls from " + engineeringText(start, "s", 3) + " on";
-  if (!again.length) return rolls;
-  const stretches = again.length === 1 ? "a stretch" : `${again.length} stretches`;
-  return `${rolls}, but for ${stretches} ball by ball until ${engineeringText(lastNumber(again), "s", 3)}`;
-}
-
-// The largest share of the limit in the run-out of any bearing: its index is the cube of it.
-function shareInRunOut(run) {
-  const names = Object.keys(run.quantities).filter((name) => name.endsWith("run_out.indentation_index"));
-  return Math.cbrt(Math.max(0, ...names.map((name) => numberOf(run, name)).filter(isNumber)));
-}
-
-// Each pressure counts by the limit of what touches there; the share is the largest.
-function pressureTile(run) {
-  const share = numberOf(run, "hertz_pressure_share_of_limit");
-  const worst = worstOf(quantityOf(run, "hertz_pressure_share_of_limit"), (value) => value);
-  const later = shareInRunOut(run);
-  const bad = worst > 1 || later > 1;
-  const untouched = !bad && numberOf(run, "contact_count") === 0;
-  const state = share === null || untouched ? null : verdictState(run, bad);
-  const others = [worst > share ? `in the worst member ${percentText(worst)} of the limit` : null, later > share ? `in the run-out ${percentText(later)} of the limit` : null, untouched ? "the rotor touched nothing in this run" : null].filter(Boolean);
-  return quantityTile(run, "Peak Hertz pressure", "peak_hertz_pressure", (pressure) => [pressureNote(run, pressure), others].flat(), () => state);
-}
-
 // Distances left along the shaft between it and seals, sensors and magnets, the smallest first; less than none where it rubs.
 function distancesOf(run) {
-  const [at, sizes, shape, gone] = ["clearance_positions", "clearances", "shape_positions", "largest_displacements"].map((name) => listAt(run, name));
-  const all = wordsAt(run, "clearance_names").map((name, k) => ({ name, clearance: sizes[k], displacement: gone[shape.indexOf(at[k])] }));
+  const [around, shape] = ["clearances", "shape"].map((figure) => tableOf(run, figure));
+  const displacementAt = (place) => shape("displacement")[shape("place").indexOf(place)];
+  const all = around("name").map((name, k) => ({ name, clearance: around("clearance")[k], displacement: displacementAt(around("place")[k]) }));
   return all.filter((place) => isNumber(place.clearance) && isNumber(place.displacement)).sort((one, other) => one.clearance - one.displacement - other.clearance + other.displacement);
 }
 
@@ -181,7 +148,7 @@ function distanceTile(run) {
   const distance = least ? `least distance${whose} ${engineeringText(least.clearance - least.displacement, "m", 3)} at ${wordsOf(least.name)}` : null;
   if (rubs.length) return tile("Clearances along the shaft", `rub: ${rubs.length} ${rubs.length === 1 ? "place" : "places"}`, [distance, `${RUB}: these contacts are not computed`], "bad");
   if (!least) return tile("Clearances along the shaft", NOT_IN_THIS_RUN, ["no seal, sensor or gap of a magnet is given (rotor.node.clearance)"]);
-  const magnets = wordsAt(run, "magnet_names");
+  const magnets = tableOf(run, "magnets")("name");
   const open = [
     distancesOf(run).every(({ name }) => magnets.includes(name)) ? "gaps of magnets alone: no seal or sensor is given (rotor.node.clearance)" : null,
     list(run.summary.members).length > 1 ? "of the unperturbed run alone" : null,
@@ -229,32 +196,14 @@ function machineTiles(run) {
     distanceTile(run),
     rangeTile(run),
     axialTile(run),
-    asksForRunOut(run) ? quantityTile(run, "Stands after", "run_out.stop_time", () => rollingNote(run)) : null,
-    quantityTile(
-      run,
-      "Energy residual",
-      "energy_residual",
-      () => "share of the energies that the ledger leaves unexplained",
-      () => residualState(run),
-    ),
+    tilesOf(run, "machine_tile"),
   ];
 }
 
 function verdict(run) {
-  return element(
-    "div",
-    { class: "tiles" },
-    quantityTile(run, "Peak contact force", "peak_contact_force", () => forceNote(run)),
-    pressureTile(run),
-    quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", () => spinUpNote(run)),
-    whirlTile(run),
-    displacementTile(run),
-  );
-}
-
-// What may be missed depends on the accuracy asked: the run knows.
-function residualState(run) {
-  return verdictState(run, list(run.summary.warnings).filter(Boolean).some((warning) => warning.code === MISSED_BY_THE_LEDGER));
+  const peak = peakContact(run);
+  const when = peak && `${engineeringText(peak.peak_time_s - releaseOf(run), "s", 4)} after ${countedFrom(run)}`;
+  return element("div", { class: "tiles" }, tilesOf(run, "tile", { "Peak contact force": [when] }), whirlTile(run));
 }
 
 // Rotor, speed, bearing, clearance and friction in one line, as far as the inputs state it.

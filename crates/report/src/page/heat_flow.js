@@ -121,6 +121,6 @@ function heatFlowFigure(run, runs, whose) {
   const title = shareOfRun(run, runs, "Where the heat went");
   const made = Object.keys(NODE_COLOURS).reduce((sum, node) => sum + (numberOf(run, `heat_made_in_${node}`) || 0), 0);
   if (!(made > 0)) return figure(title, null, notInThisRun("no heat is made, or its way through the bodies is not known", run));
-  const note = `${whose} Made ${engineeringText(made, "J", 4)} = stored ${engineeringText(numberOf(run, "stored_heat"), "J", 4)} + to the surroundings ${engineeringText(numberOf(run, "heat_to_surroundings"), "J", 4)}, at the end of these times. Losses and bodies below 0.5 % stand together as other; what one body conducts to others is known in the whole alone.`;
+  const note = `${whose} Made ${engineeringText(made, "J", 4)} = ${shownIn(run, "heat_balance").map(({ words, value }) => `${words} ${engineeringText(value, "J", 4)}`).join(" + ")}, at the end of these times. Losses and bodies below 0.5 % stand together as other; what one body conducts to others is known in the whole alone.`;
   return figure(title, note, heatFlowPicture(run));
 }

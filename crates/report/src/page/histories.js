@@ -67,20 +67,6 @@ function contactSection(runs) {
   );
 }
 
-const INSTANTS = [
-  ["release_time", "release", "limit"],
-  ["inner_race_time_to_50_percent", "race 50 %", "race"],
-  ["inner_race_time_to_95_percent", "race 95 %", "race"],
-  ["cage_time_to_95_percent_of_rolling", "cage 95 % of rolling", "cage"],
-];
-
-// An instant on the axis of time, which begins with the run; a release that is its start needs no mark.
-function instantOf(run, name) {
-  const instant = numberOf(run, name);
-  if (instant === null || name !== "release_time") return instant === null ? null : instant + releaseOf(run);
-  return instant > 0 ? instant : null;
-}
-
 // What turns with the balls: their cage, or without one their mean orbit.
 function cageWord(runs) {
   return runs.every((run) => columnOf(run, "bearing.largest_ball_ball_force")) ? "balls' mean orbit" : "cage";
@@ -111,13 +97,7 @@ function speedSection(runs) {
       dash: [2, 3],
     });
   }
-  // With more than two runs the words would cover each other: one instant each, the others are in the table.
-  const shown = INSTANTS.filter(([name]) => runs.length <= 2 || name === "release_time" || name === "inner_race_time_to_95_percent");
-  const marks = instantMarks(
-    runs.flatMap((run) =>
-      shown.map(([name, words, part]) => ({ instant: instantOf(run, name), words: run.prefix + words, colour: several ? run.colour : SERIES_COLOURS[part] })),
-    ),
-  );
+  const marks = instantMarks(instantsOf(runs));
   // Where no rotor slides its speed is not missing.
   const rotor = runs.some((run) => !isSpinUp(run)) ? ["rotor.speed"] : [];
   const names = [...rotor, "bearing.inner_race.speed", "bearing.cage.speed"];

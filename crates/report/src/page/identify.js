@@ -1,8 +1,6 @@
 // The pictures of an identification, in the layout of the source paper's Figs 7 to 10: torque over speed from the slow tests,
 // then speed, acceleration and torque of each test with the steady torque laid over, with bands; and the verdict.
 
-const EXPLANATIONS = ["rolling", "rolling with a grease state", "isothermal slip", "slip with heating", "sensor artefact", "another steady moment", "rolling in oil that warms"];
-
 // A probability; what is hardly possible is not shown to its last digit.
 function chanceText(probability) {
   if (probability > 0.9999) return "> 99.99 %";
@@ -26,12 +24,25 @@ function bandCurves(x, values, deviations, scale, label, colour) {
   ];
 }
 
+// Why a figure has nothing to show.
+function whyNone(run, figure) {
+  return shownIn(run, figure).map(({ quantity }) => quantity.why).find(Boolean) || "no reason is given";
+}
+
+// The explanation that the tests support, and the form of the steady moment.
+function conclusionOf(run) {
+  return quantityOf(run, "explanation");
+}
+
+function formOf(run) {
+  return quantityOf(run, "steady_moment_form");
+}
+
 function explanationFigure(run, runs) {
   const title = shareOfRun(run, runs, "Which explanation the data support");
-  const conclusion = quantityOf(run, "explanation");
+  const conclusion = conclusionOf(run);
   if (typeof conclusion.value !== "string") return figure(title, null, notInThisRun("a comparison of explanations: " + (conclusion.why || "no reason is given")));
-  const rows = EXPLANATIONS.map((name) => {
-    const probability = numberOf(run, "probability_of_" + name.replaceAll(" ", "_"));
+  const rows = shownIn(run, "explanations").map(({ words: name, value: probability }) => {
     return element(
       "tr",
       {},
@@ -114,12 +125,13 @@ const FORMS = { palmgren: "Palmgren's form", skf: "SKF's form", spline: "spline"
 
 function steadyFigure(run, runs) {
   const title = shareOfRun(run, runs, "Torque on the outer race at steady speed");
-  const speeds = listOf(run, "steady_moment_speeds");
-  if (!speeds.length) return figure(title, null, notInThisRun("a steady moment: " + (quantityOf(run, "steady_moment_speeds").why || "no reason is given")));
-  const measured = [listOf(run, "coast_down_speeds"), listOf(run, "coast_down_torques").map((value) => 1e3 * value)];
-  const form = quantityOf(run, "steady_moment_form").value;
+  const [speeds, moments, deviations] = ["speed", "moment", "deviation"].map(tableOf(run, "steady_curve"));
+  if (!speeds.length) return figure(title, null, notInThisRun("a steady moment: " + whyNone(run, "steady_curve")));
+  const points = tableOf(run, "steady_points");
+  const measured = [points("speed"), points("torque").map((value) => 1e3 * value)];
+  const form = formOf(run).value;
   const series = [
-    ...bandCurves(speeds, listOf(run, "steady_moments"), listOf(run, "steady_moment_deviations"), 1e3, `M, ${FORMS[form] || form}`, SERIES_COLOURS.limit),
+    ...bandCurves(speeds, moments, deviations, 1e3, `M, ${FORMS[form] || form}`, SERIES_COLOURS.limit),
     // on top of the line, and thin enough to leave it to be seen
     { label: "measured", x: measured[0], y: measured[1], colour: INK, dots: true, line: false, radius: 1.1 },
   ];
@@ -136,8 +148,9 @@ function steadyFigure(run, runs) {
 
 // Measured less M, where both are known; pale lines: twice the standard deviation of M.
 function steadyResidual(run, [x, y]) {
-  const speeds = listOf(run, "steady_moment_speeds");
-  const [moments, deviations] = ["steady_moments", "steady_moment_deviations"].map((name) => listOf(run, name).map((value) => 1e3 * value));
+  const curve = tableOf(run, "steady_curve");
+  const speeds = curve("speed");
+  const [moments, deviations] = ["moment", "deviation"].map((words) => curve(words).map((value) => 1e3 * value));
   const rows = x.map((_, row) => row).filter((row) => x[row] >= speeds[0] && x[row] <= speeds[speeds.length - 1]);
   const left = rows.map((row) => y[row] - valueAt(speeds, moments, x[row]));
   const pale = (sign) => ({ x: speeds, y: deviations.map((deviation) => sign * BAND * deviation), colour: SERIES_COLOURS.limit + "90", width: 0.75 });
@@ -228,12 +241,10 @@ function lossFigures(run, runs) {
   const table = plainTable(
     ["test", "t_O − M, 0.2 to 0.4 s", "t_O − M, last 0.5 s at speed", "torque that would bring balls and cage to speed in 3.5 s", "cage slipped", "balls skidded, if M holds", "rolls from, after the engagement"],
     tests.map((test) => {
-      const share = (name) => {
-        const value = numberOf(run, `${test.key}.${name}`);
-        return value === null ? "–" : chanceText(value);
-      };
+      const shares = shownIn(run, "slips").filter(({ name }) => name.startsWith(`${test.key}.`));
+      const share = (words) => shares.filter((entry) => entry.words === words && entry.value !== null).map(({ value }) => chanceText(value))[0] || "–";
       const from = numberOf(run, `${test.key}.rolling_established_at`);
-      return [test.name, uncertainText(run, `${test.key}.excess_torque_settled`, "N mm", 1e3), uncertainText(run, `${test.key}.excess_torque_at_end`, "N mm", 1e3), `${numberText(1e3 * numberOf(run, `${test.key}.torque_to_roll_within_3_5_s`), 2)} N mm`, share("slip_probability"), share("skid_probability"), from === null ? quantityOf(run, `${test.key}.rolling_established_at`).why || "–" : engineeringText(from, "s", 3)];
+      return [test.name, uncertainText(run, `${test.key}.excess_torque_settled`, "N mm", 1e3), uncertainText(run, `${test.key}.excess_torque_at_end`, "N mm", 1e3), `${numberText(1e3 * numberOf(run, `${test.key}.torque_to_roll_within_3_5_s`), 2)} N mm`, share("cage slipped"), share("balls skidded, if M holds"), from === null ? quantityOf(run, `${test.key}.rolling_established_at`).why || "–" : engineeringText(from, "s", 3)];
     }),
   );
   const energies = plainTable(
@@ -243,7 +254,7 @@ function lossFigures(run, runs) {
   const friction = tests.flatMap((test, index) => bandLines([run], `${test.key}.friction`, `${test.key}.friction_deviation`, 1, { label: `${test.name} [N]`, colour: LINE_COLOURS[index % LINE_COLOURS.length], width: 1.25 }));
   return [
     figure(shareOfRun(run, runs, "Beyond the steady moment"), "± is twice the standard deviation. Slip and skid: probability that it happened at any time that the signals show; a slip before about ten balls have passed is not seen. The spin of the balls is inferred from the torque alone and takes M to hold: a lubricant in another state than in the slow tests looks like skid.", table),
-    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll, of tests that come to M; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: " + (quantityOf(run, "loss_map_friction").why || "nowhere are the balls known to roll"), run), friction.length ? frictionClosely(run, tests) : null),
+    figure(shareOfRun(run, runs, "Friction F of the accelerated balls"), friction.length ? `Where the balls are known to roll, of tests that come to M; elsewhere t_O − M alone is known. No friction is negative: where F is, the lubricant or the sensor was in another state than in the slow tests. ${BAND_WORDS}` : null, friction.length ? timePlot({ series: friction, label: "F [N]", include: () => [0], height: 240 }) : notInThisRun("F: " + whyNone(run, "friction_map"), run), friction.length ? frictionClosely(run, tests) : null),
     mapFigure(run, runs),
     figure(shareOfRun(run, runs, "What the spin-up dissipated"), "From the engagement until 99 % of the largest speed: where a motor brings up the last per cent, most of it is steady running. ± is twice the standard deviation. The printed form has the factor 1 + 2s where none belongs.", energies),
   ];
@@ -251,9 +262,9 @@ function lossFigures(run, runs) {
 
 // F over speed and acceleration: one line an acceleration, where data are near.
 function mapFigure(run, runs) {
-  const [speeds, accelerations, friction, deviations, known] = ["speeds", "accelerations", "friction", "deviations", "known"].map((name) => listOf(run, "loss_map_" + name));
+  const [speeds, accelerations, friction, deviations, known] = ["speed", "acceleration", "friction", "deviation", "known"].map(tableOf(run, "friction_map"));
   const title = shareOfRun(run, runs, "F over speed and acceleration, from all tests");
-  if (!speeds.length) return figure(title, null, notInThisRun("a map of F: " + (quantityOf(run, "loss_map_friction").why || "no reason is given"), run));
+  if (!speeds.length) return figure(title, null, notInThisRun("a map of F: " + whyNone(run, "friction_map"), run));
   const levels = [...new Set(accelerations)];
   const shown = [0, 0.1, 0.3, 0.6, 1].map((share) => levels[Math.round(share * (levels.length - 1))]);
   const series = shown.flatMap((level, index) => {
@@ -271,27 +282,27 @@ function lossSection(runs) {
 
 function rotorFrictionSection(runs) {
   return section("rotor-friction", "Sliding friction between rotor and race", runs.map((run) => {
-    const slips = listOf(run, "rotor_friction_slips");
-    const series = bandCurves(slips, listOf(run, "rotor_friction_coefficients"), listOf(run, "rotor_friction_deviations"), 1, "coefficient", SERIES_COLOURS.rotor);
+    const [slips, coefficients, deviations] = ["slip", "coefficient", "deviation"].map(tableOf(run, "rotor_friction"));
+    const series = bandCurves(slips, coefficients, deviations, 1, "coefficient", SERIES_COLOURS.rotor);
     return figure(shareOfRun(run, runs, "Coefficient of friction over slip"), `Means over whole turns of the rotor, each at the mean slip of its turns. ${BAND_WORDS}`, curves({ series, across: "slip [m/s]", upright: "coefficient", height: 260 }));
   }));
 }
 
 function identifyVerdict(run) {
-  const conclusion = quantityOf(run, "explanation");
+  const conclusion = conclusionOf(run);
   const words = typeof conclusion.value === "string" ? conclusion.value : "–";
-  const probability = Math.max(...EXPLANATIONS.map((name) => numberOf(run, "probability_of_" + name.replaceAll(" ", "_")) || 0));
+  const probability = Math.max(0, ...shownIn(run, "explanations").map(({ value }) => value || 0));
   const tests = testsOf(run);
   const energy = (test) => (numberOf(run, `${test.key}.dissipated_energy`) === null ? "–" : `${uncertainText(run, `${test.key}.dissipated_energy`, "mJ", 1e3)} (2σ)`);
   const best = tests.map((test) => `${test.name}: ${energy(test)}`);
-  const form = quantityOf(run, "steady_moment_form");
+  const form = formOf(run);
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
     tile("Explanation", words.split(":")[0], [conclusion.why || words.split(": ")[1] || (words === "none of these" ? "the likeliest does not fit" : `probability ${chanceText(probability)}`)]),
     tile("Steady moment", typeof form.value === "string" ? FORMS[form.value] || form.value : "–", [form.why]),
-    numberOf(run, "rotor_friction_coefficient") === null ? null : tile("Friction rotor/race", uncertainText(run, "rotor_friction_coefficient", ""), ["mean over the slips, ± twice the standard deviation"]),
+    tilesOf(run),
     tile("Dissipated in the spin-ups", `${tests.length} ${tests.length === 1 ? "test" : "tests"}`, best),
   );
 }
@@ -307,7 +318,7 @@ register("identify", {
   time: "time since the engagement",
   facts: false,
   sections: (runs) => {
-    const rubbed = runs.filter((run) => listOf(run, "rotor_friction_slips").length);
+    const rubbed = runs.filter((run) => tableOf(run, "rotor_friction")("slip").length);
     return [[35, explanationSection, runs], [36, steadyMomentSection, runs], [37, testSection, runs], [38, lossSection, runs], [39, rotorFrictionSection, rubbed]].filter(([, , part]) => part.length);
   },
 });

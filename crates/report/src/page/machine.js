@@ -15,23 +15,23 @@ function machinesOf(runs) {
 
 // Displacements of the shaft at its places, in µm: a list of columns for each way.
 function shapeColumns(run) {
-  const count = listAt(run, "shape_positions").length;
+  const count = tableOf(run, "shape")("place").length;
   const of = (way) => Array.from({ length: count }, (_, k) => columnOf(run, `shape.${k + 1}.${way}`));
   return Object.fromEntries(SHAPE_WAYS.map(([way]) => [way, of(way)]));
 }
 
 // Where the shaft may move: the clearance of each bearing, counted from where it stands, and of seals, sensors and magnets.
 function roomAlong(machine) {
-  const [at, x, y] = ["positions", "offsets_x", "offsets_y"].map((what) => listAt(machine[0], `bearing_${what}`));
-  const bearings = machine.map((run, k) => ({ z: at[k], name: run.summary.name || "", clearance: run.summary.clearance_radius_m || 0, offset: { x: x[k] || 0, y: y[k] || 0 }, colour: run.colour }));
-  const [places, sizes] = ["clearance_positions", "clearances"].map((what) => listAt(machine[0], what));
-  return [...bearings, ...wordsAt(machine[0], "clearance_names").map((name, k) => ({ z: places[k], name, clearance: sizes[k], offset: { x: 0, y: 0 }, colour: "#8a4fae" }))];
+  const [place, x, y] = ["place", "x", "y"].map(tableOf(machine[0], "bearings"));
+  const bearings = machine.map((run, k) => ({ z: place[k], name: run.summary.name || "", clearance: run.summary.clearance_radius_m || 0, offset: { x: x[k] || 0, y: y[k] || 0 }, colour: run.colour }));
+  const around = tableOf(machine[0], "clearances");
+  return [...bearings, ...around("name").map((name, k) => ({ z: around("place")[k], name, clearance: around("clearance")[k], offset: { x: 0, y: 0 }, colour: "#8a4fae" }))];
 }
 
 // How near the shaft comes to what stands around it.
 function reachFigure(machine) {
-  const at = listAt(machine[0], "shape_positions").map((z) => 1e3 * z);
-  const gone = listAt(machine[0], "largest_displacements").map((value) => 1e6 * value);
+  const [place, displacement] = ["place", "displacement"].map(tableOf(machine[0], "shape"));
+  const [at, gone] = [place.map((z) => 1e3 * z), displacement.map((value) => 1e6 * value)];
   const around = roomAlong(machine).map(({ z, name, clearance, colour }) => ({ label: name, x: [1e3 * z], y: [1e6 * clearance], colour, line: false, dots: true, radius: 5 }));
   return curves({ series: [{ label: "largest displacement", x: at, y: gone, colour: "#22303c", dots: true }, ...around], across: "z [mm]", upright: "distance [µm]", level: { at: 0, words: "line of levitation" }, height: 260 });
 }
@@ -53,7 +53,7 @@ function rowsOfNames(rooms, bearings, toX) {
 
 function shapeDrawing(machine, shapes, row, width) {
   const run = machine[0];
-  const z = listAt(run, "shape_positions");
+  const z = tableOf(run, "shape")("place");
   const rooms = roomAlong(machine);
   const reach = 1.25e6 * Math.max(...rooms.map((room) => room.clearance + Math.hypot(room.offset.x, room.offset.y)), 1e-6);
   const margin = { left: 74, right: 24, top: 12, between: 22, bottom: 58 };
@@ -131,7 +131,7 @@ function currentFigure(run) {
   if (!names.length) return null;
   const words = (name) => name.replace(/^magnet\.(.*)\.current_([12])$/, (_, magnet, axis) => `${wordsOf(magnet)}, axis ${axis} [A]`);
   const series = names.map((name, place) => ({ label: words(name), time: run.time, values: columnOf(run, name), colour: AXIS_COLOURS[place % AXIS_COLOURS.length], width: 1 }));
-  const marks = instantMarks([{ instant: numberOf(run, "release_time"), words: "power lost", colour: SERIES_COLOURS.limit }]);
+  const marks = instantMarks(instantsOf([run]).filter(({ words }) => words === "release"));
   return figure("Control currents", "Of each axis of the magnets, without bias; after the loss of power what is left of them.", timePlot({ series, label: "current [A]", marks, ticks: [run], height: 240 }));
 }
 
@@ -145,13 +145,13 @@ function machineSection(runs) {
       figure(`${of(machine)}Rotor to scale`, DRAWN, rotorPicture(machine[0], [], machine.map((run) => run.summary.name || ""))),
       columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets.", shapeFigure(machine)) : null,
       currentFigure(machine[0]),
-      listAt(machine[0], "largest_displacements").length ? figure(`${of(machine)}How far the shaft goes`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
+      tableOf(machine[0], "shape")("displacement").length ? figure(`${of(machine)}How far the shaft goes`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
     ]),
   );
 }
 
 function rotorFacts(run) {
-  return `rotor ${engineeringText(numberOf(run, "rotor_mass"), "kg", 4)}, bends at ${numberText(numberOf(run, "first_bending_frequency"), 4)} rad/s`;
+  return shownIn(run, "rotor_line").map(({ words, value, quantity }) => `${words} ${siText(value, quantity.unit)}`).join(", ");
 }
 
 // Of several bearings the rotor stands once, above them.

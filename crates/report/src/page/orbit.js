@@ -351,6 +351,7 @@ const dropPage = {
   shared: machineTiles,
   verdict,
   time: "time after release",
+  touches: true,
   facts: true,
   sections: (runs) => [[9.5, firstContactsSection, runs], [10, orbitSection, runs], [10.5, orderSection, runs], [11, contactSection, runs], [50, speedSection, runs], [60, mapSection, runs], [61, pressureSection, runs], [80, energySection, runs], ...LIMIT_SECTIONS(runs), ...WARM_SECTIONS(runs)].filter(([, , some]) => some.length),
 };

@@ -5,7 +5,7 @@ const ORDER_BOX = { left: 64, right: 16, top: 10, bottom: 42 };
 const ORDER_DEPTH = 3;
 
 function orderDrawing(run, width) {
-  const [orders, times, sizes] = ["whirl_orders", "whirl_order_times", "whirl_order_amplitudes"].map((name) => listOf(run, name));
+  const [orders, times, sizes] = ["order", "time", "amplitude"].map(tableOf(run, "whirl_map"));
   const height = 280;
   const [wide, high] = [width - ORDER_BOX.left - ORDER_BOX.right, height - ORDER_BOX.top - ORDER_BOX.bottom];
   const long = times[times.length - 1] >= 2;
@@ -41,7 +41,7 @@ function orderDrawing(run, width) {
 
 function orderFigure(run, runs) {
   const title = shareOfRun(run, runs, "Orders of the whirl");
-  const sizes = listOf(run, "whirl_order_amplitudes");
+  const sizes = tableOf(run, "whirl_map")("amplitude");
   if (!sizes.length) return figure(title, null, notInThisRun("orders: it is shorter than eight turns, or run.output_interval is longer than a sixteenth of one", run));
   const holder = element("div", { class: "curves" });
   resizable.push(() => holder.replaceChildren(orderDrawing(run, holder.clientWidth || 900)));

@@ -1,9 +1,5 @@
 // The pictures of a test on a rig: what happened, beside what its arm indicated.
 
-function rigMarks(runs) {
-  return instantMarks(runs.flatMap((run) => [["engagement_time", "engaged"], ["clutch_lock_time", "locked"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet }))));
-}
-
 function rigSpeedSection(runs) {
   const names = ["bearing.inner_race.speed"];
   const speeds = [
@@ -11,7 +7,7 @@ function rigSpeedSection(runs) {
     ...lines(runs, names[0], 1, { label: "shaft [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 }),
     ...lines(runs, "bearing.cage.speed", 1, { label: "cage [rad/s]", colour: SERIES_COLOURS.cage, width: 1.25 }),
   ];
-  const marks = rigMarks(runs);
+  const marks = instantMarks(instantsOf(runs));
   return section(
     "rig-speed",
     "Speed and acceleration",
@@ -22,7 +18,7 @@ function rigSpeedSection(runs) {
 
 function rigTorqueSection(runs) {
   const milli = 1e3;
-  const marks = rigMarks(runs);
+  const marks = instantMarks(instantsOf(runs));
   const names = ["bearing.outer_race.moment"];
   return section(
     "rig-torque",
@@ -69,23 +65,7 @@ function lubricantFigure(runs) {
 }
 
 function rigVerdict(run) {
-  return element(
-    "div",
-    { class: "tiles" },
-    stateTile(run),
-    quantityTile(run, "Peak acceleration", "peak_acceleration", () => {
-      const rate = numberOf(run, "clutch_torque_rate");
-      return rate === null ? null : `clutch: ${engineeringText(rate, "N m/s", 4)}`;
-    }),
-    quantityTile(run, "Clutch locked", "clutch_lock_time", () => {
-      const engaged = numberOf(run, "engagement_time");
-      return engaged === null ? null : `engaged at ${engineeringText(engaged, "s", 4)}`;
-    }),
-    quantityTile(run, "Largest moment t_O", "peak_outer_race_moment", () => null),
-    quantityTile(run, "Cage slip at the end", "cage_slip_at_end", () => null),
-    quantityTile(run, "Energy residual", "energy_residual", () => "share of the energies that the ledger leaves unexplained", () => residualState(run)),
-    quantityTile(run, "Angular momentum residual", "angular_momentum_residual", () => "t_I − t_O − dL/dt of balls and cage, over the whole test", (residual) => verdictState(run, Math.abs(residual) > 1e-8)),
-  );
+  return element("div", { class: "tiles" }, stateTile(run), tilesOf(run));
 }
 
 function rigLine(run) {

@@ -32,26 +32,25 @@ const DRAWN = "Another colour for each other material; dashed: sleeves; light bl
 
 // What a rotor carries and what stands around it: kind, words of its row, colour of its names, places [{at, words}].
 function rotorLanes(run, bearings) {
-  const placed = (positions, names) => listAt(run, positions).map((at, k) => ({ at, words: wordsOf(names[k] || "") }));
-  const named = (kind) => placed(`${kind}_positions`, wordsAt(run, `${kind}_names`));
-  const [starts, ends, carries, pieces] = [...["starts", "ends", "carries"].map((name) => listAt(run, `piece_${name}`)), wordsAt(run, "piece_names")];
-  const sleeves = starts.map((from, k) => ({ at: (from + ends[k]) / 2, words: wordsOf(pieces[k] || "") })).filter((_, k) => !carries[k]);
-  const masses = listAt(run, "point_masses").map((mass) => engineeringText(mass, "kg", 3));
-  const magnets = wordsAt(run, "magnet_names");
+  const placed = (places, names) => places.map((at, k) => ({ at, words: wordsOf(names[k] || "") }));
+  const named = (figure) => placed(...["place", "name"].map(tableOf(run, figure)));
+  const piece = tableOf(run, "pieces");
+  const middles = piece("start").map((from, k) => (from + piece("end")[k]) / 2);
+  const masses = tableOf(run, "masses");
   const lanes = [
-    ["bearing", "auxiliary bearings", "#1f5fa8", placed("bearing_positions", bearings)],
-    ["magnet", "magnets", "#a8480f", placed("magnet_positions", magnets)],
-    ["sensor", "their sensors", INK, placed("sensor_positions", magnets)],
-    ["support", "supports", "#23744a", named("support")],
-    ["seal", "seals", "#8a4fae", named("seal")],
-    ["unbalance", "unbalances", "#b3261e", named("unbalance")],
-    ["disk", "disks", "#55677a", named("disk")],
-    ["sleeve", "sleeves", "#55677a", sleeves],
-    ["mass", "point masses", "#55677a", listAt(run, "mass_positions").map((at, k) => ({ at, words: masses[k] || "" }))],
+    ["bearing", "auxiliary bearings", "#1f5fa8", placed(tableOf(run, "bearings")("place"), bearings)],
+    ["magnet", "magnets", "#a8480f", named("magnets")],
+    ["sensor", "their sensors", INK, named("sensors")],
+    ["support", "supports", "#23744a", named("supports")],
+    ["seal", "seals", "#8a4fae", named("seals")],
+    ["unbalance", "unbalances", "#b3261e", named("unbalances")],
+    ["disk", "disks", "#55677a", named("disks")],
+    ["sleeve", "sleeves", "#55677a", placed(middles, piece("name")).filter((_, k) => !piece("carries")[k])],
+    ["mass", "point masses", "#55677a", masses("place").map((at, k) => ({ at, words: engineeringText(masses("mass")[k], "kg", 3) }))],
   ];
   // a name that the row of a part has at the same place says nothing more, nor has a bearing there
   const said = (own) => lanes.some(([kind, , , places]) => places.some(({ at, words }) => at === own.at && (words === own.words || kind === "bearing")));
-  lanes.push(["place", "named places", PALE_INK, named("named_node").filter((own) => !said(own))]);
+  lanes.push(["place", "named places", PALE_INK, named("named_places").filter((own) => !said(own))]);
   return lanes.filter(([, , , places]) => places.length);
 }
 
@@ -102,13 +101,10 @@ function drawnLanes(lanes, toX, top, width) {
 function rotorDrawing(run, overlays, bearings, width) {
   const lanes = overlays.length ? [] : rotorLanes(run, bearings);
   const margin = { left: lanes.length ? LANE_WORDS : 58, right: 24, top: 30, bottom: 36 };
-  const z = listAt(run, "node_positions");
-  const part = (name) => listAt(run, `piece_${name}`);
-  const [starts, ends, outer, outerEnd, inner, innerEnd, carries] = ["starts", "ends", "outer_starts", "outer_ends", "inner_starts", "inner_ends", "carries"].map(part);
-  const diskAt = listAt(run, "disk_positions");
-  const masses = listAt(run, "disk_masses");
-  const given = listAt(run, "disk_diameters");
-  const widths = listAt(run, "disk_widths");
+  const z = tableOf(run, "nodes")("place");
+  const piece = tableOf(run, "pieces");
+  const [starts, ends, outer, outerEnd, inner, innerEnd, carries, materials] = ["start", "end", "outer start", "outer end", "inner start", "inner end", "carries", "material"].map(piece);
+  const [diskAt, masses, given, widths, diskNames] = ["place", "mass", "diameter", "width", "name"].map(tableOf(run, "disks"));
   const [first, last] = [z[0], z[z.length - 1]];
   const length = last - first || 1;
   const thickest = Math.max(...outer, ...outerEnd);
@@ -124,7 +120,6 @@ function rotorDrawing(run, overlays, bearings, width) {
   const below = margin.top + tall + 22;
   const toX = (at) => margin.left + (at - first) * scale;
   const toY = (radius) => middle - radius * upright;
-  const materials = wordsAt(run, "piece_materials");
   const kinds = [...new Set(materials)];
   const fill = (k) => (kinds.indexOf(materials[k]) <= 0 ? STEEL_FILL : OTHER_FILLS[(kinds.indexOf(materials[k]) - 1) % OTHER_FILLS.length]);
   const half = (k, side) => {
@@ -135,7 +130,7 @@ function rotorDrawing(run, overlays, bearings, width) {
   const disks = diskAt.map((at, k) => {
     const thick = Math.max((widths[k] || 0) * scale, 5);
     const tip = toY(diameters[k] / 2);
-    return drawing("rect", { x: toX(at) - thick / 2, y: tip, width: thick, height: 2 * (middle - tip), fill: "#8fa3b5", "fill-opacity": 0.55, stroke: "#55677a", "stroke-width": 0.8 }, drawing("title", {}, `${wordsAt(run, "disk_names")[k] || ""}: ${engineeringText(masses[k], "kg", 4)}`));
+    return drawing("rect", { x: toX(at) - thick / 2, y: tip, width: thick, height: 2 * (middle - tip), fill: "#8fa3b5", "fill-opacity": 0.55, stroke: "#55677a", "stroke-width": 0.8 }, drawing("title", {}, `${diskNames[k] || ""}: ${engineeringText(masses[k], "kg", 4)}`));
   });
   const surface = (at) => {
     let most = 0;

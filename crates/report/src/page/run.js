@@ -95,14 +95,79 @@ function wholesOf(runs) {
   return machines.map(([first]) => (first.whole ? { ...first.whole, colour: first.colour, prefix: machines.length > 1 ? first.whole.prefix : "" } : first));
 }
 
-// Instant of the release, from the start of the run, s.
+// What begins the names of the results of a run-out.
+const RUN_OUT = "run_out.";
+
+// Results that a figure shows, in the order of their table: name, result, the words that the figure has for it, and its number.
+function shownIn(run, figure) {
+  const found = Object.entries(run.quantities).filter(([, quantity]) => quantity && quantity.shown && figure in quantity.shown);
+  return found.map(([name, quantity]) => ({ name, quantity, words: quantity.shown[figure], value: isNumber(quantity.value) ? quantity.value : null }));
+}
+
+// The columns of a table that a figure shows, by their words: numbers, or the lines of a text.
+function tableOf(run, figure) {
+  const columns = shownIn(run, figure);
+  return (words) => {
+    const { value } = (columns.find((column) => column.words === words) || { quantity: {} }).quantity;
+    return typeof value === "string" ? value.split("\n").filter(Boolean) : list(value);
+  };
+}
+
+// The rows of a table of several results each, by what their names have before the last point.
+function rowsIn(run, figure) {
+  const rows = new Map();
+  for (const entry of shownIn(run, figure)) {
+    const key = entry.name.slice(0, entry.name.lastIndexOf("."));
+    if (!rows.has(key)) rows.set(key, []);
+    rows.get(key).push(entry);
+  }
+  return [...rows];
+}
+
+// Units other than those of results that the words of a figure may ask for.
+const ASKED_UNITS = { "[%]": ["%", 100], "[Hz]": ["Hz", 1 / (2 * Math.PI)] };
+
+// The unit and the factor that words ask for; none where they leave both to the size of the value.
+function askedUnit(words) {
+  return ASKED_UNITS[(/\[.*\]$/.exec(words) || [])[0]];
+}
+
+// A number in the unit that its words ask for, else in the one in which it reads best.
+function numberIn(words, value, unit, digits) {
+  const [own, factor] = askedUnit(words) || [];
+  return own ? `${numberText(factor * value, digits)} ${own}` : engineeringText(value, unit, digits);
+}
+
+// What a result says in a table; its reason where it has no value.
+function cellOf({ quantity, words, value }) {
+  if (value !== null) return numberIn(words, value, quantity.unit, 5);
+  return typeof quantity.value === "string" ? quantity.value : element("span", { class: "absent" }, quantity.why || "–");
+}
+
+// Instant of the release, from the start of the run, s: null of magnets that keep their power.
+function releaseTime(run) {
+  return (run.quantities.release_time || {}).value;
+}
+
 function releaseOf(run) {
-  return numberOf(run, "release_time") || 0;
+  return releaseTime(run) || 0;
 }
 
 // What instants of contact, spin-up and whirl count from; magnets that keep their power release nothing.
 function countedFrom(run) {
-  return run.quantities.release_time && numberOf(run, "release_time") === null ? "the start" : "the release";
+  return releaseTime(run) === null ? "the start" : "the release";
+}
+
+// Instants worth a mark on the axis of time, which begins with the run; a release that is its start needs none. Of more than two runs the
+// words would cover each other: the headlines alone, the others are in the table.
+function instantsOf(runs, colour = SERIES_COLOURS.quiet) {
+  const colourOf = (run, words) => (runs.length > 1 ? run.colour : SERIES_COLOURS[words.split(" ")[0]] || (/^release|limit$/.test(words) ? SERIES_COLOURS.limit : colour));
+  const own = ({ name, quantity, value }) => value !== null && !name.startsWith(RUN_OUT) && (runs.length <= 2 || quantity.shown.headline);
+  return runs.flatMap((run) =>
+    [["instants", 0], ["instants_after_release", releaseOf(run)]]
+      .flatMap(([figure, from]) => shownIn(run, figure).filter(own).map(({ words, value }) => ({ instant: value + from, words: run.prefix + words, colour: colourOf(run, words) })))
+      .filter(({ instant }) => instant > 0),
+  );
 }
 
 // Letter, directory and title of a run among several; a directory that is called as its letter is not said twice. Tables and small

@@ -19,12 +19,8 @@ function bandLines(runs, name, deviation, scale, look) {
 }
 
 // What a run has no numbers for, with the reason of one of its quantities.
-function lackOf(runs, column, quantity, words) {
-  return runs.filter((run) => !columnOf(run, column)).map((run) => notInThisRun(`${words}: ${quantityOf(run, quantity).why || "no reason is given"}`, run));
-}
-
-function engagementMarks(runs) {
-  return instantMarks(runs.flatMap((run) => [["engagement_time", "engaged"], ["change_end_time", "end of the change"]].map(([name, words]) => ({ instant: numberOf(run, name), words: run.prefix + words, colour: runs.length > 1 ? run.colour : SERIES_COLOURS.quiet }))));
+function lackOf(runs, column, figure) {
+  return runs.filter((run) => !columnOf(run, column)).flatMap((run) => shownIn(run, figure).map(({ words, quantity }) => notInThisRun(`${words}: ${quantity.why || "no reason is given"}`, run)));
 }
 
 function signalFigure(title, note, series, options, lack) {
@@ -33,8 +29,8 @@ function signalFigure(title, note, series, options, lack) {
 
 // The quick change seen closely: speed and acceleration from before the engagement to behind its end.
 function changeFigure(run, runs) {
-  const [begin, end] = [numberOf(run, "engagement_time"), numberOf(run, "change_end_time")];
-  if (begin === null || end === null || !columnOf(run, "shaft.acceleration")) return null;
+  const [begin, end] = shownIn(run, "change").map(({ value }) => value);
+  if (!isNumber(begin) || !isNumber(end) || !columnOf(run, "shaft.acceleration")) return null;
   const rows = run.time.map((_, row) => row).filter((row) => run.time[row] >= begin - 0.4 * (end - begin) && run.time[row] <= end + 0.6 * (end - begin));
   const x = rows.map((row) => 1e3 * run.time[row]);
   const of = (name, spread, sign) => rows.map((row) => {
@@ -50,7 +46,7 @@ function changeFigure(run, runs) {
   const across = "time [ms]";
   return figure(
     shareOfRun(run, runs, "The quick change, closely"),
-    `${columnOf(run, "shaft.reading") ? "Grey: the instrument" : `${numberText(numberOf(run, "pulses_in_change"), 4)} pulses came in it`}. ${BAND_WORDS}`,
+    `${columnOf(run, "shaft.reading") ? "Grey: the instrument" : `${shownIn(run, "pulses").map(({ value }) => numberText(value, 4)).join("")} pulses came in it`}. ${BAND_WORDS}`,
     curves({ series: [raw, ...three("shaft.speed", "speed", SERIES_COLOURS.rotor)], across, upright: "speed [rad/s]", right: IN_RPM, height: 260 }),
     curves({ series: three("shaft.acceleration", "acceleration", SERIES_COLOURS.race), across, upright: "acceleration [rad/s²]", height: 260 }),
   );
@@ -65,11 +61,11 @@ function shaftSection(runs) {
   ];
   const speed = bandLines(runs, "shaft.speed", "shaft.speed_deviation", 1, { label: "speed [rad/s]", colour: SERIES_COLOURS.rotor, width: 1.5 });
   const acceleration = bandLines(runs, "shaft.acceleration", "shaft.acceleration_deviation", 1, { label: "acceleration [rad/s²]", colour: SERIES_COLOURS.race, width: 1.5 });
-  const marks = engagementMarks(runs);
+  const marks = instantMarks(instantsOf(runs));
   return section(
     "shaft",
     "Speed and acceleration of the shaft",
-    signalFigure("Speed", `Grey: ${grey}. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "peak_speed", "speed")),
+    signalFigure("Speed", `Grey: ${grey}. ${BAND_WORDS}`, [...(raw.length && speed.length ? raw : []), ...speed], { label: "speed [rad/s]", second: IN_RPM, marks, height: 290 }, lackOf(runs, "shaft.speed", "shaft_speed")),
     signalFigure("Acceleration", `Drag over the change to see it closely. ${BAND_WORDS}`, acceleration, { label: "acceleration [rad/s²]", marks, height: 260 }, []),
     runs.map((run) => changeFigure(run, runs)),
   );
@@ -93,8 +89,8 @@ function measuredTorqueSection(runs) {
       "The sensor's reading, and the torque that it felt",
       `Grey: the reading with the sensor's swing, its zero and the disturbance once a turn. Coloured: the torque without them. ${BAND_WORDS}`,
       [...raw, ...torque],
-      { label: `torque [${unit}]`, marks: engagementMarks(runs), height: 310 },
-      lackOf(runs, "torque.torque", "peak_torque", "the torque without the sensor's swing"),
+      { label: `torque [${unit}]`, marks: instantMarks(instantsOf(runs)), height: 310 },
+      lackOf(runs, "torque.torque", "sensor_torque"),
     ),
     disturbance.length ? signalFigure("Disturbance once a turn, before the sensor amplifies it", BAND_WORDS, disturbance, { label: `amplitude [${unit}]`, include: () => [0], height: 190 }, []) : null,
     runs.map((run) => torqueSpectrum(run, runs)),
@@ -102,16 +98,21 @@ function measuredTorqueSection(runs) {
   );
 }
 
+// Natural frequency of the torque sensor, Hz; null where it is not known.
+function sensorFrequency(run) {
+  const [sensor] = shownIn(run, "sensor");
+  return sensor ? sensor.value : null;
+}
+
 // By which a torque arm is chosen: its error in this test over the frequency that it might have had.
 function designFigure(run, runs) {
-  const frequencies = listOf(run, "sensor_design_frequencies");
-  if (!frequencies.length) return null;
-  const errors = (name) => listOf(run, `sensor_design_${name}_errors`).map((value) => 1e3 * value);
-  const own = numberOf(run, "sensor_frequency");
-  const top = Math.max(...errors("raw"));
+  const [frequencies, ...errors] = shownIn(run, "sensor_design").map(({ words, quantity }) => ({ words, values: list(quantity.value).filter(isNumber) }));
+  if (!frequencies || !frequencies.values.length) return null;
+  const own = sensorFrequency(run);
+  const top = 1e3 * Math.max(...errors[0].values);
+  const looks = [{ colour: SERIES_COLOURS.quiet }, { colour: SERIES_COLOURS.race }];
   const series = [
-    { label: "reading as it is", x: frequencies, y: errors("raw"), colour: SERIES_COLOURS.quiet, dots: true },
-    { label: "inverted", x: frequencies, y: errors("inverted"), colour: SERIES_COLOURS.race, dots: true },
+    ...errors.map(({ words, values }, index) => ({ label: words, x: frequencies.values, y: values.map((value) => 1e3 * value), ...looks[index], dots: true })),
     ...(own === null ? [] : [{ label: `this sensor, ${numberText(own, 4)} Hz`, x: [own, own], y: [0, top], colour: SERIES_COLOURS.cage, dash: "2 3" }]),
   ];
   return figure(shareOfRun(run, runs, "Which frequency a torque sensor should have"), "Root mean square error after the engagement for the torque found here, with the decay, noise and disturbance of this sensor. A stiff arm swings less and reads less: its noise in N mm is that of this one.", curves({ series, across: "frequency of the sensor [Hz]", upright: "error [N mm]", logarithmic: false, height: 260 }));
@@ -119,16 +120,17 @@ function designFigure(run, runs) {
 
 // Amplitudes over frequency; where the sensor swings and where the shaft's orders lie at its largest speed is marked.
 function torqueSpectrum(run, runs) {
-  const frequencies = listOf(run, "torque_spectrum_frequencies");
+  const [across, upwards] = shownIn(run, "spectrum").map(({ quantity }) => quantity);
+  const frequencies = list(across && across.value).filter(isNumber);
   const [unit, scale] = torqueUnit([run]);
-  const amplitudes = listOf(run, "torque_spectrum_amplitudes").map((value) => scale * value);
+  const amplitudes = list(upwards && upwards.value).filter(isNumber).map((value) => scale * value);
   const title = shareOfRun(run, runs, "Spectrum of the reading");
-  if (!frequencies.length) return figure(title, null, null, [notInThisRun(quantityOf(run, "torque_spectrum_frequencies").why || "no reason is given", run)]);
+  if (!frequencies.length) return figure(title, null, null, [notInThisRun((across && across.why) || "no reason is given", run)]);
   const top = Math.max(...amplitudes);
   const bottom = Math.min(...amplitudes.filter((value) => value > 0));
   const upright = (at, label, colour, dash) => ({ label, x: [at, at], y: [bottom, top], colour, dash, width: 1.25 });
-  const sensor = numberOf(run, "sensor_frequency");
-  const turn = numberOf(run, "peak_speed");
+  const sensor = sensorFrequency(run);
+  const [{ value: turn }] = [...shownIn(run, "shaft_speed"), { value: null }];
   const last = frequencies[frequencies.length - 1];
   const orders = turn === null ? [] : [1, 2, 3].map((order) => [order, (order * turn) / (2 * Math.PI)]).filter(([, at]) => at < last);
   const series = [
@@ -148,7 +150,7 @@ function cageSection(runs) {
   return section(
     "cage",
     "Cage",
-    signalFigure("Speed of the cage", BAND_WORDS, speed, { label: "speed [rad/s]", second: IN_RPM, marks: engagementMarks(runs), height: 230 }, lackOf(runs, "cage.speed", "cage_speed_at_end", "the cage")),
+    signalFigure("Speed of the cage", BAND_WORDS, speed, { label: "speed [rad/s]", second: IN_RPM, marks: instantMarks(instantsOf(runs)), height: 230 }, lackOf(runs, "cage.speed", "cage_speed")),
     slip.length ? signalFigure("Slip of the cage", `0 % where the balls roll, 100 % where the cage rests; nothing is drawn where the band is wider than ±${WIDEST_SLIP} %. ${BAND_WORDS}`, slip, { label: "slip [%]", include: () => [-0.5, 0.5], height: 230 }, []) : null,
   );
 }
@@ -205,9 +207,10 @@ function vibrationSection(runs) {
   return section("vibration", "Vibration", runs.map((run) => {
     const names = [...run.columns.keys()].filter((name) => /^vibration\.order_.*_amplitude$/.test(name));
     const series = names.flatMap((name, index) => bandLines([run], name, name.replace(/amplitude$/, "deviation"), 1, { label: `order ${name.slice(16, -10).replace("_", ".")}`, colour: ORDER_COLOURS[index % ORDER_COLOURS.length], width: 1.5 }));
-    const unit = quantityOf(run, "vibration_order_amplitudes").unit;
+    const [orders, amplitudes] = shownIn(run, "orders").map(({ quantity }) => quantity);
+    const unit = amplitudes && amplitudes.unit;
     return [
-      signalFigure(shareOfRun(run, runs, "Orders over time"), `Amplitude, peak. ${BAND_WORDS}`, series, { label: unit && unit !== "1" ? `amplitude [${unit}]` : "amplitude, in the unit of the file", include: () => [0], height: 270 }, series.length ? [] : [notInThisRun(quantityOf(run, "vibration_orders").why || "no reason is given", run)]),
+      signalFigure(shareOfRun(run, runs, "Orders over time"), `Amplitude, peak. ${BAND_WORDS}`, series, { label: unit && unit !== "1" ? `amplitude [${unit}]` : "amplitude, in the unit of the file", include: () => [0], height: 270 }, series.length ? [] : [notInThisRun((orders && orders.why) || "no reason is given", run)]),
       levelPicture(run, runs, "vibration_spectrogram", "frequencies", "frequency [Hz]", "Spectrogram over time", "What follows the speed bends with it; what stands still is the machine's own."),
       levelPicture(run, runs, "vibration_order_spectrogram", "orders", "order", "Spectrogram over order", "What follows the speed stands still here."),
     ];
@@ -216,28 +219,29 @@ function vibrationSection(runs) {
 
 function steadySection(runs) {
   return section("steady", "Torque over speed", runs.map((run) => {
-    const x = wholeList(run, "steady_speeds");
-    const curve = (name, label, colour) => {
-      const torque = wholeList(run, `steady_${name}_torques`, 1e3);
-      const deviation = wholeList(run, `steady_${name}_deviations`, 1e3);
+    const [speeds] = shownIn(run, "slow_speeds").map(({ quantity }) => quantity);
+    const x = list(speeds && speeds.value);
+    const curve = ({ name, words: label, quantity }, index) => {
+      const colour = [SERIES_COLOURS.race, SERIES_COLOURS.rotor, SERIES_COLOURS.cage, SERIES_COLOURS.quiet][index];
+      const torque = list(quantity.value).map((value) => (isNumber(value) ? 1e3 * value : null));
+      const deviation = wholeList(run, name.replace(/torques$/, "deviations"), 1e3);
       if (!torque.length) return [];
       const moved = (sign) => torque.map((value, row) => (value === null || deviation[row] === null ? null : value + sign * BAND * deviation[row]));
       return [{ label, x, y: torque, colour }, { x, y: moved(1), colour: colour + "90", width: 0.75 }, { x, y: moved(-1), colour: colour + "90", width: 0.75 }];
     };
-    const windage = wholeList(run, "steady_windage_torques").length > 0;
-    const series = [...curve("direct", "by the sensor, speed falling", SERIES_COLOURS.race), ...curve("inertial", windage ? "−I dΩ/dt less windage" : "−I dΩ/dt", SERIES_COLOURS.rotor), ...(windage ? curve("windage", "windage", SERIES_COLOURS.quiet) : []), ...curve("up", "by the sensor, speed rising", SERIES_COLOURS.cage)];
-    const row = (words, name) => {
-      const [mean, deviation, chance] = ["", "_deviation", "_chance"].map((end) => numberOf(run, name + end));
-      return mean === null
-        ? [words, element("span", { class: "absent" }, quantityOf(run, name).why || "–"), ""]
-        : [words, `${bandNumbers(1e3 * mean, 1e3 * BAND * deviation)} N mm (2σ)`, numberText(chance, 2)];
+    const series = shownIn(run, "steady_torques").flatMap(curve);
+    const row = ({ name, words, quantity }) => {
+      const [deviation, chance] = ["_deviation", "_chance"].map((end) => numberOf(run, name + end));
+      return isNumber(quantity.value)
+        ? [words, `${bandNumbers(1e3 * quantity.value, 1e3 * BAND * deviation)} N mm (2σ)`, numberText(chance, 2)]
+        : [words, element("span", { class: "absent" }, quantity.why || "–"), ""];
     };
-    const inertia = numberOf(run, "steady_inertia");
-    const spread = BAND * numberOf(run, "steady_inertia_deviation");
+    const [{ name, value: inertia }] = [...shownIn(run, "slow_inertia"), { name: "", value: null }];
+    const spread = BAND * numberOf(run, `${name}_deviation`);
     const note = inertia === null ? "" : spread > 0 ? `I = ${bandNumbers(inertia, spread)} kg m² (2σ). ` : `I = ${numberText(inertia, 4)} kg m², taken as exact. `;
     return [
-      figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun(quantityOf(run, "steady_speeds").why || "no reason is given", run)]),
-      figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], [row("by the sensor less −I dΩ/dt", "steady_direct_less_inertial"), row("rising less falling speed", "steady_up_less_down")])),
+      figure(shareOfRun(run, runs, "Torque over speed in slow running"), `${note}${BAND_WORDS}`, series.length ? curves({ series, across: "speed [rad/s]", above: IN_RPM, upright: "torque [N mm]", height: 320 }) : null, series.length ? null : [notInThisRun((speeds && speeds.why) || "no reason is given", run)]),
+      figure(shareOfRun(run, runs, "One curve against another"), "Chance: how often equal curves would differ as much.", plainTable(["difference", "mean over the speeds", "chance"], shownIn(run, "differences").map(row))),
     ];
   }));
 }
@@ -245,24 +249,12 @@ function steadySection(runs) {
 // What was read, what was repaired, and what is not to be trusted.
 function trustSection(runs) {
   return section("trust", "What was read, repaired, and not trusted", runs.map((run) => {
-    const text = (name) => String(quantityOf(run, name).value || "");
-    const channels = text("channels").split("; ").filter(Boolean).map((entry) => {
+    const quantity = (shownIn(run, "channels")[0] || {}).quantity || {};
+    const channels = String(quantity.value || "").split("; ").filter(Boolean).map((entry) => {
       const parts = /^(.*) \((.*), (\d+) values, (.*)\)$/.exec(entry);
       return parts ? parts.slice(1) : [entry, "", "", ""];
     });
-    const counts = [
-      ["pulses that were missing or too many, share", "pulses_repaired_share"],
-      ["scatter of the pulses over what their flanks promise", "pulse_timing_factor"],
-      ["largest error of a mark, share of the pitch (taken out)", "largest_mark_error_share_of_pitch"],
-      ["torque: values at the limit of the converter", "torque_clipped_values"],
-      ["torque: values held without noise", "torque_stuck_values"],
-      ["torque: values that are no numbers", "torque_missing_values"],
-      ["values at the limits of the converter, all its channels", "converter_clipped_values"],
-      ["rounding of the converter, largest share of a channel's noise", "converter_rounding_share_of_noise"],
-    ].filter(([, name]) => name in run.quantities).map(([words, name]) => {
-      const quantity = quantityOf(run, name);
-      return [words, isNumber(quantity.value) ? numberText(quantity.value, 4) : element("span", { class: "absent" }, quantity.why || "–")];
-    });
+    const counts = shownIn(run, "repairs").map((entry) => [entry.words, cellOf(entry)]);
     const notes = list(run.summary.warnings).filter(Boolean).map((warning) => element("li", {}, element("code", {}, warning.code), " ", warning.text));
     return [
       figure(shareOfRun(run, runs, "Channels of the file"), null, plainTable(["channel", "unit", "values", "clock"], channels)),
@@ -274,18 +266,7 @@ function trustSection(runs) {
 
 // The sections of measurements; what no run asked for has no section.
 function signalsVerdict(run) {
-  const asked = (section) => String((inputOf(run, `signals.${section}.channel`) || { value: "not given" }).value) !== "not given";
-  const [slip, deviation] = [quantityOf(run, "median_cage_slip"), numberOf(run, "median_cage_slip_deviation")];
-  return element(
-    "div",
-    { class: "tiles" },
-    stateTile(run),
-    asked("speed") ? quantityTile(run, "Largest speed", "peak_speed") : null,
-    asked("speed") ? quantityTile(run, "Largest acceleration", "peak_acceleration") : null,
-    asked("speed") ? quantityTile(run, "Engagement", "engagement_time") : null,
-    asked("torque") ? quantityTile(run, "Largest torque", "peak_torque") : null,
-    asked("cage") ? tile("Median slip of the cage", isNumber(slip.value) ? bandValue(bandParts(100 * slip.value, 100 * BAND * deviation), "%") : "–", [isNumber(slip.value) ? null : "not in this run: " + slip.why]) : null,
-  );
+  return element("div", { class: "tiles" }, stateTile(run), tilesOf(run));
 }
 
 function signalsLine(run) {

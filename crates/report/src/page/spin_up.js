@@ -22,13 +22,14 @@ function momentSection(runs) {
   const milli = 1e3;
   const names = ["bearing.inner_race.resisting_moment", "bearing.outer_race.moment"];
   const moment = (name, label, look) => lines(runs, name, milli, { label: label + " [N mm]", ...look });
-  const law = runs.some((run) => numberOf(run, "law_moment_at_end") !== null)
+  const byLaw = (run) => quantityOf(run, "law_moment_at_end");
+  const law = runs.some((run) => isNumber(byLaw(run).value))
     ? moment("bearing.steady_moment", "friction moment M of the law", { colour: SERIES_COLOURS.limit, width: 1.5, dash: [7, 4] })
     : [];
   const drive = moment("drive.moment", "drive", { colour: SERIES_COLOURS.quiet, width: 1, dash: several ? [2, 3] : undefined });
   const noLaw = runs
-    .filter((run) => numberOf(run, "law_moment_at_end") === null)
-    .map((run) => notInThisRun("a friction moment, because " + (quantityOf(run, "law_moment_at_end").why || "none is given"), run));
+    .filter((run) => !isNumber(byLaw(run).value))
+    .map((run) => notInThisRun("a friction moment, because " + (byLaw(run).why || "none is given"), run));
   return section(
     "moments",
     "Moments on the races",
@@ -56,9 +57,14 @@ function largestLine(runs, part, label, look) {
   });
 }
 
+// Whether and when the balls skid.
+function ballsSkid(run) {
+  return quantityOf(run, "balls_skid");
+}
+
 function slipSection(runs) {
   const slip = runs.flatMap((run) => slipLine(run, runs));
-  const words = runs.map((run) => (typeof quantityOf(run, "balls_skid").value === "string" ? `${run.prefix}Balls skid: ${quantityOf(run, "balls_skid").value}.` : null)).filter(Boolean);
+  const words = runs.filter((run) => typeof ballsSkid(run).value === "string").map((run) => `${run.prefix}Balls skid: ${ballsSkid(run).value}.`);
   const sliding = [
     ...largestLine(runs, "inner_slip", "inner race [m/s]", { colour: SERIES_COLOURS.race }),
     ...largestLine(runs, "outer_slip", "outer race [m/s]", { colour: SERIES_COLOURS.rotor, dash: runs.length > 1 ? [4, 3] : undefined }),
@@ -83,23 +89,8 @@ function slipSection(runs) {
   );
 }
 
-// The forms of the energy, each with its bar and how far it lies from the truth.
-const ENERGY_FORMS = [
-  ["bearing_dissipated_energy", "true: sum of all heats in the bearing", "cage"],
-  ["outer_race_energy_exact", "exact: ∫ t_O Ω dt + ∫ Ω dL − Δ(KE + U)", "rotor"],
-  ["outer_race_energy_corrected", "(21) corrected, for balls that roll: ∫ t_O Ω dt + ½ J Ω₀²", "race"],
-  ["outer_race_energy_printed", "(21) as printed: (1 + 2s) ∫ t_O Ω dt + ½ J Ω₀²", "limit"],
-];
-
-const PATH_TERMS = [
-  ["path_term_if_rolling", "balls that roll all the way: ½ L₀ Ω₀", "quiet"],
-  ["path_term", "this run: ∫ Ω dL", "rotor"],
-  ["path_term_if_spun_up_after", "balls spun up after the race: L₀ Ω₀", "quiet"],
-  ["path_term_largest", "the largest: balls spin with the race, and orbit last", "quiet"],
-];
-
-function signedBars(run, forms, reference) {
-  const known = forms.map(([name, words, part]) => ({ words, amount: numberOf(run, name), colour: SERIES_COLOURS[part] }));
+function signedBars(entries, colours, reference) {
+  const known = entries.map(({ words, value }, index) => ({ words, amount: value, colour: SERIES_COLOURS[colours[index] || "quiet"] }));
   const largest = Math.max(1e-300, ...known.map((form) => Math.abs(form.amount || 0)));
   return known.map(({ words, amount, colour }) => {
     const share = reference ? (amount - reference) / Math.abs(reference) : null;
@@ -120,15 +111,16 @@ function signedBars(run, forms, reference) {
 
 function outerRaceFigure(run, runs) {
   const title = (runs.length > 1 ? run.short + ": " : "") + "What the bearing dissipated, as estimated from the moment on the outer race";
-  const truth = numberOf(run, "bearing_dissipated_energy");
+  const [forms, terms] = ["outer_race_energy", "path_terms"].map((name) => shownIn(run, name));
+  const truth = forms.length ? forms[0].value : null;
   if (truth === null) return figure(title, null, notInThisRun("the summary holds no energy of the outer race"));
-  const still = quantityOf(run, "balls_skid").value === "still at the end";
+  const still = exceeds(run, ballsSkid(run));
   const head = (words, last) => element("tr", { class: "head" }, element("th", { colspan: 3 }, words), element("td", {}, last));
   return figure(
     title,
     "t_O moment on the outer race, Ω speed of the inner race, Ω₀ at the end, L angular momentum of balls and cage, KE + U their energy, s ball over track radius. The corrected form knows nothing of skidding: then the path term is needed, which takes the speed of the cage.",
-    element("table", { class: "bars" }, element("tbody", {}, head("Energy dissipated in the bearing", "off the truth"), signedBars(run, ENERGY_FORMS, truth)), element("tbody", {}, head("Path term", ""), signedBars(run, PATH_TERMS, null))),
-    ENERGY_FORMS.some(([name]) => numberOf(run, name) < 0) ? element("p", {}, "Hatched: negative. A bearing cannot dissipate less than nothing; the formula has left its range.") : null,
+    element("table", { class: "bars" }, element("tbody", {}, head("Energy dissipated in the bearing", "off the truth"), signedBars(forms, ["cage", "limit", "race", "rotor"], truth)), element("tbody", {}, head("Path term", ""), signedBars(terms, ["rotor"], null))),
+    forms.some(({ value }) => value < 0) ? element("p", {}, "Hatched: negative. A bearing cannot dissipate less than nothing; the formula has left its range.") : null,
     still ? element("p", {}, "Here the balls still skid at the end: the corrected and the printed form and both bounds of the path term take them to roll by then.") : null,
   );
 }
@@ -139,37 +131,7 @@ function outerRaceSection(runs) {
 
 // The verdict of a spin-up.
 function spinUpVerdict(run) {
-  const skid = quantityOf(run, "balls_skid");
-  const skidText = typeof skid.value === "string" ? skid.value : "–";
-  const capacity = numberOf(run, "traction_capacity");
-  const carried = capacity === null ? null : `in a steady run traction can carry ${numberText(capacity, 3)} times the friction moment` + (capacity < 1.2 ? "; 1.2 is needed" : "");
-  const rolls = (time) => {
-    const cage = numberOf(run, "cage_time_to_95_percent_of_rolling");
-    return cage === null ? "the cage does not reach 95 % of its rolling speed" : `the cage at ${engineeringText(cage, "s", 4)}`;
-  };
-  return element(
-    "div",
-    { class: "tiles" },
-    stateTile(run),
-    quantityTile(run, "Inner race at 95 % speed", "inner_race_time_to_95_percent", rolls),
-    tile("Balls skid", skidText, [skid.value ? null : skid.why, carried], skid.value === "still at the end" ? verdictState(run, true) : null),
-    quantityTile(run, "Largest moment t_I", "peak_inner_race_moment", () => {
-      const mean = numberOf(run, "inner_race_mean_moment");
-      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turns`;
-    }),
-    quantityTile(run, "Largest moment t_O", "peak_outer_race_moment", () => {
-      const mean = numberOf(run, "outer_race_mean_moment");
-      return mean === null ? null : `${engineeringText(mean, "N m", 4)} in the mean of the last cage turns`;
-    }),
-    pressureTile(run),
-    quantityTile(
-      run,
-      "Energy residual",
-      "energy_residual",
-      () => "share of the energies that the ledger leaves unexplained",
-      () => residualState(run),
-    ),
-  );
+  return element("div", { class: "tiles" }, stateTile(run), tilesOf(run));
 }
 
 // What turns which bearing, in one line.

@@ -16,7 +16,7 @@ const timeline = {
   span(runs) {
     const words = new Set(runs.map((run) => systemOf(run).time).filter(Boolean));
     if (words.size === 1) [this.words] = words;
-    if (runs.some((run) => run.quantities.release_time && numberOf(run, "release_time") !== 0)) this.words = "time since the start";
+    if (runs.some((run) => ![undefined, 0].includes(releaseTime(run)))) this.words = "time since the start";
     const times = runs.filter((run) => run.time && run.time.length > 1).map((run) => run.time);
     if (!times.length) return;
     this.first = Math.min(...times.map((time) => time[0]));

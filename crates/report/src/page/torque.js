@@ -37,14 +37,19 @@ function shareOfRun(run, runs, title) {
 
 // Where the tables hold that vary one thing.
 function torquePlace(run) {
-  const temperature = numberOf(run, "temperature");
-  const viscosity = numberOf(run, "viscosity");
-  return [
-    speedText(numberOf(run, "speed")),
-    engineeringText(numberOf(run, "radial_load"), "N", 4),
-    temperature === null ? null : `${numberText(temperature - ZERO_CELSIUS, 4)} °C`,
-    viscosity === null ? null : `${numberText(1e6 * viscosity, 4)} mm²/s`,
-  ].filter(Boolean).join(", ");
+  const said = { "rad/s": (value) => speedText(value), N: (value) => engineeringText(value, "N", 4), degC: (value) => `${numberText(value - ZERO_CELSIUS, 4)} °C`, "mm^2/s": (value) => engineeringText(value, "m^2/s", 4) };
+  return shownIn(run, "place").filter(({ value }) => value !== null).map(({ words, value }) => said[words](value)).join(", ");
+}
+
+// Speed and load of the tables.
+function speedAndLoad(run) {
+  return shownIn(run, "place").slice(0, 2).map(({ value }) => value);
+}
+
+// Accelerations, or loads, and the moments at each of them in N mm.
+function momentRows(run, figure, first, before = []) {
+  const [given, ...moments] = shownIn(run, figure);
+  return list(given && given.quantity.value).map((at, row) => [first(at), ...before, ...moments.map(({ quantity }) => millimetres(quantity.value[row]))]);
 }
 
 // The two parts of the moment, as the law calls them: symbol and what makes it.
@@ -68,13 +73,13 @@ function steadyPartsFigure(run, runs) {
     part("friction.speed_dependent", `${m0}, ${flow}`, LINE_COLOURS[0], "7 4"),
     part("friction.load_dependent", `${m1}, ${load}`, LINE_COLOURS[1], "7 4"),
   ];
-  const at = numberOf(run, "speed");
-  return figure(shareOfRun(run, runs, "Steady friction moment and its parts"), `Under ${engineeringText(numberOf(run, "radial_load"), "N", 4)}.`, curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]", marks: at === null ? [] : [{ at, words: "tables" }], height: 320 }));
+  const [at, under] = speedAndLoad(run);
+  return figure(shareOfRun(run, runs, "Steady friction moment and its parts"), `Under ${engineeringText(under, "N", 4)}.`, curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]", marks: at === null ? [] : [{ at, words: "tables" }], height: 320 }));
 }
 
 function accelerationFigures(run, runs) {
   const speed = overSpeed(run, "speed");
-  const accelerations = listOf(run, "accelerations");
+  const accelerations = tableOf(run, "by_acceleration")("acceleration");
   const part = (number, name) => overSpeed(run, `acceleration_${number}.${name}`, 1e3);
   const each = (name, label, dash) =>
     accelerations.map((acceleration, index) => ({ label: `${label} at ${accelerationText(acceleration)}`, x: speed, y: part(index + 1, name) || [], colour: LINE_COLOURS[index % LINE_COLOURS.length], dash }));
@@ -89,10 +94,9 @@ function accelerationFigures(run, runs) {
     { label: "inertia at the outer race", x: speed, y: part(middle + 1, "outer_race.inertia") || [], colour: LINE_COLOURS[3] },
     { label: "pocket friction F at both races", x: speed, y: part(middle + 1, "loss") || [], colour: LINE_COLOURS[4], dash: "7 4" },
   ];
-  const columns = ["inner_race_inertia_moments", "outer_race_inertia_moments", "acceleration_loss_moments", "inner_race_moments", "outer_race_moments"].map((name) => listOf(run, name));
-  const [m0, m1] = ["speed_dependent_moment", "load_dependent_moment"].map((name) => millimetres(numberOf(run, name)));
-  const heads = ["acceleration", `${first} [N mm]`, `${second} [N mm]`, "inertia, inner race [N mm]", "inertia, outer race [N mm]", "pocket friction F [N mm]", "t_I [N mm]", "t_O [N mm]"];
-  const rows = accelerations.map((acceleration, row) => [accelerationText(acceleration), m0, m1, ...columns.map((column) => millimetres(column[row]))]);
+  const [m0, m1] = shownIn(run, "parts").map(({ value }) => millimetres(value));
+  const heads = ["acceleration", ...[first, second, ...shownIn(run, "by_acceleration").slice(1).map(({ words }) => words)].map((words) => `${words} [N mm]`)];
+  const rows = momentRows(run, "by_acceleration", accelerationText, [m0, m1]);
   return [
     figure(
       shareOfRun(run, runs, "Moments on both races while the race is brought to speed"),
@@ -111,13 +115,12 @@ function torqueMomentSection(runs) {
 
 function loadFigures(run, runs) {
   const speed = overSpeed(run, "speed");
-  const loads = listOf(run, "loads");
+  const loads = tableOf(run, "by_load")("load");
   const series = loads.map((load, index) => ({ label: engineeringText(load, "N", 4), x: speed, y: overSpeed(run, `load_${index + 1}.friction.moment`, 1e3) || [], colour: LINE_COLOURS[index % LINE_COLOURS.length] }));
-  const [m1, sums] = ["load_dependent_moments_over_load", "friction_moments_over_load"].map((name) => listOf(run, name));
-  const rows = loads.map((load, row) => [engineeringText(load, "N", 4), millimetres(m1[row]), millimetres(sums[row])]);
+  const rows = momentRows(run, "by_load", (load) => engineeringText(load, "N", 4));
   return [
     figure(shareOfRun(run, runs, "Steady friction M under each radial load"), null, curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" })),
-    figure(shareOfRun(run, runs, `At ${speedText(numberOf(run, "speed"))}`), null, plainTable(["radial load", `${momentParts(run)[1][0]} [N mm]`, "M [N mm]"], rows)),
+    figure(shareOfRun(run, runs, `At ${speedText(speedAndLoad(run)[0])}`), null, plainTable(["radial load", `${momentParts(run)[1][0]} [N mm]`, "M [N mm]"], rows)),
   ];
 }
 
@@ -125,10 +128,10 @@ function torqueLoadSection(runs) {
   return section("loads", "Radial load", runs.map((run) => loadFigures(run, runs)));
 }
 
-// The laws of a comparison, in its order: name of its quantities and words.
+// The laws of a comparison, in its order: words, beginning of their columns, and the moments M0, M1 and M of each.
 function comparedLaws(run) {
-  const names = Object.keys(run.quantities).map((name) => /^(law_(.+))_friction_moment$/.exec(name)).filter(Boolean);
-  return names.map(([, name, words]) => ({ name, words: words.replace(/_/g, " ") }));
+  const all = shownIn(run, "by_law");
+  return [...new Set(all.map(({ words }) => words))].map((words) => ({ words, name: `law_${words.replace(/ /g, "_")}`, moments: all.filter((entry) => entry.words === words) }));
 }
 
 function lawFigures(run, runs) {
@@ -138,10 +141,9 @@ function lawFigures(run, runs) {
   // Palmgren's two forms differ by less than a line: dashes let both be seen.
   const dashes = [null, "7 4", null, "2 3"];
   const series = known.map(({ name, words }, index) => ({ label: words, x: speed, y: overSpeed(run, `${name}.friction.moment`, 1e3), colour: LINE_COLOURS[index % LINE_COLOURS.length], dash: dashes[index % dashes.length], width: index % 2 ? 2.5 : 1.75 }));
-  const rows = laws.map(({ name, words }) => {
-    const part = (end) => numberOf(run, `${name}_${end}`);
-    const why = quantityOf(run, `${name}_friction_moment`).why;
-    return [words, millimetres(part("speed_dependent_moment")), millimetres(part("load_dependent_moment")), millimetres(part("friction_moment")), why ? element("span", { class: "absent" }, why) : ""];
+  const rows = laws.map(({ words, moments }) => {
+    const { why } = moments.at(-1).quantity;
+    return [words, ...moments.map(({ value }) => millimetres(value)), why ? element("span", { class: "absent" }, why) : ""];
   });
   return [
     figure(shareOfRun(run, runs, "Steady friction M by several laws"), "The same bearing, load and lubricant.", series.length ? curves({ series, across: "speed of the inner race [rad/s]", above: IN_RPM, upright: "moment [N mm]" }) : notInThisRun("a law that has constants for this bearing", run)),
@@ -176,7 +178,8 @@ function lubricantFigures(run, runs) {
     return [words, viscosity === null ? element("span", { class: "absent" }, why || "–") : numberText(1e6 * viscosity, 4), millimetres(numberOf(run, `${name}_friction_moment`)), ...temperatures.map((temperature) => cell(name, temperature))];
   });
   const heads = ["lubricant", "ν, running [mm²/s]", "M, running [N mm]", ...temperatures.map((temperature) => `${numberText(temperature - ZERO_CELSIUS, 4)} °C`)];
-  const at = `at ${speedText(numberOf(run, "speed"))} under ${engineeringText(numberOf(run, "radial_load"), "N", 4)}`;
+  const [turning, under] = speedAndLoad(run);
+  const at = `at ${speedText(turning)} under ${engineeringText(under, "N", 4)}`;
   return [
     moments.length ? figure(shareOfRun(run, runs, "Steady friction M over temperature, " + at), "Each lubricant where its viscosity is known.", curves({ series: moments, across, upright: "moment [N mm]" })) : null,
     moments.length ? figure(shareOfRun(run, runs, "Viscosity over temperature"), "A straight line in the axes of ASTM D341 through two points.", curves({ series: over("viscosities", 1e6), across, upright: "viscosity [mm²/s]", logarithmic: true, height: 240 })) : null,
@@ -189,29 +192,23 @@ function torqueLubricantSection(runs) {
   return section("lubricants", "Lubricants", runs.map((run) => lubricantFigures(run, runs)));
 }
 
-function shareNote(run, name) {
-  const [part, whole] = [numberOf(run, name), numberOf(run, "friction_moment")];
-  return part === null || !(whole > 0) ? null : `${percentText(part / whole, 3)} of M`;
-}
-
-// The verdict of a torque computation.
+// The verdict of a torque computation; accelerations that nobody asked for are examples, and no headline.
 function torqueVerdict(run) {
-  const accelerations = listOf(run, "accelerations");
+  const accelerations = tableOf(run, "by_acceleration")("acceleration");
   const fastest = accelerations.reduce((best, value, row) => (Math.abs(value) > Math.abs(accelerations[best]) ? row : best), 0);
-  // accelerations that nobody asked for are examples, and no headline
-  const asked = accelerationsAsked(run);
+  const [m0, m1, whole] = shownIn(run, "parts").map(({ value }) => value);
   const [[first, flow], [second, load]] = momentParts(run);
-  const at = (name) => engineeringText(listOf(run, name)[fastest], "N m", 4);
-  const part = (name) => engineeringText(numberOf(run, name), "N m", 4);
+  const share = (part) => (part === null || !(whole > 0) ? null : `${percentText(part / whole, 3)} of M`);
+  const [, inner, outer, , onInner, onOuter] = shownIn(run, "by_acceleration").map(({ quantity }) => engineeringText(list(quantity.value)[fastest], "N m", 4));
+  const accelerated = (title, moment, inertia) => tile(title, moment, [`at ${accelerationText(accelerations[fastest])}; ${inertia} of it inertia`]);
   return element(
     "div",
     { class: "tiles" },
     stateTile(run),
-    tile("Friction M", part("friction_moment"), [`at ${torquePlace(run)}`]),
-    tile(`${first}, ${flow}`, part("speed_dependent_moment"), [shareNote(run, "speed_dependent_moment")]),
-    tile(`${second}, ${load}`, part("load_dependent_moment"), [shareNote(run, "load_dependent_moment")]),
-    !asked ? null : tile("Inner race t_I", at("inner_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("inner_race_inertia_moments")} of it inertia`]),
-    !asked ? null : tile("Outer race t_O", at("outer_race_moments"), [`at ${accelerationText(accelerations[fastest])}; ${at("outer_race_inertia_moments")} of it inertia`]),
+    tile("Friction M", engineeringText(whole, "N m", 4), [`at ${torquePlace(run)}`]),
+    tile(`${first}, ${flow}`, engineeringText(m0, "N m", 4), [share(m0)]),
+    tile(`${second}, ${load}`, engineeringText(m1, "N m", 4), [share(m1)]),
+    accelerationsAsked(run) ? [accelerated("Inner race t_I", onInner, inner), accelerated("Outer race t_O", onOuter, outer)] : null,
   );
 }
 
@@ -239,6 +236,6 @@ register("torque", {
   facts: false,
   sections: (runs) => {
     const some = (known) => runs.filter((run) => known(run).length);
-    return [[20, torqueMomentSection, runs], [21, torqueLoadSection, runs.filter((run) => listOf(run, "loads").length > 1)], [22, torqueLawSection, some(comparedLaws)], [23, torqueLubricantSection, some(lubricantsOf)]].filter(([, , part]) => part.length);
+    return [[20, torqueMomentSection, runs], [21, torqueLoadSection, runs.filter((run) => tableOf(run, "by_load")("load").length > 1)], [22, torqueLawSection, some(comparedLaws)], [23, torqueLubricantSection, some(lubricantsOf)]].filter(([, , part]) => part.length);
   },
 });

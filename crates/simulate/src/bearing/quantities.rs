@@ -66,11 +66,11 @@ pub(crate) fn ball_loads(list: &mut List, setup: &BearingSetup, run: Option<&Bea
 results! {
     fn loads(setup: &BearingSetup, run: &BearingRun) {
         "peak_ball_load": number "N", BALL_LOAD, "largest load of a ball" => run.loads[0].value.max(run.loads[1].value);
-        "peak_hertz_pressure": number "Pa" headline, PRESSURE, "largest Hertz pressure between ball and race" => run.pressures().races;
-        "peak_ball_ball_pressure": number "Pa", PRESSURE, "largest Hertz pressure between two balls" when setup.factors.neighbours.is_some() => {
+        "peak_hertz_pressure": number "Pa" headline, PRESSURE, "largest Hertz pressure between ball and race" in tile "Peak Hertz pressure" => run.pressures().races;
+        "peak_ball_ball_pressure": number "Pa", PRESSURE, "largest Hertz pressure between two balls" in note "Peak Hertz pressure: between balls" when setup.factors.neighbours.is_some() => {
             run.pressures().neighbours.unwrap_or(0.0)
         };
-        "hertz_pressure_share_of_limit": number "1", PRESSURE, "largest Hertz pressure over its limit" => run.pressures().share_of_limit(setup.given);
+        "hertz_pressure_share_of_limit": number "1", PRESSURE, "largest Hertz pressure over its limit" in note "Peak Hertz pressure: of its limit [%]" in bound "1" => run.pressures().share_of_limit(setup.given);
     }
     /// What the lubricant came to at the end.
     fn lubricant(part: &LubricantConstants, at: &LubricantAt) {

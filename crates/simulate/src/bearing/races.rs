@@ -59,7 +59,7 @@ results! {
         "outer_flash_temperature_rise": number "K", FLASH, "largest flash temperature of a ball contact at the outer race" => run.races[1].flash.rise.value;
         "outer_flash_time": number "s", FLASH, "instant of this flash" => run.races[1].flash.rise.time;
         "outer_denting_passages": number "", DENTS, "ball loads above the denting load at the outer race" => run.races[1].dents as f64;
-        "skid_temperature_index": number "1", INDEX, "largest flash over that which tempers steel" => run.hottest().1.rise.value / STEEL_CHANGES;
+        "skid_temperature_index": number "1", INDEX, "largest flash over that which tempers steel" in worst "balls that skid too hot" => run.hottest().1.rise.value / STEEL_CHANGES;
     }
 }
 
@@ -128,15 +128,15 @@ fn no_factor(of: &Heated) -> Option<String> {
 results! {
     /// What a drop takes of the life of a bearing, whose temperatures may be followed.
     pub(crate) fn life(setup: &(Option<f64>, Option<Heated>), run: &Life) {
-        "life_share": number "1", LIFE, "share of the rating life that this run takes", unless no_rating(setup.0) => run.share;
-        "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant" when setup.1.is_some(), unless {
+        "life_share": number "1", LIFE, "share of the rating life that this run takes" in added_up "rolling fatigue, of L10" in life "Share of the life L10 that it uses", unless no_rating(setup.0) => run.share;
+        "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant" in added_up "rolling fatigue, of L10" in life "Share with lubricant, cleanliness and temperature" when setup.1.is_some(), unless {
             no_rating(setup.0).or(setup.1.as_ref().and_then(no_factor))
         } => run.with_lubricant.clone();
         "inner_life_share_by_point": list "1", BY_POINT, "share of life at each point of the inner ring" when setup.0.is_some() => run.points[0].clone();
         "outer_life_share_by_point": list "1", BY_POINT, "share of life at each point of the outer ring" when setup.0.is_some() => run.points[1].clone();
-        "drops_until_one_percent_fail": number "", DROPS, "drops after which 1 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.99);
-        "drops_until_ten_percent_fail": number "", DROPS, "drops after which 10 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.9);
-        "drops_until_fifty_percent_fail": number "", DROPS, "drops after which 50 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.5);
+        "drops_until_one_percent_fail": number "", DROPS, "drops after which 1 % of bearings have failed" in life "Drops until 1 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.99);
+        "drops_until_ten_percent_fail": number "", DROPS, "drops after which 10 % of bearings have failed" in life "Drops until 10 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.9);
+        "drops_until_fifty_percent_fail": number "", DROPS, "drops after which 50 % of bearings have failed" in life "Drops until 50 % of bearings have failed", unless no_rating(setup.0) => run.repeated(0.5);
     }
 }
 

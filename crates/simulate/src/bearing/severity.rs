@@ -53,7 +53,7 @@ results! {
     /// Safety of the largest ball load, and what it leaves behind.
     pub(super) fn of_ball_load(given: &Bearing, run: &BearingRun) {
         "ball_load_safety": number "1", SAFETY, "load that dents over the largest ball load" => safety(run.pressures().races, given.hertz_pressure_limit);
-        "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" => {
+        "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" in worst "dents by ball loads" => {
             indentation_index(run.pressures().races, given.hertz_pressure_limit)
         };
         "largest_indentation": number "m", INDENTATION, "depth of the largest permanent indentation" => indentation(run.loads, given);

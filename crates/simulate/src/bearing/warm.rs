@@ -196,14 +196,14 @@ results! {
     }
     /// How near a node comes to its limit, and what holds it there.
     pub(crate) fn limit(setup: &(), run: &Limited) {
-        "*_temperature_index": number "1", NEAR, "rise over that of the limit" => (run.peak - run.start) / (run.limit - run.start);
-        "*_limit_time": instant "s" headline, LIMIT, "first time above the limit" => run.passed();
+        "*_temperature_index": number "1", NEAR, "rise over that of the limit" in worst "* too hot" => (run.peak - run.start) / (run.limit - run.start);
+        "*_limit_time": instant "s" headline, LIMIT, "first time above the limit" in instants "* at its limit" => run.passed();
         "*_heat_to_take": number "W" headline, TAKE, "largest power to be taken to hold the limit" => run.to_take(0);
         "*_energy_to_take": number "J", TAKE, "heat to be taken to hold the limit" => run.to_take(1);
     }
     /// Instants of the powers that are taken from held nodes.
     pub(crate) fn held_times(setup: &(), times: &Vec<f64>) {
-        "held_times": list "s", TAKE, "instants of the powers to take" => times.clone();
+        "held_times": list "s", TAKE, "instants of the powers to take" in held "time" => times.clone();
     }
     /// Power that is taken from a held node.
     pub(crate) fn powers_to_take(setup: &(), powers: &Vec<f64>) {
@@ -211,12 +211,12 @@ results! {
     }
     fn totals(setup: &Heated, run: &Followed) {
         "smallest_clearance": number "m", CLEARANCE, "smallest diametral clearance" when setup.closes() => run.smallest_clearance();
-        "closing_time": instant "s", CLEARANCE, "first time without clearance" when setup.closes() => run.closing_time();
+        "closing_time": instant "s", CLEARANCE, "first time without clearance" in instants "clearance closed" when setup.closes() => run.closing_time();
         "peak_growth_rate": number "1/s", GROWTH, "largest growth rate of a disturbance of the temperatures" when setup.closes() => run.peak_growth();
         "heat_made": number "J", HEAT, "heat that losses make" => run.warmth.made;
-        "stored_heat": number "J", HEAT, "heat stored in all bodies" => run.stored();
+        "stored_heat": number "J", HEAT, "heat stored in all bodies" in heat_balance "stored" => run.stored();
         "stored_heat_in_films": number "J", FILMS, "part of it in the contact films" when setup.has_films() => run.warmth.in_films;
-        "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" => run.warmth.given;
+        "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" in heat_balance "to the surroundings" => run.warmth.given;
         "relative_heat_residual": number "1", RESIDUAL, "residual of the heat balance over the heat made" => run.residual();
     }
     /// Heats made in, kept in and given to the surroundings by a node, J.
@@ -245,7 +245,7 @@ results! {
     }
     /// Work of rings that close on their balls.
     pub(crate) fn work_of_rings(setup: &(), work: &f64) {
-        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" => *work;
+        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" => *work;
     }
 }
 

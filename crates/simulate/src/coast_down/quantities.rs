@@ -80,22 +80,22 @@ fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
 
 results! {
     fn motion(setup: &(), run: &Ran) {
-        "stop_time": instant "s" headline, STOP, "time until the rotor stands" => match run.free.end {
+        "stop_time": instant "s" headline, STOP, "time until the rotor stands" in machine_tile "Stands after" => match run.free.end {
             End::Stands => Ok(run.free.state.time),
             _ => Err("the rotor did not come to stand in this run".to_string()),
         };
         "turns": number "", TURNS, "turns of the rotor" => pairs(&run.free.rows).map(|(_, _, turned)| turned).sum::<f64>();
         "start_moment": number "N m", MOMENT, "moment of all bearings and the gas at the start" => run.start_moment();
         "start_power": number "W" headline, MOMENT, "power of this moment" => run.start_moment() * run.free.rows[0].speed;
-        "rotor_energy": number "J" headline, ENERGY, "kinetic energy of the rotor at the start" => run.built.energy;
+        "rotor_energy": number "J" headline, ENERGY, "kinetic energy of the rotor at the start" in note "Stands after: energy to lose" => run.built.energy;
         "speed_dependent_heat": number "J", HEAT, "heat of the speed-dependent moments" => by_kind(&run.free.state.heats)[0];
         "load_dependent_heat": number "J", HEAT, "heat of the load-dependent moments" => by_kind(&run.free.state.heats)[1];
         "windage_heat": number "J", HEAT, "heat of the gas and of what else brakes the rotor" => by_kind(&run.free.state.heats)[2];
-        "stored_heat": number "J", HEAT, "heat stored in all bodies" => run.free.stored;
+        "stored_heat": number "J", HEAT, "heat stored in all bodies" in heat_balance "stored" => run.free.stored;
     }
     fn balance(setup: &(), run: &Ran) {
-        "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" => run.free.state.given;
-        "relative_heat_residual": number "1" headline, RESIDUAL, "residual of the heat balance over the heat made" => {
+        "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" in heat_balance "to the surroundings" => run.free.state.given;
+        "relative_heat_residual": number "1" headline, RESIDUAL, "residual of the heat balance over the heat made" in machine_tile "Heat residual" in bound "1e-9" => {
             let [speed_dependent, load_dependent, _] = by_kind(&run.free.state.heats);
             let made = speed_dependent + load_dependent;
             relative((made - run.free.stored - run.free.state.given).abs(), made)
@@ -107,12 +107,12 @@ results! {
     }
     fn clearance(of: &(usize, &Part), run: &Ran) {
         "smallest_clearance": number "m" headline, CLEARANCE, "smallest diametral clearance" => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
-        "closing_time": instant "s" headline, CLEARANCE, "first time without clearance" => {
+        "closing_time": instant "s" headline, CLEARANCE, "first time without clearance" in instants "clearance closed" => {
             let closes = run.first(|row| -row.bearings[of.0].clearance);
             closes.ok_or_else(|| "the bearing stays open".to_string())
         };
         "peak_ball_load": number "N", BALLS, "largest load of a ball" => run.most(of.0, RowOfBearing::largest_ball_load);
-        "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" => {
+        "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" in worst "dents by ball loads" in note "Peak Hertz pressure: index of dents until standstill" in bound "1" => {
             indentation_index(run.most(of.0, |row| row.largest_pressure), of.1.pressure_limit)
         };
     }
@@ -129,15 +129,15 @@ results! {
     }
     /// What a run-out takes of the life of a bearing.
     fn life(part: &Part, run: &Life) {
-        "life_share": number "1" headline, LIFE, "share of the rating life that this run-out takes", unless no_rating(part.rating()) => run.share;
-        "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant", unless no_ratings(part) => {
+        "life_share": number "1" headline, LIFE, "share of the rating life that this run-out takes" in added_up "rolling fatigue, of L10" in life "Share of the life L10 that it uses" in tile "Life used by one run-out", unless no_rating(part.rating()) => run.share;
+        "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant" in added_up "rolling fatigue, of L10" in life "Share with lubricant, cleanliness and temperature", unless no_ratings(part) => {
             run.with_lubricant.clone()
         };
         "inner_life_share_by_point": list "1", BY_POINT, "share of life at each point of the inner ring" when part.rating().is_some() => run.points[0].clone();
         "outer_life_share_by_point": list "1", BY_POINT, "share of life at each point of the outer ring" when part.rating().is_some() => run.points[1].clone();
-        "runs_until_one_percent_fail": number "1", RUNS, "run-outs until 1 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.99);
-        "runs_until_ten_percent_fail": number "1" headline, RUNS, "run-outs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
-        "runs_until_half_fail": number "1", RUNS, "run-outs until half of the bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
+        "runs_until_one_percent_fail": number "1", RUNS, "run-outs until 1 % of bearings have failed" in life "Run-outs until 1 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.99);
+        "runs_until_ten_percent_fail": number "1" headline, RUNS, "run-outs until 10 % of bearings have failed" in life "Run-outs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
+        "runs_until_half_fail": number "1", RUNS, "run-outs until half of the bearings have failed" in life "Run-outs until half of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
     }
 }
 

@@ -72,11 +72,11 @@ impl Orders {
 
 results! {
     fn orders(setup: &(), run: &Orders) {
-        "whirl_orders": list "1", ORDERS, "orders of the whirl" => run.list(|found| found.orders.clone());
-        "whirl_order_times": list "s", ORDERS, "middle of each window after the release" => {
+        "whirl_orders": list "1", ORDERS, "orders of the whirl" in whirl_map "order" => run.list(|found| found.orders.clone());
+        "whirl_order_times": list "s", ORDERS, "middle of each window after the release" in whirl_map "time" => {
             run.list(|found| found.times.iter().map(|time| time - run.release).collect())
         };
-        "whirl_order_amplitudes": list "m", ORDERS, "amplitude of each order in each window" => run.list(|found| found.amplitudes.clone());
+        "whirl_order_amplitudes": list "m", ORDERS, "amplitude of each order in each window" in whirl_map "amplitude" => run.list(|found| found.amplitudes.clone());
         "largest_whirl_orders": list "1", LAST, "largest forward and backward order at the end" => run.largest(|(order, _)| order);
         "largest_whirl_amplitudes": list "m", LAST, "amplitudes of these orders" => run.largest(|(_, size)| size);
     }

@@ -142,28 +142,28 @@ impl<'a> Landed<'a> {
 
 results! {
     fn contacts(setup: &(), run: &Landed) {
-        "time_to_first_contact": instant "s" headline, FIRST_CONTACT, "first contact after the release" => {
+        "time_to_first_contact": instant "s" headline, FIRST_CONTACT, "first contact after the release" in instants_after_release "first contact" => {
             touched(run.record.contacts.first().map(|first| run.after(first.start)))
         };
         "first_impact_force": number "N" headline, CONTACT_FORCE, "largest normal force of the first contact" => {
             touched(run.record.contacts.first().map(|first| first.peak_force))
         };
-        "peak_contact_force": number "N" headline, CONTACT_FORCE, "largest normal force between rotor and inner race" => {
+        "peak_contact_force": number "N" headline, CONTACT_FORCE, "largest normal force between rotor and inner race" in tile "Peak contact force" => {
             touched(run.record.peak_contact_force().map(|peak| peak.value))
         };
-        "contact_count": number "" headline, CONTACT_COUNT, "number of contacts" => run.record.contacts.len() as f64;
+        "contact_count": number "" headline, CONTACT_COUNT, "number of contacts" in note "Peak contact force: contacts" => run.record.contacts.len() as f64;
         "contact_start_times": list "s", CONTACT_STARTS, "begins of the contacts after the release" => {
             run.record.contacts.iter().map(|contact| run.after(contact.start)).collect::<Vec<_>>()
         };
     }
     fn spin_up(setup: &(), run: &Landed) {
-        "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" => {
+        "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" in instants_after_release "race 50 %" in note "Inner race at 95 % speed: half of it at" => {
             run.reached(run.record.inner_race_time_to_50_percent(), "half of the rotor's release speed")
         };
-        "inner_race_time_to_95_percent": instant "s" headline, RISE, "time of the inner race to 95 % of the release speed" => {
+        "inner_race_time_to_95_percent": instant "s" headline, RISE, "time of the inner race to 95 % of the release speed" in instants_after_release "race 95 %" in tile "Inner race at 95 % speed" => {
             run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the rotor's release speed")
         };
-        "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
+        "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" in instants_after_release "cage 95 % of rolling" => {
             run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed of the rotor's release speed")
         };
         "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => {
@@ -187,7 +187,7 @@ results! {
         "max_rotor_race_displacement": number "m", DISPLACEMENT, "largest distance of the rotor from the inner race's centre" => {
             run.record.rotor_race_displacement.value
         };
-        "max_rotor_displacement": number "m", ROTOR_DISPLACEMENT, "largest displacement of the rotor in contact" => {
+        "max_rotor_displacement": number "m", ROTOR_DISPLACEMENT, "largest displacement of the rotor in contact" in tile "Largest rotor displacement" => {
             touched(run.record.contacts.first().map(|_| run.record.rotor_displacement.value))
         };
         "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race" => run.record.mount_displacement.value;
@@ -206,7 +206,7 @@ results! {
     /// What half of the heats at its surfaces warms the inner race by.
     fn warming(given: &Bearing, run: &Landed) {
         "inner_race_rise_without_cooling": number "K", RACE_RISE, "rise of the inner race without cooling" => inner_race_rise(&run.balls, given);
-        "heat_index": number "1", HEAT_INDEX, "this rise over that of common rings" => inner_race_rise(&run.balls, given).map(|rise| rise / HOT_RACE);
+        "heat_index": number "1", HEAT_INDEX, "this rise over that of common rings" in worst "inner race too hot" => inner_race_rise(&run.balls, given).map(|rise| rise / HOT_RACE);
     }
     fn rubbing(given: &AuxiliaryBearing, run: &Landed) {
         "rotor_race_friction_energy_per_area": number "J/m^2", PER_AREA, "friction heat over the landing surface", unless {
@@ -214,21 +214,21 @@ results! {
         } => run.balls.heat("rotor_race_friction") / (PI * given.contact.bore_diameter * given.contact.width.unwrap_or(f64::NAN));
     }
     fn release(setup: &Setup, run: &Context) {
-        "release_time": number "s", RELEASE, "instant of the release" => run.release_time().ok_or_else(magnets::kept);
+        "release_time": number "s", RELEASE, "instant of the release" in instants "release" => run.release_time().ok_or_else(magnets::kept);
         "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop.gravity.acceleration);
     }
     fn energies(setup: &Setup, run: &Context) {
         "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
         "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
         "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop.rotor.planes as f64 * run.heat();
-        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" when Following::of(setup.drop).is_some() => {
+        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" when Following::of(setup.drop).is_some() => {
             run.renewals().map_or(0.0, |renewals| renewals.work_until(f64::INFINITY))
         };
         "work_of_sources": number "J", BALANCE, "work of sources" => run.balance().end.1.work - run.balance().start.1.work;
         "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|content| content.translation + content.spin);
         "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|content| content.potential);
         "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.balance().energy_residual();
-        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" => residuals(run).0;
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in machine_tile "Energy residual" in bound "AB1006" => residuals(run).0;
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
     }
 }

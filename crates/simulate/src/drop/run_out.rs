@@ -296,7 +296,7 @@ fn windowed(value: Option<f64>) -> Result<f64, String> {
 
 results! {
     fn change(setup: &(), run: &Went) {
-        "start_time": instant "s" headline, CHANGE, "instant from which on the rotor rolls" => run.rolled(run.first.time);
+        "start_time": instant "s" headline, CHANGE, "instant from which on the rotor rolls" in note "Stands after: rolls from" => run.rolled(run.first.time);
         "start_speed": number "rad/s", CHANGE, "speed of the rotor at this instant" => run.rolled(run.first.speed);
         "windows": number "", WINDOWS, "number of windows ball by ball" => run.scatter().len() as f64;
         "window_scatter": number "1", WINDOWS, "largest standard error of a window's power over it" => run.scatter().into_iter().fold(0.0, f64::max);
@@ -309,7 +309,7 @@ results! {
         "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch in the windows", unless not_given("contact.width", of.1) => {
             windowed(run.hottest(of.0).map(|[rise, _]| rise))
         };
-        "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel", unless not_given("contact.width", of.1) => {
+        "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless not_given("contact.width", of.1) => {
             windowed(run.hottest(of.0).map(|[rise, _]| rise / STEEL_CHANGES))
         };
     }
@@ -317,7 +317,7 @@ results! {
     fn back(setup: &(), run: &Went) {
         "return_times": list "s", RETURNS, "begins of the returns to windows" => run.returns(|again| again.from[0]);
         "return_speeds": list "rad/s", RETURNS, "speed of the rotor at these instants" => run.returns(|again| again.from[1]);
-        "return_end_times": list "s", RETURNS, "ends of the returns" => run.returns(|again| again.to[0]);
+        "return_end_times": list "s", RETURNS, "ends of the returns" in note "Stands after: rolls again from" => run.returns(|again| again.to[0]);
         "return_changes_of_model": list "J", RETURNS, "kinetic energy after each return less that before" => run.returns(|again| again.change);
     }
 }

@@ -43,8 +43,8 @@ results! {
     }
     /// What the modes are.
     fn basis(setup: &(), bent: &Bent) {
-        "rotor_mass": number "kg", BASIS, "mass of the rotor" => bent.given.properties().mass;
-        "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" => {
+        "rotor_mass": number "kg", BASIS, "mass of the rotor" in rotor_line "rotor" => bent.given.properties().mass;
+        "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" in rotor_line "bends at" => {
             let mut bends = bent.frequencies().filter(|omega| *omega > 0.0);
             bends.next().ok_or_else(|| "the rotor does not bend".to_string())
         };
@@ -55,21 +55,21 @@ results! {
     }
     /// Where everything stands.
     fn positions(setup: &(), bent: &Bent) {
-        "shape_positions": list "m", GIVEN, "places along the shaft at which its shape is known" => bent.z(bent.built.places.iter().copied());
-        "bearing_positions": list "m", GIVEN, "places of the auxiliary bearings" => bent.z(bent.given.places.iter().map(|place| place.node));
-        "bearing_offsets_x": list "m", GIVEN, "misalignments of the auxiliary bearings to the right" => bent.offsets(0);
-        "bearing_offsets_y": list "m", GIVEN, "misalignments of the auxiliary bearings upwards" => bent.offsets(1);
+        "shape_positions": list "m", GIVEN, "places along the shaft at which its shape is known" in shape "place" => bent.z(bent.built.places.iter().copied());
+        "bearing_positions": list "m", GIVEN, "places of the auxiliary bearings" in bearings "place" => bent.z(bent.given.places.iter().map(|place| place.node));
+        "bearing_offsets_x": list "m", GIVEN, "misalignments of the auxiliary bearings to the right" in bearings "x" => bent.offsets(0);
+        "bearing_offsets_y": list "m", GIVEN, "misalignments of the auxiliary bearings upwards" in bearings "y" => bent.offsets(1);
     }
     fn displacements(setup: &(), run: &Context) {
-        "largest_displacements": list "m", DISPLACEMENT, "largest displacement of the shaft at each of shape_positions" => {
+        "largest_displacements": list "m", DISPLACEMENT, "largest displacement of the shaft at each of shape_positions" in shape "displacement" => {
             run.finished.record.places.iter().map(|peak| peak.value).collect::<Vec<_>>()
         };
     }
     /// What stands around the shaft.
     fn clearances_along(setup: &(), bent: &Bent) {
-        "clearance_names": text "", GIVEN, "what stands around the shaft" => bent.around(|own| own.name).join("\n").as_str();
-        "clearance_positions": list "m", GIVEN, "its places" => bent.z(bent.around(|own| own.place).into_iter().map(|place| bent.built.places[place]));
-        "clearances": list "m", GIVEN, "its radial clearances" => bent.around(|own| own.clearance.unwrap_or(f64::NAN));
+        "clearance_names": text "", GIVEN, "what stands around the shaft" in clearances "name" => bent.around(|own| own.name).join("\n").as_str();
+        "clearance_positions": list "m", GIVEN, "its places" in clearances "place" => bent.z(bent.around(|own| own.place).into_iter().map(|place| bent.built.places[place]));
+        "clearances": list "m", GIVEN, "its radial clearances" in clearances "clearance" => bent.around(|own| own.clearance.unwrap_or(f64::NAN));
     }
 }
 

@@ -23,7 +23,7 @@ results! {
     /// How hot the surfaces of a bearing became, and what was worn off.
     pub(crate) fn name(given: &AuxiliaryBearing, run: &BearingRecord) {
         "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch", unless no_width(given) => rubbed(run, |heat| heat.contact.value);
-        "contact_temperature_index": number "1", INDEX, "this rise over that which changes steel", unless no_width(given) => {
+        "contact_temperature_index": number "1", INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless no_width(given) => {
             rubbed(run, |heat| heat.contact.value / STEEL_CHANGES)
         };
         "contact_temperature_time": number "s", PATCH, "instant of this rise", unless no_width(given) => rubbed(run, |heat| heat.contact.time);
@@ -38,7 +38,7 @@ results! {
             rubbed(run, |heat| heat.pressure_speed.value)
         };
         "sliding_distance": number "m", DISTANCE, "distance slid by rotor and race", unless no_width(given) => rubbed(run, |heat| heat.distance);
-        "wear_depth": number "m", WEAR, "mean depth worn off", unless {
+        "wear_depth": number "m", WEAR, "mean depth worn off" in added_up "wear depth", unless {
             not_given("contact.surface.wear_coefficient", given.contact.wear_coefficient).or(no_width(given))
         } => wear_depth(&given.contact, run);
     }

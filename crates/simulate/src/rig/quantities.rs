@@ -38,13 +38,13 @@ pub(crate) fn name(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Quant
 
 results! {
     fn motion(rig: &Rig, run: &Context) {
-        "engagement_time": number "s" headline, ENGAGEMENT, "instant at which the clutch engages" => engages_at(run.rig);
-        "clutch_torque_rate": number "N m/s" headline, RATE, "rate of the torque that the clutch can carry" => run.built.torque_rate.ok_or_else(no_clutch);
-        "clutch_lock_time": number "s" headline, ENGAGEMENT, "instant at which the clutch locks" => {
+        "engagement_time": number "s" headline, ENGAGEMENT, "instant at which the clutch engages" in instants "engaged" in change "engaged" in note "Clutch locked: engaged at" => engages_at(run.rig);
+        "clutch_torque_rate": number "N m/s" headline, RATE, "rate of the torque that the clutch can carry" in note "Peak acceleration: rate of the clutch" => run.built.torque_rate.ok_or_else(no_clutch);
+        "clutch_lock_time": number "s" headline, ENGAGEMENT, "instant at which the clutch locks" in instants "locked" in change "locked" in tile "Clutch locked" => {
             let slips = || "the clutch still slips at the end".to_string();
             engages_at(rig).and_then(|_| run.record.locked_at().ok_or_else(slips))
         };
-        "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration of the shaft" => match rig.program {
+        "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration of the shaft" in tile "Peak acceleration" => match rig.program {
             RigProgram::CoastDown { .. } => 0.0 - run.record.deceleration.value,
             _ => run.record.acceleration.value,
         };
@@ -59,11 +59,11 @@ results! {
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
         "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.record.clutch_torque.value;
         "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
-        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" => run.record.outer_moment.value;
+        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.record.outer_moment.value;
         "inner_race_moment_at_end": number "N m", AT_END, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
         "outer_race_moment_at_end": number "N m", AT_END, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
         "law_moment_at_end": number "N m", AT_END, "moment of the friction law at the end" => run.probe(STEADY_MOMENT);
-        "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" => run.late_slip();
+        "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" in tile "Cage slip at the end [%]" => run.late_slip();
         "peak_temperature_rise": number "K" headline, TEMPERATURE, "largest rise of the outer race" => {
             let of_network = run.warming.map(|warming| warming.followed());
             of_network.map_or(run.record.temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
@@ -76,11 +76,11 @@ results! {
         "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
         "clutch_heat": number "J", ENERGY, "friction heat of the clutch" => run.heat(CLUTCH_HEAT);
         "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" => (0..CLUTCH_HEAT).map(|kind| run.heat(kind)).sum::<f64>();
-        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" => {
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in tile "Energy residual" in bound "AB1006" => {
             let balance = run.whole_balance();
             relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
         };
-        "angular_momentum_residual": number "N m s" headline, MOMENTUM, "residual of the angular momentum of balls and cage" => {
+        "angular_momentum_residual": number "N m s" headline, MOMENTUM, "residual of the angular momentum of balls and cage" in tile "Angular momentum residual" in bound "1e-8" => {
             run.built.machine.bearing_momentum_residual(run.start, &run.ending.state)
         };
         "clipped_channels": text "" headline, CLIPPED, "channels with values beyond the converter" => run.clipped_channels().as_str();

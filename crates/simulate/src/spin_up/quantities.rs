@@ -48,13 +48,13 @@ pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Ve
 
 results! {
     fn motion(spin_up: &SpinUp, run: &Context) {
-        "inner_race_time_to_50_percent": instant "s", RISE, "time to half of the full speed" => {
+        "inner_race_time_to_50_percent": instant "s", RISE, "time to half of the full speed" in instants "race 50 %" => {
             run.reached(run.record.inner_race_time_to_50_percent(), "half of the full speed", 0.5 * spin_up.target_speed())
         };
-        "inner_race_time_to_95_percent": instant "s" headline, RISE, "time to 95 % of the full speed" => {
+        "inner_race_time_to_95_percent": instant "s" headline, RISE, "time to 95 % of the full speed" in instants "race 95 %" in tile "Inner race at 95 % speed" => {
             run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the full speed", 0.95 * spin_up.target_speed())
         };
-        "cage_time_to_95_percent_of_rolling": instant "s" headline, RISE, "time of the cage to 95 % of its rolling speed" => {
+        "cage_time_to_95_percent_of_rolling": instant "s" headline, RISE, "time of the cage to 95 % of its rolling speed" in instants "cage 95 % of rolling" in note "Inner race at 95 % speed: the cage at 95 % of rolling at" => {
             let rolling = spin_up.target_speed() * run.machine().constants.bearing.rolling_cage_ratio();
             run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed", 0.95 * rolling)
         };
@@ -64,25 +64,25 @@ results! {
             Drive::SlidingRotor { .. } => Ok(run.ending.state[ROTOR + 1]),
             Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
         };
-        "peak_inner_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
-        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" => run.record.outer_moment.value;
+        "peak_inner_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the inner race" in tile "Largest moment t_I" => run.record.inner_moment.value;
+        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.record.outer_moment.value;
         "peak_drive_moment": number "N m", PEAK_MOMENT, "largest moment of the drive" => run.record.drive_moment.value;
         "inner_race_moment_at_end": number "N m", INNER_RACE, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
         "outer_race_moment_at_end": number "N m", OUTER_RACE, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
         "law_moment_at_end": number "N m" headline, LAW, "moment of the friction law at the end" => run.by_law(run.probe(STEADY_MOMENT));
-        "inner_race_mean_moment": number "N m", MEAN_MOMENT, "mean moment that resists the inner race" => run.late_means().map(|means| means.inner_moment);
-        "outer_race_mean_moment": number "N m", MEAN_MOMENT, "mean moment on the outer race" => run.late_means().map(|means| means.outer_moment);
+        "inner_race_mean_moment": number "N m", MEAN_MOMENT, "mean moment that resists the inner race" in note "Largest moment t_I: mean of the last cage turns" => run.late_means().map(|means| means.inner_moment);
+        "outer_race_mean_moment": number "N m", MEAN_MOMENT, "mean moment on the outer race" in note "Largest moment t_O: mean of the last cage turns" => run.late_means().map(|means| means.outer_moment);
         "law_mean_moment": number "N m", LAW, "mean moment of the friction law" => {
             run.by_law(()).and_then(|()| run.late_means()).map(|means| means.steady_moment)
         };
-        "traction_capacity": number "1" headline, CAPACITY, "largest traction moment over the steady moment" => {
+        "traction_capacity": number "1" headline, CAPACITY, "largest traction moment over the steady moment" in note "Balls skid: traction over the steady moment, 1.2 needed:" => {
             run.by_law(run.built.steady.as_ref().map_or(f64::NAN, |steady| steady.capacity))
         };
         "cage_slip_at_end": number "1", SLIP, "cage slip at the end" => run.if_balls_slide().map(|()| run.probe(CAGE_SLIP));
         "cage_mean_slip": number "1", SLIP, "mean cage slip at the final speed" => {
             run.if_balls_slide().and_then(|()| run.late_means()).map(|means| means.cage_slip)
         };
-        "balls_skid": text "" headline, SKID, "whether and when the balls skid" => run.skid();
+        "balls_skid": text "" headline, SKID, "whether and when the balls skid" in tile "Balls skid" in bound "still at the end" => run.skid();
     }
     fn load(spin_up: &SpinUp, run: &Context) {
         "static_safety": number "1", AT_THE_LOAD, "static load rating over equivalent static load", unless no_safety(&spin_up.bearing) => {
@@ -93,17 +93,17 @@ results! {
         "rotor_race_friction_energy": number "J", ENERGY, "friction heat of rotor and inner race" => run.bearing().heat("rotor_race_friction");
         "ball_slip_energy": number "J", ENERGY, "sliding heat of the balls at both races" => run.bearing().ball_slip();
         "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
-        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" => run.energy().dissipated;
-        "outer_race_energy_printed": number "J" headline, PRINTED, "dissipation by the outer race's moment, as printed" => run.energy().printed;
-        "outer_race_energy_corrected": number "J" headline, CORRECTED, "dissipation by the outer race's moment, corrected" => run.energy().corrected;
-        "outer_race_energy_exact": number "J" headline, EXACT, "dissipation by the outer race's moment, exact" => run.energy().exact;
-        "path_term": number "J", PATH, "path term of balls and cage" => run.energy().path;
-        "path_term_if_rolling": number "J", PATH, "path term if the balls roll all the way" => run.if_rolling(|forms| forms.least_path);
-        "path_term_if_spun_up_after": number "J", PATH, "path term if the balls are spun up after the race" => {
+        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" in outer_race_energy "true: sum of all heats in the bearing" => run.energy().dissipated;
+        "outer_race_energy_printed": number "J" headline, PRINTED, "dissipation by the outer race's moment, as printed" in outer_race_energy "(21) as printed: (1 + 2s) ∫ t_O Ω dt + ½ J Ω₀²" => run.energy().printed;
+        "outer_race_energy_corrected": number "J" headline, CORRECTED, "dissipation by the outer race's moment, corrected" in outer_race_energy "(21) corrected, for balls that roll: ∫ t_O Ω dt + ½ J Ω₀²" => run.energy().corrected;
+        "outer_race_energy_exact": number "J" headline, EXACT, "dissipation by the outer race's moment, exact" in outer_race_energy "exact: ∫ t_O Ω dt + ∫ Ω dL − Δ(KE + U)" => run.energy().exact;
+        "path_term": number "J", PATH, "path term of balls and cage" in path_terms "this run: ∫ Ω dL" => run.energy().path;
+        "path_term_if_rolling": number "J", PATH, "path term if the balls roll all the way" in path_terms "balls that roll all the way: ½ L₀ Ω₀" => run.if_rolling(|forms| forms.least_path);
+        "path_term_if_spun_up_after": number "J", PATH, "path term if the balls are spun up after the race" in path_terms "balls spun up after the race: L₀ Ω₀" => {
             run.if_rolling(|forms| forms.path_behind_the_race)
         };
-        "path_term_largest": number "J", PATH, "largest path term" => run.if_rolling(|forms| forms.largest_path);
-        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" => {
+        "path_term_largest": number "J", PATH, "largest path term" in path_terms "the largest: balls spin with the race, and orbit last" => run.if_rolling(|forms| forms.largest_path);
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in tile "Energy residual" in bound "AB1006" => {
             let balance = run.whole_balance();
             relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
         };
