@@ -2,8 +2,8 @@
 
 use crate::repository::{Outcome, Repository};
 use crate::{
-    advisories, architecture, book, documentation, licences, python, scenarios, source_text,
-    suites, toolchain,
+    advisories, architecture, book, documentation, licences, python, result_names, scenarios,
+    source_text, suites, toolchain,
 };
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -23,11 +23,12 @@ pub enum Extent {
 
 type Guard = (&'static str, fn(&Repository) -> Outcome);
 
-const FAST: [Guard; 8] = [
+const FAST: [Guard; 9] = [
     ("architecture page", architecture::check),
     ("book", book::check),
     ("documentation rules", documentation::check),
     ("source text", source_text::check),
+    ("names of results", result_names::check),
     ("test files", suites::check),
     ("licences", licences::check),
     ("advisories", advisories::check),

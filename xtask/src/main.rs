@@ -15,6 +15,7 @@ mod licences;
 mod pages;
 mod python;
 mod repository;
+mod result_names;
 mod rust_text;
 mod scenarios;
 mod shipped;
