@@ -129,7 +129,7 @@ fn results_and_columns_are_chosen_by_name_and_pattern() {
             "bearing.cage.speed [rad/s]"
         ]
     );
-    assert_eq!(first("members"), ["member", "peak_contact_force [N]"]);
+    assert_eq!(first("members")[..2], ["member", "peak_contact_force [N]"]);
     let results = fs::read_to_string(place.path("run/csv/results.csv")).unwrap();
     assert!(results.lines().count() == 2 && results.contains("\npeak_contact_force,"));
     for (name, near) in [

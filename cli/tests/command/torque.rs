@@ -164,7 +164,7 @@ fn the_shipped_file_runs() {
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenarios/torque_6005.toml");
     let called = place.call(&["run", shipped, "--out", "a"]).done();
     for part in [
-        "at 150 rad/s, 80 N, 40 degC, 100 mm^2/s",
+        "at 150 rad/s, 80 N, 100 mm^2/s, 40 degC",
         "-10.2",
         "ISO VG 220",
     ] {
