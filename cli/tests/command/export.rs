@@ -141,3 +141,32 @@ fn results_and_columns_are_chosen_by_name_and_pattern() {
     }
     assert!(!place.path("x").exists());
 }
+
+/// Warnings of the first format had a number for their severity, or none.
+#[test]
+fn a_summary_of_the_first_format_stays_readable() {
+    let place = Place::new();
+    place.short_run(&["--out", "run"]).done();
+    let mut summary = place.summary("run");
+    assert_eq!(summary["format"], "auxbear.summary/2");
+    let severities = ["destroys", "invalid", "uncertain", "note"];
+    for warning in summary["warnings"].as_array().unwrap() {
+        assert!(severities.contains(&warning["severity"].as_str().unwrap()));
+        assert!(warning["part"].is_string() && warning["values"].is_object());
+        assert!(warning["time_s"].is_null() || warning["time_s"].is_number());
+    }
+    summary["format"] = "auxbear.summary/1".into();
+    summary["warnings"] = serde_json::json!([
+        { "code": "AB1014", "graveness": 0, "text": "Backward whirl." },
+        { "code": "AB1011", "text": "12 contacts." },
+    ]);
+    let path = place.path("run").join("summary.json");
+    fs::write(path, summary.to_string()).unwrap();
+    place.call(&["export", "run", "--csv"]).done();
+    let table = rows(&place.path("run/csv/warnings.csv"));
+    assert_eq!(table[1][..3], ["AB1014", "Backward whirl.", ""]);
+    assert_eq!(table.len(), 3);
+    place.call(&["report", "run", "--out", "page.html"]).done();
+    let page = fs::read_to_string(place.path("page.html")).unwrap();
+    assert!(page.contains("\"graveness\":0") || page.contains("\"graveness\": 0"));
+}

@@ -1,7 +1,7 @@
 //! Limits of warnings: whether one came that must not.
 
 use crate::{Judged, Outcome, Scope, Verdict, Warning};
-use problem::warning::{Declared, Judged as LookedFor};
+use problem::warning::{Declared, Evaluation};
 use problem::{Code, Problem, did_you_mean};
 use scenario::{Forbidden, Limit, Scenario, System};
 
@@ -25,14 +25,13 @@ pub(super) fn check(
 }
 
 /// Warnings of a run that must not come.
-fn came<'a>(forbids: &Forbidden, outcome: &'a Outcome) -> Vec<&'a Warning> {
+fn forbidden<'a>(forbids: &Forbidden, outcome: &'a Outcome) -> Vec<&'a Warning> {
     let all = outcome.warnings.iter();
     all.filter(|own| forbids.meets(own.code, own.severity))
         .collect()
 }
 
-/// Their number in each member, 0 or 1, and why some are not known: the run ended early, or no member but the unperturbed one is
-/// looked at.
+/// Their number in each member, 0 or 1, and why some are not known: the run ended early, or only the unperturbed member is evaluated.
 pub(super) fn values(
     scenario: &Scenario,
     outcome: &Outcome,
@@ -44,16 +43,16 @@ pub(super) fn values(
     let mut kinds = declared.iter();
     let unseen = kinds.find(|kind| {
         forbids.meets(kind.code, kind.severity)
-            && match kind.judged {
-                LookedFor::File => !scenario.vary.is_empty(),
-                LookedFor::Each => false,
-                LookedFor::Unperturbed => true,
-                LookedFor::RunOut => in_run_out,
+            && match kind.evaluation {
+                Evaluation::File => !scenario.vary.is_empty(),
+                Evaluation::Each => false,
+                Evaluation::Unperturbed => true,
+                Evaluation::RunOut => in_run_out,
             }
     });
     // members that have one of them for certain, and those that may
     let (mut least, mut most) = (0, 0);
-    for warning in came(forbids, outcome) {
+    for warning in forbidden(forbids, outcome) {
         let (certain, possible) = match warning.scope {
             Scope::Each { count, .. } => (count, count),
             Scope::Alike if scenario.vary.is_empty() => (all, all),
@@ -65,10 +64,7 @@ pub(super) fn values(
         _ if !outcome.stop.complete() => (0, outcome.stop.text.trim_end_matches('.').to_string()),
         Some(kind) if all > 1 => (
             1,
-            format!(
-                "{} is looked for in the unperturbed member alone",
-                kind.code
-            ),
+            format!("{} is evaluated in the unperturbed member alone", kind.code),
         ),
         _ => (all, "which of them it is in is not known".to_string()),
     };
@@ -78,12 +74,12 @@ pub(super) fn values(
     (values, why)
 }
 
-/// A verdict on warnings in their words.
-pub(super) fn worded(mut judged: Judged, outcome: &Outcome) -> Judged {
+/// A verdict on warnings with their text.
+pub(super) fn explained(mut judged: Judged, outcome: &Outcome) -> Judged {
     let Some(forbids) = &judged.limit.forbids else {
         return judged;
     };
-    match (judged.verdict, came(forbids, outcome).first()) {
+    match (judged.verdict, forbidden(forbids, outcome).first()) {
         (Verdict::Fail, Some(first)) if judged.members > 1 => {
             judged.why = format!("{}: {} {first}", judged.why, first.code);
         }

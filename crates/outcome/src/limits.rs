@@ -198,7 +198,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             }
             (None, None) => ("", vec![None], "this run has no such result".to_string()),
         };
-        let judged = forbidden::worded(judge(limit, unit, &values, &why), outcome);
+        let judged = forbidden::explained(judge(limit, unit, &values, &why), outcome);
         let judged = whirl_sought(judged, angles.len().max(1), !spins_up(limit, outcome));
         match no_qualification {
             true => withheld(judged),

@@ -17,7 +17,7 @@
 //! them. Kinds of fields: an SI unit (a number), `text` (a name or word that is a value), `words` (a piece of the sentence alone). A
 //! number `time` in s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code
 //! names the kind, for code that joins or leaves out warnings of it. A word
-//! behind the severity says in which members of a repeated run it is looked for: `each`, `unperturbed` or `run_out`.
+//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `run_out`.
 
 use std::fmt;
 
@@ -68,13 +68,13 @@ pub struct Declared {
     pub code: &'static str,
     /// How severe it is.
     pub severity: Severity,
-    /// In which members of a repeated run it is looked for.
-    pub judged: Judged,
+    /// In which members of a repeated run it is evaluated.
+    pub evaluation: Evaluation,
 }
 
-/// In which members of a repeated run a kind of warning is looked for.
+/// In which members of a repeated run a kind of warning is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Judged {
+pub enum Evaluation {
     /// It follows from the file: in the unperturbed one for all.
     File,
     /// In each.
@@ -94,7 +94,7 @@ pub enum Amount {
     Text(String),
 }
 
-/// In which members of a repeated run a warning was judged.
+/// In which members of a repeated run a warning was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// The run was not repeated, or it concerns all members.
@@ -125,7 +125,7 @@ pub struct Warning {
     pub time: Option<f64>,
     /// Values with names and units.
     pub values: Vec<(&'static str, Amount, &'static str)>,
-    /// In which members it was judged.
+    /// In which members it was found.
     pub scope: Scope,
     /// One or two sentences.
     pub text: String,
@@ -205,16 +205,16 @@ macro_rules! warnings {
     (@type text) => { String };
     (@type words) => { String };
     (@type $unit:literal) => { f64 };
-    (@judged) => { $crate::warning::Judged::File };
-    (@judged each) => { $crate::warning::Judged::Each };
-    (@judged unperturbed) => { $crate::warning::Judged::Unperturbed };
-    (@judged run_out) => { $crate::warning::Judged::RunOut };
-    (@declared $variant:ident $code:literal $severity:ident $($judged:ident)?) => {
+    (@evaluation) => { $crate::warning::Evaluation::File };
+    (@evaluation each) => { $crate::warning::Evaluation::Each };
+    (@evaluation unperturbed) => { $crate::warning::Evaluation::Unperturbed };
+    (@evaluation run_out) => { $crate::warning::Evaluation::RunOut };
+    (@declared $variant:ident $code:literal $severity:ident $($evaluation:ident)?) => {
         $crate::warning::Declared {
             name: stringify!($variant),
             code: $code,
             severity: $crate::warning::Severity::$severity,
-            judged: $crate::warnings!(@judged $($judged)?),
+            evaluation: $crate::warnings!(@evaluation $($evaluation)?),
         }
     };
     (@constant $vis:vis [] $($kind:tt)*) => {};
@@ -230,18 +230,18 @@ macro_rules! warnings {
         $list.push((stringify!($field), $crate::warning::Amount::Number($field), $unit))
     };
     ($(#[$doc:meta])* $vis:vis enum $table:ident {
-        $($variant:ident $({ $($field:ident: $kind:tt),* $(,)? })? $code:literal $([$name:ident])? $severity:ident $(, $judged:ident)? ($($sentence:tt)*);)*
+        $($variant:ident $({ $($field:ident: $kind:tt),* $(,)? })? $code:literal $([$name:ident])? $severity:ident $(, $evaluation:ident)? ($($sentence:tt)*);)*
     }) => {
         $(#[$doc])*
         $vis enum $table {
             $(#[doc = $code] $variant $({ $(#[doc = stringify!($kind)] $field: $crate::warnings!(@type $kind)),* })?,)*
         }
 
-        $($crate::warnings!(@constant $vis [$($name)?] $variant $code $severity $($judged)?);)*
+        $($crate::warnings!(@constant $vis [$($name)?] $variant $code $severity $($evaluation)?);)*
 
         impl $table {
             /// Every kind, in the order of the table.
-            pub const DECLARED: &[$crate::warning::Declared] = &[$($crate::warnings!(@declared $variant $code $severity $($judged)?)),*];
+            pub const DECLARED: &[$crate::warning::Declared] = &[$($crate::warnings!(@declared $variant $code $severity $($evaluation)?)),*];
         }
 
         impl From<$table> for $crate::warning::Warning {
@@ -249,7 +249,7 @@ macro_rules! warnings {
             fn from(warning: $table) -> Self {
                 match warning {
                     $($table::$variant $({ $($field),* })? => {
-                        let kind = $crate::warnings!(@declared $variant $code $severity $($judged)?);
+                        let kind = $crate::warnings!(@declared $variant $code $severity $($evaluation)?);
                         let text = format!($($sentence)*);
                         let mut values = Vec::new();
                         $($($crate::warnings!(@value values $field $kind);)*)?

@@ -197,7 +197,13 @@ const LIMITS: &[(&str, &str)] = &[
     ("verdict", "verdict"),
     ("why", "why"),
 ];
-const WARNINGS: &[(&str, &str)] = &[("code", "code"), ("text", "text")];
+const WARNINGS: &[(&str, &str)] = &[
+    ("code", "code"),
+    ("text", "text"),
+    ("severity", "severity"),
+    ("part", "part"),
+    ("time_s", "time [s]"),
+];
 const CONTACTS: &[(&str, &str)] = &[
     ("auxiliary_bearing", "auxiliary bearing"),
     ("start_s", "start [s]"),

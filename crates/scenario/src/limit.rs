@@ -229,7 +229,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Pr
     let refused = |code, key: &str, found: String, needed: &str| {
         Err(Box::new(table.problem(code, key, found, needed)))
     };
-    let given = |key: &&str| table.raw(key).is_some();
+    let given = |key: &&str| table.text(key).is_some() || table.raw(key).is_some();
     let all = ["quantity", WARNING, SEVERITY];
     let mut keys = all.into_iter().filter(given);
     let (first, second) = (keys.next(), keys.next());
@@ -239,12 +239,8 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Pr
     }
     let key = match first {
         None => {
-            return refused(
-                Code::MissingKey,
-                "",
-                "a limit of nothing".to_string(),
-                NEEDED,
-            );
+            let found = "no value".to_string();
+            return refused(Code::MissingKey, "quantity", found, NEEDED);
         }
         Some("quantity") => return Ok(None),
         Some(key) => key,

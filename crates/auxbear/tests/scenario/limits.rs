@@ -157,7 +157,7 @@ fn a_warning_that_did_not_come_yet_decides_nothing() {
 }
 
 #[test]
-fn members_with_a_warning_count_where_it_is_looked_for() {
+fn members_with_a_warning_count_where_it_is_evaluated() {
     let four = "repeat.count=4";
     let soft = [four, "bearing.hertz_pressure_limit=500 MPa"];
     let (verdict, why) = without("warning = \"AB1002\"", &soft);
@@ -169,7 +169,7 @@ fn members_with_a_warning_count_where_it_is_looked_for() {
     let (verdict, why) = without("warning = \"AB1004\"", &[four]);
     assert_eq!(verdict, Verdict::Undecided);
     assert!(
-        why.contains("AB1004 is looked for in the unperturbed member alone"),
+        why.contains("AB1004 is evaluated in the unperturbed member alone"),
         "{why}"
     );
     // a share that one of the members decides
@@ -214,7 +214,11 @@ fn limits_of_warnings_are_written_back_and_refused_with_near_names() {
             Code::Conflict,
             "warning and severity in one limit",
         ),
-        ("share = 0.5", Code::MissingKey, "a limit of nothing"),
+        (
+            "share = 0.5",
+            Code::MissingKey,
+            "limit.quantity: found no value",
+        ),
     ] {
         let problem = match read(&limited(lines), &[]) {
             Err(problem) => problem,

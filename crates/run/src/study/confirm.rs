@@ -66,7 +66,7 @@ impl Study {
     /// What a limit holds, of each member: a result, or whether a warning came.
     pub(super) fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
         match &limit.forbids {
-            Some(forbids) => table.met(forbids),
+            Some(forbids) => table.warned_of(forbids),
             None => self.decisive(table, &limit.quantity, limit.bound),
         }
     }

@@ -139,7 +139,7 @@ impl Table {
     }
 
     /// Whether each member has a warning of these, 1 or 0; not known of those that failed without one.
-    pub(super) fn met(&self, forbids: &Forbidden) -> Vec<Option<f64>> {
+    pub(super) fn warned_of(&self, forbids: &Forbidden) -> Vec<Option<f64>> {
         let meets = |column: &&Column| {
             let code = column.name.strip_prefix(WARNING);
             code.is_some_and(|code| forbids.meets(code, rank(code).0))
