@@ -168,5 +168,5 @@ fn a_summary_of_the_first_format_stays_readable() {
     assert_eq!(table.len(), 3);
     place.call(&["report", "run", "--out", "page.html"]).done();
     let page = fs::read_to_string(place.path("page.html")).unwrap();
-    assert!(page.contains("\"graveness\":0") || page.contains("\"graveness\": 0"));
+    assert!(page.replace('\\', "").contains("\"graveness\":0"));
 }

@@ -2,7 +2,7 @@
 //! million of them do not stand in memory; numbers have the digits that give them back bit for bit.
 
 use super::table::{Cell, Table};
-use rust_xlsxwriter::{Format, Workbook, Worksheet, XlsxError};
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, Worksheet, XlsxError};
 use std::io::{self, Seek, Write};
 
 /// Rows of a sheet, with its head.
@@ -32,6 +32,9 @@ pub(super) fn too_large(table: &Table) -> Option<String> {
 /// Writes a workbook.
 pub(super) fn write(out: impl Write + Seek + Send, tables: &[Table]) -> io::Result<()> {
     let mut workbook = Workbook::new();
+    // the same run gives the same file: it does not say when it was exported
+    let origin = ExcelDateTime::from_timestamp(0).map_err(io::Error::other)?;
+    workbook.set_properties(&DocProperties::new().set_creation_datetime(&origin));
     for table in tables {
         let sheet = workbook.add_worksheet_with_constant_memory();
         sheet
