@@ -100,7 +100,7 @@ function runOutVerdict(run) {
     stateTile(run),
     tilesOf(run, "machine_tile"),
     most ? tile("Hottest", `${numberText(most.peak - ZERO_CELSIUS, 3)} °C`, [wordsOf(most.node), passed.length ? `limit passed: ${passed.map(wordsOf).join(", ")}` : "every node below its limit"], verdictState(run, passed.length > 0)) : null,
-    tile("Smallest clearance", engineeringText(clearance, "m", 3), [growth > 0 && clearance < 0 ? "runs away" : clearance < 0 ? "preloaded by warmth" : "open"], verdictState(run, growth > 0 && clearance < 0)),
+    tile("Smallest clearance", engineeringText(clearance, "m", 3), [growth > 0 && clearance < 0 ? "runs away" : clearance < 0 ? "preloaded by warmth" : "open"], growth <= 0 && clearance < 0 ? null : verdictState(run, clearance < 0)),
     tilesOf(run),
   );
 }
