@@ -158,7 +158,8 @@ fn an_instant_that_does_not_come_is_judged_as_in_a_single_run() {
 fn members_with_a_warning_break_its_limit() {
     let first = "quantity = \"first_impact_force\"\nmost = \"1 N\"";
     // whether the rotor bends is said by all of them
-    let limits = "warning = \"AB1126\"\n[[limit]]\nseverity = \"destroys\"";
+    let limits =
+        "warning = \"AB1126\"\n[[limit]]\nwarning = \"AB2300\"\n[[limit]]\nseverity = \"destroys\"";
     let text = STUDY.replace(first, limits);
     let folder = folder(&text.replace("members = 130", "members = 4"));
     let done = whole(folder.path(), "out");
@@ -166,7 +167,9 @@ fn members_with_a_warning_break_its_limit() {
     let judged: Vec<_> = limits
         .map(|own| (own.judged.verdict, own.judged.hold))
         .collect();
-    assert_eq!(judged, [(Verdict::Fail, 0), (Verdict::Pass, 4)]);
+    // friction starts whirl at some angles of the unbalance, and the patch has no width here
+    let undecided = (Verdict::Undecided, 0);
+    assert_eq!(judged, [(Verdict::Fail, 0), (Verdict::Pass, 4), undecided]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Limits of warnings: whether one came that must not.
 
-use crate::{Judged, Outcome, Scope, Verdict, Warning};
+use crate::limits::is_of;
+use crate::{Judged, Outcome, Quantity, Scope, Value, Verdict, Warning};
 use problem::warning::{Declared, Evaluation};
 use problem::{Code, Problem, did_you_mean};
 use scenario::{Forbidden, Limit, Scenario, System};
@@ -29,6 +30,40 @@ fn forbidden<'a>(forbids: &Forbidden, outcome: &'a Outcome) -> Vec<&'a Warning> 
     let all = outcome.warnings.iter();
     all.filter(|own| forbids.meets(own.code, own.severity))
         .collect()
+}
+
+/// Why some of these warnings cannot come: the result that they come from has no value, or a list of it no entry; or, of a single
+/// code, there is no such result.
+pub fn not_evaluated(
+    forbids: &Forbidden,
+    declared: &[&'static Declared],
+    quantities: &[Quantity],
+) -> Option<String> {
+    let kinds = (declared.iter())
+        .filter(|kind| !kind.by.is_empty() && forbids.meets(kind.code, kind.severity));
+    let named = matches!(forbids, Forbidden::Code(_));
+    if let Some(kind) = kinds.clone().find(|kind| {
+        let there = quantities.iter().any(|own| is_of(&own.name, kind.by));
+        named && !there
+    }) {
+        let (code, by) = (kind.code, kind.by);
+        return Some(format!("{code} is not evaluated: this run has no {by}"));
+    }
+    let mut pairs = kinds.flat_map(|kind| {
+        let own = quantities.iter().filter(|own| is_of(&own.name, kind.by));
+        own.map(move |own| (kind, own))
+    });
+    pairs.find_map(|(kind, own)| {
+        let why = match &own.value {
+            Value::None { why } => why.as_str(),
+            Value::List(list) if list.is_empty() => "none is given",
+            _ => return None,
+        };
+        Some(format!(
+            "{} is not evaluated: {}: {why}",
+            kind.code, own.name
+        ))
+    })
 }
 
 /// Their number in each member, 0 or 1, and why some are not known: the run ended early, or only the unperturbed member is evaluated.
@@ -60,8 +95,10 @@ pub(super) fn values(
         };
         (least, most) = (least.max(certain), most + possible);
     }
+    let unknown = not_evaluated(forbids, declared, &outcome.quantities);
     let (known, why) = match unseen {
         _ if !outcome.stop.complete() => (0, outcome.stop.text.trim_end_matches('.').to_string()),
+        _ if unknown.is_some() => (0, unknown.unwrap_or_default()),
         Some(kind) if all > 1 => (
             1,
             format!("{} is evaluated in the unperturbed member alone", kind.code),

@@ -199,7 +199,10 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             (None, None) => ("", vec![None], "this run has no such result".to_string()),
         };
         let judged = forbidden::explained(judge(limit, unit, &values, &why), outcome);
-        let judged = whirl_sought(judged, angles.len().max(1), !spins_up(limit, outcome));
+        let judged = match seeks_whirl(limit, &outcome.quantities, declared) {
+            true => whirl_sought(judged, angles.len().max(1), !spins_up(limit, outcome)),
+            false => judged,
+        };
         match no_qualification {
             true => withheld(judged),
             false => judged,
@@ -213,29 +216,45 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
 const ANGLES_FOR_WHIRL: usize = 8;
 const WHIRL: &str = "whirl_turns";
 
-fn is_whirl(limit: &Limit) -> bool {
-    limit.quantity.rsplit('.').next() == Some(WHIRL)
+/// Whether a name is that of such a result.
+pub(crate) fn is_of(name: &str, result: &str) -> bool {
+    name.rsplit('.').next() == Some(result)
 }
 
-/// Whether the inner race of the bearing of a limit reaches 95 % of the speed in every member; so it is where it has none.
+/// Whether a limit is one of whirl: of its turns, or of the warning of it.
+pub fn seeks_whirl(limit: &Limit, known: &[Quantity], declared: &[&'static Declared]) -> bool {
+    let Some(forbids) = &limit.forbids else {
+        return is_of(&limit.quantity, WHIRL);
+    };
+    let warned = |kind: &&Declared| kind.by == WHIRL && forbids.meets(kind.code, kind.severity);
+    declared.iter().copied().any(|kind| warned(&kind))
+        && known.iter().any(|known| is_of(&known.name, WHIRL))
+}
+
+/// Whether the inner race of the bearing of a limit, of all of a limit of warnings, reaches 95 % of the speed in every member; so it is
+/// where it has none.
 fn spins_up(limit: &Limit, outcome: &Outcome) -> bool {
-    let name = limit
-        .quantity
-        .replace(WHIRL, "inner_race_time_to_95_percent");
-    let time = outcome
-        .quantities
-        .iter()
-        .find(|quantity| quantity.name == name);
-    time.is_none_or(|time| match &time.spread {
+    spin_up_times(limit, &outcome.quantities).all(|time| match &time.spread {
         Some(spread) => spread.members == outcome.work.members,
         None => matches!(time.value, Value::Number(_)),
     })
 }
 
-/// Whether friction starts whirl depends on the angle of the unbalance at the release, and on slip until the race turns: a limit of the
-/// turns of whirl is not held by few angles, nor by runs that end before.
+/// Spin-up times that a limit of whirl asks for.
+pub fn spin_up_times<'a>(
+    limit: &Limit,
+    known: &'a [Quantity],
+) -> impl Iterator<Item = &'a Quantity> {
+    const TIME: &str = "inner_race_time_to_95_percent";
+    let name = limit.quantity.replace(WHIRL, TIME);
+    let all = limit.forbids.is_some();
+    let asked = move |own: &&Quantity| own.name == name || all && is_of(&own.name, TIME);
+    known.iter().filter(asked)
+}
+
+/// Whether friction starts whirl depends on the angle of the unbalance at the release, and on slip until the race turns: a limit of
+/// whirl is not held by few angles, nor by runs that end before.
 pub fn whirl_sought(judged: Judged, angles: usize, slips: bool) -> Judged {
-    let whirl = is_whirl(&judged.limit);
     let lacking = match (angles < ANGLES_FOR_WHIRL, slips) {
         (true, _) => format!(
             "{angles} of at least {ANGLES_FOR_WHIRL} unbalance angles tried (--repeat {ANGLES_FOR_WHIRL})"
@@ -243,7 +262,7 @@ pub fn whirl_sought(judged: Judged, angles: usize, slips: bool) -> Judged {
         (false, true) => "it ends before the inner race reaches 95 % of the speed".to_string(),
         (false, false) => return judged,
     };
-    match whirl && judged.verdict == Verdict::Pass {
+    match judged.verdict == Verdict::Pass {
         true => Judged {
             verdict: Verdict::Undecided,
             why: format!("{}; {lacking}", judged.why),
@@ -304,7 +323,7 @@ pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &st
     let members = values.len();
     let holds = |value: &f64| limit.side.holds(*value, limit.bound);
     // turns of whirl have a sense: at most so many is meant of either
-    let both = limit.side == Side::Most && limit.bound >= 0.0 && is_whirl(limit);
+    let both = limit.side == Side::Most && limit.bound >= 0.0 && is_of(&limit.quantity, WHIRL);
     let sized = |value: f64| if both { value.abs() } else { value };
     let known: Vec<f64> = values.iter().flatten().copied().map(sized).collect();
     let hold = known.iter().filter(|value| holds(value)).count();

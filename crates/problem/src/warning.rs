@@ -17,7 +17,8 @@
 //! them. Kinds of fields: an SI unit (a number), `text` (a name or word that is a value), `words` (a piece of the sentence alone). A
 //! number `time` in s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code
 //! names the kind, for code that joins or leaves out warnings of it. A word
-//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `run_out`.
+//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `run_out`. `by "RESULT"` behind that names the result
+//! that it comes from.
 
 use std::fmt;
 
@@ -70,6 +71,8 @@ pub struct Declared {
     pub severity: Severity,
     /// In which members of a repeated run it is evaluated.
     pub evaluation: Evaluation,
+    /// Last part of the name of the result that it comes from: where a run has no value of it, it cannot come; empty where it always can.
+    pub by: &'static str,
 }
 
 /// In which members of a repeated run a kind of warning is evaluated.
@@ -209,12 +212,13 @@ macro_rules! warnings {
     (@evaluation each) => { $crate::warning::Evaluation::Each };
     (@evaluation unperturbed) => { $crate::warning::Evaluation::Unperturbed };
     (@evaluation run_out) => { $crate::warning::Evaluation::RunOut };
-    (@declared $variant:ident $code:literal $severity:ident $($evaluation:ident)?) => {
+    (@declared $variant:ident $code:literal $severity:ident [$($evaluation:ident)?] [$($by:literal)?]) => {
         $crate::warning::Declared {
             name: stringify!($variant),
             code: $code,
             severity: $crate::warning::Severity::$severity,
             evaluation: $crate::warnings!(@evaluation $($evaluation)?),
+            by: concat!($($by)?),
         }
     };
     (@constant $vis:vis [] $($kind:tt)*) => {};
@@ -230,18 +234,18 @@ macro_rules! warnings {
         $list.push((stringify!($field), $crate::warning::Amount::Number($field), $unit))
     };
     ($(#[$doc:meta])* $vis:vis enum $table:ident {
-        $($variant:ident $({ $($field:ident: $kind:tt),* $(,)? })? $code:literal $([$name:ident])? $severity:ident $(, $evaluation:ident)? ($($sentence:tt)*);)*
+        $($variant:ident $({ $($field:ident: $kind:tt),* $(,)? })? $code:literal $([$name:ident])? $severity:ident $(, $evaluation:ident)? $(by $by:literal)? ($($sentence:tt)*);)*
     }) => {
         $(#[$doc])*
         $vis enum $table {
             $(#[doc = $code] $variant $({ $(#[doc = stringify!($kind)] $field: $crate::warnings!(@type $kind)),* })?,)*
         }
 
-        $($crate::warnings!(@constant $vis [$($name)?] $variant $code $severity $($evaluation)?);)*
+        $($crate::warnings!(@constant $vis [$($name)?] $variant $code $severity [$($evaluation)?] [$($by)?]);)*
 
         impl $table {
             /// Every kind, in the order of the table.
-            pub const DECLARED: &[$crate::warning::Declared] = &[$($crate::warnings!(@declared $variant $code $severity $($evaluation)?)),*];
+            pub const DECLARED: &[$crate::warning::Declared] = &[$($crate::warnings!(@declared $variant $code $severity [$($evaluation)?] [$($by)?])),*];
         }
 
         impl From<$table> for $crate::warning::Warning {
@@ -249,7 +253,7 @@ macro_rules! warnings {
             fn from(warning: $table) -> Self {
                 match warning {
                     $($table::$variant $({ $($field),* })? => {
-                        let kind = $crate::warnings!(@declared $variant $code $severity $($evaluation)?);
+                        let kind = $crate::warnings!(@declared $variant $code $severity [$($evaluation)?] [$($by)?]);
                         let text = format!($($sentence)*);
                         let mut values = Vec::new();
                         $($($crate::warnings!(@value values $field $kind);)*)?

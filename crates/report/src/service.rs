@@ -101,6 +101,13 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
     }
     let bearings = runs.first().map(Run::bearings).unwrap_or_default();
     for run in &runs {
+        if !run.text.contains("\"shown\":") {
+            let found = "a run of an older version whose scenario cannot be read any more";
+            let needed =
+                "the run made again is needed: its summary does not say what uses a bearing up";
+            let (code, path) = (Code::Conflict, run.directory);
+            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+        }
         if run.bearings().is_empty() {
             let system = run.summary["system"].as_str().unwrap_or("unknown");
             let found = format!("a run of system {system}");
@@ -126,10 +133,13 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
     }
     let modes: Vec<Mode> = (bearings.iter())
         .flat_map(|bearing| {
-            let kinds = runs
-                .first()
-                .map(|run| run.kinds(bearing))
-                .unwrap_or_default();
+            let mut kinds: Vec<Kind> = Vec::new();
+            for kind in runs.iter().flat_map(|run| run.kinds(bearing)) {
+                if !kinds.contains(&kind) {
+                    kinds.push(kind);
+                }
+            }
+            kinds.sort_by_key(|(what, adds, _)| (what != FATIGUE, !adds));
             kinds
                 .into_iter()
                 .map(|kind| mode(&runs, bearing, kind))
@@ -284,7 +294,6 @@ impl Run<'_> {
                 kinds.push(kind);
             }
         }
-        kinds.sort_by_key(|(what, adds, _)| (what != FATIGUE, !adds));
         kinds
     }
     /// Equal planes of which one was computed.

@@ -10,7 +10,7 @@
 //! severity = "destroys"                       # no warning that severe or worse; warning = "AB2030": none of that code
 //! ```
 //! An override is `--set limit.drive_end.peak_contact_force.most="4 kN"`: it changes the limit of that result, or adds one.
-//! Whether a run has such a result is known when its machine is built: `result/limits.rs`.
+//! Whether a run has such a result is known when its machine is built: `crates/outcome/src/limits.rs`.
 
 use crate::document::Document;
 use crate::locate::UNNAMED;

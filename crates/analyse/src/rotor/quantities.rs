@@ -85,7 +85,7 @@ results! {
     }
 
     fn stability(asked: &Asked, run: &Found) {
-        "separation_verdict": text "" headline, SEPARATION, "verdict on all critical speeds" in tile "Separation" in bound "fail", unless asked.no_margin() => asked.whole_verdict(run);
+        "separation_verdict": text "" headline, SEPARATION, "verdict on all critical speeds" in tile "Separation" in bound "fail / pass", unless asked.no_margin() => asked.whole_verdict(run);
         "first_unstable_speed": number "rad/s" headline, STABILITY, "lowest speed at which a motion grows" => asked.first_unstable(run);
     }
 

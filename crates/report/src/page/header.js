@@ -37,9 +37,11 @@ function worstOf(quantity, measure) {
   return Math.max(...[quantity.value, min, max].filter(isNumber).map(measure));
 }
 
-// Tiles of the results that their tables give one, each with the notes of its title. A bound is a number or the code of a warning; the worst
+// Tiles of the results that their tables give one, each with the notes of its title. A bound is a number, the code of a warning or the words "BAD / GOOD"; the worst
 // member is judged, and a rotor that touched nothing is not.
 function tilesOf(run, figure = "tile", more = {}) {
+  const all = Object.values(run.quantities);
+  if (figure === "tile" && all.length && !all.some(({ shown }) => shown)) return tile("Results", "–", ["of an older version, whose scenario cannot be read any more: see Quantities"]);
   const own = ({ name }) => figure !== "tile" || !name.startsWith(RUN_OUT);
   const notes = shownIn(run, "note").map(({ words, quantity }) => ({ of: words.split(": ")[0], words: words.slice(words.indexOf(": ") + 2), quantity }));
   return shownIn(run, figure).filter(own).map(({ name, words: title, quantity }) => resultTile(run, { title, name, quantity, notes: notes.filter(({ of }) => of === title), more: more[title], untouched: figure === "tile" && systemOf(run).touches && !run.contacts.length }));
@@ -48,7 +50,10 @@ function tilesOf(run, figure = "tile", more = {}) {
 function exceeds(run, quantity) {
   const { bound } = quantity.shown;
   if (bound === undefined || quantity.value === null) return null;
-  if (typeof quantity.value === "string") return quantity.value === bound;
+  if (typeof quantity.value === "string") {
+    const [bad, good] = bound.split(" / ");
+    return quantity.value === bad ? true : quantity.value === good ? false : null;
+  }
   return Number.isNaN(Number(bound)) ? warningsOf(run, bound).length > 0 : worstOf(quantity, Math.abs) > Number(bound);
 }
 

@@ -116,7 +116,7 @@ impl Study {
                 }
                 _ => limit_of(limit, unit, &values, is_sample),
             };
-            found.judged = limits::whirl_sought(found.judged, self.unbalance_angles(table), false);
+            found.judged = self.whirl_sought(found.judged, table);
             if table.warns(NO_QUALIFICATION.code) {
                 found.judged = limits::withheld(found.judged);
             }
@@ -144,8 +144,22 @@ impl Study {
         }
     }
 
+    /// A verdict; of a limit of whirl by the unbalance angles that its members try.
+    pub(super) fn whirl_sought(&self, judged: Judged, table: &Table) -> Judged {
+        let declared: Vec<_> = crate::warnings::declared().collect();
+        match limits::seeks_whirl(&judged.limit, &self.known, &declared) {
+            true => {
+                let mut times = limits::spin_up_times(&judged.limit, &self.known);
+                let slips = times.any(|time| table.values(&time.name).contains(&None));
+                drop(times);
+                limits::whirl_sought(judged, self.unbalance_angles(table), slips)
+            }
+            false => judged,
+        }
+    }
+
     /// How many unbalance angles at the release its members try.
-    pub(super) fn unbalance_angles(&self, table: &Table) -> usize {
+    fn unbalance_angles(&self, table: &Table) -> usize {
         let column = table.column(&format!("input.{UNBALANCE_ANGLE}"));
         let angles = column.map_or(&[][..], |column| &column.values);
         let angles: BTreeSet<u64> = angles.iter().map(|angle| angle.to_bits()).collect();

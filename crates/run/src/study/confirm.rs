@@ -3,6 +3,9 @@
 use super::Study;
 use super::table::{Column, LATE, Table};
 use crate::Options;
+use outcome::Value;
+use outcome::forbidden::not_evaluated;
+use outcome::list::NOT_GIVEN;
 use scenario::Limit;
 
 /// What columns of results at design accuracy begin with.
@@ -66,7 +69,20 @@ impl Study {
     /// What a limit holds, of each member: a result, or whether a warning came.
     pub(super) fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
         match &limit.forbids {
-            Some(forbids) => table.warned_of(forbids),
+            Some(forbids) => {
+                let declared: Vec<_> = crate::warnings::declared().collect();
+                // before the runs nothing has a value but what its keys leave out
+                let mut known = self.known.clone();
+                for own in &mut known {
+                    if !(own.value.why_absent()).is_some_and(|why| why.ends_with(NOT_GIVEN)) {
+                        own.value = Value::Number(0.0);
+                    }
+                }
+                match not_evaluated(forbids, &declared, &known) {
+                    Some(_) => vec![None; table.members.len()],
+                    None => table.warned_of(forbids),
+                }
+            }
             None => self.decisive(table, &limit.quantity, limit.bound),
         }
     }

@@ -117,7 +117,7 @@ impl Study {
             .map(|limit| {
                 let values = of(&self.limited(table, limit));
                 let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
-                limits::whirl_sought(judged, self.unbalance_angles(table), false)
+                self.whirl_sought(judged, table)
             })
             .collect();
         let own: Vec<f64> = of(ranked).into_iter().flatten().collect();

@@ -53,12 +53,12 @@ pub(crate) const DENTS: &str =
 problem::warnings! {
     /// Of the heat of a bearing.
     pub enum HeatWarning {
-        TooHot { node: text, peak: "K", time: "s", above: "K", taken: words } "AB2310" Destroys, each
+        TooHot { node: text, peak: "K", time: "s", above: "K", taken: words } "AB2310" Destroys, each by "peak_inner_race_temperature"
             ("Too hot: {} at {:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. Hardness, cage and lubricant may change there; this run does not follow that.{taken}", node.replace('_', " "), peak - ICE_POINT);
-        TooHotInRunOut { node: text, limit: "K", time: "s", when: words, others: words, peak: "K", hottest: words, taken: words } "AB2310" Destroys, run_out
+        TooHotInRunOut { node: text, limit: "K", time: "s", when: words, others: words, peak: "K", hottest: words, taken: words } "AB2310" Destroys, run_out by "peak_inner_race_temperature"
             ("Too hot: {node} above {:.0} °C after {when}{others}, up to {:.0} °C{hottest}. Hardness, size, cage and lubricant may change there; this run does not follow that.{taken}", limit - ICE_POINT, peak - ICE_POINT);
         RunsAway { time: "s", when: words, by: words, each: words, rate: "1/s", each_largest: words, at_largest: words, largest_rate: "1/s",
-            inner: "m", balls: "m", outer: "m" } "AB2311" [RUNS_AWAY] Destroys, run_out (
+            inner: "m", balls: "m", outer: "m" } "AB2311" [RUNS_AWAY] Destroys, run_out by "peak_inner_race_temperature" (
             "{when} its balls are preloaded {by} and every kelvin makes more heat than it takes away; a disturbance grows {E:.1} times each {each} then ({rate:.2e} 1/s), and each {each_largest} at the largest rate, at {at_largest} ({largest_rate:.2e} 1/s). To its clearance the inner ring had added {:+.1} µm, the balls {:+.1} µm, the outer ring {:+.1} µm as this began. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
             1e6 * inner, 1e6 * balls, 1e6 * outer
         );

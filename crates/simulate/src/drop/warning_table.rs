@@ -19,9 +19,9 @@ problem::warnings! {
         DragIgnored "AB1010" Note ("bearing.drag belongs to the planar fidelity and is ignored here.");
         ManyContacts { contacts: "" } "AB1011" Note, unperturbed
             ("{contacts} contacts: the first impacts, spin-up times and energies are reproducible, the late ones are chaotic. Repeat the run to see the spread: --repeat 16 samples the unbalance angle too, unless repeat.unbalance_angle = \"as given\".");
-        BackwardWhirl { turns: "1" } "AB1014" Destroys, each
+        BackwardWhirl { turns: "1" } "AB1014" Destroys, each by "whirl_turns"
             ("Backward whirl: the rotor runs {turns:.0} turns round the bore against its spin. Contact forces of this kind destroy bearings and shafts.");
-        BackwardWhirlInRunOut { time: "s", when: words } "AB1014" Destroys, run_out
+        BackwardWhirlInRunOut { time: "s", when: words } "AB1014" Destroys, run_out by "whirl_turns"
             ("Backward whirl while the rotor runs out: {when} it runs round the bore against its spin in the windows that follow it. Contact forces of this kind destroy bearings and shafts.");
         StaticLoad { load: "N", factor: "1", rating: "N" } "AB1029" Invalid
             ("The static radial load of {load:.0} N is {factor:.1} times the static load rating of {rating:.0} N: permanent dents must be expected, and the laws of contact and friction are outside their range.");
@@ -33,7 +33,7 @@ problem::warnings! {
             ("Whether the rotor bends was not checked: rotor.first_bending_frequency is not given. A rotor whose first free-free bending mode lies below {:.0} rad/s is not rigid at this speed.", speed / BENDING_SHARE);
         HotRace { rise: "K" } "AB2300" Destroys, each
             ("Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run does not follow them.");
-        HotContact { rise: "K", time: "s" } "AB2301" Destroys, each
+        HotContact { rise: "K", time: "s" } "AB2301" Destroys, each by "contact_temperature_rise"
             ("Where rotor and race rub, the patch warms by {rise:.0} K ({:.2} ms): steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.", 1e3 * time);
         HotContactInRunOut { part: text, on: words, time: "s", rise: "K" } "AB2301" Destroys, run_out
             ("While it runs out, after {time:.1} s, the patch where rotor and race rub{on} is {rise:.0} K warmer than at the start, or more: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.");
@@ -63,7 +63,7 @@ problem::warnings! {
 problem::warnings! {
     /// Of the flexible rotor of a drop and its magnets.
     pub enum ShaftWarning {
-        Rub { part: text, displacement: "m", time: "s", clearance: "m" } "AB2030" Destroys, each
+        Rub { part: text, displacement: "m", time: "s", clearance: "m" } "AB2030" Destroys, each by "clearance_positions"
             ("At {part} the rotor moves by up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands there, and this contact is not computed.", 1e6 * displacement, 1e3 * time, 1e6 * clearance);
         FewModes { cutoff: "rad/s", needed: "rad/s" } "AB2031" Invalid
             ("rotor.cutoff = {cutoff:.0} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or the first bending mode, {needed:.0} rad/s, is the least; compare with twice that.");

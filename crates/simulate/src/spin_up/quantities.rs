@@ -82,7 +82,7 @@ results! {
         "cage_mean_slip": number "1", SLIP, "mean cage slip at the final speed" => {
             run.if_balls_slide().and_then(|()| run.late_means()).map(|means| means.cage_slip)
         };
-        "balls_skid": text "" headline, SKID, "whether and when the balls skid" in tile "Balls skid" in bound "still at the end" => run.skid();
+        "balls_skid": text "" headline, SKID, "whether and when the balls skid" in tile "Balls skid" in bound "still at the end / no" => run.skid();
     }
     fn load(spin_up: &SpinUp, run: &Context) {
         "static_safety": number "1", AT_THE_LOAD, "static load rating over equivalent static load", unless no_safety(&spin_up.bearing) => {
