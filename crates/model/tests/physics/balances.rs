@@ -17,6 +17,7 @@ use model::bearing::{
 use model::system::machine::RotorMachine;
 use model::system::machine::layout::ROTOR;
 use number::Vec2;
+use physics::palmgren::FADING_SPEED;
 use physics::traction::{SlipLaw, TanhTraction, Traction, TractionLaw};
 
 const STATES: u32 = 300;
@@ -347,7 +348,7 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         outer.add(at.cross(force));
         outer.add(pair(state, OUTER).cross(mount(machine, state)));
         outer.add(c.bearings[0].inner_race.torque);
-        outer.add(-c.rotor.brake_torque * state[ROTOR + 5].tanh());
+        outer.add(-c.rotor.brake_torque * (state[ROTOR + 5] / FADING_SPEED).tanh());
         // the ground keeps the outer race from turning
         outer.add(-moment_on_outer_race(machine, state, rate));
         match &c.bearings[0].bearing {
