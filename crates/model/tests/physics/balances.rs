@@ -1,7 +1,6 @@
 //! Momentum, angular momentum, energy and heat at random states.
 //!
-//! What acts from outside is computed here a second time, from the sections of the model's pages; everything inside
-//! must cancel.
+//! What acts from outside is computed here again, from the sections of the model's pages; everything inside must cancel.
 
 use super::relatives::{lubricant_factors, machines};
 use crate::machines::{
@@ -17,7 +16,6 @@ use model::bearing::{
 use model::system::machine::RotorMachine;
 use model::system::machine::layout::ROTOR;
 use number::Vec2;
-use physics::palmgren::FADING_SPEED;
 use physics::traction::{SlipLaw, TanhTraction, Traction, TractionLaw};
 
 const STATES: u32 = 300;
@@ -348,7 +346,8 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         outer.add(at.cross(force));
         outer.add(pair(state, OUTER).cross(mount(machine, state)));
         outer.add(c.bearings[0].inner_race.torque);
-        outer.add(-c.rotor.brake_torque * (state[ROTOR + 5] / FADING_SPEED).tanh());
+        let braked = (state[ROTOR + 5] / physics::palmgren::FADING_SPEED).tanh();
+        outer.add(-c.rotor.brake_torque * braked);
         // the ground keeps the outer race from turning
         outer.add(-moment_on_outer_race(machine, state, rate));
         match &c.bearings[0].bearing {
