@@ -15,7 +15,9 @@
 use crate::bearing_network::{Landing, NODES};
 use crate::losses::Losses;
 use crate::warm_bearing::WarmBearings;
-use physics::palmgren::FADING_SPEED;
+
+/// Spin below which the brake of a rotor fades out, rad/s: a brake stops, it does not reverse.
+pub const BRAKE_FADE: f64 = 1.0;
 
 /// What brakes a rotor besides its bearings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,7 +33,7 @@ pub struct RotorDrag {
 impl RotorDrag {
     /// Moment against the motion at a speed of 0 or more, N m.
     pub fn moment(&self, speed: f64) -> f64 {
-        self.torque * (speed / FADING_SPEED).tanh() + speed * (self.drag + self.drag_square * speed)
+        self.torque * (speed / BRAKE_FADE).tanh() + speed * (self.drag + self.drag_square * speed)
     }
 }
 
@@ -265,5 +267,18 @@ mod tests {
         assert_eq!(machine.share(2, 1), 1.0);
         // beyond both it stays as it was there
         assert!((moments(&machine, 800.0, 40.0)[2] - 0.4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_brake_is_whole_when_it_turns_and_nothing_at_rest() {
+        let brake = RotorDrag {
+            torque: 2.0,
+            drag: 0.0,
+            drag_square: 0.0,
+        };
+        assert_eq!(brake.moment(0.0), 0.0);
+        // 2 tanh 1 and 2 tanh 10, by a table
+        assert!((brake.moment(1.0) - 1.523_188_311_911_53).abs() < 1e-13);
+        assert!((2.0 - brake.moment(10.0) - 8.244_614_5e-9).abs() < 1e-15);
     }
 }

@@ -30,8 +30,8 @@ pub use motion::{GeometricCentre, Node, RotorAt, RotorMotion};
 use crate::table::Lines;
 use motion::products;
 use number::{Gather, Real, Vec2};
-use physics::palmgren::FADING_SPEED;
 use shaft::{Shaft, ShaftReaction};
+use thermal::warm_machine::BRAKE_FADE;
 
 /// A rotor over `R`.
 #[derive(Clone, Debug)]
@@ -126,10 +126,10 @@ impl<R: Real> Rotor<R> {
             ]
         })
     }
-    /// Moment of the brake when it is on, N m: it stops, it does not reverse, so it fades with the spin as friction does.
+    /// Moment of the brake when it is on, N m.
     #[inline(always)]
     pub fn brake_moment(&self, spin: R) -> R {
-        -(self.brake_torque * (spin * R::splat(1.0 / FADING_SPEED)).tanh())
+        -(self.brake_torque * (spin * R::splat(1.0 / BRAKE_FADE)).tanh())
     }
     /// Moment of the torque by tables, N m: what drives acts in the positive sense, what brakes against the spin and fades out
     /// with it.
@@ -141,7 +141,7 @@ impl<R: Real> Rotor<R> {
             return R::zero();
         };
         let torque = over_speed.value(spin.abs()) * share.value(time);
-        let fading = (spin * R::splat(1.0 / FADING_SPEED)).tanh();
+        let fading = (spin * R::splat(1.0 / BRAKE_FADE)).tanh();
         torque.max(R::zero()) + torque.min(R::zero()) * fading
     }
     /// N, entry of a coordinate.

@@ -1,6 +1,7 @@
 //! Momentum, angular momentum, energy and heat at random states.
 //!
-//! What acts from outside is computed here again, from the sections of the model's pages; everything inside must cancel.
+//! What acts from outside is computed here a second time, from the sections of the model's pages; everything inside
+//! must cancel.
 
 use super::relatives::{lubricant_factors, machines};
 use crate::machines::{
@@ -346,8 +347,7 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         outer.add(at.cross(force));
         outer.add(pair(state, OUTER).cross(mount(machine, state)));
         outer.add(c.bearings[0].inner_race.torque);
-        let braked = (state[ROTOR + 5] / physics::palmgren::FADING_SPEED).tanh();
-        outer.add(-c.rotor.brake_torque * braked);
+        outer.add(-c.rotor.brake_torque * state[ROTOR + 5].tanh());
         // the ground keeps the outer race from turning
         outer.add(-moment_on_outer_race(machine, state, rate));
         match &c.bearings[0].bearing {
