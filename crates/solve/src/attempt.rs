@@ -75,7 +75,7 @@ impl<R: Real, B: Batch<R>> Vectorized for Attempt<'_, R, B> {
 }
 
 /// The explicit method, on the vector unit.
-pub(crate) struct Explicit(pub Scheme);
+pub struct Explicit(pub(crate) Scheme);
 
 impl<R: Real, B: Batch<R>> Method<R, B> for Explicit {
     fn evaluations(&self) -> u64 {

@@ -15,7 +15,7 @@
 use crate::method::{Method, Place};
 use crate::rosenbrock::{Coefficients, EMBEDDED, GAMMA, STAGES, STEP};
 use crate::system::Batch;
-use crate::workspace::{Judgement, Workspace};
+use crate::workspace::{Judgement, Workspace, put, with_lane};
 use number::{Mask, Real, Vectorized};
 
 /// A batch whose stiff parts know their tangents.
@@ -43,7 +43,7 @@ const GROWTH: f64 = 3.0;
 const CORRECTION: f64 = 0.3;
 
 /// The linearly implicit method.
-pub(crate) struct Implicit<R, Room> {
+pub struct Implicit<R, Room> {
     room: Room,
     at_points: Vec<bool>,
     coefficients: Coefficients,
@@ -57,7 +57,7 @@ pub(crate) struct Implicit<R, Room> {
 }
 
 impl<R: Real, Room> Implicit<R, Room> {
-    pub fn new<B: Tangents<R, Room = Room>>(batch: &B, dimension: usize) -> Self {
+    pub(crate) fn new<B: Tangents<R, Room = Room>>(batch: &B, dimension: usize) -> Self {
         let at_points = batch.at_points();
         let zeros = |n| vec![R::zero(); n];
         Implicit {
@@ -397,6 +397,15 @@ impl<R: Real, B: Tangents<R>> Method<R, B> for Implicit<R, B::Room> {
             accepted,
             work,
         });
+    }
+    fn save(&self, lane: usize) -> Vec<f64> {
+        let rates = self.before.iter().map(|rate| rate.lane(lane));
+        rates.chain([self.before_length.lane(lane)]).collect()
+    }
+    fn restore(&mut self, lane: usize, saved: &[f64]) {
+        let (rates, length) = saved.split_at(self.before.len());
+        put(&mut self.before, lane, |i| rates[i]);
+        self.before_length = with_lane(self.before_length, lane, length[0]);
     }
 }
 

@@ -10,6 +10,8 @@ use number::Real;
 pub trait Machine: Sync {
     /// Discrete facts.
     type Mode: Copy + Send;
+    /// Whether the step after a jump is as long as the first of all; else the steps go on.
+    const STARTS_AFRESH: bool = false;
 
     /// Number of channels.
     fn dimension(&self) -> usize;
@@ -34,10 +36,30 @@ pub trait Machine: Sync {
     fn channel_name(&self, channel: usize) -> String;
     /// The mode at the start.
     fn start_mode(&self) -> Self::Mode;
-    /// Instants, ascending, that a step must end on.
-    fn landings(&self) -> &[f64];
-    /// The only place where the mode, or the state, jumps: at the landing of that index.
+    /// Instants, ascending, that a step must end on, where they are known from the start.
+    fn landings(&self) -> &[f64] {
+        &[]
+    }
+    /// The instant of the landing of that index; infinite where there is none in this mode.
+    fn due(&self, _mode: &Self::Mode, landing: usize) -> f64 {
+        self.landings()
+            .get(landing)
+            .copied()
+            .unwrap_or(f64::INFINITY)
+    }
+    /// What jumps of the mode and of the state at the landing of that index.
     fn transition(&self, landing: usize, mode: &mut Self::Mode, state: &mut [f64]);
+    /// Positive while the mode holds: where it falls to zero, a step ends and a state event happens. `at` are the channels of the
+    /// state, the watched ones at least, and the watched probes.
+    fn guard(&self, _mode: &Self::Mode, _time: f64, _at: (&[f64], &[f64])) -> f64 {
+        f64::INFINITY
+    }
+    /// Largest size of the guard at an event; infinite where the instant that dense output shows is good enough.
+    fn guard_error(&self, _mode: &Self::Mode) -> f64 {
+        f64::INFINITY
+    }
+    /// What jumps of the mode and of the state at a state event.
+    fn cross(&self, _time: f64, _mode: &mut Self::Mode, _state: &mut [f64]) {}
     /// The right-hand side, for one machine. Probes are computed only where `probe` is not empty.
     fn rate(
         &self,

@@ -106,7 +106,7 @@ impl Seen {
 /// where stability, not accuracy, bounds the step. Logarithm and exponential are those of `number`: the standard
 /// library's may differ from machine to machine.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Judgement<R> {
+pub struct Judgement<R> {
     /// Error relative to what is allowed; infinite where any channel is not a number.
     pub error: R,
     /// Its natural logarithm.
@@ -141,3 +141,20 @@ impl<R: Real> Judgement<R> {
 
 /// A step of next to no error does not say much about the following one.
 const LEAST_ERROR: f64 = 1e-4;
+
+/// Puts values on one lane of a list.
+pub(crate) fn put<R: Real>(list: &mut [R], lane: usize, value: impl Fn(usize) -> f64) {
+    for (channel, lanes) in list.iter_mut().enumerate() {
+        *lanes = with_lane(*lanes, lane, value(channel));
+    }
+}
+
+/// The same with another value on a lane.
+pub(crate) fn with_lane<R: Real>(lanes: R, lane: usize, value: f64) -> R {
+    R::from_lanes(|i| if i == lane { value } else { lanes.lane(i) })
+}
+
+/// The values on one lane of a list.
+pub(crate) fn lane_of<R: Real>(list: &[R], lane: usize) -> Vec<f64> {
+    list.iter().map(|value| value.lane(lane)).collect()
+}

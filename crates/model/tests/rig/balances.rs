@@ -76,7 +76,7 @@ fn the_exact_form_by_the_outer_race_is_the_true_loss() {
             let mut c = rig(bearing.clone(), quick());
             c.housing.centre_held = held;
             let run = run(c, 0.08, 1e-5);
-            let energy = run.machine.outer_race_energy(&run.run.start, run.end());
+            let energy = run.machine.outer_race_energy(&run.start, run.end());
             // quadrature with pocket impacts
             let off = energy.exact / energy.dissipated - 1.0;
             assert!(off.abs() < 1e-4, "{energy:?}");
@@ -252,12 +252,13 @@ fn a_run_gives_the_same_bits_on_every_level_of_the_vector_unit() {
         let settings = settings(0.02, 1e-4);
         let never = AtomicBool::new(false);
         let run = simulate_on(level, &machine, &settings, &mut record, &never);
-        assert_eq!(run.ending.stop, Stop::Finished);
+        assert_eq!(run.stop, Stop::Finished);
+        record.finish(&machine, run.time, &run.state);
         let rows = record
             .rows()
             .flat_map(|row| [row.state, row.probe].concat());
         let bits: Vec<u64> = rows.map(f64::to_bits).collect();
-        (bits, run.ending.work, record.clutch)
+        (bits, run.work, record.clutch)
     };
     let plain = one(Level::Baseline);
     for level in Level::available().chain([Level::Baseline]) {

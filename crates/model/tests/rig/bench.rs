@@ -7,10 +7,10 @@ use model::bearing::{
 use model::system::rig::record::Keep;
 use model::system::rig::{
     Arm, Disturbance, Drag, Flywheel, HeatNode, Housing, Motor, Program, Record, RigConstants,
-    RigMachine, RigRun, Shaft, Tap, simulate,
+    RigMachine, Shaft, Tap, simulate,
 };
 use physics::palmgren::Palmgren;
-use solve::Stop;
+use solve::{Ending, Stop};
 use std::sync::atomic::AtomicBool;
 
 /// Speed of the paper's tests, rad/s.
@@ -137,7 +137,8 @@ pub fn without_drag(mut constants: RigConstants) -> RigConstants {
 /// A finished run.
 pub struct Finished {
     pub machine: RigMachine,
-    pub run: RigRun,
+    pub start: Vec<f64>,
+    pub ending: Ending,
     pub record: Record,
 }
 
@@ -156,12 +157,14 @@ pub fn run_with(constants: RigConstants, end: f64, tolerance: f64, taps: &[Tap])
     };
     let mut record = Record::new(&machine, &keep);
     let never = AtomicBool::new(false);
-    let run = simulate(&machine, &settings(end, tolerance), &mut record, &never);
-    assert_eq!(run.ending.stop, Stop::Finished);
-    assert!(run.ending.state.iter().all(|value| value.is_finite()));
+    let ending = simulate(&machine, &settings(end, tolerance), &mut record, &never);
+    record.finish(&machine, ending.time, &ending.state);
+    assert_eq!(ending.stop, Stop::Finished);
+    assert!(ending.state.iter().all(|value| value.is_finite()));
     Finished {
+        start: machine.start(),
         machine,
-        run,
+        ending,
         record,
     }
 }
@@ -169,17 +172,17 @@ pub fn run_with(constants: RigConstants, end: f64, tolerance: f64, taps: &[Tap])
 impl Finished {
     /// The last state.
     pub fn end(&self) -> &[f64] {
-        &self.run.ending.state
+        &self.ending.state
     }
     /// Residual of the energy over what was turned over.
     pub fn energy_residual(&self) -> f64 {
-        let balance = self.machine.balance(&self.run.start, self.end());
+        let balance = self.machine.balance(&self.start, self.end());
         let turned_over = balance.heat().max(balance.work_size());
         balance.energy_residual() / turned_over
     }
     /// Residuals of angular momentum: of balls and cage, of the whole rig, N m s.
     pub fn momentum_residuals(&self) -> [f64; 2] {
-        let (start, end) = (&self.run.start, self.end());
+        let (start, end) = (&self.start, self.end());
         [
             self.machine.bearing_momentum_residual(start, end),
             self.machine.balance(start, end).angular_momentum_residual(),

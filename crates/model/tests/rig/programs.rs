@@ -114,7 +114,7 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
     ]
     .map(|bearing| {
         let run = run(concentric(bearing, program()), 0.08, 1e-5);
-        let energy = run.machine.outer_race_energy(&run.run.start, run.end());
+        let energy = run.machine.outer_race_energy(&run.start, run.end());
         let lock = run.record.locked_at().expect("locks");
         [
             lock,
@@ -152,7 +152,7 @@ fn a_ramp_is_held() {
         assert!((speed - 1500.0 * 0.05).abs() < 3.0, "{speed}");
         let (speed, acceleration) = at(0.145);
         assert!((speed / SPEED - 1.0).abs() < 1e-3 && acceleration.abs() < 1.0);
-        let (_, probe) = run.machine.inspect(&run.run.mode, 0.15, run.end());
+        let (_, probe) = run.machine.inspect(&run.record.mode, 0.15, run.end());
         assert!(probe[CAGE_SLIP].abs() < 0.01);
     }
 }

@@ -6,16 +6,18 @@ use model::bearing::{self, BearingConstants};
 use model::bearing_heat::{Seen, WarmBearing, Warmth};
 use model::heats::HEATS;
 use model::system::energy::Content;
+use model::system::rig::RigMachine;
 use model::system::rig::layout::SHAFT;
-use model::system::rig::{self, RigMachine};
 use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::layout::INNER;
 use number::Vec2;
 use outcome::list::List;
+use outcome::options::Options;
 use scenario::{Bearing, Warm};
+use solve::{Ending, Flow, Machine, Observer, Step};
 
 /// A machine with one bearing whose temperatures are followed.
-pub(crate) trait Warms: Sized + Clone {
+pub(crate) trait Warms: Machine + Clone {
     /// Heats of the bearing in a state, J, in the order of [`bearing::HEATS`]: their first channel.
     fn first_heat(&self) -> usize;
     /// Friction of rotor and race in a state, J; none where nothing rubs on the race.
@@ -50,20 +52,6 @@ impl Warms for SpinUpMachine {
     }
     fn held(&self, state: &[f64]) -> Content {
         self.content(state)
-    }
-}
-
-impl rig::Warming for Warming<'_, RigMachine> {
-    fn is_due(&mut self, machine: &RigMachine, time: f64, state: &dyn Fn(usize) -> f64) -> bool {
-        self.step(machine, time, state)
-    }
-    fn renewed(
-        &mut self,
-        machine: &RigMachine,
-        time: f64,
-        state: &[f64],
-    ) -> Option<Box<RigMachine>> {
-        Warming::renewed(self, machine, time, state)
     }
 }
 
@@ -196,5 +184,66 @@ impl<'a, M: Warms> Warming<'a, M> {
             state: self.state,
             broken: self.broken.as_ref(),
         }
+    }
+}
+
+/// A record with what follows the temperatures of its bearing, and the progress of its run.
+pub(crate) struct Watched<'a, M, K> {
+    record: K,
+    warming: Option<Warming<'a, M>>,
+    progress: &'a (dyn Fn(f64) + Sync),
+    reported: u64,
+    end: f64,
+}
+
+impl<'a, M: Warms, K: Observer<M>> Watched<'a, M, K> {
+    /// Before a run until `end`, s.
+    pub fn new(
+        record: K,
+        warming: Option<Warming<'a, M>>,
+        end: f64,
+        options: &Options<'a>,
+    ) -> Self {
+        Watched {
+            record,
+            warming,
+            progress: options.progress,
+            reported: 0,
+            end,
+        }
+    }
+    /// Its parts after a run, and the machine as it is then.
+    pub fn finish(mut self, machine: &M, ending: &Ending) -> (K, Option<Warming<'a, M>>, M) {
+        if let Some(warming) = &mut self.warming {
+            warming.take(machine, ending.time, &|channel| ending.state[channel]);
+        }
+        let renewals = self.warming.as_ref().map(|warming| &warming.renewals);
+        let at_end = renewals.map_or(machine, |renewals| renewals.machine(machine));
+        let at_end = at_end.clone();
+        (self.record, self.warming, at_end)
+    }
+}
+
+impl<M: Warms, K: Observer<M>> Observer<M> for Watched<'_, M, K> {
+    fn step(&mut self, step: &mut Step<M>) -> Flow {
+        let thousandths = (1000.0 * step.end / self.end) as u64;
+        if thousandths > self.reported {
+            (self.progress)(thousandths as f64 * 1e-3);
+            self.reported = thousandths;
+        }
+        let flow = self.record.step(step);
+        let warms = (self.warming.as_mut()).is_some_and(|warming| {
+            warming.step(step.machine, step.end, &|channel| step.end_state(channel))
+        });
+        match flow {
+            Flow::Continue if warms => Flow::Renew,
+            flow => flow,
+        }
+    }
+    fn renewed(&mut self, machine: &M, time: f64, state: &[f64]) -> Option<Box<M>> {
+        self.warming.as_mut()?.renewed(machine, time, state)
+    }
+    fn switched(&mut self, machine: &M, mode: &M::Mode, time: f64, state: &[f64]) -> Flow {
+        self.record.switched(machine, mode, time, state)
     }
 }

@@ -21,7 +21,6 @@ pub(crate) struct Context<'a> {
     pub start: &'a [f64],
     pub record: &'a Record,
     pub ending: &'a Ending,
-    pub mode: model::system::rig::Mode,
     /// How warm the bearing became; none where no network follows that.
     pub warming: Option<&'a Warming<'a, RigMachine>>,
     /// What the thermocouple reads of that.

@@ -18,7 +18,7 @@ mod thermocouple;
 pub mod warnings;
 
 use crate::bearing::warm::Followed;
-use crate::bearing::warming::Warming;
+use crate::bearing::warming::{Warming, Watched};
 use crate::ending::{settings, stop};
 use crate::rig::context::Context;
 use crate::stepping;
@@ -26,7 +26,7 @@ use build::Built;
 use chain::{Happened, Sampled};
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
-use model::system::rig::{self as rig_model, Record, RigMachine, simulate_warming};
+use model::system::rig::{Record, RigMachine, simulate};
 use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
 use scenario::{Rig, RigProgram, Scenario};
@@ -56,25 +56,13 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
         interval: Some(rig.run.output_interval),
         taps: &taps,
     };
-    let mut record = Record::new(machine, &keep);
-    let mut warming: Option<Warming<RigMachine>> =
-        Warming::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
-    let mut idle = ();
-    let follower: &mut dyn rig_model::Warming = match &mut warming {
-        Some(warming) => warming,
-        None => &mut idle,
-    };
-    let run = simulate_warming(
-        machine,
-        &settings(&rig.run),
-        (&mut record, follower),
-        options.interrupt,
-        options.progress,
-    );
-    if let Some(warming) = &mut warming {
-        let state = |channel: usize| run.ending.state[channel];
-        warming.take(machine, run.ending.time, &state);
-    }
+    let (given, part) = (rig.warm.as_deref(), built.warm.as_deref());
+    let warming = Warming::of(given, &rig.bearing, part);
+    let mut watched = Watched::new(Record::new(machine, &keep), warming, end, options);
+    let settings = settings(&rig.run);
+    let ending = simulate(machine, &settings, &mut watched, options.interrupt);
+    let (mut record, warming, at_end) = watched.finish(machine, &ending);
+    record.finish(&at_end, ending.time, &ending.state);
     let seconds = clock.elapsed().as_secs_f64();
     let bead = warming.as_ref().map(|warming| bead(rig, warming));
     let happened = happened(rig, &record, bead.as_ref());
@@ -82,10 +70,9 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
     let context = Context {
         rig,
         built,
-        start: &run.start,
+        start: &machine.start(),
         record: &record,
-        ending: &run.ending,
-        mode: run.mode,
+        ending: &ending,
         warming: warming.as_ref(),
         bead: bead.as_ref(),
         clipped: raw
@@ -103,12 +90,12 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
         contacts: Vec::new(),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,
-        stop: stop(&run.ending),
+        stop: stop(&ending),
         work: Work {
             members: 1,
-            steps: run.ending.work.accepted,
-            rejected: run.ending.work.rejected,
-            rate_calls: run.ending.work.rate_calls,
+            steps: ending.work.accepted,
+            rejected: ending.work.rejected,
+            rate_calls: ending.work.rate_calls,
             seconds,
             method: Some(stepping::EXPLICIT),
         },

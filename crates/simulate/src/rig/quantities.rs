@@ -109,7 +109,7 @@ impl Context<'_> {
     /// A probe at the end.
     fn probe(&self, index: usize) -> f64 {
         let machine = self.machine_at_end();
-        (machine.inspect(&self.mode, self.ending.time, &self.ending.state)).1[index]
+        (machine.inspect(&self.record.mode, self.ending.time, &self.ending.state)).1[index]
     }
     /// A heat of the ledger at the end, J.
     fn heat(&self, kind: usize) -> f64 {

@@ -6,7 +6,7 @@ pub(crate) mod context;
 pub(crate) mod quantities;
 pub mod warnings;
 
-use crate::bearing::warming::Warming;
+use crate::bearing::warming::{Warming, Watched};
 use crate::ending::{settings_at, stop};
 use crate::spin_up::build::Built;
 use crate::spin_up::context::{Context, asked};
@@ -17,7 +17,7 @@ use model::system::spin_up::simulate::simulate;
 use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
 use scenario::{Scenario, SpinUp};
-use solve::{Ending, Flow, Observer, Step};
+use solve::Ending;
 use std::time::Instant;
 
 /// The columns of its history, without values.
@@ -83,66 +83,18 @@ fn integrate<'a>(
     built: &'a Built,
     start: &[f64],
     (spin_up, stepping): (&'a SpinUp, Stepping),
-    options: &Options,
+    options: &Options<'a>,
 ) -> (Record, Ending, Option<Warming<'a, SpinUpMachine>>) {
     let machine = &built.machine;
     let settings = settings_at(&spin_up.run, stepping.tolerance);
     let end = settings.end;
-    let mut watched = Watched {
-        record: Record::new(machine, end, spin_up.run.output_interval, true),
-        warming: Warming::of(
-            spin_up.warm.as_deref(),
-            &spin_up.bearing,
-            built.warm.as_deref(),
-        ),
-        progress: options.progress,
-        reported: 0,
-        end,
-    };
+    let record = Record::new(machine, end, spin_up.run.output_interval, true);
+    let (given, part) = (spin_up.warm.as_deref(), built.warm.as_deref());
+    let warming = Warming::of(given, &spin_up.bearing, part);
+    let mut watched = Watched::new(record, warming, end, options);
     let (steps, interrupt) = (stepping.steps, options.interrupt);
     let ending = simulate(machine, start, &settings, steps, &mut watched, interrupt);
-    let (mut record, mut warming) = (watched.record, watched.warming);
-    if let Some(warming) = &mut warming {
-        let state = |channel: usize| ending.state[channel];
-        warming.take(machine, ending.time, &state);
-    }
-    let renewals = warming.as_ref().map(|warming| &warming.renewals);
-    let at_end = renewals.map_or(machine, |renewals| renewals.machine(machine));
-    record.finish(at_end, ending.time, &ending.state);
+    let (mut record, warming, at_end) = watched.finish(machine, &ending);
+    record.finish(&at_end, ending.time, &ending.state);
     (record, ending, warming)
-}
-
-/// A record that also reports progress.
-struct Watched<'a, 'b> {
-    record: Record,
-    warming: Option<Warming<'b, SpinUpMachine>>,
-    progress: &'a (dyn Fn(f64) + Sync),
-    reported: u64,
-    end: f64,
-}
-
-impl Observer<SpinUpMachine> for Watched<'_, '_> {
-    fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
-        let thousandths = (1000.0 * step.end / self.end) as u64;
-        if thousandths > self.reported {
-            (self.progress)(thousandths as f64 * 1e-3);
-            self.reported = thousandths;
-        }
-        let flow = self.record.step(step);
-        let warms = (self.warming.as_mut()).is_some_and(|warming| {
-            warming.step(step.machine, step.end, &|channel| step.end_state(channel))
-        });
-        match flow {
-            Flow::Continue if warms => Flow::Renew,
-            flow => flow,
-        }
-    }
-    fn renewed(
-        &mut self,
-        machine: &SpinUpMachine,
-        time: f64,
-        state: &[f64],
-    ) -> Option<Box<SpinUpMachine>> {
-        self.warming.as_mut()?.renewed(machine, time, state)
-    }
 }

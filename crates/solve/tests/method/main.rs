@@ -9,4 +9,5 @@ mod lanes;
 mod order;
 mod problems;
 mod schemes;
+mod stepper;
 mod work;

@@ -11,12 +11,13 @@
 //!   slipping → slipping   the other way round, where it does not
 //!   locked   → slipping   where |T| exceeds T_c
 //! ```
-//! Friction is not regularised: the instants are found (see [`simulate`](mod@super::simulate)) and the state there goes on.
+//! Friction is not regularised: they are state events, at which a step ends and the state goes on; a locking by its slip, that
+//! the next step leaves no rest of it behind.
 //! What is left of ω_f - Ω at a locking (rounding) is evened out at constant angular momentum, and its energy is heat.
 //!
 //! Assumes: one coefficient of friction at rest and in motion. Does not model: warming and fading of the lining.
 
-use super::layout::{CLUTCH_HEAT, CLUTCH_TORQUE, FLYWHEEL, SHAFT};
+use super::layout::{CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_TORQUE, FLYWHEEL, SHAFT};
 use super::machine::RigMachine;
 use super::mode::{Clutch, Mode};
 
@@ -25,7 +26,32 @@ pub fn slip_speed(state: &[f64]) -> f64 {
     state[FLYWHEEL + 1] - state[SHAFT + 1]
 }
 
+/// What is left before the clutch changes: of the slip, rad/s, or of the capacity, N m.
+pub(super) fn reserve(mode: &Mode, (state, probe): (&[f64], &[f64])) -> f64 {
+    match mode.clutch {
+        Clutch::Open => f64::INFINITY,
+        Clutch::Slipping { direction } => slip_speed(state) * direction,
+        Clutch::Locked => probe[CLUTCH_CAPACITY] - probe[CLUTCH_TORQUE].abs(),
+    }
+}
+
 impl RigMachine {
+    /// What becomes of the clutch where nothing is left.
+    pub(super) fn change_clutch(&self, time: f64, mode: &mut Mode, state: &mut [f64]) {
+        match mode.clutch {
+            Clutch::Open => {}
+            Clutch::Slipping { .. } => {
+                self.even_out(state);
+                mode.clutch = self.engaged(mode, time, state);
+            }
+            Clutch::Locked => {
+                let torque = self.inspect(mode, time, state).1[CLUTCH_TORQUE];
+                mode.clutch = Clutch::Slipping {
+                    direction: torque.signum(),
+                };
+            }
+        }
+    }
     /// What an engaged clutch does in a state at an instant.
     pub(super) fn engaged(&self, mode: &Mode, time: f64, state: &[f64]) -> Clutch {
         let slip = slip_speed(state);
@@ -34,10 +60,8 @@ impl RigMachine {
                 direction: slip.signum(),
             };
         }
-        let locked = Mode {
-            clutch: Clutch::Locked,
-            ..*mode
-        };
+        let mut locked = *mode;
+        locked.clutch = Clutch::Locked;
         let torque = self.inspect(&locked, time, state).1[CLUTCH_TORQUE];
         if torque.abs() <= mode.capacity.at(time) {
             Clutch::Locked
@@ -49,7 +73,7 @@ impl RigMachine {
     }
     /// Gives flywheel and shaft one speed; their angular momentum stays, the energy of what they differed by is heat of
     /// the clutch.
-    pub(super) fn even_out(&self, state: &mut [f64]) {
+    fn even_out(&self, state: &mut [f64]) {
         let slip = slip_speed(state);
         let flywheel = self.constants.flywheel.inertia;
         // balls that roll turn with the shaft; others keep their own motion

@@ -1,8 +1,9 @@
-//! The rig as the solver runs it: one rig, its start, and its segments.
+//! The rig as the solver runs it, and its start.
 
+use super::clutch;
 use super::constants::RigConstants;
 use super::layout::{self, Layout};
-use super::mode::Mode;
+use super::mode::{Clutch, Mode};
 use super::refusal::RigRefusal;
 use crate::bearing::ball_states::CAGE_PLACE;
 use crate::bearing::{Bearing, BearingConstants, Separation};
@@ -45,10 +46,6 @@ impl RigMachine {
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
-    /// Name of a channel of the state.
-    pub fn channel_name(&self, channel: usize) -> String {
-        self.layout.channel_name(channel)
-    }
     /// The state at the start: the bearing settled under its load, its balls rolling with the shaft, the arm settled under what
     /// disturbs it where the shaft rests.
     pub fn start(&self) -> Vec<f64> {
@@ -80,10 +77,6 @@ impl RigMachine {
             BearingConstants::Planar(_) => 0.0,
         }
     }
-    /// The rig from an instant on in a mode that stays.
-    pub fn segment(&self, mode: Mode) -> Segment<'_> {
-        Segment { rig: self, mode }
-    }
 }
 
 /// Settles a bearing whose inner race is fixed at the origin under a force on its outer race; returns where the outer
@@ -110,72 +103,82 @@ fn settle_housing(bearing: &BearingConstants, force: Vec2<f64>, state: &mut [f64
     place
 }
 
-/// A rig in a mode that stays: what the solver integrates between two instants.
-#[derive(Clone, Copy, Debug)]
-pub struct Segment<'a> {
-    /// The rig.
-    pub rig: &'a RigMachine,
-    /// Its mode.
-    pub mode: Mode,
-}
-
-impl Machine for Segment<'_> {
+impl Machine for RigMachine {
     type Mode = Mode;
+    const STARTS_AFRESH: bool = true;
 
     fn dimension(&self) -> usize {
-        self.rig.layout.dimension()
+        self.layout.dimension()
     }
     fn quadratures(&self) -> usize {
-        self.rig.layout.ledger_length()
+        self.layout.ledger_length()
     }
     fn probes(&self) -> usize {
-        self.rig.layout.probes()
+        self.layout.probes()
     }
     fn watched_probes(&self) -> usize {
-        self.rig.layout.probes_with_loads()
+        self.layout.probes_with_loads()
     }
     fn watched_channels(&self) -> usize {
         layout::FLYWHEEL + 2
     }
     fn error_scale(&self, channel: usize) -> f64 {
-        self.rig.error_scale[channel]
+        self.error_scale[channel]
     }
     fn channel_name(&self, channel: usize) -> String {
-        self.rig.channel_name(channel)
+        self.layout.channel_name(channel)
     }
     fn start_mode(&self) -> Mode {
-        self.mode
+        let mut mode = Mode::idle();
+        if mode.due(&self.constants.program) <= 0.0 {
+            mode.advance(self, 0.0, &self.start());
+        }
+        mode
     }
-    fn landings(&self) -> &[f64] {
-        &[]
+    fn due(&self, mode: &Mode, _landing: usize) -> f64 {
+        mode.due(&self.constants.program)
     }
-    fn transition(&self, _landing: usize, _mode: &mut Mode, _state: &mut [f64]) {}
+    fn transition(&self, _landing: usize, mode: &mut Mode, state: &mut [f64]) {
+        let time = mode.due(&self.constants.program);
+        mode.advance(self, time, state);
+    }
+    fn guard(&self, mode: &Mode, _time: f64, at: (&[f64], &[f64])) -> f64 {
+        clutch::reserve(mode, at)
+    }
+    fn guard_error(&self, mode: &Mode) -> f64 {
+        match mode.clutch {
+            Clutch::Slipping { .. } => 1e-13 * self.constants.target_speed.abs(),
+            Clutch::Open | Clutch::Locked => f64::INFINITY,
+        }
+    }
+    fn cross(&self, time: f64, mode: &mut Mode, state: &mut [f64]) {
+        self.change_clutch(time, mode, state);
+    }
     fn rate(&self, mode: &Mode, time: f64, state: &[f64], rate: &mut [f64], probe: &mut [f64]) {
-        let rig = self.rig;
-        rig.rate_of_change(&rig.bearing, mode, time, state, rate, probe);
+        self.rate_of_change(&self.bearing, mode, time, state, rate, probe);
     }
 }
 
-/// A segment as the solver runs it; `R` is one machine whose balls are computed several at a time.
+/// A rig as the solver runs it; `R` is one machine whose balls are computed several at a time.
 #[derive(Clone, Debug)]
-pub struct SegmentRun<'a, R: Real> {
-    rig: &'a RigMachine,
+pub struct Rig<R: Real> {
+    machine: RigMachine,
     bearing: Bearing<R>,
 }
 
-impl<'a, R: Real> Batch<R> for SegmentRun<'a, R> {
-    type Machine = Segment<'a>;
+impl<R: Real> Batch<R> for Rig<R> {
+    type Machine = RigMachine;
     type Mode = Mode;
 
-    fn gather<'b>(machine: &dyn Fn(usize) -> &'b Segment<'a>) -> Self
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a RigMachine) -> Self
     where
-        Segment<'a>: 'b,
+        RigMachine: 'a,
     {
         assert!(R::LANES == 1, "one rig at a time");
-        let rig = machine(0).rig;
-        SegmentRun {
-            rig,
-            bearing: Bearing::gather(&|_| &rig.constants.bearing),
+        let machine = machine(0).clone();
+        Rig {
+            bearing: Bearing::gather(&|_| &machine.constants.bearing),
+            machine,
         }
     }
     fn gather_mode(modes: &dyn Fn(usize) -> Mode) -> Mode {
@@ -184,6 +187,6 @@ impl<'a, R: Real> Batch<R> for SegmentRun<'a, R> {
     #[inline(always)]
     fn rate(&self, mode: &Mode, time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
         let time = time.lane(0);
-        (self.rig).rate_of_change(&self.bearing, mode, time, state, rate, probe);
+        (self.machine).rate_of_change(&self.bearing, mode, time, state, rate, probe);
     }
 }

@@ -17,9 +17,9 @@
 //! | [`layout`] | where everything stands in the state, and its names |
 //! | [`rate`] | the equations of motion |
 //! | [`clutch`] | open, slipping, locked: what follows what |
-//! | [`program`] | what is done to the rig, and when; `progress`: how far it has come |
-//! | [`machine`], [`mode`] | the rig as the solver runs it; what holds between two switchings |
-//! | [`simulate`](mod@simulate) | a run, cut where something is switched or the clutch changes |
+//! | [`program`] | what is done to the rig, and when |
+//! | [`machine`], [`mode`] | the rig as the solver runs it; what holds between two switchings, and how far the program has come |
+//! | [`simulate`](mod@simulate) | a run |
 //! | [`ramp`] | the engagement that gives a wanted acceleration |
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run; [`taps`]: what a converter samples |
@@ -40,7 +40,6 @@ pub mod ledger;
 pub mod machine;
 pub mod mode;
 pub mod program;
-mod progress;
 pub mod ramp;
 pub mod rate;
 pub mod record;
@@ -51,11 +50,11 @@ pub mod taps;
 pub use constants::{
     Arm, Disturbance, Drag, Flywheel, HeatNode, Housing, Motor, RigConstants, Shaft,
 };
-pub use machine::{RigMachine, Segment, SegmentRun};
+pub use machine::{Rig, RigMachine};
 pub use mode::{Clutch, ClutchEvent, Mode};
 pub use program::{Action, Engagement, Program, Start};
 pub use ramp::{RampError, engagement_ramp};
 pub use record::Record;
 pub use refusal::RigRefusal;
-pub use simulate::{RigRun, Warming, simulate, simulate_warming};
+pub use simulate::simulate;
 pub use taps::{Tap, Taps};

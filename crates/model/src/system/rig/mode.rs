@@ -1,8 +1,11 @@
-//! What holds between two instants at which something is switched.
+//! What holds between two instants at which something is switched, and how far a program has come.
 
+use super::layout::FLYWHEEL;
+use super::machine::RigMachine;
+use super::program::{Action, Program};
 use crate::table::Piece;
 
-/// Discrete facts, and what holds between two instants at which something is switched.
+/// Discrete facts, what holds between two instants at which something is switched, and what is due next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
     /// Speed the motor is set to, rad/s over s; none while it is off.
@@ -11,6 +14,11 @@ pub struct Mode {
     pub capacity: Piece<f64>,
     /// What the clutch does.
     pub clutch: Clutch,
+    next_action: usize,
+    /// When the set speed has arrived, and where.
+    arrival: Option<(f64, f64)>,
+    /// When the capacity is the largest, and that.
+    full: Option<(f64, f64)>,
 }
 
 /// What the clutch does.
@@ -36,4 +44,94 @@ pub struct ClutchEvent {
     pub clutch: Clutch,
     /// Speed of the shaft then, rad/s.
     pub speed: f64,
+}
+
+impl Mode {
+    /// Before anything is done: motor off, clutch open.
+    pub(super) fn idle() -> Self {
+        Mode {
+            motor: None,
+            capacity: flat(0.0, 0.0),
+            clutch: Clutch::Open,
+            next_action: 0,
+            arrival: None,
+            full: None,
+        }
+    }
+    /// The next instant at which something is due, s.
+    pub(super) fn due(&self, program: &Program) -> f64 {
+        let action = program.actions.get(self.next_action).map(|next| next.0);
+        [
+            action,
+            self.arrival.map(|(time, _)| time),
+            self.full.map(|(time, _)| time),
+        ]
+        .into_iter()
+        .flatten()
+        .fold(f64::INFINITY, f64::min)
+    }
+    /// Does what is due at an instant.
+    pub(super) fn advance(&mut self, machine: &RigMachine, time: f64, state: &[f64]) {
+        let mut engaged = self.clutch != Clutch::Open;
+        if let Some((_, speed)) = self.arrival.take_if(|(at, _)| *at <= time) {
+            self.motor = Some(flat(time, speed));
+        }
+        if let Some((_, largest)) = self.full.take_if(|(at, _)| *at <= time) {
+            self.capacity = flat(time, largest);
+        }
+        let actions = &machine.constants.program.actions;
+        while let Some((_, action)) = actions.get(self.next_action).filter(|next| next.0 <= time) {
+            self.next_action += 1;
+            match *action {
+                Action::MotorTo { speed, rate } => {
+                    let from = state[FLYWHEEL + 1];
+                    let (set, arrival) = rise(time, from, speed, rate);
+                    self.motor = Some(set);
+                    self.arrival = arrival;
+                }
+                Action::MotorOff => {
+                    self.motor = None;
+                    self.arrival = None;
+                }
+                Action::Engage(by) => {
+                    let from = self.capacity.at(time);
+                    (self.capacity, self.full) = rise(time, from, by.largest, by.rate);
+                    engaged = true;
+                }
+                Action::Disengage => {
+                    (self.capacity, self.full) = (flat(time, 0.0), None);
+                    engaged = false;
+                }
+            }
+        }
+        // last, since what locking takes depends on all of it
+        self.clutch = if engaged {
+            machine.engaged(self, time, state)
+        } else {
+            Clutch::Open
+        };
+    }
+}
+
+fn flat(time: f64, value: f64) -> Piece<f64> {
+    Piece {
+        start: time,
+        value,
+        slope: 0.0,
+    }
+}
+
+/// The line from a value to another at a rate of that size, and when it arrives where; at once the value itself.
+fn rise(time: f64, from: f64, to: f64, rate: f64) -> (Piece<f64>, Option<(f64, f64)>) {
+    let duration = (to - from).abs() / rate;
+    if duration > 0.0 && duration.is_finite() {
+        let line = Piece {
+            start: time,
+            value: from,
+            slope: (to - from) / duration,
+        };
+        (line, Some((time + duration, to)))
+    } else {
+        (flat(time, to), None)
+    }
 }

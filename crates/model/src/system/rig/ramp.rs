@@ -9,11 +9,12 @@
 
 use super::mode::Clutch;
 use super::record::{Keep, Record};
-use super::simulate::until_locked;
-use super::{Action, RigConstants, RigMachine, RigRefusal};
+use super::simulate::simulate;
+use super::{Action, Mode, RigConstants, RigMachine, RigRefusal};
 use crate::bearing::{BearingConstants, RollingConstants};
-use solve::{Settings, Stop};
+use solve::{Flow, Observer, Settings, Step, Stop};
 use std::fmt;
+use std::sync::atomic::AtomicBool;
 
 /// Why there is no engagement.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,7 +195,7 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f
         interval: None,
         taps: &[],
     };
-    let mut record = Record::new(&machine, &keep);
+    let mut first = UntilLocked(Record::new(&machine, &keep));
     let settings = Settings {
         start: 0.0,
         end,
@@ -203,7 +204,23 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f
         largest_step: 1e-2,
         step_limit: 1_000_000,
     };
-    let run = until_locked(&machine, &settings, &mut record);
-    let locked = matches!(run.ending.stop, Stop::Halted(_)) && run.mode.clutch == Clutch::Locked;
-    Ok(locked.then_some(record.acceleration.value))
+    let ending = simulate(&machine, &settings, &mut first, &AtomicBool::new(false));
+    let locked = matches!(ending.stop, Stop::Halted(_));
+    Ok(locked.then_some(first.0.acceleration.value))
+}
+
+/// A record that ends where the clutch locks.
+struct UntilLocked(Record);
+
+impl Observer<RigMachine> for UntilLocked {
+    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
+        self.0.step(step)
+    }
+    fn switched(&mut self, machine: &RigMachine, mode: &Mode, time: f64, state: &[f64]) -> Flow {
+        self.0.switched(machine, mode, time, state);
+        match mode.clutch {
+            Clutch::Locked => Flow::Halt("the clutch has locked"),
+            Clutch::Open | Clutch::Slipping { .. } => Flow::Continue,
+        }
+    }
 }

@@ -12,12 +12,12 @@ use super::layout::{
 use super::mode::ClutchEvent;
 use super::rate::race_motion;
 use super::taps::{Tap, Taps};
-use super::{Clutch, Mode, RigMachine, Segment};
+use super::{Clutch, Mode, RigMachine};
 use crate::bearing::BearingConstants;
 use crate::system::cage_turns::{CageTurns, LateMeans};
 use crate::system::race_record::RaceRecord;
 use crate::system::sampling::{Peak, Rise, Row, Rows};
-use solve::{Flow, Observer, Step};
+use solve::{Flow, Machine, Observer, Step};
 
 /// What is kept of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,8 @@ pub struct Record {
     pub temperature: Peak,
     /// What the clutch did, in order; the first entry is how it started.
     pub clutch: Vec<ClutchEvent>,
+    /// The mode that the run has come to.
+    pub mode: Mode,
     /// What the converter sampled.
     pub taps: Taps,
     /// Of the shaft through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
@@ -79,10 +81,13 @@ impl Record {
             BearingConstants::Rolling(_) => Rise::through(SHAFT + 1, 0.95 * speed),
             BearingConstants::Planar(_) => Rise::through(BEARING + 1, 0.95 * rolling),
         };
-        let idle = Mode {
-            clutch: Clutch::Open,
-            ..super::progress::Progress::new().mode
-        };
+        let mode = machine.start_mode();
+        let mut clutch = Vec::with_capacity(CHANGES);
+        clutch.push(ClutchEvent {
+            time: 0.0,
+            clutch: mode.clutch,
+            speed: c.program.start.shaft_speed,
+        });
         Record {
             acceleration: Peak::NONE,
             deceleration: Peak::NONE,
@@ -93,7 +98,8 @@ impl Record {
             largest_outer_load: Peak::NONE,
             largest_pocket_force: Peak::NONE,
             temperature: Peak::NONE,
-            clutch: Vec::with_capacity(CHANGES),
+            clutch,
+            mode,
             taps: Taps::new(keep.taps, keep.end),
             rises: [
                 Rise::through(SHAFT + 1, 0.5 * speed),
@@ -108,7 +114,7 @@ impl Record {
             ),
             races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(
-                &machine.segment(idle),
+                machine,
                 keep.end,
                 keep.interval.unwrap_or(f64::INFINITY),
                 keep.interval.is_some(),
@@ -155,8 +161,8 @@ impl Record {
         self.rows.iter()
     }
     /// Adds the last state of a run as a row, where it is not one already.
-    pub(super) fn finish(&mut self, machine: &RigMachine, mode: &Mode, time: f64, state: &[f64]) {
-        let (_, probe) = machine.inspect(mode, time, state);
+    pub fn finish(&mut self, machine: &RigMachine, time: f64, state: &[f64]) {
+        let (_, probe) = machine.inspect(&self.mode, time, state);
         self.rows.finish(&Row {
             time,
             state,
@@ -166,8 +172,8 @@ impl Record {
     }
 }
 
-impl<'a> Observer<Segment<'a>> for Record {
-    fn step(&mut self, step: &mut Step<Segment<'a>>) -> Flow {
+impl Observer<RigMachine> for Record {
+    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
         for (peak, sign) in [
             (&mut self.acceleration, self.forward),
             (&mut self.deceleration, -self.forward),
@@ -192,7 +198,7 @@ impl<'a> Observer<Segment<'a>> for Record {
             rise.watch(step);
         }
         self.turns.watch(step);
-        let machine = step.machine.rig;
+        let machine = step.machine;
         let bearing = (
             &machine.constants.bearing,
             machine.layout().bearing(),
@@ -200,8 +206,18 @@ impl<'a> Observer<Segment<'a>> for Record {
         );
         self.races.watch(step, bearing, race_motion);
         self.taps.sample(step);
-        self.rows
-            .sample(step, |segment, state| segment.rig.content(state));
+        self.rows.sample(step, |rig, state| rig.content(state));
+        Flow::Continue
+    }
+    fn switched(&mut self, _: &RigMachine, mode: &Mode, time: f64, state: &[f64]) -> Flow {
+        if mode.clutch != self.mode.clutch {
+            self.clutch.push(ClutchEvent {
+                time,
+                clutch: mode.clutch,
+                speed: state[SHAFT + 1],
+            });
+        }
+        self.mode = *mode;
         Flow::Continue
     }
 }
