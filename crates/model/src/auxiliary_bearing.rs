@@ -21,6 +21,7 @@
 
 use crate::bearing::{self, Bearing, BearingConstants, BearingReaction, POCKET_FRICTION};
 use crate::bearing_heat::WarmBearing;
+use crate::body::BodyAt;
 use crate::contact::{ContactReaction, JournalContact};
 pub use crate::heats::{HEATS, OWN_HEATS};
 use crate::motion::{Body, Motion};
@@ -136,10 +137,10 @@ pub mod probe {
 /// Where an auxiliary bearing stands in the state, in the ledger and among the probes of its machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BearingAt {
-    /// First channel of the inner race: x y, ẋ ẏ, φ_i, ω_i.
-    pub inner: usize,
-    /// First channel of the outer race: x y, ẋ ẏ; of a bushing that of the inner one.
-    pub outer: usize,
+    /// The inner race.
+    pub inner: BodyAt,
+    /// The outer race, which does not turn; of a bushing the ring that is the inner one too.
+    pub outer: BodyAt,
     /// First channel of the bearing's own states, the angle of its cage.
     pub bearing: usize,
     /// Number of these.
@@ -185,34 +186,21 @@ impl BearingAt {
     /// Motion of both races in a state; the outer race does not turn.
     #[inline(always)]
     pub fn motion<R: Real>(&self, state: &[R]) -> Motion<R> {
-        let (i, o) = (self.inner, self.outer);
-        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
         Motion {
-            inner: Body::planar(pair(i), pair(i + 2), state[i + 4], state[i + 5]),
-            outer: Body::planar(pair(o), pair(o + 2), R::zero(), R::zero()),
+            inner: self.inner.motion(state),
+            outer: self.outer.motion(state),
         }
     }
 }
 
-/// Names of the channels of an inner race.
-const INNER: [&str; 6] = ["x", "y", "x_speed", "y_speed", "angle", "speed"];
-/// Names of the channels of an outer race.
-const OUTER: [&str; 4] = ["x", "y", "x_speed", "y_speed"];
-
-/// Adds the races of an auxiliary bearing to a layout, or the ring of a bushing: first channels of the inner and of the outer one.
-pub fn lay_races(layout: &mut Layout, name: &str, bushing: bool) -> (usize, usize) {
-    let named = |race: &str, names: &[&str]| -> Vec<String> {
-        names
-            .iter()
-            .map(|n| format!("bearing.{race}.{n}"))
-            .collect()
+/// Adds the races of an auxiliary bearing to a layout, or the ring of a bushing: the inner and the outer one.
+pub fn lay_races(layout: &mut Layout, name: &str, bushing: bool) -> [BodyAt; 2] {
+    let inner = layout.body(name, "bearing.inner_race", BodyAt::free);
+    let outer = match bushing {
+        true => inner.without_turn(),
+        false => layout.body(name, "bearing.outer_race", BodyAt::moving),
     };
-    let inner = layout.block(name, named("inner_race", &INNER));
-    if bushing {
-        return (inner.start, inner.start);
-    }
-    let outer = layout.block(name, named("outer_race", &OUTER));
-    (inner.start, outer.start)
+    [inner, outer]
 }
 
 /// An auxiliary bearing over `R`.
@@ -365,18 +353,13 @@ impl<R: Real> AuxiliaryBearing<R> {
         let inner_moment = contact.on_bore.moment + bearing.on_inner.moment + race.torque;
         let bearing = (*bearing).with_loss(inner.spin, inner_moment);
         let inner_spin_rate = inner_moment / (race.inertia + bearing.inner_inertia);
-        write_body(rate, at.inner, inner.velocity, inner_acceleration);
-        rate[at.inner + 4] = inner.spin;
-        rate[at.inner + 5] = inner_spin_rate;
+        (at.inner).move_at(rate, inner.velocity, inner_acceleration);
+        (at.inner).turn_at(rate, inner.spin, inner_spin_rate);
 
         // outer race: the ground holds its spin
         let outer_force = bearing.on_outer.force + mount + gravity * self.outer_moving_mass;
-        write_body(
-            rate,
-            at.outer,
-            outer.velocity,
-            outer_force * self.inverse_outer_mass,
-        );
+        let outer_acceleration = outer_force * self.inverse_outer_mass;
+        (at.outer).move_at(rate, outer.velocity, outer_acceleration);
         let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * inner_spin_rate;
 
         // ledger
@@ -453,8 +436,8 @@ impl<R: Real> AuxiliaryBearing<R> {
         let contact = &node.contact;
         let force = contact.on_bore.force + mount.force + gravity * self.outer_moving_mass;
         let acceleration = force * self.inverse_outer_mass;
-        write_body(rate, at.inner, ring.velocity, acceleration);
-        rate[at.inner + 4..at.inner + 6].fill(zero);
+        (at.inner).move_at(rate, ring.velocity, acceleration);
+        (at.inner).turn_at(rate, zero, zero);
 
         // ledger: neither balls nor a drive
         let heats = &mut rate[into.heat..into.heat + HEATS];
@@ -488,17 +471,4 @@ impl<R: Real> AuxiliaryBearing<R> {
             ],
         }
     }
-}
-
-#[inline(always)]
-pub(crate) fn write_body<R: Real>(
-    rate: &mut [R],
-    body: usize,
-    velocity: Vec2<R>,
-    acceleration: Vec2<R>,
-) {
-    rate[body] = velocity.x;
-    rate[body + 1] = velocity.y;
-    rate[body + 2] = acceleration.x;
-    rate[body + 3] = acceleration.y;
 }

@@ -12,6 +12,7 @@
 pub mod auxiliary_bearing;
 pub mod bearing;
 pub mod bearing_heat;
+pub mod body;
 pub mod contact;
 pub mod heats;
 pub mod levitation;

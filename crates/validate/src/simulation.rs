@@ -115,7 +115,7 @@ impl Simulator for Simulation {
             rotor_race_friction_energy: Some(heat("rotor_race_friction")),
             ball_slip_energy: Some(heat("inner_ball_slip") + heat("outer_ball_slip")),
             dissipated_energy: Some(machine.flows(end).heat),
-            inner_race_final_speed: Some(end[layout.bearings[0].inner + 5]),
+            inner_race_final_speed: Some(end[layout.bearings[0].inner.spin()]),
             cage_final_speed: Some(machine.cage_speed(0, end)),
             rotor_final_speed: Some(end[layout.rotor.spin()]),
             max_rotor_race_displacement: Some(record.rotor_race_displacement.value),

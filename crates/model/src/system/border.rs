@@ -1,6 +1,7 @@
 //! The border of a linearly implicit step: a small symmetric system, a lane each, whose rows are velocities; positions follow.
 
 use crate::bearing::tangents::{ENTRIES, ROWS};
+use crate::body::BodyAt;
 use number::Real;
 
 /// L D Lᵀ of a symmetric positive matrix in its lower triangle, without pivots: L below the diagonal and its transpose above, so
@@ -50,10 +51,11 @@ pub(super) fn solve<R: Real>(a: &[R], n: usize, side: &mut [R]) {
 
 /// u of a body's velocities, and of its position, whose right-hand sides stand there.
 #[inline(always)]
-pub(super) fn follow<R: Real>(side: &mut [R], body: usize, velocity: [R; 2], inverse_g: R) {
-    for i in 0..2 {
-        side[body + i] = (side[body + i] + velocity[i]) * inverse_g;
-        side[body + 2 + i] = velocity[i];
+pub(super) fn follow<R: Real>(side: &mut [R], body: BodyAt, velocity: [R; 2], inverse_g: R) {
+    let channels = body.centre().into_iter().zip(body.velocity());
+    for ((place, rate), velocity) in channels.zip(velocity) {
+        side[place] = (side[place] + velocity) * inverse_g;
+        side[rate] = velocity;
     }
 }
 

@@ -8,6 +8,7 @@
 //! and names carry the name of their part; a part without a name, as the only bearing of a machine, has no prefix.
 
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use crate::body::BodyAt;
 use std::ops::{Deref, Range};
 
 /// One kind of heat, source, impulse or work of one part.
@@ -40,6 +41,12 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// Adds a body of that name, of a part; where it stands, from its first channel on.
+    pub fn body(&mut self, part: &str, name: &str, at: fn(usize) -> BodyAt) -> BodyAt {
+        let body = at(self.names.len());
+        self.block(part, body.names(name));
+        body
+    }
     /// Adds a block of channels with these names after a part's; returns where it stands.
     pub fn block(&mut self, part: &str, names: impl IntoIterator<Item = String>) -> Range<usize> {
         let start = self.names.len();

@@ -92,9 +92,9 @@ fn residuals(
     // both bearings were hit and spun up, the shaft bends
     for at in &machine.layout().bearings {
         assert!(
-            ending.state[at.inner + 5] > 10.0,
+            ending.state[at.inner.spin()] > 10.0,
             "{}",
-            ending.state[at.inner + 5]
+            ending.state[at.inner.spin()]
         );
     }
     assert!(balance.heat() > 0.5, "{}", balance.heat());

@@ -84,10 +84,16 @@ fn image(machine: &RotorMachine, state: &[f64], half_turn: f64) -> Vec<f64> {
     sideways.extend([rotor.spin(), layout.angular_impulse()]);
     let mut angles = vec![rotor.angle()];
     for at in &layout.bearings {
-        sideways.extend([at.inner, at.inner + 2, at.inner + 5, at.outer, at.outer + 2]);
+        sideways.extend([
+            at.inner.centre()[0],
+            at.inner.velocity()[0],
+            at.inner.spin(),
+            at.outer.centre()[0],
+            at.outer.velocity()[0],
+        ]);
         sideways.push(at.bearing + 1);
         sideways.extend((at.mount..at.mount + at.mount_states).step_by(2));
-        angles.extend([at.inner + 4, at.bearing]);
+        angles.extend([at.inner.angle(), at.bearing]);
     }
     for channel in sideways {
         out[channel] = -state[channel];
@@ -133,13 +139,13 @@ fn random_state(machine: &RotorMachine, random: &mut Random) -> Vec<f64> {
     state[layout.rotor.spin()] = random.within(1500.0);
     for (at, part) in layout.bearings.iter().zip(&constants.bearings) {
         for race in [at.inner, at.outer] {
-            for channel in race..race + 2 {
-                state[channel] = random.within(1e-5);
-                state[channel + 2] = random.within(0.2);
+            for (place, speed) in race.centre().into_iter().zip(race.velocity()) {
+                state[place] = random.within(1e-5);
+                state[speed] = random.within(0.2);
             }
         }
-        state[at.inner + 4] = random.within(7.0);
-        state[at.inner + 5] = random.within(1500.0);
+        state[at.inner.angle()] = random.within(7.0);
+        state[at.inner.spin()] = random.within(1500.0);
         for own in &mut state[at.of_mount()] {
             *own = random.within(1e-5);
         }

@@ -60,7 +60,7 @@ fn a_rotor_of_one_node_falls_as_the_drop_does() {
             end(&drop, &start, seconds),
             end(&node, &to_node(&start), seconds),
         );
-        let inner = drop.layout().bearings[0].inner + 5;
+        let inner = drop.layout().bearings[0].inner.spin();
         let spun = (own[inner] / point[inner] - 1.0).abs();
         assert!(
             point[inner] > 1.0 && spun < tolerance,

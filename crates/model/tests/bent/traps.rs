@@ -100,7 +100,7 @@ fn touching(speed: f64) -> (Shaft, MachineConstants, Vec<f64>) {
     for (part, at) in constants.bearings.iter().zip(&machine.layout().bearings) {
         let rolling = speed * (1.0 - part.contact.radial_clearance / part.contact.bore_radius);
         let own = [2e-6, -3e-6, 0.01, 0.02, 0.0, rolling];
-        state[at.inner..at.inner + 6].copy_from_slice(&own);
+        state[at.inner.channels()].copy_from_slice(&own);
     }
     (shaft, constants, state)
 }
@@ -200,7 +200,7 @@ fn rates(
     }
     for (part, place) in constants.bearings.iter().zip(&machine.layout().bearings) {
         let node = row(&part.node);
-        let inner = &state[place.inner..place.inner + 6];
+        let inner = &state[place.inner.channels()];
         let race = C64::new(inner[0], inner[1]);
         let datum = complex(part.datum);
         let centre = match is(Trap::DatumAdded) {

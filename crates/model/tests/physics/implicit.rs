@@ -89,7 +89,7 @@ fn missing(machine: &RotorMachine, length: f64, state: &[f64]) -> (f64, String) 
         state,
         unit: &|channel, g| unit(machine, channel, g),
         // a race that is held has no speed to be given
-        skipped: &|channel| held && (at.inner..at.inner + 4).contains(&channel),
+        skipped: &|channel| held && at.inner.without_turn().channels().contains(&channel),
     })
 }
 

@@ -94,7 +94,7 @@ fn the_ledger_of_several_bearings_closes() {
     let balance = machine.balance(&start, &end);
     let residual = balance.energy_residual() / balance.heat();
     assert!(residual.abs() < 1e-6, "{residual}");
-    let [first, second] = [0, 1].map(|k| machine.layout().bearings[k].inner + 5);
+    let [first, second] = [0, 1].map(|k| machine.layout().bearings[k].inner.spin());
     assert!(
         end[first] > 500.0 && end[second] > 50.0,
         "{} {}",

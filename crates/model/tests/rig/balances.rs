@@ -183,18 +183,18 @@ fn turning_the_stator_turns_the_answer() {
         );
         let (a, b) = (one.end(), other.end());
         let near = |a: f64, b: f64, size: f64| assert!((a - b).abs() < 1e-6 * size, "{a} {b}");
-        assert!(a[SHAFT + 1] > 1.0);
-        near(a[SHAFT + 1], b[SHAFT + 1], SPEED);
+        assert!(a[SHAFT.spin()] > 1.0);
+        near(a[SHAFT.spin()], b[SHAFT.spin()], SPEED);
         let (sine, cosine) = angle.sin_cos();
-        let size = a[HOUSING].hypot(a[HOUSING + 1]);
+        let size = a[HOUSING.centre()[0]].hypot(a[HOUSING.centre()[1]]);
         near(
-            cosine * a[HOUSING] - sine * a[HOUSING + 1],
-            b[HOUSING],
+            cosine * a[HOUSING.centre()[0]] - sine * a[HOUSING.centre()[1]],
+            b[HOUSING.centre()[0]],
             1e3 * size,
         );
         near(
-            sine * a[HOUSING] + cosine * a[HOUSING + 1],
-            b[HOUSING + 1],
+            sine * a[HOUSING.centre()[0]] + cosine * a[HOUSING.centre()[1]],
+            b[HOUSING.centre()[1]],
             1e3 * size,
         );
         let layout = one.machine.layout();
@@ -215,7 +215,7 @@ fn the_weight_hangs_on_the_balls() {
         let mean = loads.iter().sum::<f64>() / loads.len() as f64;
         // cage and, where they roll, balls: up to 0.2 N more
         assert!((mean / LOAD - 1.0).abs() < 0.02, "{mean}");
-        assert!(run.end()[HOUSING + 1] < 0.0, "it hangs");
+        assert!(run.end()[HOUSING.centre()[1]] < 0.0, "it hangs");
     }
 }
 

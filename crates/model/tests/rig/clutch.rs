@@ -26,8 +26,8 @@ fn the_heat_of_a_slip_is_that_of_an_inelastic_impact() {
         // a cubic in time integrated by a method of order three
         assert!((heat / expected - 1.0).abs() < 1e-9, "{heat} {expected}");
         let speed = flywheel * SPEED / (shaft + flywheel);
-        assert!((run.end()[SHAFT + 1] / speed - 1.0).abs() < 1e-12);
-        assert_eq!(run.end()[SHAFT + 1], run.end()[FLYWHEEL + 1]);
+        assert!((run.end()[SHAFT.spin()] / speed - 1.0).abs() < 1e-12);
+        assert_eq!(run.end()[SHAFT.spin()], run.end()[FLYWHEEL.spin()]);
         // locked when the capacity has turned the shaft to that speed
         let locked = run.record.locked_at().expect("locks");
         let impulse = shaft * speed;
@@ -120,7 +120,7 @@ fn it_gives_way_when_overloaded_and_locks_again() {
             assert!(row.probe[CLUTCH_SLIP] > 0.0);
         }
     }
-    assert!((run.end()[SHAFT + 1] / SPEED - 1.0).abs() < 1e-3);
+    assert!((run.end()[SHAFT.spin()] / SPEED - 1.0).abs() < 1e-3);
     assert!(run.energy_residual().abs() < 1e-6);
     for residual in run.momentum_residuals() {
         assert!(residual.abs() < 1e-8, "{residual}");
@@ -137,7 +137,7 @@ fn a_clutch_too_weak_for_the_drags_never_moves_the_shaft_far() {
     );
     assert_eq!(run.record.locked_at(), None);
     // 2 N mm against 5 N mm of support drag that fades at rest: it creeps
-    assert!(run.end()[SHAFT + 1] < 0.5, "{}", run.end()[SHAFT + 1]);
+    assert!(run.end()[SHAFT.spin()] < 0.5, "{}", run.end()[SHAFT.spin()]);
     assert!(run.heat(CLUTCH_HEAT) > 0.1);
 }
 
@@ -164,7 +164,7 @@ fn a_faster_shaft_drives_the_flywheel() {
         );
         assert!(run.record.locked_at().is_some());
         assert!(
-            run.end()[SHAFT + 1] < 0.0,
+            run.end()[SHAFT.spin()] < 0.0,
             "the flywheel is the heavier one"
         );
         assert!(run.heat(CLUTCH_HEAT) > 0.0);

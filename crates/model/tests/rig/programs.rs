@@ -62,15 +62,15 @@ fn a_shaft_coasts_down_in_the_time_of_a_constant_drag() {
     assert!(stop > 7.0 && stop < 8.9, "{stop}");
     for row in run.record.rows().filter(|row| row.time < stop - 1e-3) {
         let expected = SPEED * (1.0 - row.time / stop);
-        assert!((row.state[SHAFT + 1] - expected).abs() < 1e-6 * SPEED);
+        assert!((row.state[SHAFT.spin()] - expected).abs() < 1e-6 * SPEED);
     }
     // at rest it stays, as near as the tolerance looks: 1e-6 of 150 rad/s
     assert!(
-        run.end()[SHAFT + 1].abs() < 1.5e-4,
+        run.end()[SHAFT.spin()].abs() < 1.5e-4,
         "{}",
-        run.end()[SHAFT + 1]
+        run.end()[SHAFT.spin()]
     );
-    assert_eq!(run.end()[FLYWHEEL + 1], 0.0);
+    assert_eq!(run.end()[FLYWHEEL.spin()], 0.0);
     // and its drag took all
     let heat = run.heat(model::system::rig::layout::SUPPORT_HEAT);
     assert!((heat / (0.5 * inertia * SPEED * SPEED) - 1.0).abs() < 1e-6);
@@ -87,7 +87,7 @@ fn a_viscous_drag_slows_by_an_exponential_with_the_flywheel_locked_to_the_shaft(
     let inertia = 1e-3 + c.shaft.inertia + frictionless().set.inner_inertia();
     let run = run(c, 2.0, 1e-8);
     let expected = SPEED * (-2.0 * 1e-3 / inertia).exp();
-    assert!((run.end()[SHAFT + 1] / expected - 1.0).abs() < 1e-6);
+    assert!((run.end()[SHAFT.spin()] / expected - 1.0).abs() < 1e-6);
     assert_eq!(run.record.clutch.len(), 1);
 }
 
@@ -144,7 +144,7 @@ fn a_ramp_is_held() {
                 .rows()
                 .find(|row| row.time >= time)
                 .expect("rows");
-            (row.state[SHAFT + 1], row.probe[ACCELERATION])
+            (row.state[SHAFT.spin()], row.probe[ACCELERATION])
         };
         // the motor follows with a lag of I/gain = 1 ms
         let (speed, acceleration) = at(0.05);
@@ -181,9 +181,9 @@ fn a_test_is_repeated_after_rest() {
         .rfind(|row| row.time < 1.31)
         .expect("rows");
     assert!(
-        before.state[SHAFT + 1].abs() < 0.1,
+        before.state[SHAFT.spin()].abs() < 0.1,
         "{}",
-        before.state[SHAFT + 1]
+        before.state[SHAFT.spin()]
     );
     // the second is as the first
     let first = locks[0] - 0.01;
@@ -216,7 +216,7 @@ fn a_motor_brings_the_flywheel_to_speed_first() {
     );
     let row = run.record.rows().rfind(|row| row.time < 3.5).expect("rows");
     // the gain of 0.5 N m s/rad leaves what the drag asks for: 0.13 rad/s
-    assert!((row.state[FLYWHEEL + 1] - SPEED).abs() < 0.2);
-    assert_eq!(row.state[SHAFT + 1], 0.0);
+    assert!((row.state[FLYWHEEL.spin()] - SPEED).abs() < 0.2);
+    assert_eq!(row.state[SHAFT.spin()], 0.0);
     assert!(run.energy_residual().abs() < 1e-6);
 }

@@ -73,7 +73,7 @@ fn the_disturbance_turns_with_the_shaft_and_grows_with_its_square() {
                         .sqrt();
                 let behind = (2.0 * arm.damping_ratio * ratio).atan2(1.0 - ratio * ratio);
                 let amplitude = 2e-3 * (speed / SPEED).powi(2) * gain;
-                let expected = amplitude * (row.state[SHAFT] + 0.3 - behind).cos();
+                let expected = amplitude * (row.state[SHAFT.angle()] + 0.3 - behind).cos();
                 (row.state[ARM] - row.probe[OUTER_MOMENT] - expected).abs() / amplitude
             })
             .fold(0.0, f64::max);
@@ -153,11 +153,11 @@ fn a_converter_samples_one_channel_after_the_other_and_changes_nothing() {
         Program::spin_up(SPEED, 0.005, engagement, true)
     };
     for bearing in fidelities() {
-        let mut taps = multiplexed(&[SHAFT, ARM, CAGE_ANGLE, THERMOCOUPLE], 42e3);
+        let mut taps = multiplexed(&[SHAFT.angle(), ARM, CAGE_ANGLE, THERMOCOUPLE], 42e3);
         assert_eq!(taps[1].first, 1.0 / 42e3);
         // and one on the rows
         taps.push(Tap {
-            channel: SHAFT + 1,
+            channel: SHAFT.spin(),
             first: 0.0,
             interval: 5e-4,
         });
@@ -174,7 +174,7 @@ fn a_converter_samples_one_channel_after_the_other_and_changes_nothing() {
         let rows: Vec<f64> = tapped
             .record
             .rows()
-            .map(|row| row.state[SHAFT + 1])
+            .map(|row| row.state[SHAFT.spin()])
             .collect();
         assert_eq!(&rows[..100], &lists[4].1[..100]);
         // its derivative: angle by samples, speed by rows
@@ -190,7 +190,7 @@ fn a_converter_samples_one_channel_after_the_other_and_changes_nothing() {
             .rows()
             .find(|row| row.time > time)
             .expect("rows");
-        let between = before.state[SHAFT + 1]..after.state[SHAFT + 1];
+        let between = before.state[SHAFT.spin()]..after.state[SHAFT.spin()];
         assert!(between.contains(&speed), "{speed} {between:?}");
         assert!(lists[2].1.last() > Some(&0.0), "the cage turns");
     }

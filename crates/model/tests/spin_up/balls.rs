@@ -86,7 +86,7 @@ fn moments_differ_by_what_balls_and_cage_gain(bearing: PlanarConstants) {
     for row in run.record.rows().step_by(7) {
         let (rate, probe) = run.machine.inspect(row.time, row.state);
         let layout = run.machine.layout();
-        let by_rates = rate[layout.work(2)] / row.state[INNER + 5];
+        let by_rates = rate[layout.work(2)] / row.state[INNER.spin()];
         let by_moments = probe[INNER_MOMENT] - probe[OUTER_MOMENT];
         // rounding of contact forces of 30 N on 2 cm
         assert!(
@@ -120,7 +120,7 @@ fn moments_differ_by_what_balls_and_cage_gain(bearing: PlanarConstants) {
 fn without_friction_nothing_is_spun_up() {
     let smooth = run(planar_machine(free_bearing(), rotor(0.0)), 5e-3, 1e-5);
     // balls a rounding off their rest ring at 41 kHz
-    assert!(smooth.end[INNER + 5].abs() < 1e-12);
+    assert!(smooth.end[INNER.spin()].abs() < 1e-12);
     let heat = smooth.machine.flows(&smooth.end).heat;
     assert!(heat < 1e-12, "{heat}");
     // a race that turns, but cannot grip its balls
@@ -151,9 +151,9 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         let layout = machine.layout().clone();
         [
             // places by the size of the displacement, a rounding of which rings at 41 kHz
-            1.0 + sign * end[INNER] * 1e5,
-            1.0 + end[INNER + 1] * 1e5,
-            sign * end[INNER + 5],
+            1.0 + sign * end[INNER.centre()[0]] * 1e5,
+            1.0 + end[INNER.centre()[1]] * 1e5,
+            sign * end[INNER.spin()],
             sign * end[BEARING + 1],
             end[layout.heat(7)],
             end[layout.heat(3)],
@@ -209,7 +209,7 @@ fn a_bearing_starts_in_balance_under_its_load() {
         let machine = SpinUpMachine::new(c).expect("can be built");
         let state = machine.start();
         let (rate, probe) = machine.inspect(0.0, &state);
-        let force = 20.4e-3 * rate[INNER + 2].hypot(rate[INNER + 3]);
+        let force = 20.4e-3 * rate[INNER.velocity()[0]].hypot(rate[INNER.velocity()[1]]);
         // balls shared between contacts along the azimuth instead of the true normals: displacement over radius
         assert!(force < 2e-3 * load + 1e-9, "{interference} {load}: {force}");
         let loads = &probe[DETAIL..DETAIL + 10];
@@ -234,7 +234,7 @@ fn a_loaded_race_free_to_move_closes_its_ledger() {
     c.race.gravity = vec2(0.0, -9.81);
     c.load = Table::through(vec![(0.0, 100.0), (5e-3, 300.0)]).expect("rises");
     let run = run(c, 0.02, 1e-6);
-    assert!(run.end[INNER + 5] > 900.0, "{}", run.end[INNER + 5]);
+    assert!(run.end[INNER.spin()] > 900.0, "{}", run.end[INNER.spin()]);
     let energy = run.machine.outer_race_energy(&run.start, &run.end);
     let residual = run.machine.balance(&run.start, &run.end).energy_residual();
     assert!(residual.abs() < 1e-4 * energy.dissipated, "{residual}");

@@ -22,7 +22,7 @@ fn cage_slips(traction: Traction<f64>, rolling: bool) -> [f64; 2] {
     c.load = Table::constant(LOAD);
     let machine = SpinUpMachine::new(c).expect("can be built");
     let mut state = machine.start();
-    state[INNER + 5] = SPEED;
+    state[INNER.spin()] = SPEED;
     if rolling {
         start_rolling.roll(&mut state[BEARING..], SPEED);
     }

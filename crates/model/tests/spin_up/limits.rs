@@ -105,7 +105,7 @@ fn a_ramp_ends_at_its_speed_and_stays() {
             [0.01]
         );
         let run = run(c, 0.015, 1e-6);
-        let reached = run.end[model::system::spin_up::layout::INNER + 5];
+        let reached = run.end[model::system::spin_up::layout::INNER.spin()];
         // rounding of the sum of the steps
         assert!((reached - speed).abs() < 1e-9, "{reached}");
         let half = run.record.inner_race_time_to_50_percent().expect("reached");

@@ -69,7 +69,7 @@ pub fn plateaus(bearing: &PlanarConstants, load: f64, speeds: &[f64]) -> Vec<Pla
             capacity: capacity / means.steady_moment.abs(),
         });
         state = Some(ending.state);
-        from = state.as_ref().expect("just set")[INNER + 5];
+        from = state.as_ref().expect("just set")[INNER.spin()];
     }
     list
 }

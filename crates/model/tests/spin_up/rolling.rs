@@ -49,7 +49,7 @@ fn without_a_moment_the_race_accelerates_steadily_against_all_inertia() {
     let run = run(rolling_machine(bearing, saturated(0.1), 80.0), 0.02, 1e-6);
     let expected = 12.5e-3 * 0.1 * 80.0 * 0.02 / inertia;
     // an exact straight line: rounding of some hundred steps
-    assert!((run.end[INNER + 5] / expected - 1.0).abs() < 1e-12);
+    assert!((run.end[INNER.spin()] / expected - 1.0).abs() < 1e-12);
     let (energy, momentum) = residuals(&run);
     assert!(
         energy.abs() < 1e-12 && momentum < 1e-12,
@@ -71,13 +71,13 @@ fn a_loss_proportional_to_acceleration_is_an_inertia_that_helps_no_brake() {
     let c = rolling_machine(bearing.clone(), Drive::Torque(torque), 0.0);
     let faster = run(c.clone(), 0.01, 1e-8);
     let top = 0.05 * 0.01 / (inertia + arm * q);
-    assert!((faster.end[INNER + 5] / top - 1.0).abs() < 1e-10);
+    assert!((faster.end[INNER.spin()] / top - 1.0).abs() < 1e-10);
     let whole = run(c, 0.02, 1e-8);
     // the flank of 1 µs: 5/7 of it forward, then against, with the smaller inertia
     let (forward, against) = (0.5 * 0.05 * 5.0 / 7.0 * 1e-6, 0.5 * 0.02 * 2.0 / 7.0 * 1e-6);
     let peak = top + forward / (inertia + arm * q);
     let expected = peak - (against + 0.02 * (0.01 - 1e-6)) / (inertia - arm * q);
-    let speed = whole.end[INNER + 5];
+    let speed = whole.end[INNER.spin()];
     assert!((speed - expected).abs() < 1e-6 * top, "{speed} {expected}");
     // what 0.02 N m took away is more than two fifths of what 0.05 N m gave
     assert!(expected > 0.0 && top - expected > 1.5 * 0.4 * top);
@@ -100,7 +100,7 @@ fn from_rest_the_loss_acts_whichever_way_the_race_sets_off() {
     };
     let end = |torque: f64| {
         let drive = Drive::Torque(Table::constant(torque));
-        run(rolling_machine(bearing.clone(), drive, 0.0), 0.01, 1e-6).end[INNER + 5]
+        run(rolling_machine(bearing.clone(), drive, 0.0), 0.01, 1e-6).end[INNER.spin()]
     };
     assert_eq!(end(0.05), -end(-0.05));
 }
@@ -124,7 +124,7 @@ fn moments_on_both_races_are_those_of_14_and_15() {
         .rows()
         .filter(|row| row.time > 1e-3 && row.time < 0.149)
     {
-        let omega = row.state[INNER + 5];
+        let omega = row.state[INNER.spin()];
         let rate = if row.time < 0.1 { 7200.0 } else { -8400.0 };
         if (row.time - 0.1).abs() < 1e-6 {
             continue; // the knot itself belongs to either side
@@ -201,10 +201,10 @@ fn a_loss_over_speed_brakes_a_race_that_coasts() {
     let torque = vec![(0.0, 0.2), (5e-3, 0.2), (5.001e-3, 0.0)];
     let drive = Drive::Torque(Table::through(torque).expect("rises"));
     let c = rolling_machine(bearing, drive, 0.0);
-    let top = run(c.clone(), 5.001e-3, 1e-8).end[INNER + 5];
+    let top = run(c.clone(), 5.001e-3, 1e-8).end[INNER.spin()];
     let whole = run(c, 25.001e-3, 1e-8);
     let expected = top * (-arm * 2e-4 * 0.02 / inertia).exp();
-    let speed = whole.end[INNER + 5];
+    let speed = whole.end[INNER.spin()];
     // error control at 1e-8
     assert!((speed / expected - 1.0).abs() < 1e-6, "{speed} {expected}");
     assert!(expected < 0.999 * top);
@@ -227,7 +227,7 @@ fn a_free_rotor_and_the_race_share_their_angular_momentum() {
         0.2,
         1e-8,
     );
-    let (race, rotor) = (run.end[INNER + 5], run.end[ROTOR + 1]);
+    let (race, rotor) = (run.end[INNER.spin()], run.end[ROTOR.spin()]);
     // error control at 1e-8 while friction is stiff
     assert!((race / rotor - 1.0).abs() < 1e-7, "{race} {rotor}");
     // the outer race takes -J_O Ω̇ from what the rotor gives: the speeds follow from the inertias at the inner race
@@ -259,7 +259,7 @@ fn steps_end_on_the_knots_of_a_load() {
     c.load = load;
     let run = run(c, 0.01, 1e-3);
     let expected = 12.5e-3 * 0.1 * area / inertia;
-    assert!((run.end[INNER + 5] / expected - 1.0).abs() < 1e-12);
+    assert!((run.end[INNER.spin()] / expected - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -270,7 +270,7 @@ fn a_race_free_to_move_closes_its_ledger_too() {
     c.race.centre_held = false;
     c.race.gravity = vec2(0.0, -9.81);
     let run = run(c, 0.04, 1e-7);
-    assert!(run.end[INNER + 1] < -0.2e-6, "pressed down");
+    assert!(run.end[INNER.centre()[1]] < -0.2e-6, "pressed down");
     let (energy, momentum) = residuals(&run);
     assert!(
         energy.abs() < 1e-5 && momentum < 1e-5,

@@ -4,6 +4,7 @@ use crate::bearing::film::Films;
 use crate::bearing::run::BearingRun;
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, LubricantAt, Separation};
+use model::body::BodyAt;
 use model::system::energy::Balance;
 use model::system::layout::{Entry, Layout};
 use model::system::sampling::Row;
@@ -57,12 +58,13 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Place and speed of the inner race: x y, velocities, angle, speed, from a first channel.
-    pub fn inner_race(&mut self, first: usize) {
+    /// Place and speed of the inner race.
+    pub fn inner_race(&mut self, race: BodyAt) {
+        let [x, y] = race.centre();
         columns! { self.columns, |row|
-            "bearing.inner_race.x": "m", "inner race centre, to the right" => row.state[first];
-            "bearing.inner_race.y": "m", "inner race centre, upwards" => row.state[first + 1];
-            "bearing.inner_race.speed": "rad/s", "spin of the inner race" => row.state[first + 5];
+            "bearing.inner_race.x": "m", "inner race centre, to the right" => row.state[x];
+            "bearing.inner_race.y": "m", "inner race centre, upwards" => row.state[y];
+            "bearing.inner_race.speed": "rad/s", "spin of the inner race" => row.state[race.spin()];
         }
     }
 

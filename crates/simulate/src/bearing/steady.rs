@@ -64,7 +64,7 @@ pub(crate) fn steady(
     })
     .map_err(refused)?;
     let mut state = machine.start();
-    state[INNER + 5] = speed;
+    state[INNER.spin()] = speed;
     let (_, probe) = machine.inspect(0.0, &state);
     let moment = probe[STEADY_MOMENT];
     let traction = traction(bearing, &ball_contacts(bearing)?)?;

@@ -40,7 +40,7 @@ impl Warms for SpinUpMachine {
         Some(self.first_heat() + bearing::HEATS.len())
     }
     fn spin(&self) -> usize {
-        INNER + 5
+        INNER.spin()
     }
     fn bearing(&self) -> (&BearingConstants, usize) {
         (&self.constants.bearing, self.layout().bearing().start)
@@ -63,7 +63,7 @@ impl Warms for RigMachine {
         None
     }
     fn spin(&self) -> usize {
-        SHAFT + 1
+        SHAFT.spin()
     }
     fn bearing(&self) -> (&BearingConstants, usize) {
         (&self.constants.bearing, self.layout().bearing().start)

@@ -79,8 +79,8 @@ fn of_bearing(setup: Setup, k: usize, of: &BearingRun, run: Option<&Context>) ->
     }
     table.inner_race(at.inner);
     columns! { table.columns, |row|
-        "bearing.outer_race.x": "m", "outer race centre, from the line of levitation to the right" => row.state[at.outer];
-        "bearing.outer_race.y": "m", "outer race centre, from the line of levitation upwards" => row.state[at.outer + 1];
+        "bearing.outer_race.x": "m", "outer race centre, from the line of levitation to the right" => row.state[at.outer.centre()[0]];
+        "bearing.outer_race.y": "m", "outer race centre, from the line of levitation upwards" => row.state[at.outer.centre()[1]];
         "bearing.cage.speed": "rad/s", "spin of the cage; without one the mean orbit speed of the balls"
             when setup.given(k).bearing.is_some() => machine.cage_speed(k, row.state);
         "bearing.contact.force": "N", "normal force of rotor and inner race" => row.probe[at.probe(NORMAL_FORCE)];

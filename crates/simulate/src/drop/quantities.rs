@@ -167,7 +167,7 @@ results! {
             run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed of the rotor's release speed")
         };
         "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => {
-            run.balls.end[run.context.setup.machine.layout().bearings[run.k].inner + 5]
+            run.balls.end[run.context.setup.machine.layout().bearings[run.k].inner.spin()]
         };
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.context.setup.machine.cage_speed(run.k, run.balls.end);
     }

@@ -216,7 +216,7 @@ impl<'a> Way<'a> {
         let factor = speed / state[spin].abs();
         state[spin] *= factor;
         for (at, part) in layout.bearings.iter().zip(&machine.constants.bearings) {
-            state[at.inner + 5] *= factor;
+            state[at.inner.spin()] *= factor;
             (part.bearing).change_speeds(&mut state[at.own()], factor);
         }
         self.last.machine = machine;
@@ -234,7 +234,8 @@ impl<'a> Way<'a> {
     /// Speeds of the inner races, rad/s.
     fn races(&self) -> Vec<f64> {
         let each = self.last.machine.layout().bearings.iter();
-        each.map(|at| self.last.state[at.inner + 5].abs()).collect()
+        each.map(|at| self.last.state[at.inner.spin()].abs())
+            .collect()
     }
 
     /// The motion goes on for so many turns, or so many seconds if these are less; how long that is, s, and what was seen.
@@ -327,7 +328,7 @@ impl<'a> Way<'a> {
             let part = &self.context.setup.machine.constants.bearings[k];
             let drag_factor = (part.bearing).drag_factor(&|own| state[at.own().start + own]);
             drag_factors.push(drag_factor);
-            spins.push(state[at.inner + 5].abs());
+            spins.push(state[at.inner.spin()].abs());
             let of_nodes: OfNodes = match &part.warm {
                 Some(warm) => {
                     let lubricant = built.start.temperatures[k * NODES.len() + LUBRICANT];
@@ -336,7 +337,7 @@ impl<'a> Way<'a> {
                         .heat
                         .as_ref()
                         .map_or(0.0, |heat| heat.slid.uneven);
-                    warm.over_nodes(&heats, state[at.inner + 5], oil, slid / span)
+                    warm.over_nodes(&heats, state[at.inner.spin()], oil, slid / span)
                 }
                 None => [0.0; NODES.len()],
             };

@@ -322,7 +322,7 @@ pub(crate) fn taps(rig: &Rig) -> Vec<Tap> {
     let analog = analog(rig);
     let mut channels = Vec::new();
     if analog {
-        channels.push(SHAFT);
+        channels.push(SHAFT.angle());
     }
     channels.push(ARM);
     if rig.ball_pass.is_some() {
@@ -332,7 +332,7 @@ pub(crate) fn taps(rig: &Rig) -> Vec<Tap> {
     let mut taps = multiplexed(&channels, rig.logger.total_rate);
     if !analog {
         let interval = taps[0].interval;
-        taps.extend([SHAFT, SHAFT + 1].map(|channel| Tap {
+        taps.extend([SHAFT.angle(), SHAFT.spin()].map(|channel| Tap {
             channel,
             first: 0.0,
             interval,

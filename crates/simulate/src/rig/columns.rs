@@ -50,8 +50,8 @@ pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Co
     let mut table = Table::over(&of);
     columns! { table.columns, |row|
         "time": "s", "time since the start" => row.time;
-        "bearing.inner_race.speed": "rad/s", "spin of the shaft with the inner race" => row.state[SHAFT + 1];
-        "flywheel.speed": "rad/s", "spin of the flywheel" => row.state[FLYWHEEL + 1];
+        "bearing.inner_race.speed": "rad/s", "spin of the shaft with the inner race" => row.state[SHAFT.spin()];
+        "flywheel.speed": "rad/s", "spin of the flywheel" => row.state[FLYWHEEL.spin()];
         "arm.reading": "N m", "torque that the swinging arm indicates, before its gauges" => row.state[ARM];
     }
     let heated = Heated::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
@@ -75,8 +75,8 @@ pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Co
     columns! { table.columns, |row|
         "bearing.temperature_rise": "K", "temperature of the outer race above that at the start" => rise(row);
         "thermocouple.temperature_rise": "K", "what the thermocouple has of it" => reading(row);
-        "housing.x": "m", "centre of the outer race, to the right" when centre_moves => row.state[HOUSING];
-        "housing.y": "m", "centre of the outer race, upwards" when centre_moves => row.state[HOUSING + 1];
+        "housing.x": "m", "centre of the outer race, to the right" when centre_moves => row.state[HOUSING.centre()[0]];
+        "housing.y": "m", "centre of the outer race, upwards" when centre_moves => row.state[HOUSING.centre()[1]];
     }
     for (probe, ((name, unit), meaning)) in PROBES.into_iter().zip(MEANINGS).enumerate() {
         columns! { table.columns, |row| "{name}": unit, "{meaning}" when !meaning.is_empty() => row.probe[probe]; }

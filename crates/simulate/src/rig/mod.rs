@@ -164,8 +164,8 @@ fn happened(rig: &Rig, record: &Record, bead: Option<&Bead>) -> Happened {
         }
     }
     Happened {
-        shaft_angle: sampled(SHAFT),
-        shaft_speed: sampled(SHAFT + 1),
+        shaft_angle: sampled(SHAFT.angle()),
+        shaft_speed: sampled(SHAFT.spin()),
         arm: sampled(ARM),
         cage_angle: sampled(CAGE_ANGLE),
         thermocouple,

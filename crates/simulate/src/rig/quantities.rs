@@ -54,8 +54,8 @@ results! {
         "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
             run.record.cage_time_to_95_percent().ok_or_else(|| never(95.0))
         };
-        "shaft_final_speed": number "rad/s" headline, SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT + 1];
-        "flywheel_final_speed": number "rad/s", SPEED, "speed of the flywheel at the end" => run.ending.state[FLYWHEEL + 1];
+        "shaft_final_speed": number "rad/s" headline, SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT.spin()];
+        "flywheel_final_speed": number "rad/s", SPEED, "speed of the flywheel at the end" => run.ending.state[FLYWHEEL.spin()];
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
         "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.record.clutch_torque.value;
         "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
@@ -117,7 +117,7 @@ impl Context<'_> {
     }
     /// Cage slip over the last turn of the cage, or at the last instant where there was none.
     fn late_slip(&self) -> Result<f64, String> {
-        let turns = self.ending.state[SHAFT + 1].abs() > 0.05 * self.rig.speed;
+        let turns = self.ending.state[SHAFT.spin()].abs() > 0.05 * self.rig.speed;
         match (self.rig.bearing.fidelity, turns) {
             (Fidelity::Rolling, _) => {
                 Err("the rolling fidelity takes the balls to roll".to_string())

@@ -34,7 +34,10 @@ problem::warnings! {
 pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]) -> Vec<Warning> {
     let bearing = &context.rig.bearing;
     let mut list = Vec::new();
-    let speeds = context.record.rows().map(|row| row.state[SHAFT + 1].abs());
+    let speeds = context
+        .record
+        .rows()
+        .map(|row| row.state[SHAFT.spin()].abs());
     let speed = speeds.fold(0.0, f64::max);
     list.extend(shared::skids(context.built.steady.as_ref()));
     if let Some(warming) = context.warming {

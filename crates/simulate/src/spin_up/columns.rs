@@ -39,7 +39,7 @@ pub(crate) fn history(spin_up: &SpinUp, built: &Built, run: Option<&Context>) ->
     let slides = matches!(spin_up.drive, Drive::SlidingRotor { .. });
     columns! { table.columns, |row|
         "time": "s", "time since the start" => row.time;
-        "rotor.speed": "rad/s", "spin of the rotor" when slides => row.state[ROTOR + 1];
+        "rotor.speed": "rad/s", "spin of the rotor" when slides => row.state[ROTOR.spin()];
     }
     table.inner_race(INNER);
     for (probe, ((name, unit), meaning)) in PROBES.into_iter().zip(MEANINGS).enumerate() {

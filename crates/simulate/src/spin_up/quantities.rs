@@ -58,10 +58,10 @@ results! {
             let rolling = spin_up.target_speed() * run.machine().constants.bearing.rolling_cage_ratio();
             run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed", 0.95 * rolling)
         };
-        "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => run.ending.state[INNER + 5];
+        "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => run.ending.state[INNER.spin()];
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
         "rotor_final_speed": number "rad/s", SPEED, "speed of the sliding rotor at the end" => match spin_up.drive {
-            Drive::SlidingRotor { .. } => Ok(run.ending.state[ROTOR + 1]),
+            Drive::SlidingRotor { .. } => Ok(run.ending.state[ROTOR.spin()]),
             Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
         };
         "peak_inner_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the inner race" in tile "Largest moment t_I" => run.record.inner_moment.value;
@@ -138,7 +138,7 @@ impl Context<'_> {
         if self.ending.stop != solve::Stop::Finished {
             return Err("the run ended early".to_string());
         }
-        let speed = self.ending.state[INNER + 5];
+        let speed = self.ending.state[INNER.spin()];
         self.record.late_means(speed).ok_or_else(|| {
             let ratio = self.machine().constants.bearing.rolling_cage_ratio();
             let turn = 2.0 * std::f64::consts::PI / (ratio * self.spin_up.target_speed()).abs();
@@ -160,7 +160,7 @@ impl Context<'_> {
     fn if_balls_slide(&self) -> Result<(), String> {
         match self.spin_up.bearing.fidelity {
             Fidelity::Rolling => Err("the rolling fidelity takes the balls to roll".to_string()),
-            Fidelity::Planar if self.is_fast(self.ending.state[INNER + 5]) => Ok(()),
+            Fidelity::Planar if self.is_fast(self.ending.state[INNER.spin()]) => Ok(()),
             Fidelity::Planar => Err("the inner race hardly turns at the end".to_string()),
         }
     }
@@ -171,7 +171,7 @@ impl Context<'_> {
             return Value::None { why: why.clone() };
         }
         let rows = self.record.rows();
-        let fast = rows.filter(|row| self.is_fast(row.state[INNER + 5]));
+        let fast = rows.filter(|row| self.is_fast(row.state[INNER.spin()]));
         // a cage that runs ahead of rolling skids as well
         let largest = fast
             .map(|row| row.probe[CAGE_SLIP].abs())
@@ -197,10 +197,10 @@ impl Context<'_> {
 /// What (21) and the bounds of the path term take for granted: from rest the race only gains speed, and the balls roll
 /// at the end. The reason where it does not hold.
 pub(crate) fn rolling_start_to_end(context: &Context) -> Result<(), String> {
-    let end = context.ending.state[INNER + 5];
+    let end = context.ending.state[INNER.spin()];
     let mut fastest = 0.0_f64;
     for row in context.record.rows() {
-        let speed = row.state[INNER + 5] * end.signum();
+        let speed = row.state[INNER.spin()] * end.signum();
         if speed < fastest - LOST_SPEED * end.abs() {
             return Err("the inner race loses speed on the way".to_string());
         }

@@ -47,7 +47,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         let rows = context.record.rows();
         rows.map(|row| value(&row).abs()).fold(0.0, f64::max)
     };
-    let speed = largest(&|row| row.state[INNER + 5]);
+    let speed = largest(&|row| row.state[INNER.spin()]);
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
     list.extend(creeps(bearing, speed));
     list.extend(shared::skids(context.built.steady.as_ref()));

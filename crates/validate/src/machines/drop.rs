@@ -121,7 +121,10 @@ impl Observer<RotorMachine> for Watch {
                     }
                 }
             }
-            let spins = [step.start_state(at.inner + 5), step.end_state(at.inner + 5)];
+            let spins = [
+                step.start_state(at.inner.spin()),
+                step.end_state(at.inner.spin()),
+            ];
             let limit = 0.9 * self.speed;
             let part = (limit - spins[0]) / (spins[1] - spins[0]);
             if own.ninety.is_none() && (0.0..=1.0).contains(&part) {
@@ -208,7 +211,7 @@ fn run(file: &Value, machine: &RotorMachine, start: Vec<f64>) -> Result<Vec<Row>
             ("t_inner_50%", "s", record.inner_race_time_to_50_percent()),
             ("t_inner_90%", "s", own.ninety),
             ("friction_heat", "J", heat("rotor_race_friction")),
-            ("inner_speed_end", "rad/s", Some(state[at.inner + 5])),
+            ("inner_speed_end", "rad/s", Some(state[at.inner.spin()])),
             (
                 "cage_speed_end",
                 "rad/s",

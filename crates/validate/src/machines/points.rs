@@ -7,6 +7,7 @@ use crate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::bearing::ball::BallMotion;
 use model::bearing::{BearingConstants, PlanarConstants};
+use model::body::BodyAt;
 use model::mount;
 use model::system::machine::RotorMachine;
 use number::Vec2;
@@ -118,8 +119,8 @@ fn state(
     let mut state = turned.start_with(&position, &velocity);
     for (k, given) in bearings(machine, point)?.iter().enumerate() {
         let at = machine.layout().bearings[k];
-        state[at.inner..at.inner + 6].copy_from_slice(&numbers::<6>(given, "inner")?);
-        state[at.outer..at.outer + 4].copy_from_slice(&numbers::<4>(given, "outer")?);
+        state[at.inner.channels()].copy_from_slice(&numbers::<6>(given, "inner")?);
+        state[at.outer.channels()].copy_from_slice(&numbers::<4>(given, "outer")?);
         state[at.bearing..at.bearing + 2].copy_from_slice(&numbers::<2>(given, "cage")?);
         let of_mount = &mut state[at.of_mount()];
         of_mount[..6].copy_from_slice(&numbers::<6>(given, "mount")?);
@@ -244,7 +245,7 @@ fn bearing(
     let inner: [f64; 6] = numbers(given, "d_inner")?;
     let outer: [f64; 4] = numbers(given, "d_outer")?;
     let cage: [f64; 2] = numbers(given, "d_cage")?;
-    let pair = |from: usize, list: &[f64], i: usize| (rate[from + i], list[i]);
+    let pair = |body: BodyAt, list: &[f64], i: usize| (rate[body.channels().start + i], list[i]);
     classes.add(
         ("velocity of a race", "m/s"),
         CLOSE,
@@ -264,7 +265,7 @@ fn bearing(
     classes.add(
         ("spin acceleration of race and cage", "rad/s²"),
         CLOSE,
-        [pair(at.inner, &inner, 5), pair(at.bearing, &cage, 1)],
+        [pair(at.inner, &inner, 5), (rate[at.bearing + 1], cage[1])],
     );
     for (ball, values) in list(given, "d_balls")?.iter().enumerate().take(at.balls) {
         let own = planar(machine, k)?.motion(&rate[at.bearing..], ball);

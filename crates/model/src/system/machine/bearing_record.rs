@@ -130,7 +130,7 @@ const CONTACTS: usize = 4096;
 fn rises(machine: &RotorMachine, bearing: usize, speed: f64) -> Vec<Rise> {
     let part = &machine.constants.bearings[bearing].bearing;
     let at = machine.layout().bearings[bearing];
-    let race = |share: f64| Rise::through(at.inner + 5, share * speed);
+    let race = |share: f64| Rise::through(at.inner.spin(), share * speed);
     let mut rises = vec![race(0.5), race(0.95)];
     if matches!(part, BearingConstants::Planar(_)) {
         let ratio = part.rolling_cage_ratio();
@@ -369,7 +369,10 @@ impl BearingRecord {
         self.last_forces = (start, length);
         let normal = at.probe(NORMAL_FORCE);
         self.impulse += 0.5 * length * (step.start_probe(normal) + step.end_probe(normal));
-        let spins = [step.start_state(at.inner + 5), step.end_state(at.inner + 5)];
+        let spins = [
+            step.start_state(at.inner.spin()),
+            step.end_state(at.inner.spin()),
+        ];
         let share = length / (4.0 * PI);
         for (spin, forces) in spins.into_iter().zip([start, end]) {
             let (turned, load) = (share * spin.abs(), forces[LOAD]);
@@ -424,14 +427,14 @@ impl BearingRecord {
             return;
         }
         let channels = machine.layout().rotor.channels();
-        let state = step.leading_state(1.0, channels.max(at.inner + 6));
+        let state = step.leading_state(1.0, channels.max(at.inner.channels().end));
         let rotor = machine.layout().rotor.motion(state);
         let centre = machine.one.nodes[self.bearing].centre(&rotor);
-        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
+        let race = at.inner.motion(state);
         let motions = Motions {
-            offset: centre.position - pair(at.inner),
-            velocity: centre.velocity - pair(at.inner + 2),
-            spins: [rotor.spin, state[at.inner + 5]],
+            offset: centre.position - race.position,
+            velocity: centre.velocity - race.velocity,
+            spins: [rotor.spin, race.spin],
         };
         let sizes = [contact.bore_radius, contact.radial_clearance];
         heat.take(surfaces, sizes, &seen, &motions);
@@ -478,7 +481,7 @@ impl BearingRecord {
         let seen = WarmthSeen {
             time,
             heats: std::array::from_fn(|k| state(self.first_heat + k)),
-            spin: state(self.at.inner + 5),
+            spin: state(self.at.inner.spin()),
             drag_factor: part.bearing.drag_factor(&|own| state(first + own)),
             films: part.bearing.in_films(&|own| state(first + own)),
             taken: (self.heat.as_ref()).map(|heat| (heat.taken(), heat.slid.impulse)),
@@ -492,7 +495,7 @@ impl BearingRecord {
     pub(super) fn rolling_of(&mut self, step: &Step<RotorMachine>) -> bool {
         let (machine, at) = (step.machine, self.at);
         let part = &machine.constants.bearings[self.bearing];
-        let spin = step.end_state(at.inner + 5);
+        let spin = step.end_state(at.inner.spin());
         let cage = spin * part.bearing.rolling_cage_ratio();
         let slip = step.end_probe(at.probe(SLIP_SPEED));
         let slow = |error: f64, speed: f64| error.abs() < ROLLING_SLIP * speed.abs();
@@ -511,8 +514,8 @@ impl BearingRecord {
 
     /// Follows the whirl of the rotor about the inner race.
     pub(super) fn whirl_of(&mut self, step: &mut Step<RotorMachine>) {
-        let inner = self.at.inner;
-        let race = Vec2::new(step.end_state(inner), step.end_state(inner + 1));
+        let [x, y] = (self.at.inner.centre()).map(|channel| step.end_state(channel));
+        let race = Vec2::new(x, y);
         let offset = centre_at_end(step, self.bearing) - race;
         let spin = step.end_state(step.machine.layout().rotor.spin());
         self.travel.to(step.end, offset, spin);
@@ -567,7 +570,8 @@ fn contact_at(step: &mut Step<RotorMachine>, bearing: usize, theta: f64) -> Cont
     let machine = step.machine;
     let at = &machine.layout().bearings[bearing];
     // both races; the one ring of a bushing ends behind its spin
-    let state = step.leading_state(theta, (at.outer + 4).max(at.inner + 6));
+    let ends = [at.inner, at.outer].map(|race| race.channels().end);
+    let state = step.leading_state(theta, ends[0].max(ends[1]));
     let rotor = machine.layout().rotor.motion(state);
     let centre = machine.one.nodes[bearing].centre(&rotor);
     (machine.constants.bearings[bearing].contact).react(

@@ -119,8 +119,8 @@ impl Layout {
                 .chain(auxiliary_bearing::OWN_HEATS);
             let balls = part.bearing.balls();
             bearings.push(BearingAt {
-                inner: races[k].0,
-                outer: races[k].1,
+                inner: races[k][0],
+                outer: races[k][1],
                 bearing: states[k].start,
                 bearing_states: states[k].len(),
                 mount: mounts[k].start,
@@ -185,14 +185,6 @@ impl Layout {
             .map(|part| part.contact.radial_clearance);
         let smallest = clearances.fold(f64::INFINITY, f64::min);
         let fall = |clearance: f64| (2.0 * gravity * clearance).sqrt();
-        let body = |scale: &mut [f64], body: usize, clearance: f64, turns: bool| {
-            scale[body..body + 2].fill(0.01 * clearance);
-            scale[body + 2..body + 4].fill(0.3 * fall(clearance));
-            if turns {
-                scale[body + 4] = 1.0;
-                scale[body + 5] = spin;
-            }
-        };
         let rotor = self.rotor;
         for (k, reach) in reaches(constants).into_iter().enumerate() {
             let speed = 0.3 * fall(smallest);
@@ -214,8 +206,9 @@ impl Layout {
         for (at, part) in self.bearings.iter().zip(&constants.bearings) {
             let clearance = part.contact.radial_clearance;
             let fall_speed = fall(clearance);
-            body(&mut scale, at.inner, clearance, true);
-            body(&mut scale, at.outer, clearance, false);
+            for race in [at.outer, at.inner] {
+                race.error_scale(&mut scale, 0.01 * clearance, 0.3 * fall_speed, spin);
+            }
             (part.bearing).error_scale(&mut scale[at.own()], spin, fall_speed);
             let of_mount = &mut scale[at.of_mount()];
             (part.mount_parts).error_scale(of_mount, 0.01 * clearance, 0.3 * fall_speed);

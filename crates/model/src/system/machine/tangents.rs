@@ -17,6 +17,7 @@ use super::rotor_rows::RotorRows;
 use super::{Machines, Mode, RotorMachine};
 use crate::bearing::tangents::{BallTangents, Known, KnownRates, ROWS};
 use crate::bearing::{self, Planar};
+use crate::body::pair;
 use crate::rotor::RotorMotion;
 use crate::system::border::{add_bearing, factor, follow, hold, solve, turn};
 use number::{Mask, Real, Vec2};
@@ -280,15 +281,14 @@ impl<R: Real> Tangents<R> for Machines<R> {
         let (l, inverse_l) = (self.rotor_radius(), self.inverse_rotor_radius);
         let (rotor, at_rotor) = (&self.rotor, &self.layout.rotor);
         let (angle, spin) = (at_rotor.angle(), at_rotor.spin());
-        let pair = |side: &[R], at: usize| Vec2::new(side[at], side[at + 1]);
         rows.side(rotor, &self.nodes, at_rotor, side, of_border);
         of_border[rows.spin()] = rotor.polar_inertia * side[spin] * inverse_l;
         for (k, part) in parts.iter_mut().enumerate() {
             let at = &self.layout.bearings[k];
             let (auxiliary, planar) = (&self.bearings[k], self.planar(k));
             let known = KnownRates {
-                inner: pair(side, at.inner),
-                outer: pair(side, at.outer),
+                inner: pair(side, at.inner.centre()),
+                outer: pair(side, at.outer.centre()),
                 cage: side[at.bearing],
             };
             let of_balls = planar.forward(&part.balls, &known, &mut side[at.own()]);
@@ -296,11 +296,11 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let scales = planar.border();
             let outer = known.outer * (auxiliary.mount.spring.stiffness * inverse_g);
             let own = [
-                race.mass * side[at.inner + 2],
-                race.mass * side[at.inner + 3],
-                race.inertia * side[at.inner + 5] * scales.inner_radius[1],
-                auxiliary.outer_moving_mass * side[at.outer + 2] - outer.x,
-                auxiliary.outer_moving_mass * side[at.outer + 3] - outer.y,
+                race.mass * side[at.inner.velocity()[0]],
+                race.mass * side[at.inner.velocity()[1]],
+                race.inertia * side[at.inner.spin()] * scales.inner_radius[1],
+                auxiliary.outer_moving_mass * side[at.outer.velocity()[0]] - outer.x,
+                auxiliary.outer_moving_mass * side[at.outer.velocity()[1]] - outer.y,
                 scales.cage_inertia * side[at.bearing + 1] * scales.cage_radius[1],
             ];
             for row in 0..ROWS {
@@ -323,7 +323,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
         }
         for (k, part) in self.bearings.iter().enumerate() {
             if part.inner_race.centre_held {
-                let held = pair(side, self.layout.bearings[k].inner + 2) * inverse_g;
+                let held = pair(side, self.layout.bearings[k].inner.velocity()) * inverse_g;
                 of_border[rows.of_bearing(k)] = held.x;
                 of_border[rows.of_bearing(k) + 1] = held.y;
             }
@@ -340,7 +340,12 @@ impl<R: Real> Tangents<R> for Machines<R> {
             z.copy_from_slice(&of_border[own..own + ROWS]);
             planar.back(&part.balls, inverse_g, &z, &mut side[at.own()]);
             follow(side, at.inner, [z[0], z[1]], inverse_g);
-            turn(side, at.inner + 4, z[2] * inverse_inner_radius, inverse_g);
+            turn(
+                side,
+                at.inner.angle(),
+                z[2] * inverse_inner_radius,
+                inverse_g,
+            );
             follow(side, at.outer, [z[3], z[4]], inverse_g);
         }
     }
@@ -364,9 +369,9 @@ impl<R: Real> Tangents<R> for Machines<R> {
                     node.x,
                     node.y,
                     vector[rotor.spin()] * l,
-                    vector[at.inner + 2],
-                    vector[at.inner + 3],
-                    vector[at.inner + 5] * inner_radius,
+                    vector[at.inner.velocity()[0]],
+                    vector[at.inner.velocity()[1]],
+                    vector[at.inner.spin()] * inner_radius,
                 ];
                 let (mut closing, mut slip) = (R::zero(), R::zero());
                 let along = contact.along_normal.iter().zip(&contact.along_slip);

@@ -23,7 +23,7 @@ use super::mode::{Clutch, Mode};
 
 /// Speed by which the flywheel is ahead of the shaft, rad/s.
 pub fn slip_speed(state: &[f64]) -> f64 {
-    state[FLYWHEEL + 1] - state[SHAFT + 1]
+    state[FLYWHEEL.spin()] - state[SHAFT.spin()]
 }
 
 /// What is left before the clutch changes: of the slip, rad/s, or of the capacity, N m.
@@ -79,9 +79,9 @@ impl RigMachine {
         // balls that roll turn with the shaft; others keep their own motion
         let shaft = self.constants.shaft.inertia + self.rolling_inertia();
         let shared =
-            (flywheel * state[FLYWHEEL + 1] + shaft * state[SHAFT + 1]) / (flywheel + shaft);
-        state[FLYWHEEL + 1] = shared;
-        state[SHAFT + 1] = shared;
+            (flywheel * state[FLYWHEEL.spin()] + shaft * state[SHAFT.spin()]) / (flywheel + shaft);
+        state[FLYWHEEL.spin()] = shared;
+        state[SHAFT.spin()] = shared;
         let reduced = flywheel * shaft / (flywheel + shaft);
         state[self.layout.heat(CLUTCH_HEAT)] += 0.5 * reduced * slip * slip;
     }

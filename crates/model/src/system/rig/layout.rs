@@ -16,21 +16,24 @@
 
 use super::constants::RigConstants;
 use crate::bearing::{self, BearingConstants};
+use crate::body::BodyAt;
 use crate::system::layout::TestParts;
 use crate::system::outer_race::WORKS;
 
-/// First channel of the shaft: angle, speed.
-pub const SHAFT: usize = 0;
-/// First channel of the flywheel: angle, speed.
-pub const FLYWHEEL: usize = 2;
-/// First channel of the arm: reading, N m, and its rate.
+/// The shaft with the inner race.
+pub const SHAFT: BodyAt = BodyAt::turning(0);
+/// The flywheel.
+pub const FLYWHEEL: BodyAt = BodyAt::turning(2);
+/// Channel of the reading of the arm, N m.
 pub const ARM: usize = 4;
+/// Channel of its rate, N m/s.
+pub const ARM_RATE: usize = 5;
 /// Channel of the rise of the bearing's temperature, K.
 pub const TEMPERATURE: usize = 6;
 /// Channel of the thermocouple's reading of it, K.
 pub const THERMOCOUPLE: usize = 7;
-/// First channel of the housing: x, y, ẋ, ẏ.
-pub const HOUSING: usize = 8;
+/// The housing with the outer race.
+pub const HOUSING: BodyAt = BodyAt::moving(8);
 /// First channel of the bearing: the angle of its cage.
 pub const BEARING: usize = 12;
 /// Channel of the angle of the cage, rad.
@@ -178,15 +181,13 @@ pub fn error_scale(layout: &Layout, constants: &RigConstants) -> Vec<f64> {
     let centre_speed = 1e-3 * spin * constants.bearing.pitch_radius();
     let inertia = constants.shaft.inertia + set.inner_inertia();
     let mut scale = vec![0.0; layout.dimension()];
-    scale[SHAFT] = 1.0;
-    scale[SHAFT + 1] = spin;
-    scale[FLYWHEEL] = 1.0;
-    scale[FLYWHEEL + 1] = spin;
+    let length = 1e-4 * set.inner_track_radius * set.ball_ratio;
+    for body in [SHAFT, FLYWHEEL, HOUSING] {
+        body.error_scale(&mut scale, length, centre_speed, spin);
+    }
     scale[ARM] = MOMENT;
-    scale[ARM + 1] = MOMENT * constants.arm.natural_frequency;
+    scale[ARM_RATE] = MOMENT * constants.arm.natural_frequency;
     scale[TEMPERATURE..=THERMOCOUPLE].fill(1.0);
-    scale[HOUSING..HOUSING + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
-    scale[HOUSING + 2..BEARING].fill(centre_speed);
     let own = layout.bearing();
     (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
     scale[layout.ledger()..].fill(0.5 * inertia * spin * spin);

@@ -28,7 +28,7 @@ impl RigMachine {
             weight,
             angular_momentum,
         } = self.bearing_content(state);
-        let (speed, flywheel) = (state[SHAFT + 1], state[FLYWHEEL + 1]);
+        let (speed, flywheel) = (state[SHAFT.spin()], state[FLYWHEEL.spin()]);
         Content {
             translation: 0.5 * self.moving_mass * outer.velocity.length_squared() + translation,
             spin: 0.5 * c.shaft.inertia * speed * speed
@@ -70,7 +70,7 @@ impl RigMachine {
         OuterRaceEnergy::between(
             &self.layout,
             self.constants.bearing.set(),
-            end[SHAFT + 1],
+            end[SHAFT.spin()],
             |state| self.bearing_content(state),
             [start, end],
         )

@@ -7,6 +7,7 @@ use super::mode::{Clutch, Mode};
 use super::refusal::RigRefusal;
 use crate::bearing::ball_states::CAGE_PLACE;
 use crate::bearing::{Bearing, BearingConstants, Separation};
+use crate::body::put;
 use number::{Real, Vec2};
 use solve::{Batch, Machine};
 
@@ -57,13 +58,12 @@ impl RigMachine {
             c.bearing.settle(Vec2::zero(), &mut state[own.clone()]);
         } else {
             let place = settle_housing(&c.bearing, self.weight, &mut state[own.clone()]);
-            state[layout::HOUSING] = place.x;
-            state[layout::HOUSING + 1] = place.y;
+            put(&mut state, layout::HOUSING.centre(), place);
         }
-        state[layout::SHAFT + 1] = c.program.start.shaft_speed;
-        state[layout::FLYWHEEL + 1] = c.program.start.flywheel_speed;
+        state[layout::SHAFT.spin()] = c.program.start.shaft_speed;
+        state[layout::FLYWHEEL.spin()] = c.program.start.flywheel_speed;
         if c.program.start.shaft_speed == 0.0 {
-            state[layout::ARM] = c.arm.disturbance.moment(state[layout::SHAFT], 0.0);
+            state[layout::ARM] = c.arm.disturbance.moment(state[layout::SHAFT.angle()], 0.0);
         }
         if let BearingConstants::Planar(bearing) = &c.bearing {
             bearing.roll(&mut state[own], c.program.start.shaft_speed);
@@ -120,7 +120,7 @@ impl Machine for RigMachine {
         self.layout.probes_with_loads()
     }
     fn watched_channels(&self) -> usize {
-        layout::FLYWHEEL + 2
+        layout::FLYWHEEL.channels().end
     }
     fn error_scale(&self, channel: usize) -> f64 {
         self.error_scale[channel]

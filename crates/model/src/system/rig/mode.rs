@@ -84,7 +84,7 @@ impl Mode {
             self.next_action += 1;
             match *action {
                 Action::MotorTo { speed, rate } => {
-                    let from = state[FLYWHEEL + 1];
+                    let from = state[FLYWHEEL.spin()];
                     let (set, arrival) = rise(time, from, speed, rate);
                     self.motor = Some(set);
                     self.arrival = arrival;

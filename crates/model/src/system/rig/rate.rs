@@ -14,30 +14,24 @@
 //! race stands at the origin and adds none.
 
 use super::layout::{
-    ACCELERATION, ARM, BEARING_HEAT, BEARING_LOAD, BELT_DRAG, BELT_HEAT, CAGE_SLIP, CAGE_SPEED,
-    CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_SLIP, CLUTCH_TORQUE, DETAIL, DISTURBANCE, FLYWHEEL,
-    FLYWHEEL_ACCELERATION, HEATS, HOUSING, INNER_LOAD_SUM, INNER_MOMENT, LAND_FORCE,
+    ACCELERATION, ARM, ARM_RATE, BEARING_HEAT, BEARING_LOAD, BELT_DRAG, BELT_HEAT, CAGE_SLIP,
+    CAGE_SPEED, CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_SLIP, CLUTCH_TORQUE, DETAIL, DISTURBANCE,
+    FLYWHEEL, FLYWHEEL_ACCELERATION, HEATS, HOUSING, INNER_LOAD_SUM, INNER_MOMENT, LAND_FORCE,
     LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, MOMENTUM_RATE,
     MOTOR_TORQUE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG, SUPPORT_HEAT, TEMPERATURE,
     THERMOCOUPLE, bearing_impulse,
 };
 use super::{Clutch, Mode, RigMachine};
 use crate::bearing::{self, Bearing, POCKET_FRICTION};
-use crate::motion::{Body, Motion};
+use crate::motion::Motion;
 use number::{Real, Vec2};
 
 /// Motion of both races in a state: the inner one turns about the origin, the outer one moves without turning.
 #[inline(always)]
 pub fn race_motion<R: Real>(state: &[R]) -> Motion<R> {
-    let zero = R::zero();
     Motion {
-        inner: Body::planar(Vec2::zero(), Vec2::zero(), state[SHAFT], state[SHAFT + 1]),
-        outer: Body::planar(
-            Vec2::new(state[HOUSING], state[HOUSING + 1]),
-            Vec2::new(state[HOUSING + 2], state[HOUSING + 3]),
-            zero,
-            zero,
-        ),
+        inner: SHAFT.motion(state),
+        outer: HOUSING.motion(state),
     }
 }
 
@@ -67,7 +61,7 @@ impl RigMachine {
         // motions
         let races = race_motion(state);
         let at = |channel: usize| plain(state[channel]);
-        let (speed, flywheel_speed) = (at(SHAFT + 1), at(FLYWHEEL + 1));
+        let (speed, flywheel_speed) = (at(SHAFT.spin()), at(FLYWHEEL.spin()));
 
         // parts react
         let housing = &c.housing;
@@ -130,10 +124,10 @@ impl RigMachine {
         let outer_moment =
             plain(bearing.on_outer.moment) - plain(bearing.outer_inertia) * acceleration;
         let mut put = |channel: usize, value: f64| rate[channel] = R::splat(value);
-        put(SHAFT, speed);
-        put(SHAFT + 1, acceleration);
-        put(FLYWHEEL, flywheel_speed);
-        put(FLYWHEEL + 1, flywheel_acceleration);
+        put(SHAFT.angle(), speed);
+        put(SHAFT.spin(), acceleration);
+        put(FLYWHEEL.angle(), flywheel_speed);
+        put(FLYWHEEL.spin(), flywheel_acceleration);
 
         // centre of the housing
         let (centre, velocity) = (vector(races.outer.position), vector(races.outer.velocity));
@@ -144,20 +138,23 @@ impl RigMachine {
         } else {
             (weight + on_outer) * (1.0 / self.moving_mass)
         };
-        put(HOUSING, velocity.x);
-        put(HOUSING + 1, velocity.y);
-        put(HOUSING + 2, centre_acceleration.x);
-        put(HOUSING + 3, centre_acceleration.y);
+        for (at, vector) in [
+            (HOUSING.centre(), velocity),
+            (HOUSING.velocity(), centre_acceleration),
+        ] {
+            put(at[0], vector.x);
+            put(at[1], vector.y);
+        }
 
         // arm
         let arm = &c.arm;
-        let disturbance = arm.disturbance.moment(at(SHAFT), speed);
+        let disturbance = arm.disturbance.moment(at(SHAFT.angle()), speed);
         let off = outer_moment + disturbance - at(ARM);
         let frequency = arm.natural_frequency;
-        put(ARM, at(ARM + 1));
+        put(ARM, at(ARM_RATE));
         put(
-            ARM + 1,
-            frequency * (frequency * off - 2.0 * arm.damping_ratio * at(ARM + 1)),
+            ARM_RATE,
+            frequency * (frequency * off - 2.0 * arm.damping_ratio * at(ARM_RATE)),
         );
 
         // ledger

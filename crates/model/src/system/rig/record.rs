@@ -78,7 +78,7 @@ impl Record {
         let rolling = c.bearing.rolling_cage_ratio() * speed;
         let cage = match &c.bearing {
             // where balls roll the cage follows the shaft
-            BearingConstants::Rolling(_) => Rise::through(SHAFT + 1, 0.95 * speed),
+            BearingConstants::Rolling(_) => Rise::through(SHAFT.spin(), 0.95 * speed),
             BearingConstants::Planar(_) => Rise::through(BEARING + 1, 0.95 * rolling),
         };
         let mode = machine.start_mode();
@@ -102,15 +102,15 @@ impl Record {
             mode,
             taps: Taps::new(keep.taps, keep.end),
             rises: [
-                Rise::through(SHAFT + 1, 0.5 * speed),
-                Rise::through(SHAFT + 1, 0.95 * speed),
+                Rise::through(SHAFT.spin(), 0.5 * speed),
+                Rise::through(SHAFT.spin(), 0.95 * speed),
                 cage,
             ],
             turns: CageTurns::until(
                 keep.end,
                 rolling,
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
-                SHAFT + 1,
+                SHAFT.spin(),
             ),
             races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(
@@ -214,7 +214,7 @@ impl Observer<RigMachine> for Record {
             self.clutch.push(ClutchEvent {
                 time,
                 clutch: mode.clutch,
-                speed: state[SHAFT + 1],
+                speed: state[SHAFT.spin()],
             });
         }
         self.mode = *mode;

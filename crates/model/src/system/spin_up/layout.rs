@@ -12,13 +12,14 @@
 
 use super::constants::SpinUpConstants;
 use crate::bearing::{self, BearingConstants};
+use crate::body::BodyAt;
 use crate::system::layout::TestParts;
 use crate::system::outer_race::WORKS;
 
-/// First channel of the inner race.
-pub const INNER: usize = 0;
-/// First channel of the rotor.
-pub const ROTOR: usize = 6;
+/// The inner race.
+pub const INNER: BodyAt = BodyAt::free(0);
+/// The rotor.
+pub const ROTOR: BodyAt = BodyAt::turning(6);
 /// First channel of the bearing.
 pub const BEARING: usize = 8;
 
@@ -134,12 +135,9 @@ pub fn error_scale(layout: &Layout, constants: &SpinUpConstants) -> Vec<f64> {
     let centre_speed = 1e-3 * spin * pitch;
     let inertia = constants.race.inertia + set.inner_inertia();
     let mut scale = vec![0.0; layout.dimension()];
-    scale[INNER..INNER + 2].fill(1e-4 * set.inner_track_radius * set.ball_ratio);
-    scale[INNER + 2..INNER + 4].fill(centre_speed);
-    scale[INNER + 4] = 1.0;
-    scale[INNER + 5] = spin;
-    scale[ROTOR] = 1.0;
-    scale[ROTOR + 1] = spin;
+    let length = 1e-4 * set.inner_track_radius * set.ball_ratio;
+    INNER.error_scale(&mut scale, length, centre_speed, spin);
+    ROTOR.error_scale(&mut scale, length, centre_speed, spin);
     let own = layout.bearing();
     (constants.bearing).error_scale(&mut scale[own], spin, centre_speed);
     scale[layout.ledger()..].fill(0.5 * inertia * spin * spin);

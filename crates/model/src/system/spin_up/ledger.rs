@@ -32,7 +32,7 @@ impl SpinUpMachine {
             Drive::SlidingRotor(rotor) if !rotor.spin_held => rotor.polar_inertia,
             _ => 0.0,
         };
-        let rotor_spin = state[ROTOR + 1];
+        let rotor_spin = state[ROTOR.spin()];
         Content {
             translation: 0.5 * race.mass * inner.velocity.length_squared() + translation,
             spin: 0.5 * race.inertia * inner.spin * inner.spin
@@ -66,7 +66,7 @@ impl SpinUpMachine {
         OuterRaceEnergy::between(
             &self.layout,
             self.constants.bearing.set(),
-            end[INNER + 5],
+            end[INNER.spin()],
             |state| self.bearing_content(state),
             [start, end],
         )

@@ -36,6 +36,7 @@ pub mod tangents;
 
 pub use super::refusal::Refusal;
 use crate::bearing::Bearing;
+use crate::body::put;
 use crate::table::Piece;
 pub use constants::{Drive, InnerRace, Mode, SlidingRotor, SpinUpConstants};
 use layout::Layout;
@@ -101,11 +102,10 @@ impl SpinUpMachine {
             c.race.load_direction * c.load.value(0.0) + c.race.gravity * c.race.mass
         };
         let shift = c.bearing.settle(load, &mut state[own]);
-        state[layout::INNER] = shift.x;
-        state[layout::INNER + 1] = shift.y;
-        state[layout::INNER + 5] = c.start_speed();
+        put(&mut state, layout::INNER.centre(), shift);
+        state[layout::INNER.spin()] = c.start_speed();
         if let Drive::SlidingRotor(rotor) = &c.drive {
-            state[layout::ROTOR + 1] = rotor.speed;
+            state[layout::ROTOR.spin()] = rotor.speed;
         }
         state
     }

@@ -29,12 +29,7 @@ use number::{Real, Vec2};
 pub fn race_motion<R: Real>(state: &[R]) -> Motion<R> {
     let zero = R::zero();
     Motion {
-        inner: Body::planar(
-            Vec2::new(state[INNER], state[INNER + 1]),
-            Vec2::new(state[INNER + 2], state[INNER + 3]),
-            state[INNER + 4],
-            state[INNER + 5],
-        ),
+        inner: INNER.motion(state),
         outer: Body::planar(Vec2::zero(), Vec2::zero(), zero, zero),
     }
 }
@@ -72,7 +67,7 @@ impl<R: Real> SpinUp<R> {
         let races = race_motion(state);
         let inner = &races.inner;
         let speed = inner.spin;
-        let rotor_spin = state[ROTOR + 1];
+        let rotor_spin = state[ROTOR.spin()];
 
         // parts react
         let load = mode.load.at(time);
@@ -138,12 +133,8 @@ impl<R: Real> SpinUp<R> {
         } else {
             (pressed + bearing.on_inner.force) * race.mass.recip() + race.gravity
         };
-        rate[INNER] = inner.velocity.x;
-        rate[INNER + 1] = inner.velocity.y;
-        rate[INNER + 2] = centre_acceleration.x;
-        rate[INNER + 3] = centre_acceleration.y;
-        rate[INNER + 4] = speed;
-        rate[INNER + 5] = acceleration;
+        INNER.move_at(rate, inner.velocity, centre_acceleration);
+        INNER.turn_at(rate, speed, acceleration);
 
         // rotor
         let on_rotor = -(sliding.arm * sliding.force);
@@ -153,8 +144,7 @@ impl<R: Real> SpinUp<R> {
             }
             _ => (-on_rotor, zero),
         };
-        rate[ROTOR] = rotor_spin;
-        rate[ROTOR + 1] = rotor_acceleration;
+        ROTOR.turn_at(rate, rotor_spin, rotor_acceleration);
 
         // ledger
         let of_bearing = bearing.heat.kinds();

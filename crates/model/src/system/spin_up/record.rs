@@ -50,7 +50,7 @@ impl Record {
         let speed = c.target_speed;
         let cage = match &c.bearing {
             // where balls roll the cage follows the race
-            BearingConstants::Rolling(_) => Rise::through(INNER + 5, 0.95 * speed),
+            BearingConstants::Rolling(_) => Rise::through(INNER.spin(), 0.95 * speed),
             BearingConstants::Planar(_) => {
                 let rolling = c.bearing.rolling_cage_ratio() * speed;
                 Rise::through(BEARING + 1, 0.95 * rolling)
@@ -65,15 +65,15 @@ impl Record {
             largest_pocket_force: Peak::NONE,
             largest_land_force: Peak::NONE,
             rises: [
-                Rise::through(INNER + 5, 0.5 * speed),
-                Rise::through(INNER + 5, 0.95 * speed),
+                Rise::through(INNER.spin(), 0.5 * speed),
+                Rise::through(INNER.spin(), 0.95 * speed),
                 cage,
             ],
             turns: CageTurns::until(
                 end,
                 c.bearing.rolling_cage_ratio() * speed,
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
-                INNER + 5,
+                INNER.spin(),
             ),
             races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(machine, end, interval, keep_rows),

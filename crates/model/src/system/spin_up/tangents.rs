@@ -14,6 +14,7 @@ use super::rate::race_motion;
 use super::{DriveKind, Mode, SpinUp, SpinUpMachine};
 use crate::bearing::tangents::{BallTangents, Known, KnownRates, ROWS};
 use crate::bearing::{self, Planar};
+use crate::body::pair;
 use crate::system::border::{add_bearing, factor, follow, hold, solve, turn};
 use number::{Real, Vec2};
 use solve::Tangents;
@@ -92,7 +93,7 @@ impl<R: Real> Tangents<R> for SpinUp<R> {
         let own = &state[self.layout.bearing()];
         self.planar().tangents(&motion, own, &mut room.balls);
         if let DriveKind::SlidingRotor(rotor) = &self.drive {
-            let slip = rotor.bore_radius * (state[ROTOR + 1] - motion.inner.spin);
+            let slip = rotor.bore_radius * (state[ROTOR.spin()] - motion.inner.spin);
             let saturation = (slip * rotor.inverse_reference_speed).tanh();
             let slope =
                 rotor.friction * rotor.inverse_reference_speed * (R::one() - saturation.square());
@@ -139,9 +140,8 @@ impl<R: Real> Tangents<R> for SpinUp<R> {
         let planar = self.planar();
         let inverse_g = room.inverse_g;
         let own = self.layout.bearing();
-        let pair = |side: &[R], at: usize| Vec2::new(side[at], side[at + 1]);
         let known = KnownRates {
-            inner: pair(side, INNER),
+            inner: pair(side, INNER.centre()),
             outer: Vec2::zero(),
             cage: side[own.start],
         };
@@ -153,19 +153,19 @@ impl<R: Real> Tangents<R> for SpinUp<R> {
         let race = &self.race;
         let zero = R::zero();
         let mut of_border = [
-            rotor_inertia * side[ROTOR + 1] / arm,
-            race.mass * side[INNER + 2] + of_balls[0],
-            race.mass * side[INNER + 3] + of_balls[1],
-            race.inertia * side[INNER + 5] * inverse_inner_radius + of_balls[2],
+            rotor_inertia * side[ROTOR.spin()] / arm,
+            race.mass * side[INNER.velocity()[0]] + of_balls[0],
+            race.mass * side[INNER.velocity()[1]] + of_balls[1],
+            race.inertia * side[INNER.spin()] * inverse_inner_radius + of_balls[2],
             zero,
             zero,
             scales.cage_inertia * of_cage * scales.cage_radius[1] + of_balls[5],
         ];
         let given = [
-            side[ROTOR + 1] * arm,
-            side[INNER + 2],
-            side[INNER + 3],
-            side[INNER + 5] * inner_radius,
+            side[ROTOR.spin()] * arm,
+            side[INNER.velocity()[0]],
+            side[INNER.velocity()[1]],
+            side[INNER.spin()] * inner_radius,
             zero,
             zero,
             zero,
@@ -178,11 +178,11 @@ impl<R: Real> Tangents<R> for SpinUp<R> {
         }
         solve(&room.border, BORDER, &mut of_border);
         let [rotor, x, y, spin, outer_x, outer_y, cage] = of_border;
-        turn(side, ROTOR, rotor / arm, inverse_g);
+        turn(side, ROTOR.angle(), rotor / arm, inverse_g);
         let z = [x, y, spin, outer_x, outer_y, cage];
         planar.back(&room.balls, inverse_g, &z, &mut side[own]);
         follow(side, INNER, [x, y], inverse_g);
-        turn(side, INNER + 4, spin * inverse_inner_radius, inverse_g);
+        turn(side, INNER.angle(), spin * inverse_inner_radius, inverse_g);
     }
 
     #[inline(always)]

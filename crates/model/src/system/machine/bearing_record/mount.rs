@@ -38,8 +38,8 @@ impl MountPeaks {
 
     /// Takes what is larger at an instant, and says whether something comes near to its record.
     fn raise(&mut self, mount: &WholeMount<f64>, at: &BearingAt, state: &[f64], time: f64) -> bool {
-        let pair = |at: usize| Vec2::new(state[at], state[at + 1]);
-        let motion = (pair(at.outer), pair(at.outer + 2));
+        let outer = at.outer.motion(state);
+        let motion = (outer.position, outer.velocity);
         let parts = mount.parts(motion, &state[at.of_mount()]);
         let [displacement, speed] = parts.housing;
         let records = [
@@ -66,25 +66,31 @@ impl BearingRecord {
     pub(in super::super) fn mount_of(&mut self, step: &mut Step<RotorMachine>) {
         self.mount_parts_of(step);
         let outer = self.at.outer;
-        let end = |k: usize| step.end_state(outer + k);
-        let square = end(0) * end(0) + end(1) * end(1);
+        let pair = |at: [usize; 2], value: &dyn Fn(usize) -> f64| {
+            let [x, y] = at.map(value);
+            Vec2::new(x, y)
+        };
+        let end = |channel: usize| step.end_state(channel);
+        let start = |channel: usize| step.start_state(channel);
+        let place = pair(outer.centre(), &end);
         let record = self.mount_displacement.value;
-        if square < (NEAR_RECORD * record).powi(2) {
+        if place.length_squared() < (NEAR_RECORD * record).powi(2) {
             return;
         }
-        let start = |k: usize| step.start_state(outer + k);
         let outward = (
-            start(0) * start(2) + start(1) * start(3),
-            end(0) * end(2) + end(1) * end(3),
+            pair(outer.centre(), &start).dot(pair(outer.velocity(), &start)),
+            place.dot(pair(outer.velocity(), &end)),
         );
-        self.mount_displacement.raise(square.sqrt(), step.end);
+        self.mount_displacement
+            .raise(place.length_squared().sqrt(), step.end);
         if outward.0 > 0.0 && outward.1 < 0.0 {
             for i in 1..8 {
                 let theta = f64::from(i) / 8.0;
                 let time = step.time(theta);
-                let state = step.leading_state(theta, outer + 2);
+                let state = step.leading_state(theta, outer.channels().end);
+                let [x, y] = outer.centre();
                 self.mount_displacement
-                    .raise(state[outer].hypot(state[outer + 1]), time);
+                    .raise(state[x].hypot(state[y]), time);
             }
         }
     }

@@ -1,0 +1,136 @@
+//! Where a body stands in the state of its machine, and which freedoms it has.
+//!
+//! ```text
+//!   centre in the plane    x y, ẋ ẏ
+//!   turn about the axis    φ, Ω        after them
+//! ```
+//! A body has a centre that moves, or a turn, or both: freedoms that it lacks have no channels. Axial motion and tilt are none that
+//! a planar part asks for.
+
+use crate::motion::Body;
+use number::{Real, Vec2};
+use std::ops::Range;
+
+/// Where a body stands in the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BodyAt {
+    first: usize,
+    moves: bool,
+    turns: bool,
+}
+
+impl BodyAt {
+    /// A body whose centre moves and that turns, from a channel on.
+    pub const fn free(first: usize) -> Self {
+        BodyAt {
+            first,
+            moves: true,
+            turns: true,
+        }
+    }
+    /// A body whose centre moves and that does not turn.
+    pub const fn moving(first: usize) -> Self {
+        BodyAt {
+            turns: false,
+            ..Self::free(first)
+        }
+    }
+    /// A body that turns about a centre at rest.
+    pub const fn turning(first: usize) -> Self {
+        BodyAt {
+            moves: false,
+            ..Self::free(first)
+        }
+    }
+    /// The same, taken as one that does not turn.
+    pub const fn without_turn(self) -> Self {
+        BodyAt {
+            turns: false,
+            ..self
+        }
+    }
+    /// Its channels.
+    #[inline(always)]
+    pub const fn channels(self) -> Range<usize> {
+        let count = if self.moves { 4 } else { 0 } + if self.turns { 2 } else { 0 };
+        self.first..self.first + count
+    }
+    /// Channels of x and y of its centre.
+    #[inline(always)]
+    pub const fn centre(self) -> [usize; 2] {
+        [self.first, self.first + 1]
+    }
+    /// Channels of their rates.
+    #[inline(always)]
+    pub const fn velocity(self) -> [usize; 2] {
+        [self.first + 2, self.first + 3]
+    }
+    /// Channel of its angle.
+    #[inline(always)]
+    pub const fn angle(self) -> usize {
+        self.first + if self.moves { 4 } else { 0 }
+    }
+    /// Channel of its spin.
+    #[inline(always)]
+    pub const fn spin(self) -> usize {
+        self.angle() + 1
+    }
+    /// Names of its channels, of a body of that name.
+    pub fn names(self, body: &str) -> impl Iterator<Item = String> {
+        let centre: &[_] = &["x", "y", "x_speed", "y_speed"];
+        let names = match (self.moves, self.turns) {
+            (true, true) => [centre, &["angle", "speed"]].concat(),
+            (true, false) => centre.to_vec(),
+            (false, _) => vec!["angle", "speed"],
+        };
+        let body = body.to_string();
+        names.into_iter().map(move |name| format!("{body}.{name}"))
+    }
+    /// Its motion in a state; what it has no freedom for is zero.
+    #[inline(always)]
+    pub fn motion<R: Real>(self, state: &[R]) -> Body<R> {
+        let mut body = Body::planar(Vec2::zero(), Vec2::zero(), R::zero(), R::zero());
+        if self.moves {
+            body.position = pair(state, self.centre());
+            body.velocity = pair(state, self.velocity());
+        }
+        if self.turns {
+            (body.angle, body.spin) = (state[self.angle()], state[self.spin()]);
+        }
+        body
+    }
+    /// Writes the rates of its centre.
+    #[inline(always)]
+    pub fn move_at<R: Real>(self, rate: &mut [R], velocity: Vec2<R>, acceleration: Vec2<R>) {
+        put(rate, self.centre(), velocity);
+        put(rate, self.velocity(), acceleration);
+    }
+    /// Writes the rates of its turn.
+    #[inline(always)]
+    pub fn turn_at<R: Real>(self, rate: &mut [R], spin: R, acceleration: R) {
+        rate[self.angle()] = spin;
+        rate[self.spin()] = acceleration;
+    }
+    /// Writes the magnitudes that matter: of lengths, m, speeds, m/s, and spins, rad/s; of angles 1 rad.
+    pub fn error_scale(self, scale: &mut [f64], length: f64, speed: f64, spin: f64) {
+        if self.moves {
+            put(scale, self.centre(), Vec2::new(length, length));
+            put(scale, self.velocity(), Vec2::new(speed, speed));
+        }
+        if self.turns {
+            self.turn_at(scale, 1.0, spin);
+        }
+    }
+}
+
+/// Two channels of a list.
+#[inline(always)]
+pub fn pair<R: Real>(list: &[R], at: [usize; 2]) -> Vec2<R> {
+    Vec2::new(list[at[0]], list[at[1]])
+}
+
+/// Writes two channels of a list.
+#[inline(always)]
+pub fn put<R: Real>(list: &mut [R], at: [usize; 2], value: Vec2<R>) {
+    (list[at[0]], list[at[1]]) = (value.x, value.y);
+}
