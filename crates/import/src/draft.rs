@@ -76,7 +76,7 @@ impl Draft {
         };
         let mut number = 2;
         // a name that the program knows would mean its numbers
-        while taken(&own) || rotor::MATERIALS.iter().any(|known| known.0 == own) {
+        while taken(&own) || physics::shaft::MATERIALS.iter().any(|known| known.0 == own) {
             own = format!("{plain}_{number}");
             number += 1;
         }

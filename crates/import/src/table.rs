@@ -11,8 +11,9 @@
 
 use crate::draft::{Draft, cleaned};
 use calamine::{Data, Reader, Xlsx};
+use physics::shaft::{Annulus, MATERIALS, Material};
 use problem::{Code, Place, Problem};
-use rotor::{Annulus, Disk, Element, MATERIALS, Material};
+use rotor::{Disk, Element};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use units::Unit;

@@ -1,8 +1,8 @@
 //! What a levitation must fulfil before it is built.
 
 use crate::Refused;
-use crate::parts::{Actuator, Amplifier, Axis, Control, Sensor, Timing};
-use physics::magnet::Magnet;
+use crate::parts::{Actuator, Axis, Control, Sensor};
+use physics::magnet::{Amplifier, Magnet, Timing};
 use std::f64::consts::FRAC_PI_2;
 
 /// Refuses what cannot be.

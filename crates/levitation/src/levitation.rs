@@ -9,9 +9,10 @@
 //! With sampled control the controller steps by the bilinear rule and its rest between samples: at k T_s [`Levitation::sample`], at k T_s + T_c
 //! [`Levitation::release`] change the states; nothing else jumps.
 
-use crate::parts::{Actuator, Amplifier, Control, Sensor, Timing};
+use crate::parts::{Actuator, Control, Sensor};
 use crate::{Refused, StateSpace, checks};
 use number::Real;
+use physics::magnet::{Amplifier, Timing};
 use smallvec::{SmallVec, smallvec};
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! Sensors, amplifiers and magnets as they are given, axis by axis.
 
 use crate::StateSpace;
-use physics::magnet::Magnet;
+use physics::magnet::{Amplifier, Magnet};
 
 /// Where an axis of a sensor or a magnet is.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,29 +25,6 @@ pub struct Sensor {
     pub offset: f64,
     /// Displacement that the controller wants there, m.
     pub reference: f64,
-}
-
-/// How a command becomes a current.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Amplifier {
-    /// The current is the command.
-    Direct,
-    /// i̇ = ω(command - i).
-    Current {
-        /// Bandwidth ω, rad/s.
-        bandwidth: f64,
-    },
-    /// L di/dt = u - R i - k_i ẋ, |u| ≤ U.
-    Voltage {
-        /// Inductance L, H.
-        inductance: f64,
-        /// Resistance R, Ω.
-        resistance: f64,
-        /// u = gain (command - i), V/A; without it the command is u itself.
-        gain: Option<f64>,
-        /// Largest voltage U, V.
-        largest_voltage: f64,
-    },
 }
 
 /// One axis of a magnet with its amplifier.
@@ -81,35 +58,4 @@ pub enum Control {
     Channels(Vec<StateSpace>),
     /// One filter from all sensors to all magnet axes.
     Matrix(StateSpace),
-}
-
-/// When a command takes effect.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Timing {
-    /// The controller runs at every instant; its commands come `delay` later (Padé 2/2).
-    Continuous {
-        /// Delay T, s; 0 for none.
-        delay: f64,
-    },
-    /// The controller runs at k T_s; its commands are held from k T_s + T_c on.
-    Sampled {
-        /// Period T_s, s.
-        period: f64,
-        /// Time to compute T_c, s.
-        computation: f64,
-    },
-}
-
-impl Timing {
-    /// The delay that linear analysis sees, s: T, or T_c + T_s/2.
-    #[must_use]
-    pub fn delay(self) -> f64 {
-        match self {
-            Self::Continuous { delay } => delay,
-            Self::Sampled {
-                period,
-                computation,
-            } => computation + 0.5 * period,
-        }
-    }
 }

@@ -37,6 +37,8 @@
 //! | [`rolling`] | a bearing whose balls roll: the source paper's equations 6-19 |
 //! | [`spin_up_energy`] | what a bearing dissipates while it is spun up: equation 21, printed and put right |
 //! | [`kinematics`] | speeds of cage and balls, passing frequencies |
+//! | [`shaft`] | what a shaft is made of: round sections and elastic materials |
+//! | [`support`] | linear supports and seals: stiffness, damping and mass over speed |
 //! | [`magnet`] | force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
@@ -72,11 +74,13 @@ pub mod rainflow;
 pub mod ring;
 pub mod rolling;
 pub mod severity;
+pub mod shaft;
 pub mod skf;
 pub mod skf_constants;
 pub mod sliding_contact;
 pub mod spin_up_energy;
 pub mod static_load;
+pub mod support;
 pub mod traction;
 pub mod unbalance;
 pub mod viscosity;

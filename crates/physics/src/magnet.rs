@@ -1,4 +1,4 @@
-//! Force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents.
+//! Force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents; its amplifier, and when commands act.
 //!
 //! ```text
 //!     ┌───┐ b₋ - i                 f > 0 pulls towards +x, where the gap g₀ - x closes
@@ -235,6 +235,62 @@ impl<R: Real> Magnet<R> {
             twice * (free(near) / near_gap.square() + free(far) / far_gap.square()),
             twice * ((near / near_gap).square() / near_gap + (far / far_gap).square() / far_gap),
         )
+    }
+}
+
+/// How a command becomes a current.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Amplifier {
+    /// The current is the command.
+    Direct,
+    /// i̇ = ω(command - i).
+    Current {
+        /// Bandwidth ω, rad/s.
+        bandwidth: f64,
+    },
+    /// L di/dt = u - R i - k_i ẋ, |u| ≤ U.
+    Voltage {
+        /// Inductance L, H.
+        inductance: f64,
+        /// Resistance R, Ω.
+        resistance: f64,
+        /// u = gain (command - i), V/A; without it the command is u itself.
+        gain: Option<f64>,
+        /// Largest voltage U, V.
+        largest_voltage: f64,
+    },
+}
+
+/// When a command takes effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Timing {
+    /// The controller runs at every instant; its commands come `delay` later (Padé 2/2).
+    Continuous {
+        /// Delay T, s; 0 for none.
+        delay: f64,
+    },
+    /// The controller runs at k T_s; its commands are held from k T_s + T_c on.
+    Sampled {
+        /// Period T_s, s.
+        period: f64,
+        /// Time to compute T_c, s.
+        computation: f64,
+    },
+}
+
+impl Timing {
+    /// The delay that linear analysis sees, s: T, or T_c + T_s/2.
+    ///
+    /// Source: a hold of one period delays by half of it.
+    /// Valid: frequencies below half the sampling rate.
+    pub fn delay(self) -> f64 {
+        match self {
+            Self::Continuous { delay } => delay,
+            Self::Sampled {
+                period,
+                computation,
+            } => computation + 0.5 * period,
+        }
     }
 }
 

@@ -8,41 +8,8 @@
 //! Source: consistent matrices of a two-node Timoshenko element; shear coefficient κ of Cowper (1966) for a hollow
 //! circle. Where rotary inertia matters natural frequencies converge with the square of the length of the elements.
 
-use crate::Material;
+use crate::{Annulus, Material};
 use nalgebra::{Matrix4, RowVector4};
-
-/// Outer and inner diameter of a round section, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Annulus {
-    /// Outer diameter, m.
-    pub outer: f64,
-    /// Inner diameter, m; zero where solid.
-    pub inner: f64,
-}
-
-impl Annulus {
-    /// Area, m².
-    #[must_use]
-    pub fn area(&self) -> f64 {
-        std::f64::consts::FRAC_PI_4 * (self.outer.powi(2) - self.inner.powi(2))
-    }
-
-    /// Second moment of area about a diameter, m⁴.
-    #[must_use]
-    pub fn second_moment(&self) -> f64 {
-        std::f64::consts::PI / 64.0 * (self.outer.powi(4) - self.inner.powi(4))
-    }
-
-    /// The section at `share` of the way to another.
-    #[must_use]
-    pub fn towards(&self, other: &Self, share: f64) -> Self {
-        let between = |a: f64, b: f64| a + (b - a) * share;
-        Self {
-            outer: between(self.outer, other.outer),
-            inner: between(self.inner, other.inner),
-        }
-    }
-}
 
 /// A piece of shaft from node `left` to the next node.
 #[derive(Debug, Clone, Copy, PartialEq)]

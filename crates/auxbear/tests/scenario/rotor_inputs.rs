@@ -115,7 +115,7 @@ fn operating_speeds_that_are_none_say_what_was_found() {
 /// Numbers of materials known by name stand in the resolved file with unit and source, and give the same rotor.
 #[test]
 fn materials_known_by_name_are_shown_with_their_numbers() {
-    for (name, young, poisson, density, source) in rotor::MATERIALS {
+    for (name, young, poisson, density, source) in auxbear::physics::shaft::MATERIALS {
         let scenario = parsed(&SHORT.replace("titanium", name), &[]).unwrap();
         let text = scenario.resolved.toml();
         for (key, value) in [
@@ -151,7 +151,7 @@ fn materials_known_by_name_are_shown_with_their_numbers() {
 #[test]
 fn the_guide_has_the_table_of_materials() {
     let guide = include_str!("../../../../book/src/guide/rotor.md");
-    for (name, young, poisson, density, source) in rotor::MATERIALS {
+    for (name, young, poisson, density, source) in auxbear::physics::shaft::MATERIALS {
         let row = format!(
             "| {name} | {} GPa | {poisson:.2} | {density} kg/m³ | {source} |",
             young / 1e9

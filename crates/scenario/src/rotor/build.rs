@@ -6,10 +6,11 @@ use crate::rotor::levitation::{self, LevitationModel};
 use crate::rotor::part_keys::STAYS;
 use crate::rotor::parts::Part;
 use crate::values::Values;
+use physics::shaft::MATERIALS;
 use problem::{Code, Problem, did_you_mean};
 use rotor::{
-    Annulus, Block, Coefficients, Disk, Housing, Layer, MATERIALS, Material, Mesh, MeshError,
-    Place, PointMass, Support, Unbalance,
+    Annulus, Block, Coefficients, Disk, Housing, Layer, Material, Mesh, MeshError, Place,
+    PointMass, Support, Unbalance,
 };
 use units::number_text;
 

@@ -6,11 +6,11 @@ use crate::rotor::part_keys::{PARTS, PartKind};
 use crate::rotor::written::WrittenPart;
 use crate::system::SystemName;
 use crate::values::Values;
+use physics::shaft::MATERIALS;
 use problem::key::quoted;
 use problem::raw::Raw;
 use problem::table::Table;
 use problem::{Code, Place, Problem};
-use rotor::MATERIALS;
 use std::ops::Deref;
 use units::number_text;
 

@@ -1,7 +1,46 @@
-//! What a shaft is made of.
+//! What a shaft is made of: round sections and elastic materials.
 
-/// An isotropic elastic material.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Outer and inner diameter of a round section, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Annulus {
+    /// Outer diameter, m.
+    pub outer: f64,
+    /// Inner diameter, m; zero where solid.
+    pub inner: f64,
+}
+
+impl Annulus {
+    /// Area π(d_o² - d_i²)/4, m².
+    ///
+    /// Source: geometry.
+    /// Valid: always.
+    pub fn area(&self) -> f64 {
+        std::f64::consts::FRAC_PI_4 * (self.outer.powi(2) - self.inner.powi(2))
+    }
+
+    /// Second moment of area about a diameter, π(d_o⁴ - d_i⁴)/64, m⁴.
+    ///
+    /// Source: geometry.
+    /// Valid: always.
+    pub fn second_moment(&self) -> f64 {
+        std::f64::consts::PI / 64.0 * (self.outer.powi(4) - self.inner.powi(4))
+    }
+
+    /// The section at `share` of the way to another.
+    ///
+    /// Source: diameters linear along a taper.
+    /// Valid: `share` from 0 to 1.
+    pub fn towards(&self, other: &Self, share: f64) -> Self {
+        let between = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            outer: between(self.outer, other.outer),
+            inner: between(self.inner, other.inner),
+        }
+    }
+}
+
+/// An isotropic elastic material of a shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Young's modulus, Pa.
     pub young: f64,
@@ -13,7 +52,9 @@ pub struct Material {
 
 impl Material {
     /// A material by Young's modulus (Pa), Poisson's ratio and density (kg/m³): shear modulus E/(2(1 + ν)).
-    #[must_use]
+    ///
+    /// Source: linear elasticity.
+    /// Valid: isotropic.
     pub fn new(young: f64, poisson: f64, density: f64) -> Self {
         Self {
             young,
@@ -22,8 +63,10 @@ impl Material {
         }
     }
 
-    /// Poisson's ratio, from both moduli.
-    #[must_use]
+    /// Poisson's ratio E/(2G) - 1.
+    ///
+    /// Source: linear elasticity.
+    /// Valid: isotropic.
     pub fn poisson(&self) -> f64 {
         self.young / (2.0 * self.shear) - 1.0
     }
