@@ -145,7 +145,8 @@ fn a_rotor_that_hardly_bends_falls_as_a_rigid_one() {
     let auxbear::scenario::System::Drop(drop) = &rotor.system else {
         panic!("a machine is a drop");
     };
-    let rigid = ran(&rigid(drop.rotor.mass, drop.rotor.polar_inertia), &[]);
+    let body = auxbear::simulate::drop::Drop::of(drop).unwrap().body;
+    let rigid = ran(&rigid(body.mass, body.polar_inertia), &[]);
     for name in [
         "time_to_first_contact",
         "first_impact_force",
@@ -381,7 +382,8 @@ fn what_cannot_be_is_refused_with_its_place() {
         .0;
     let after = second + whole[second..].find("[run]").unwrap();
     let one = format!("{}{}", &whole[..second], &whole[after..]);
-    let found = parsed(&one, &[]).expect_err("one bearing");
+    let found = auxbear::run::build(&parsed(&one, &[]).unwrap()).map(|_| ());
+    let found = found.expect_err("one bearing").to_string();
     let told = "found the only auxiliary bearing; a rotor lands on two nodes at least";
     assert!(found.contains(told), "{found}");
     let grows = STIFF.replace("damping = \"1000 N s/m\"", "damping = \"-1000 N s/m\"");

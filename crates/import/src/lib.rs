@@ -17,6 +17,7 @@ use draft::Draft;
 use problem::{Code, Problem};
 use rotor::{Analysis, C64};
 use scenario::{BuiltIn, Scenario, System};
+use simulate::rotor::RotorModel;
 use std::io::Read;
 use std::path::Path;
 
@@ -69,17 +70,20 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
     let name = path.display().to_string();
     let draft = read(path, &name)?;
     let toml = draft.toml();
-    let scenario = Scenario::parse(&toml, &name, &[], &BuiltIn).map_err(|mut problem| {
-        // The text that was written is not the user's: its lines say nothing.
+    // The text that was written is not the user's: its lines say nothing.
+    let of_text = |mut problem: Box<Problem>| {
+        problem.file.clone_from(&name);
         problem.place = problem::Place::Whole;
         problem
-    })?;
+    };
+    let scenario = Scenario::parse(&toml, &name, &[], &BuiltIn).map_err(of_text)?;
     let System::Rotor(written) = &scenario.system else {
         return Err(unknown(&name, "a rotor that cannot be written"));
     };
     let lost = |_| unknown(&name, "a rotor without mass somewhere");
     let before = Analysis::full(&draft.rotor()).map_err(lost)?;
-    let after = Analysis::full(&written.model.rotor).map_err(lost)?;
+    let model = RotorModel::new(&written.rotor, written.speed);
+    let after = Analysis::full(&model.map_err(of_text)?.rotor).map_err(lost)?;
     let speeds: Vec<f64> = match draft.stated.is_empty() {
         // sections of a table are divided into elements: there is nothing to compare
         true if draft.divide => Vec::new(),

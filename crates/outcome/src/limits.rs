@@ -60,11 +60,8 @@ pub fn check(
         if let Some(kind) = kind {
             let found = format!("\"{}\", which is {kind}", limit.quantity);
             let allowed = "the name of a result that is a number is needed".to_string();
-            return Err(Box::new(limit.problem(
-                Code::UnknownQuantity,
-                found,
-                allowed,
-            )));
+            let code = Code::UnknownQuantity;
+            return Err(Box::new(limit.problem(code, found, allowed)));
         }
         if let Value::None { why } = &quantity.value
             && why.ends_with(NOT_GIVEN)
@@ -74,11 +71,8 @@ pub fn check(
                 limit.quantity
             );
             let allowed = "what it is computed from, or no limit of it, is needed".to_string();
-            return Err(Box::new(limit.problem(
-                Code::UnknownQuantity,
-                found,
-                allowed,
-            )));
+            let code = Code::UnknownQuantity;
+            return Err(Box::new(limit.problem(code, found, allowed)));
         }
         let wanted = dimension_of(quantity.unit);
         if wanted.is_some_and(|wanted| wanted != limit.dimension) {

@@ -1,4 +1,4 @@
-//! What a shaft is made of: round sections and elastic materials.
+//! What a shaft is made of: round sections, elastic materials, pieces of a drawing.
 
 /// Outer and inner diameter of a round section, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +71,34 @@ impl Material {
         self.young / (2.0 * self.shear) - 1.0
     }
 }
+
+/// A piece of shaft, as a drawing gives it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    /// Position of its left end, m.
+    pub from: f64,
+    /// Position of its right end, m.
+    pub to: f64,
+    /// Section at its left end.
+    pub start: Annulus,
+    /// Section at its right end.
+    pub end: Annulus,
+    /// What it is made of.
+    pub material: Material,
+    /// Longest element that it is divided into, m.
+    pub longest: f64,
+    /// Whether it bends with the shaft; one that does not adds mass alone.
+    pub carries: bool,
+    /// Non-rotating damping as a multiple of its mass matrix, 1/s.
+    pub damping_of_mass: f64,
+    /// Non-rotating damping as a multiple of its stiffness matrix, s.
+    pub damping_of_stiffness: f64,
+    /// Rotating damping (of the material, of shrink fits) as a multiple of its stiffness matrix, s.
+    pub damping_rotating: f64,
+}
+
+/// Positions closer than this are one node, m: far below any drawing, far above rounding.
+pub const SAME_PLACE: f64 = 1e-9;
 
 /// Materials by name: Young's modulus Pa, Poisson's ratio, density kg/m³, and where the numbers are from.
 ///

@@ -88,12 +88,7 @@ impl<S> Table<S> {
                 {
                     let allowed = format!("it is used only {word} {other}");
                     let found = "a key that has no effect";
-                    return Err(Box::new(self.problem(
-                        Code::UnusedKey,
-                        key.name(),
-                        found,
-                        allowed,
-                    )));
+                    return self.refuse(Code::UnusedKey, key.name(), found, allowed);
                 }
                 continue;
             }
@@ -103,19 +98,13 @@ impl<S> Table<S> {
             {
                 let found = format!("this and {other}, which give the same thing");
                 let allowed = "one of the two is needed";
-                return Err(Box::new(self.problem(
-                    Code::Conflict,
-                    key.name(),
-                    found,
-                    allowed,
-                )));
+                return self.refuse(Code::Conflict, key.name(), found, allowed);
             }
             if given.is_some() {
                 continue;
             }
             if key.presence == Presence::Required {
-                let problem = self.problem(Code::MissingKey, key.name(), "no value", key.needed());
-                return Err(Box::new(problem));
+                return self.refuse(Code::MissingKey, key.name(), "no value", key.needed());
             }
             if let Some(known) = self.fallen_back(key)? {
                 self.known.insert(key.name(), known);
@@ -163,6 +152,20 @@ impl<S> Table<S> {
         Problem::new(code, &self.file, found, allowed)
             .at(place.unwrap_or(self.place))
             .on_key(self.path_of(name))
+    }
+
+    /// Refuses one of its keys, or the table for an empty name.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn refuse<T>(
+        &self,
+        code: Code,
+        name: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Result<T, Box<Problem>> {
+        Err(Box::new(self.problem(code, name, found, allowed)))
     }
 
     /// Where a key stands; nowhere where it is not given.

@@ -3,32 +3,8 @@
 //! A drawing lists pieces of shaft from one position to another; some lie over others. Nodes stand where a piece begins or
 //! ends, where something is attached, and where a span would be longer than wanted.
 
-use crate::{Annulus, Element, Material};
-
-/// A piece of shaft, as a drawing gives it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Layer {
-    /// Position of its left end, m.
-    pub from: f64,
-    /// Position of its right end, m.
-    pub to: f64,
-    /// Section at its left end.
-    pub start: Annulus,
-    /// Section at its right end.
-    pub end: Annulus,
-    /// What it is made of.
-    pub material: Material,
-    /// Longest element that it is divided into, m.
-    pub longest: f64,
-    /// Whether it bends with the shaft ([`Element::carries`]).
-    pub carries: bool,
-    /// [`Element::damping_of_mass`], 1/s.
-    pub damping_of_mass: f64,
-    /// [`Element::damping_of_stiffness`], s.
-    pub damping_of_stiffness: f64,
-    /// [`Element::damping_rotating`], s.
-    pub damping_rotating: f64,
-}
+use crate::Element;
+use physics::shaft::{Layer, SAME_PLACE};
 
 /// Nodes and elements.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,9 +27,6 @@ pub enum MeshError {
     /// There is no layer at all.
     Empty,
 }
-
-/// Positions closer than this are one node, m: far below any drawing, far above rounding.
-const SAME_PLACE: f64 = 1e-9;
 
 impl Mesh {
     /// The node at a position, m.
@@ -115,31 +88,29 @@ pub fn mesh(layers: &[Layer], positions: &[f64]) -> Result<Mesh, MeshError> {
             );
             let left = out.nodes.len() - 1;
             out.elements
-                .extend(covering.iter().map(|layer| layer.element(left, a, b)));
+                .extend(covering.iter().map(|layer| element(layer, left, a, b)));
             out.nodes.push(b);
         }
     }
     Ok(out)
 }
 
-impl Layer {
-    /// Its part between two positions, as an element that begins at node `left`.
-    fn element(&self, left: usize, from: f64, to: f64) -> Element {
-        let at = |z: f64| {
-            let share = (z - self.from) / (self.to - self.from);
-            self.start.towards(&self.end, share.clamp(0.0, 1.0))
-        };
-        Element {
-            left,
-            length: to - from,
-            start: at(from),
-            end: at(to),
-            material: self.material,
-            carries: self.carries,
-            damping_of_mass: self.damping_of_mass,
-            damping_of_stiffness: self.damping_of_stiffness,
-            damping_rotating: self.damping_rotating,
-        }
+/// A layer between two positions, as an element that begins at node `left`.
+fn element(layer: &Layer, left: usize, from: f64, to: f64) -> Element {
+    let at = |z: f64| {
+        let share = (z - layer.from) / (layer.to - layer.from);
+        layer.start.towards(&layer.end, share.clamp(0.0, 1.0))
+    };
+    Element {
+        left,
+        length: to - from,
+        start: at(from),
+        end: at(to),
+        material: layer.material,
+        carries: layer.carries,
+        damping_of_mass: layer.damping_of_mass,
+        damping_of_stiffness: layer.damping_of_stiffness,
+        damping_rotating: layer.damping_rotating,
     }
 }
 
@@ -166,7 +137,7 @@ fn conflict(layers: &[Layer]) -> Result<(), MeshError> {
             }
             // Diameters are straight lines: layers apart at both ends on the same side are apart between them.
             let side = |z: f64| {
-                let (p, q) = (a.element(0, z, z).start, b.element(0, z, z).start);
+                let (p, q) = (element(a, 0, z, z).start, element(b, 0, z, z).start);
                 let room = SAME_PLACE;
                 (p.outer <= q.inner + room, q.outer <= p.inner + room)
             };
@@ -182,6 +153,7 @@ fn conflict(layers: &[Layer]) -> Result<(), MeshError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Annulus, Material};
 
     fn layer(from: f64, to: f64, outer: f64, inner: f64) -> Layer {
         let section = Annulus { outer, inner };

@@ -4,8 +4,8 @@ use outcome::list::results;
 use outcome::list::{List, origins};
 use outcome::options::Options;
 use outcome::{Quantity, Single, Value};
-use scenario::{Scenario, Shaft, System};
-use simulate::drop::each;
+use scenario::{Scenario, System};
+use simulate::drop::{Shaft, each};
 
 /// What is compared: the impact that high modes feel most, and where the rotor goes.
 const COMPARED: [&str; 2] = ["first_impact_force", "max_rotor_displacement"];

@@ -79,7 +79,7 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
     };
     let singles = each::run(&drops, &plan).into_iter().zip(&drops);
     for (place, (mut single, one)) in places.into_iter().zip(singles) {
-        single.warnings = known::with_those_before(one.scenario, &one.drop, single.warnings);
+        single.warnings = known::with_those_before(one.scenario, &one.built.drop, single.warnings);
         list[place] = Some(single);
     }
     list.into_iter().flatten().collect()

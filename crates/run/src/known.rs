@@ -2,9 +2,10 @@
 
 use outcome::{Severity, Warning};
 use scenario::notes::ValueWarning;
-use scenario::{AuxiliaryBearing, Bearing, Drop, Scenario};
+use scenario::{AuxiliaryBearing, Bearing, Scenario};
 use simulate::assumptions::speed_rating;
 use simulate::bearing::warnings::preload_left;
+use simulate::drop::Drop;
 use simulate::drop::warning_table::DropWarning;
 
 /// Product of eccentricity and speed of drive shafts of cars, G 16, m/s.
@@ -55,9 +56,9 @@ fn unbalance_grade(drop: &Drop) -> Option<Warning> {
     let eccentricity = match &drop.shaft {
         Some(shaft) => {
             let planes = shaft.model.rotor.unbalance.iter();
-            planes.map(|plane| plane.amount.abs()).sum::<f64>() / drop.rotor.mass
+            planes.map(|plane| plane.amount.abs()).sum::<f64>() / drop.body.mass
         }
-        None => drop.rotor.unbalance_eccentricity.abs(),
+        None => drop.body.unbalance_eccentricity.abs(),
     };
     let speed = drop.rotor.speed.abs();
     let grade = eccentricity * speed;

@@ -25,7 +25,7 @@ pub use outcome::{self, Outcome};
 use outcome::{Column, Quantity};
 use problem::Problem;
 pub use recording::file::parquet::panic_is_caught;
-use scenario::{CoastDown, Drop, Rig, Scenario, SpinUp, System};
+use scenario::{CoastDown, Rig, Scenario, SpinUp, System};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
 
@@ -37,11 +37,7 @@ pub struct Machine<'a> {
 
 /// The machine of each system.
 enum Built<'a> {
-    Drop(
-        &'a Drop,
-        Box<drop::build::Built>,
-        Vec<drop::members::Varied>,
-    ),
+    Drop(Box<drop::build::Built>, Vec<drop::members::Varied>),
     SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Arc<signals::Asked>),
@@ -55,8 +51,8 @@ enum Built<'a> {
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
-            let varied = drop::members::varied(scenario, of)?;
-            Ok(Built::Drop(of, Box::new(built), varied))
+            let varied = drop::members::varied(scenario, &built)?;
+            Ok(Built::Drop(Box::new(built), varied))
         }),
         System::SpinUp(of) => {
             spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
@@ -94,7 +90,7 @@ impl Machine<'_> {
 
     fn computed(&self, options: &Options) -> Outcome {
         match &self.system {
-            Built::Drop(of, built, varied) => self.dropped(of, built, varied, options),
+            Built::Drop(built, varied) => self.dropped(built, varied, options),
             Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
@@ -107,13 +103,12 @@ impl Machine<'_> {
 
     fn dropped(
         &self,
-        of: &Drop,
         built: &drop::build::Built,
         varied: &[drop::members::Varied],
         options: &Options,
     ) -> Outcome {
-        let mut outcome = drop::run(self.scenario, of, built, varied, options);
-        if let Some(shaft) = &of.shaft {
+        let mut outcome = drop::run(self.scenario, built, varied, options);
+        if let Some(shaft) = &built.drop.shaft {
             let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
             outcome.quantities.extend(changes);
         }
@@ -123,7 +118,7 @@ impl Machine<'_> {
     /// The columns of a run's history, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn columns(&self) -> Vec<Column> {
         match &self.system {
-            Built::Drop(of, built, _) => drop::columns(of, built),
+            Built::Drop(built, _) => drop::columns(built),
             Built::SpinUp(of, built) => spin_up::columns(of, built),
             Built::Rig(of, built) => rig::columns(of, built),
             Built::CoastDown(_, built) => coast_down::columns(built),
@@ -137,9 +132,9 @@ impl Machine<'_> {
     /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn results(&self) -> Vec<Quantity> {
         match &self.system {
-            Built::Drop(of, built, _) => {
-                let mut list = drop::results(of, built);
-                let shaft = of.shaft.as_ref();
+            Built::Drop(built, _) => {
+                let mut list = drop::results(built);
+                let shaft = built.drop.shaft.as_ref();
                 if shaft.is_some_and(|shaft| shaft.cutoff_check.is_some()) {
                     list.extend(cutoff::name(&list, None));
                 }

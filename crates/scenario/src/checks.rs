@@ -24,12 +24,28 @@ impl Context<'_> {
         &self,
         code: Code,
         path: &str,
-        found: String,
-        allowed: String,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
     ) -> Problem {
         Problem::new(code, self.file, found, allowed)
             .at(self.values.place(path))
             .on_key(self.values.shown(path))
+    }
+
+    /// Refuses the value of a key.
+    pub(crate) fn refuse(
+        &self,
+        code: Code,
+        path: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Check {
+        Err(Box::new(self.problem(code, path, found, allowed)))
+    }
+
+    /// Refuses the value of a key as it is written.
+    pub(crate) fn refuse_value(&self, code: Code, path: &str, allowed: impl Into<String>) -> Check {
+        self.refuse(code, path, self.text(path), allowed)
     }
 
     /// The value as the file or catalogue writes it.
@@ -58,13 +74,7 @@ impl Context<'_> {
                 DURATION => format!("at least {INTERVAL} = {interval} is needed"),
                 _ => format!("at most {DURATION} = {duration} is needed"),
             };
-            let found = self.text(path);
-            return Err(Box::new(self.problem(
-                Code::OutputInterval,
-                path,
-                found,
-                allowed,
-            )));
+            return self.refuse_value(Code::OutputInterval, path, allowed);
         }
         let rows = run.duration / run.output_interval;
         let most = MOST_VALUES / (VALUES_PER_ROW + VALUES_PER_BALL * balls as f64);
@@ -77,11 +87,11 @@ impl Context<'_> {
             }
             _ => format!("{interval}, which gives {rows:.3e} rows in {duration}"),
         };
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::TooManyRows,
             path,
             found,
             format!("at most {most:.2e} rows are kept with {balls} balls"),
-        )))
+        )
     }
 }

@@ -3,8 +3,8 @@
 use crate::key::{Key, quoted};
 use crate::meant;
 use crate::not_modelled;
-use crate::rotor::part_keys::kind_at;
-use crate::rotor::written::{self, WrittenPart, is_part};
+use crate::rotor::keys::kind_at;
+use crate::rotor::tables::{self, WrittenPart, is_part};
 use crate::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
 use crate::system::SystemName;
 use crate::table;
@@ -81,7 +81,7 @@ impl Document {
         if let Some((key, value)) = root.get_ref().get_key_value(LIMIT) {
             document.limits = tables(text, key.span().start, value.get_ref());
         }
-        document.parts = written::read_all(text, root.get_ref(), file, document.system)?;
+        document.parts = tables::read_all(text, root.get_ref(), file, document.system)?;
         for set in sets {
             document.add_override(set)?;
         }
@@ -342,7 +342,7 @@ impl Document {
             return Ok(());
         }
         if path.len() > 2 && self.system.has_shaft() && kind_at(&path[..2].join(".")).is_some() {
-            return written::set(&mut self.parts, &self.file, &path, raw);
+            return tables::set(&mut self.parts, &self.file, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());

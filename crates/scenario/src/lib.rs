@@ -55,22 +55,22 @@ pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, RunOut};
 pub use drop::axial_share;
 pub use drop::{
-    AuxiliaryBearing, BearingPlace, Contact, Drop, Gravity, Levitation, Mount, Repeat, Rotor,
-    Shaft, Spin,
+    AuxiliaryBearing, BearingPlace, Body, Contact, Drop, Gravity, Levitation, Mount, Repeat,
+    RigidBody, Rotor, Shaft, Spin,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub use limit::{Forbidden, Limit, Side};
-pub use locate::UNNAMED;
+pub use locate::{UNNAMED, problem_at};
 pub use problem::provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
 pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
     RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
 };
-pub use rotor::{DrawnPiece, LevitationModel, RotorAnalysis, RotorModel, parts_of_rotors};
+pub use rotor::{FlexibleRotor, RotorAnalysis, parts_of_rotors};
 pub use run::{Accuracy, Method, Run};
 pub use schema::schema;
 pub use signals::analysis::{
@@ -134,8 +134,10 @@ impl System {
     /// Its name.
     pub fn name(&self) -> SystemName {
         match self {
-            System::Drop(drop) if drop.shaft.is_some() => SystemName::Machine,
-            System::Drop(_) => SystemName::Drop,
+            System::Drop(drop) => match drop.body {
+                Body::Rigid(_) => SystemName::Drop,
+                Body::Flexible(_) => SystemName::Machine,
+            },
             System::SpinUp(_) => SystemName::SpinUp,
             System::Torque(_) => SystemName::Torque,
             System::Signals(_) => SystemName::Signals,
@@ -162,13 +164,8 @@ impl System {
         }
         let context = checks::Context { values, file };
         let system = match document.system {
-            SystemName::Drop => {
-                let drop = Drop::from_values(all);
-                context.drop(&drop, all)?;
-                System::Drop(drop)
-            }
-            SystemName::Machine => {
-                let drop = Drop::of_shaft(document, all)?;
+            SystemName::Drop | SystemName::Machine => {
+                let drop = Drop::of(document, all)?;
                 context.drop(&drop, all)?;
                 System::Drop(drop)
             }
@@ -229,8 +226,6 @@ pub struct Scenario {
     pub limits: Vec<Limit>,
     /// What the user should know of the values themselves.
     pub notes: Vec<Warning>,
-    /// Where it was read.
-    text: locate::Text,
     /// What was read, to be read again with other values.
     document: document::Document,
 }
@@ -363,7 +358,7 @@ impl Scenario {
             _ => Vec::new(),
         };
         let limits = limit::of(&document)?;
-        let parts = rotor::parts::toml(&document, &values[0]);
+        let parts = rotor::tables::toml(&document, &values[0]);
         let mut notes: Vec<Warning> = Vec::new();
         for note in values.iter().flat_map(values::Values::notes) {
             // what is of the whole file is noted of each of several bearings
@@ -383,10 +378,6 @@ impl Scenario {
             vary,
             limits,
             notes,
-            text: locate::Text {
-                name: name.to_string(),
-                sections: document.sections.clone(),
-            },
             document,
         };
         scenario.with_parts(&scenario.vary)?;
@@ -395,7 +386,7 @@ impl Scenario {
 
     /// The problem with the file and the line of its key: where the key stands, else where the section begins.
     pub fn locate(&self, problem: Box<Problem>) -> Box<Problem> {
-        self.text.locate(&self.resolved, problem)
+        self.document.locate(&self.resolved, problem)
     }
 }
 

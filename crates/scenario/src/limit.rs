@@ -183,7 +183,7 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
             let mut known = limits.iter_mut().filter(own).peekable();
             if share.is_none() || known.peek().is_none() {
                 let found = format!("a limit of {quantity} without most or least");
-                return Err(Box::new(table.problem(Code::MissingKey, "", found, NEEDED)));
+                return table.refuse(Code::MissingKey, "", found, NEEDED);
             }
             known.for_each(|limit| limit.share = share.unwrap_or(limit.share));
             continue;
@@ -191,12 +191,7 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
         if side == Side::Most && table.raw("least").is_some() {
             let found = "both most and least in one limit";
             let allowed = "one of them is needed; a second [[limit]] takes the other";
-            return Err(Box::new(table.problem(
-                Code::Conflict,
-                "least",
-                found,
-                allowed,
-            )));
+            return table.refuse(Code::Conflict, "least", found, allowed);
         }
         let (bound, dimension, text) = bound_of(&table, side.word())?;
         let bound_place = table.place_of(side.word());
@@ -226,9 +221,8 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
 
 /// A limit of warnings: at most 0 of them in a member. None where a result is limited.
 fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Problem>> {
-    let refused = |code, key: &str, found: String, needed: &str| {
-        Err(Box::new(table.problem(code, key, found, needed)))
-    };
+    let refused =
+        |code, key: &str, found: String, needed: &str| table.refuse(code, key, found, needed);
     let given = |key: &&str| table.text(key).is_some() || table.raw(key).is_some();
     let all = ["quantity", WARNING, SEVERITY];
     let mut keys = all.into_iter().filter(given);
@@ -304,8 +298,7 @@ fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Probl
     let Some(raw) = table.raw("share") else {
         return Ok(None);
     };
-    let wrong =
-        |code, found: String, allowed| Err(Box::new(table.problem(code, "share", found, allowed)));
+    let wrong = |code, found: String, allowed| table.refuse(code, "share", found, allowed);
     if !document.system.falls() {
         let found = "a key that has no effect".to_string();
         let allowed =

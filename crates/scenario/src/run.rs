@@ -1,6 +1,5 @@
 //! How long and how finely a system is simulated.
 
-use crate::section::Section;
 use crate::values::Values;
 use problem::words;
 
@@ -55,10 +54,7 @@ pub enum Method {
 
 impl Run {
     pub(crate) fn from_values(values: &Values) -> Run {
-        let run = Section {
-            values,
-            path: "run",
-        };
+        let run = values.section("run");
         Run {
             duration: run.number("duration"),
             // what has no choice is computed for design

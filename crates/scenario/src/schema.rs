@@ -14,7 +14,7 @@
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
 use crate::key::{Condition, Key, Kind, Otherwise, Presence, Range};
-use crate::rotor::part_keys::{PARTS, PartKind};
+use crate::rotor::keys::{PARTS, PartKind};
 use crate::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
 use crate::system::SystemName;
 use crate::table;

@@ -9,6 +9,13 @@ pub struct Section<'a> {
     pub(crate) path: &'static str,
 }
 
+impl Values {
+    /// The values of a section.
+    pub(crate) fn section(&self, path: &'static str) -> Section<'_> {
+        Section { values: self, path }
+    }
+}
+
 impl Section<'_> {
     fn path(&self, name: &str) -> String {
         format!("{}.{name}", self.path)

@@ -168,12 +168,7 @@ impl StudyFile {
         if confirm > 0 && (!at_screening || limits.is_empty()) {
             let found = "nothing to confirm";
             let allowed = "a limit, and members at screening accuracy (set = [\"run.accuracy=screening\"]), are needed: those nearest to a limit are run again at design accuracy";
-            return Err(Box::new(question.problem(
-                Code::StudyDesign,
-                "confirm",
-                found,
-                allowed,
-            )));
+            return question.refuse(Code::StudyDesign, "confirm", found, allowed);
         }
         let results = question.texts("results").iter();
         Ok(StudyFile {
@@ -413,12 +408,7 @@ fn design_of(
                 "at most {MOST_MEMBERS} members are possible; of sobol numbers {MOST_SOBOL} points of {MOST_SOBOL_INPUTS} columns, of which saltelli takes two an input"
             );
             let found = "a design that is too large";
-            Err(Box::new(table.problem(
-                Code::StudyDesign,
-                key,
-                found,
-                allowed,
-            )))
+            table.refuse(Code::StudyDesign, key, found, allowed)
         }
     }
 }
@@ -442,9 +432,8 @@ fn correlated(
             written,
             &[],
         )?;
-        let wrong = |code, key: &str, found: &str, allowed: &str| {
-            Err(Box::new(table.problem(code, key, found, allowed)))
-        };
+        let wrong =
+            |code, key: &str, found: &str, allowed: &str| table.refuse(code, key, found, allowed);
         let of = |name: &String| inputs.iter().position(|input| input.vary.path == *name);
         let places: Vec<Option<usize>> = table.texts("inputs").iter().map(of).collect();
         let needed = "inputs = [\"…\", \"…\"] is needed: the paths of two inputs that are no choices, each pair once";
@@ -467,14 +456,7 @@ fn correlated(
     let Some(table) = first else {
         return Ok((pairs, None));
     };
-    let wrong = |found: &str, allowed| {
-        Err(Box::new(table.problem(
-            Code::StudyCorrelation,
-            "",
-            found,
-            allowed,
-        )))
-    };
+    let wrong = |found: &str, allowed| table.refuse(Code::StudyCorrelation, "", found, allowed);
     if ["factorial", "sweep", "morris", "saltelli", "selection"].contains(&kind) {
         return wrong(
             &format!("correlated inputs of a {kind} design"),

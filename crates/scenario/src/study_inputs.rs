@@ -111,9 +111,8 @@ pub(super) fn inputs_of(
     for written in tables {
         let table: Table =
             Table::read(file, ("input".to_string(), "[[input]]"), KEYS, written, &[])?;
-        let wrong = |code, key: &str, found: String, allowed: &str| {
-            Err(Box::new(table.problem(code, key, found, allowed)))
-        };
+        let wrong =
+            |code, key: &str, found: String, allowed: &str| table.refuse(code, key, found, allowed);
         let path = table.text("path").unwrap_or_default();
         if inputs.iter().any(|known| known.vary.path == path) {
             return wrong(

@@ -2,7 +2,7 @@
 
 use crate::key::{Condition, Key, Otherwise, Presence, quoted};
 use crate::limit;
-use crate::rotor::part_keys::PARTS;
+use crate::rotor::keys::PARTS;
 use crate::several::{AUXILIARY_BEARING, LIMIT};
 use crate::system::SystemName;
 use crate::table;

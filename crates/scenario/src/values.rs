@@ -53,13 +53,7 @@ impl Values {
         let needed = format!(
             "at most {FASTEST_SURFACE} m/s is possible: steel bursts below 600 m/s, composites below 1500 m/s"
         );
-        Err(Box::new(self.problem(
-            Code::OutOfRange,
-            path,
-            self.place(path),
-            found,
-            needed,
-        )))
+        self.refuse(Code::OutOfRange, path, found, needed)
     }
 
     /// What reads a value of this key.
@@ -86,6 +80,18 @@ impl Values {
         Problem::new(code, &self.file, found, allowed)
             .at(place)
             .on_key(self.shown(path))
+    }
+
+    /// Refuses the value of a key, where it stands.
+    pub(crate) fn refuse<T>(
+        &self,
+        code: Code,
+        path: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Result<T, Box<Problem>> {
+        let problem = self.problem(code, path, self.place(path), found, allowed);
+        Err(Box::new(problem))
     }
 
     /// The path of a key as the file has it.
@@ -179,13 +185,7 @@ impl Values {
     pub fn complete(&self) -> Result<(), Box<Problem>> {
         match self.lacking.borrow().first() {
             None => Ok(()),
-            Some(path) => Err(Box::new(self.problem(
-                Code::MissingKey,
-                path,
-                Place::Whole,
-                "no value",
-                "a value is needed",
-            ))),
+            Some(path) => self.refuse(Code::MissingKey, path, "no value", "a value is needed"),
         }
     }
 

@@ -14,7 +14,7 @@
 use crate::document::Raw;
 use crate::drop::Repeat;
 use crate::key::{Key, Kind, quoted};
-use crate::rotor::part_keys::kind_at;
+use crate::rotor::keys::kind_at;
 use crate::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::table;
 use crate::values::Values;

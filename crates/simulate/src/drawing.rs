@@ -1,9 +1,10 @@
 //! What the page needs to draw a rotor to scale, as lists.
 
+use crate::rotor::RotorModel;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use rotor::{Layer, Place};
-use scenario::RotorModel;
+use scenario::rotor::Disk;
 
 origins! {
     /// What the scenario says.
@@ -29,21 +30,21 @@ results! {
         "piece_carries": list "1", GIVEN, "1 for a piece that bends with the shaft, else 0" in pieces "carries" => run.over_pieces(|l| f64::from(u8::from(l.carries)));
         "disk_positions": list "m", GIVEN, "positions of the disks" in disks "place" => run.at(run.rotor.disks.iter().map(|disk| disk.node));
         "disk_masses": list "kg", GIVEN, "masses of the disks" in disks "mass" => run.rotor.disks.iter().map(|disk| disk.mass).collect::<Vec<_>>();
-        "disk_diameters": list "m", GIVEN, "diameters of the disks, 0 where not given" in disks "diameter" => run.over_disks(|size| size.0);
-        "disk_widths": list "m", GIVEN, "widths of the disks, 0 where not given" in disks "width" => run.over_disks(|size| size.1);
+        "disk_diameters": list "m", GIVEN, "diameters of the disks, 0 where not given" in disks "diameter" => run.over_disks(|disk| disk.outer_diameter);
+        "disk_widths": list "m", GIVEN, "widths of the disks, 0 where not given" in disks "width" => run.over_disks(|disk| disk.width);
         "support_positions": list "m", GIVEN, "positions of the supports" in supports "place" => run.at(run.on_nodes(false).map(|(_, node)| node));
         "seal_positions": list "m", GIVEN, "positions of the seals" in seals "place" => run.at(run.on_nodes(true).map(|(_, node)| node));
         "mass_positions": list "m", GIVEN, "positions of the point masses" in masses "place" => run.at(run.rotor.masses.iter().map(|mass| mass.node));
         "point_masses": list "kg", GIVEN, "point masses" in masses "mass" => run.rotor.masses.iter().map(|mass| mass.mass).collect::<Vec<_>>();
         "unbalance_positions": list "m", GIVEN, "positions of the unbalances" in unbalances "place" => run.at(run.rotor.unbalance.iter().map(|unbalance| unbalance.node));
-        "named_node_positions": list "m", GIVEN, "positions of the named nodes" in named_places "place" => run.at(run.nodes.iter().map(|(_, node)| *node));
+        "named_node_positions": list "m", GIVEN, "positions of the named nodes" in named_places "place" => run.at(run.named.iter().copied());
         "magnet_positions": list "m", GIVEN, "positions of the magnets" in magnets "place" => run.at(run.magnets().map(|(_, magnet, _)| *magnet));
         "sensor_positions": list "m", GIVEN, "positions of their sensors" in sensors "place" => run.at(run.magnets().map(|(_, _, sensor)| *sensor));
         "piece_materials": text "", GIVEN, "materials of the pieces" in pieces "material" => lines(run.pieces.iter().map(|piece| &piece.material));
         "piece_names": text "", GIVEN, "names of the pieces" in pieces "name" => lines(run.pieces.iter().map(|piece| &piece.name));
-        "disk_names": text "", GIVEN, "names of the disks" in disks "name" => lines(run.disks.iter());
-        "unbalance_names": text "", GIVEN, "names of the unbalances" in unbalances "name" => lines(run.unbalance.iter());
-        "named_node_names": text "", GIVEN, "names of the named nodes" in named_places "name" => lines(run.nodes.iter().map(|(name, _)| name));
+        "disk_names": text "", GIVEN, "names of the disks" in disks "name" => lines(run.disks.iter().map(|disk| &disk.name));
+        "unbalance_names": text "", GIVEN, "names of the unbalances" in unbalances "name" => lines(run.unbalance.iter().map(|plane| &plane.name));
+        "named_node_names": text "", GIVEN, "names of the named nodes" in named_places "name" => lines(run.nodes.iter().map(|node| &node.name));
         "magnet_names": text "", GIVEN, "names of the magnets" in magnets "name" in sensors "name" => lines(run.magnets().map(|(name, _, _)| name));
         "support_names": text "", GIVEN, "names of the supports" in supports "name" => lines(run.on_nodes(false).map(|(name, _)| name));
         "seal_names": text "", GIVEN, "names of the seals" in seals "name" => lines(run.on_nodes(true).map(|(name, _)| name));
@@ -53,9 +54,6 @@ results! {
 fn lines<'a>(names: impl Iterator<Item = &'a String>) -> String {
     names.map(String::as_str).collect::<Vec<_>>().join("\n")
 }
-
-/// Diameter and width of a disk, m, where they are given.
-type Size = (Option<f64>, Option<f64>);
 
 /// A rotor as it is drawn.
 struct Drawn<'a>(&'a RotorModel);
@@ -76,8 +74,8 @@ impl Drawn<'_> {
     }
 
     /// A diameter or width of each disk, m; 0, to be drawn by its mass, where it is not given.
-    fn over_disks(&self, size: fn(&Size) -> Option<f64>) -> Vec<f64> {
-        let sizes = self.disk_sizes.iter().map(size);
+    fn over_disks(&self, size: fn(&Disk) -> Option<f64>) -> Vec<f64> {
+        let sizes = self.disks.iter().map(size);
         sizes.map(Option::unwrap_or_default).collect()
     }
 
@@ -94,8 +92,8 @@ impl Drawn<'_> {
     fn on_nodes(&self, seal: bool) -> impl Iterator<Item = (&String, usize)> {
         let all = self.supports.iter().zip(&self.rotor.supports);
         let own = all.filter(move |(_, support)| support.seal == seal);
-        own.filter_map(|(name, support)| match support.at {
-            Place::Node(node) => Some((name, node)),
+        own.filter_map(|(given, support)| match support.at {
+            Place::Node(node) => Some((&given.name, node)),
             Place::Housing(_) => None,
         })
     }

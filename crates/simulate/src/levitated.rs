@@ -1,12 +1,13 @@
 //! Whether a levitation holds its rotor, under its load and within its limits.
 
+use crate::rotor::LevitationModel;
 use levitation::response::{Equilibrium, Excess, Limit, equilibrium, excesses};
 use levitation::{ClosedLoop, Plant, Pole, Refused, Verdict, verdict};
 use nalgebra::DVector;
 use outcome::Warning;
 use physics::magnet::Magnet;
 use problem::{Code, Problem};
-use scenario::{LevitationModel, UNNAMED};
+use scenario::problem_at;
 
 /// Static stiffness below this share of k_s is none.
 const NO_STIFFNESS: f64 = 1e-6;
@@ -51,6 +52,7 @@ pub fn holds(
     slopes: &[(f64, f64)],
     speed: f64,
 ) -> Result<(), Box<Problem>> {
+    const KEY: &str = "levitation.controller";
     let at = format!("at {speed:.1} rad/s");
     let axes = model.levitation.actuators();
     let problem = match verdict(poles) {
@@ -72,7 +74,7 @@ pub fn holds(
             );
             let allowed =
                 "eigenvalues with negative real parts are needed: gains, filters and delay decide";
-            Problem::new(Code::UnstableLevitation, UNNAMED, found, allowed)
+            problem_at(Code::UnstableLevitation, KEY, found, allowed)
         }
         Verdict::ZeroStiffness(count) => {
             let soft = model.levitation.static_stiffness(slopes);
@@ -87,10 +89,10 @@ pub fn holds(
                     names.join(", ")
                 ),
             };
-            Problem::new(Code::ZeroStaticStiffness, UNNAMED, found, allowed)
+            problem_at(Code::ZeroStaticStiffness, KEY, found, allowed)
         }
     };
-    Err(Box::new(problem.on_key("levitation.controller")))
+    Err(problem)
 }
 
 /// Of each kind of limit that the steady motion passes the worst axis, in words: static part, amplitude and limit.
@@ -136,13 +138,8 @@ pub(crate) fn within_limits(
         Limit::Current | Limit::Idle => "largest_current",
     };
     let allowed = "a start within the limits of the magnets is needed: less unbalance, another speed, or more current, voltage or gap";
-    let problem = Problem::new(
-        Code::StartBeyondLimit,
-        UNNAMED,
-        exceeds(model, all),
-        allowed,
-    );
-    Err(Box::new(problem.on_key(format!("levitation.magnet.{key}"))))
+    let (key, found) = (format!("levitation.magnet.{key}"), exceeds(model, all));
+    Err(problem_at(Code::StartBeyondLimit, key, found, allowed))
 }
 
 problem::warnings! {
@@ -187,13 +184,12 @@ fn strong(model: &LevitationModel, rest: &Equilibrium) -> Result<(), Box<Problem
 /// Coils that cannot hold what they should.
 fn weak(found: &str) -> Box<Problem> {
     let allowed = "coils whose largest current, less the bias, holds the weight are needed";
-    let problem = Problem::new(Code::CurrentLimit, UNNAMED, found, allowed);
-    Box::new(problem.on_key("levitation.magnet.largest_current"))
+    let key = "levitation.magnet.largest_current";
+    problem_at(Code::CurrentLimit, key, found, allowed)
 }
 
 /// A levitation that cannot be computed.
 pub fn failed(text: &str) -> Box<Problem> {
     let needed = "another levitation is needed";
-    let problem = Problem::new(Code::Impossible, UNNAMED, text, needed);
-    Box::new(problem.on_key("levitation"))
+    problem_at(Code::Impossible, "levitation", text, needed)
 }

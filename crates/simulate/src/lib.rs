@@ -7,6 +7,7 @@
 //! | [`spin_up`] | the inner race is brought to speed |
 //! | [`rig`] | a test on a rig, and what its logger would have written |
 //! | [`coast_down`] | a rotor runs out on its warming bearings, in slow time |
+//! | [`rotor`] | the model of a flexible rotor and its magnets |
 //! | `levitated` | levitations that do not hold their rotor |
 //! | `stepping` | which steps a run takes, and how exact they are |
 //! | `ending` | settings of the integration, and how a run ended |
@@ -21,6 +22,7 @@ pub mod drop;
 pub mod ending;
 pub mod levitated;
 pub mod rig;
+pub mod rotor;
 pub mod spin_up;
 pub mod static_safety;
 pub mod stepping;

@@ -2,7 +2,7 @@
 
 use crate::signals;
 use problem::{Code, Problem};
-use scenario::{Identify, Signals, UNNAMED};
+use scenario::{Identify, Signals, problem_at};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -59,15 +59,7 @@ fn test(
     with_torque: bool,
 ) -> Result<Test, Box<Problem>> {
     let refuse = |code, found: String, needed: &str| {
-        Box::new(
-            Problem::new(
-                code,
-                UNNAMED,
-                format!("{}, {found}", path.display()),
-                needed,
-            )
-            .on_key(key),
-        )
+        problem_at(code, key, format!("{}, {found}", path.display()), needed)
     };
     let (scenario, signals) = signals::asked::signals_file(key, path)?;
     let coasts = key == "identify.coast_down"

@@ -6,8 +6,8 @@ use rotor::{
     Analysis, Basis, C64, Campbell, Critical, MapPoint, Matrices, Mode, ModeCount, Place,
     Responder, Response, Rotor, RotorError, Sag, Whirl,
 };
-use scenario::RotorAnalysis;
-use scenario::UNNAMED;
+use scenario::{RotorAnalysis, problem_at};
+use simulate::rotor::RotorModel;
 
 /// A rotor of at most so many coordinates keeps all of them.
 const SMALL: usize = 40;
@@ -23,6 +23,8 @@ const DEFLECTIONS: usize = 4;
 /// A rotor with what its analyses need.
 pub struct Asked {
     pub(crate) analysis: RotorAnalysis,
+    /// The model of the rotor.
+    pub(crate) model: RotorModel,
     /// All modes of the free rotor.
     pub(crate) full: Basis,
     pub(crate) matrices: Matrices,
@@ -65,13 +67,19 @@ pub(crate) struct Found {
     pub(crate) receptance_error: Option<f64>,
 }
 
+/// Gravity x + jy, m/s².
+pub(crate) fn gravity(analysis: &RotorAnalysis) -> C64 {
+    C64::from_polar(analysis.gravity, analysis.gravity_angle)
+}
+
 impl Asked {
     /// Everything wrong with what is asked is told here.
     pub fn of(analysis: &RotorAnalysis) -> Result<Self, Box<Problem>> {
-        let rotor = &analysis.model.rotor;
+        let model = RotorModel::new(&analysis.rotor, analysis.speed)?;
+        let rotor = &model.rotor;
         let matrices = Matrices::new(rotor);
         let full = Basis::full(rotor, &matrices).map_err(|error| no_answer(error, "rotor"))?;
-        let magnets = analysis.model.levitation.as_ref();
+        let magnets = model.levitation.as_ref();
         let mut cut = analysis.cutoff;
         let (levitated, within) = loop {
             let followed = analysis
@@ -80,20 +88,23 @@ impl Asked {
                 .max(cut / BEYOND);
             let basis = match (full.len(), magnets) {
                 (small, _) if small <= SMALL => full.clone(),
-                (_, Some(model)) => levitated::basis(analysis, model, &full, &matrices, cut)?,
+                (_, Some(magnets)) => {
+                    let limits = (analysis.speed, cut);
+                    levitated::basis(rotor, magnets, &full, &matrices, limits)?
+                }
                 _ => (full.for_analysis(rotor, &matrices, cut, followed))
                     .map_err(|error| no_answer(error, "rotor"))?,
             };
             let within = Analysis::new(rotor, &matrices, basis);
             let levitated = magnets
-                .map(|model| levitated::find(analysis, model, &within))
+                .map(|magnets| levitated::find(analysis, rotor, magnets, &within))
                 .transpose()?;
-            let within = levitated::on_magnets(within, &analysis.model, levitated.as_ref())?;
+            let within = levitated::on_magnets(within, &model, levitated.as_ref())?;
             if analysis.cutoff_given || within.basis.len() == full.len() {
                 break (levitated, within);
             }
             // as far above the modes shown as above the frequencies looked at
-            let most = ModeCount::AtMost(analysis.modes.most());
+            let most = ModeCount::AtMost(analysis.modes);
             let shown = (within.modes(analysis.speed, most)).map_err(|e| no_answer(e, "rotor"))?;
             let highest = shown.last().map_or(0.0, Mode::frequency);
             if shown.len() == most.most() && BEYOND * highest <= cut {
@@ -114,11 +125,11 @@ impl Asked {
         };
         if let Some(found) = needs.filter(|_| !held) {
             let allowed = "supports with stiffness in x and y at two nodes at least are needed; without support, unbalance and margin the free rotor is analysed";
-            let problem = Problem::new(Code::NotHeld, UNNAMED, found, allowed);
-            return Err(Box::new(problem.on_key("rotor.support")));
+            return Err(problem_at(Code::NotHeld, "rotor.support", found, allowed));
         }
         let this = Self {
             analysis: analysis.clone(),
+            model,
             full,
             matrices,
             within,
@@ -130,8 +141,7 @@ impl Asked {
             RotorError::TooManyModes { asked, there } => {
                 let found = format!("{asked} modes at {} rad/s", units::number_text(analysis.speed));
                 let allowed = format!("at most {there} are needed: so many oscillate in the coordinates kept; analysis.cutoff and more elements give more");
-                let problem = Problem::new(Code::TooManyModes, UNNAMED, found, allowed);
-                Box::new(problem.on_key("analysis.modes"))
+                problem_at(Code::TooManyModes, "analysis.modes", found, allowed)
             }
             other => no_answer(other, "rotor"),
         })?;
@@ -139,24 +149,28 @@ impl Asked {
     }
 
     pub(crate) fn rotor(&self) -> &Rotor {
-        &self.analysis.model.rotor
+        &self.model.rotor
     }
 
     fn modes(&self) -> Result<Vec<Mode>, RotorError> {
-        self.within.modes(self.analysis.speed, self.analysis.modes)
+        let count = match self.analysis.modes_given {
+            true => ModeCount::Exactly(self.analysis.modes),
+            false => ModeCount::AtMost(self.analysis.modes),
+        };
+        self.within.modes(self.analysis.speed, count)
     }
 
     /// What is shown of the response: displacements of places and housings, of shafts in their housings, forces of supports.
     pub(crate) fn watched(&self) -> Vec<Watched> {
-        let (model, rotor) = (&self.analysis.model, self.rotor());
+        let (model, rotor) = (&self.model, self.rotor());
         let watched = |name: String, motion| Watched { name, motion };
         let displacement = |(label, node): (String, usize)| {
             let at = Motion::Of(rotor.displacement(node));
             watched(format!("response.{label}"), at)
         };
         let mut out: Vec<Watched> = self.watched_nodes().into_iter().map(displacement).collect();
-        for (index, (name, support)) in model.supports.iter().zip(&rotor.supports).enumerate() {
-            let label = support_label(name, support);
+        for (index, (given, support)) in model.supports.iter().zip(&rotor.supports).enumerate() {
+            let label = support_label(&given.name, support);
             if let Place::Housing(_) = support.at {
                 let name = format!("response.{label}");
                 let taken = out.iter().any(|own| own.name == name);
@@ -197,7 +211,7 @@ impl Asked {
 
     /// Label, node and whether it has a name.
     fn places(&self) -> Vec<(String, usize, bool)> {
-        let (model, rotor) = (&self.analysis.model, self.rotor());
+        let (model, rotor) = (&self.model, self.rotor());
         let mut out: Vec<(String, usize, bool)> = Vec::new();
         let mut add = |kind: &str, name: &str, node: usize| {
             let (label, named) = (word(kind, name), name.parse::<usize>().is_err());
@@ -209,23 +223,24 @@ impl Asked {
                 _ => {}
             }
         };
-        for (name, node) in &model.nodes {
-            add("node", name, *node);
+        for (name, node) in model.named_nodes() {
+            add("node", name, node);
         }
         for (name, magnet, sensor) in model.levitation.iter().flat_map(|own| &own.magnets) {
             add("", &format!("magnet_{name}"), *magnet);
             add("", &format!("sensor_{name}"), *sensor);
         }
-        for (name, disk) in model.disks.iter().zip(&rotor.disks) {
-            add("disk", name, disk.node);
+        for (given, disk) in model.disks.iter().zip(&rotor.disks) {
+            add("disk", &given.name, disk.node);
         }
-        for (name, support) in model.supports.iter().zip(&rotor.supports) {
+        for (given, support) in model.supports.iter().zip(&rotor.supports) {
             if let Place::Node(node) = support.at {
-                add(if support.seal { "seal" } else { "support" }, name, node);
+                let word = if support.seal { "seal" } else { "support" };
+                add(word, &given.name, node);
             }
         }
-        for (name, unbalance) in model.unbalance.iter().zip(&rotor.unbalance) {
-            add("unbalance", name, unbalance.node);
+        for (given, unbalance) in model.unbalance.iter().zip(&rotor.unbalance) {
+            add("unbalance", &given.name, unbalance.node);
         }
         out
     }
@@ -283,7 +298,7 @@ impl Asked {
             .collect();
         let map = match self.held {
             true => {
-                let standing = levitated::on_springs(&asked.model);
+                let standing = levitated::on_springs(&self.model);
                 rotor::stiffness_map(&standing, &self.within.basis, &stiffnesses, MAPPED)?
             }
             false => Vec::new(),
@@ -306,7 +321,7 @@ impl Asked {
             };
             let whole = Analysis::new(rotor, &self.matrices, reference);
             // magnets that held the rotor in other coordinates hold it in these
-            let whole = levitated::on_magnets(whole, &asked.model, self.levitated.as_ref())
+            let whole = levitated::on_magnets(whole, &self.model, self.levitated.as_ref())
                 .map_err(|_| RotorError::NotConverged)?;
             let highest = diagram.speeds.len() - 1;
             let followed = whole.error_of(&diagram, highest, asked.frequency_to)?;
@@ -323,7 +338,7 @@ impl Asked {
                     loads: rotor::loads(rotor, asked.speed, &levitated.sag),
                 }),
                 None => (self.held && !pulled_over)
-                    .then(|| rotor::sag(rotor, asked.speed, asked.weight()))
+                    .then(|| rotor::sag(rotor, asked.speed, gravity(asked)))
                     .transpose()?,
             },
             reduction_error: reduction_error.transpose()?,
@@ -522,6 +537,5 @@ impl Curve<'_> {
 
 fn no_answer(error: RotorError, key: &str) -> Box<Problem> {
     let needed = "a rotor with mass everywhere is needed";
-    let problem = Problem::new(Code::Impossible, UNNAMED, error.to_string(), needed);
-    Box::new(problem.on_key(key))
+    problem_at(Code::Impossible, key, error.to_string(), needed)
 }

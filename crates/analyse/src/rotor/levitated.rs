@@ -1,5 +1,6 @@
 //! The closed loop of a rotor on magnets: refused where it does not hold, else poles, sensitivity, static and turning state.
 
+use crate::rotor::asked::gravity;
 use levitation::response::{Equilibrium, Excess, Synchronous, excesses, unbalance};
 use levitation::sensitivity::{Band, Margins, Peak, Sensitivity, open_loop, zone};
 use levitation::{
@@ -10,10 +11,11 @@ use outcome::Warning;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use problem::Problem;
-use rotor::{Analysis, Basis, Block, Coefficients, Matrices, Place, Rotor, Support};
-use scenario::{LevitationModel, RotorAnalysis, RotorModel};
+use rotor::{Analysis, Basis, Block, Coefficients, Matrices, Place, Rotor, Support, Unbalance};
+use scenario::RotorAnalysis;
 use simulate::drawing::GIVEN;
 use simulate::levitated::{at_rest, failed, holds, rise, warnings};
+use simulate::rotor::{LevitationModel, RotorModel};
 use std::f64::consts::TAU;
 
 /// Largest frequency of the coordinates over that of the band: residual flexibilities have the rest.
@@ -67,10 +69,10 @@ pub(crate) fn on_springs(model: &RotorModel) -> Rotor {
 /// Analyses the closed loop. Everything that keeps it from holding the rotor is told here.
 pub(crate) fn find(
     analysis: &RotorAnalysis,
+    rotor: &Rotor,
     model: &LevitationModel,
     within: &Analysis,
 ) -> Result<Levitated, Box<Problem>> {
-    let rotor = &analysis.model.rotor;
     let band = Band::of_speed(analysis.speed);
     let nodes = rotor.nodes.len();
     let told = |error: Refused| failed(&error.to_string());
@@ -80,17 +82,17 @@ pub(crate) fn find(
             let plant = Plant::turning(within, nodes, speed)?;
             Some(
                 ClosedLoop::about(plant, &plane, slopes)
-                    .and_then(|closed| looped(&closed, analysis, speed, band)),
+                    .and_then(|closed| looped(&closed, &rotor.unbalance, speed, band)),
             )
         });
         turning.unwrap_or_else(|| {
             let plant = Plant::planes(within, nodes, speed);
             let closed = ClosedLoop::about(plant, &model.levitation, slopes.to_vec())?;
-            looped(&closed, analysis, speed, band)
+            looped(&closed, &rotor.unbalance, speed, band)
         })
     };
-    let gravity = [analysis.weight().re, analysis.weight().im];
-    let loads = weight(rotor, within, gravity);
+    let gravity = gravity(analysis);
+    let loads = weight(rotor, within, [gravity.re, gravity.im]);
     let mut found = Vec::new();
     for speed in [analysis.speed, 0.0] {
         let plant = Plant::planes(within, nodes, speed);
@@ -120,10 +122,9 @@ pub(crate) fn find(
 }
 
 /// What the steady motion at the rated speed makes doubtful.
-pub(crate) fn warned(analysis: &RotorAnalysis, found: &Levitated) -> Vec<Warning> {
-    let model = analysis.model.levitation.iter();
-    let of = |model| warnings(model, &found.excesses, analysis.speed);
-    model.flat_map(of).collect()
+pub(crate) fn warned(model: &RotorModel, speed: f64, found: &Levitated) -> Vec<Warning> {
+    let of = |model| warnings(model, &found.excesses, speed);
+    model.levitation.iter().flat_map(of).collect()
 }
 
 /// One speed.
@@ -135,12 +136,11 @@ struct Looped {
 
 fn looped<T: Coordinates>(
     closed: &ClosedLoop<T>,
-    analysis: &RotorAnalysis,
+    planes: &[Unbalance],
     speed: f64,
     band: Band,
 ) -> Result<Looped, Refused> {
     let poles = closed.poles()?;
-    let planes = &analysis.model.rotor.unbalance;
     let turning = (!planes.is_empty() && speed != 0.0).then(|| unbalance(closed, planes, speed));
     let mut sensitivity = match verdict(&poles) {
         Verdict::Stable => {
@@ -173,14 +173,13 @@ fn looped<T: Coordinates>(
 
 /// Free modes and residual flexibility of what carries supports, unbalances, magnets and sensors, and of gyroscopic moments.
 pub(crate) fn basis(
-    analysis: &RotorAnalysis,
+    rotor: &Rotor,
     model: &LevitationModel,
     full: &Basis,
     matrices: &Matrices,
-    cut: f64,
+    (speed, cut): (f64, f64),
 ) -> Result<Basis, Box<Problem>> {
-    let rotor = &analysis.model.rotor;
-    let band = Band::of_speed(analysis.speed);
+    let band = Band::of_speed(speed);
     let cut = cut.max(BEYOND * band.to);
     let mut kept = rotor.kept();
     let nodes = model
@@ -203,8 +202,8 @@ pub(crate) fn basis(
 }
 
 /// The named results; without values where nothing was found.
-pub(crate) fn name(list: &mut List, analysis: &RotorAnalysis, found: Option<&Levitated>) {
-    let Some(model) = &analysis.model.levitation else {
+pub(crate) fn name(list: &mut List, model: &RotorModel, found: Option<&Levitated>) {
+    let Some(model) = &model.levitation else {
         return;
     };
     closed_loop(list, model, found);

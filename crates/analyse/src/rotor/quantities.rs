@@ -1,6 +1,6 @@
 //! The named results of the analysis of a rotor.
 
-use crate::rotor::asked::{Asked, Found, Motion, sense, support_label};
+use crate::rotor::asked::{Asked, Found, Motion, gravity, sense, support_label};
 use crate::rotor::levitated;
 use outcome::Quantity;
 use outcome::list::results;
@@ -35,10 +35,10 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
         list.numbered(all, |list, one| deflection(list, asked, one));
     }
     sag(&mut list, asked, found);
-    let supports = asked.analysis.model.supports.iter();
-    for (index, (name, support)) in supports.zip(&asked.rotor().supports).enumerate() {
+    let supports = asked.model.supports.iter();
+    for (index, (given, support)) in supports.zip(&asked.rotor().supports).enumerate() {
         if !support.seal {
-            list.named(&[&support_label(name, support)], |list| {
+            list.named(&[&support_label(&given.name, support)], |list| {
                 support_load(list, &(asked, index), found);
             });
         }
@@ -51,9 +51,9 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
         }
     }
     reduction(&mut list, asked, found);
-    drawing::name(&mut list, &asked.analysis.model);
+    drawing::name(&mut list, &asked.model);
     let own = found.and(asked.levitated.as_ref());
-    levitated::name(&mut list, &asked.analysis, own);
+    levitated::name(&mut list, &asked.model, own);
     list.quantities
 }
 
@@ -305,7 +305,7 @@ impl Asked {
 
     /// The modes of the free rotor that bend it and are shown.
     fn bending(&self) -> impl Iterator<Item = usize> {
-        (self.rotor().housings.len() + 2..self.full.len()).take(self.analysis.modes.most())
+        (self.rotor().housings.len() + 2..self.full.len()).take(self.analysis.modes)
     }
 
     fn bending_shape(&self, mode: usize) -> Vec<f64> {
@@ -371,7 +371,7 @@ impl Asked {
 
     /// A displacement along the weight.
     fn along_weight(&self, z: C64) -> f64 {
-        let down = self.analysis.weight();
+        let down = gravity(&self.analysis);
         match down.norm() {
             0.0 => 0.0,
             size => (z * down.conj()).re / size,

@@ -36,16 +36,15 @@ const REDUCTION: f64 = 1e-5;
 pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
     let analysis = &asked.analysis;
     let mut out: Vec<Warning> = (asked.levitated.iter())
-        .flat_map(|own| levitated::warned(analysis, own))
+        .flat_map(|own| levitated::warned(&asked.model, analysis.speed, own))
         .collect();
-    let all = analysis.model.supports.iter().zip(&asked.rotor().supports);
-    for (name, support) in all {
+    for support in &asked.model.supports {
         let Some((low, high)) = support.coefficients.range() else {
             continue;
         };
         if analysis.speed_from < low || analysis.speed_to > high {
             let warning = RotorWarning::Table {
-                support: name.clone(),
+                support: support.name.clone(),
                 low,
                 high,
                 from: analysis.speed_from,
@@ -86,12 +85,12 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
         };
         out.push(warning.into());
     }
-    out.extend(against_spin(&analysis.model, analysis.speed));
+    out.extend(against_spin(&asked.model, analysis.speed));
     if let Some(error) = found.reduction_error.filter(|error| *error > REDUCTION) {
         let coordinates = asked.within.basis.len() as f64;
         out.push(RotorWarning::Reduction { coordinates, error }.into());
     }
-    let (there, most) = (found.modes.len(), analysis.modes.most());
+    let (there, most) = (found.modes.len(), analysis.modes);
     if there < most {
         let (modes, wanted) = (there as f64, most as f64);
         out.push(RotorWarning::FewModes { modes, wanted }.into());

@@ -4,8 +4,8 @@ use crate::signals::read::{self, Listed, Series, Source, Stamps};
 use crate::signals::spectrum;
 use problem::{Code, Problem};
 use scenario::{
-    BuiltIn, CageKind, PickupFlank, PickupKind, Scenario, SensorSource, Signals, System, UNNAMED,
-    Windage,
+    BuiltIn, CageKind, PickupFlank, PickupKind, Scenario, SensorSource, Signals, System, Windage,
+    problem_at,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -172,7 +172,7 @@ pub(crate) fn signals_file(
 ) -> Result<(Scenario, Signals), Box<Problem>> {
     let refuse = |code, found: String, needed: String| {
         let found = format!("{}, {found}", path.display());
-        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
+        problem_at(code, key, found, needed)
     };
     let scenario = Scenario::read(path, &[], &BuiltIn).map_err(|problem| match problem.code {
         // a file that is not there is wrong where it is named
@@ -214,7 +214,7 @@ fn without_bearing(path: &Path) -> Result<Asked, Box<Problem>> {
     let (scenario, signals) = signals_file(key, path)?;
     let refuse = |code, found: &str, needed: &str| {
         let found = format!("{}, {found}", path.display());
-        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
+        problem_at(code, key, found, needed)
     };
     match &signals.steady {
         Some(steady) if steady.windage.is_some() => {

@@ -12,7 +12,7 @@ use measure::converter::Converter;
 use problem::{Code, Problem, did_you_mean};
 use recording::file;
 use recording::{Channel, Clock, Content, FileError, Instant, Recording};
-use scenario::{Signals, UNNAMED};
+use scenario::{Signals, problem_at};
 use std::path::Path;
 use units::Unit;
 
@@ -146,7 +146,7 @@ impl<'a> Source<'a> {
         needed: impl Into<String>,
     ) -> Box<Problem> {
         let found = format!("{}, {found}", self.name);
-        Box::new(Problem::new(code, UNNAMED, found, needed).on_key(key))
+        problem_at(code, key, found, needed)
     }
 
     fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel), Box<Problem>> {
@@ -567,7 +567,7 @@ fn of_file(error: &FileError, key: &str) -> Box<Problem> {
         "" => "a measurement file that can be read is needed",
         needed => needed,
     };
-    Box::new(Problem::new(Code::MeasurementUnreadable, UNNAMED, found, needed).on_key(key))
+    problem_at(Code::MeasurementUnreadable, key, found, needed)
 }
 
 /// The name of a file without its folders, for messages.

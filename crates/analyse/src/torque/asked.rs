@@ -4,7 +4,7 @@ use model::bearing::AccelerationLoss;
 use physics::friction::{Friction, MomentParts};
 use physics::rolling::RollingSet;
 use problem::{Code, Problem};
-use scenario::{Moment, Torque, UNNAMED};
+use scenario::{Moment, Torque, problem_at};
 
 /// The moments at one speed, load and acceleration, N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,15 +47,8 @@ impl Asked<'_> {
         let ball = (torque.ball_mass)
             .unwrap_or_else(|| torque.ball_material.ball_mass(torque.ball_diameter));
         let law = law_of(torque, &torque.moment).map_err(|why| {
-            Box::new(
-                Problem::new(
-                    Code::NoLawData,
-                    UNNAMED,
-                    why,
-                    "a law that has constants for this bearing",
-                )
-                .on_key("bearing.moment.law"),
-            )
+            let allowed = "a law that has constants for this bearing";
+            problem_at(Code::NoLawData, "bearing.moment.law", why, allowed)
         })?;
         Ok(Asked {
             torque,

@@ -2,9 +2,9 @@
 
 use super::files::{must_read, owned as sets};
 use auxbear::scenario::{
-    BallMaterial, BearingRecord, BearingSource, BuiltIn, Cage, Drop, Fidelity, Moment, NoBearings,
-    Provenance, Scenario, Separation, Spin, System, SystemName, Traction, keys, keys_of,
-    parts_of_rotors, template,
+    BallMaterial, BearingRecord, BearingSource, Body, BuiltIn, Cage, Drop, Fidelity, Moment,
+    NoBearings, Provenance, RigidBody, Scenario, Separation, Spin, System, SystemName, Traction,
+    keys, keys_of, parts_of_rotors, template,
 };
 use physics::palmgren_factors::FactorSource;
 use proptest::prelude::*;
@@ -104,6 +104,13 @@ fn assert_reads_back(scenario: &Scenario) -> Scenario {
 }
 
 /// The cage of a drop's bearing.
+fn body(drop: &Drop) -> &RigidBody {
+    match &drop.body {
+        Body::Rigid(body) => body,
+        Body::Flexible(_) => panic!("a rigid rotor"),
+    }
+}
+
 fn cage(drop: &Drop) -> &Cage {
     match &drop.auxiliary_bearings[0]
         .bearing
@@ -124,7 +131,7 @@ fn a_short_file_is_filled_and_reads_back_bit_for_bit() {
     };
     assert_eq!(drop.rotor.speed, -400.0 * std::f64::consts::PI);
     // 40 g mm on 8 kg is 5 µm; one rounding of the division.
-    assert!((drop.rotor.unbalance_eccentricity - 5e-6).abs() < 1e-20);
+    assert!((body(drop).unbalance_eccentricity - 5e-6).abs() < 1e-20);
     assert_eq!(cage(drop).mass, 0.006);
     assert_eq!(
         drop.auxiliary_bearings[0]
@@ -377,7 +384,7 @@ fn the_last_override_counts_and_a_table_may_be_one() {
     let System::Drop(drop) = &scenario.system else {
         panic!("a drop was read");
     };
-    assert_eq!(drop.rotor.mass, 10.0);
+    assert_eq!(body(drop).mass, 10.0);
     assert_eq!(scenario.title.as_deref(), Some("Two words"));
     assert_eq!(
         scenario.resolved.get("rotor.mass").unwrap().provenance,
@@ -440,7 +447,7 @@ proptest! {
         let System::Drop(drop) = &scenario.system else {
         panic!("a drop was read");
     };
-        prop_assert_eq!(drop.rotor.mass.to_bits(), mass.to_bits());
+        prop_assert_eq!(body(drop).mass.to_bits(), mass.to_bits());
         prop_assert_eq!(drop.repeat.seed, seed as u64);
         assert_reads_back(&scenario);
     }

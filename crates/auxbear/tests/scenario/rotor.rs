@@ -113,7 +113,7 @@ fn an_override_reaches_a_part_by_name_or_number() {
     let System::Rotor(plain) = parsed(ROTOR, &[]).unwrap().system else {
         panic!("a rotor");
     };
-    let (one, other) = (&changed.model.rotor, &plain.model.rotor);
+    let (one, other) = (&changed.rotor, &plain.rotor);
     assert!((one.disks[0].mass / other.disks[0].mass - 2.0).abs() < 1e-12);
     assert_eq!(one.supports[1].coefficients.at(0.0).stiffness[1][1], 2e6);
     assert_eq!(one.supports[0], other.supports[0]);

@@ -131,7 +131,7 @@ fn materials_known_by_name_are_shown_with_their_numbers() {
         let auxbear::scenario::System::Rotor(analysis) = &scenario.system else {
             panic!("a rotor");
         };
-        let built = analysis.model.rotor.elements[0].material;
+        let built = analysis.rotor.pieces[0].layer.material;
         assert_eq!(built, rotor::Material::new(young, poisson, density));
     }
     // what is not used is not shown, and what the file gives counts
@@ -185,13 +185,7 @@ fn a_grade_scales_the_unbalances_of_all_planes_together() {
     let auxbear::scenario::System::Rotor(rotor) = &given.system else {
         panic!("it is a rotor");
     };
-    let sum: f64 = rotor
-        .model
-        .rotor
-        .unbalance
-        .iter()
-        .map(|plane| plane.amount)
-        .sum();
+    let sum: f64 = rotor.rotor.unbalance.iter().map(|plane| plane.amount).sum();
     let (plain, graded) = (
         analysed(&given),
         analysed(&parsed(&text, &["rotor.balance_grade=6.3 mm/s"]).unwrap()),

@@ -33,12 +33,7 @@ impl Context<'_> {
             "{}, which would be computed as a single row",
             self.text(path)
         );
-        Err(Box::new(self.problem(
-            Code::NotModelled,
-            path,
-            found,
-            PAIRS.to_string(),
-        )))
+        self.refuse(Code::NotModelled, path, found, PAIRS)
     }
 
     /// Everything about a bearing that moves; the bore is that of the key named, the load whether any presses on it.
@@ -116,21 +111,20 @@ impl Context<'_> {
             self.text("bearing.ball_diameter")
         );
         let code = Code::RatingContradictsBalls;
-        Err(Box::new(self.problem(code, path, found, allowed)))
+        self.refuse(code, path, found, allowed)
     }
 
     /// The rotor's side of the inner race, which a sleeve may narrow.
     fn bore(&self, bore: Option<(&str, f64)>, track: f64) -> Check {
         match bore {
-            Some((path, bore)) if bore >= track => Err(Box::new(self.problem(
+            Some((path, bore)) if bore >= track => self.refuse_value(
                 Code::BearingGeometry,
                 path,
-                self.text(path),
                 format!(
                     "less than the track of the inner race is needed: pitch_diameter - ball_diameter = {}",
                     millimetres(track)
                 ),
-            ))),
+            ),
             _ => Ok(()),
         }
     }
@@ -141,14 +135,13 @@ impl Context<'_> {
             return Ok(());
         }
         let path = "bearing.ball_count";
-        Err(Box::new(self.problem(
+        self.refuse_value(
             Code::Impossible,
             path,
-            self.text(path),
             format!(
                 "at least {FEWEST_BALLS} balls are needed under a radial load: beside fewer the inner race falls out of the bearing. bearing.inner_race_centre_held = true would hold it"
             ),
-        )))
+        )
     }
 
     /// Fits and clearances are micrometres: a value of the ball's own size is a slip of the unit.
@@ -192,8 +185,8 @@ impl Context<'_> {
 
     fn traction(&self, traction: Traction) -> Check {
         match traction {
-            Traction::FourParameter { a, d, .. } if (a + d).abs() > NO_TRACTION_AT_REST => {
-                Err(Box::new(self.problem(
+            Traction::FourParameter { a, d, .. } if (a + d).abs() > NO_TRACTION_AT_REST => self
+                .refuse(
                     Code::Conflict,
                     "bearing.traction.d",
                     units::number_text(d),
@@ -201,36 +194,34 @@ impl Context<'_> {
                         "d = -a = {} is needed, so that there is no traction without slip",
                         units::number_text(-a)
                     ),
-                )))
-            }
+                ),
             Traction::FourParameter { a, b, c, d } => {
                 let smallest = FourParameterTraction { a, b, c, d }.smallest();
                 if smallest >= -NO_TRACTION_AT_REST {
                     return Ok(());
                 }
-                Err(Box::new(self.problem(
+                self.refuse(
                     Code::Conflict,
                     "bearing.traction.law",
                     format!(
                         "four parameters whose coefficient falls to {smallest:.3e} at some slip, which would make energy"
                     ),
-                    "a coefficient that is nowhere negative is needed: d >= 0, and b not below c·d".to_string(),
-                )))
+                    "a coefficient that is nowhere negative is needed: d >= 0, and b not below c·d",
+                )
             }
             Traction::Lubricant(film) => match film.oil.at(film.temperature, film.conductivity) {
                 Ok(_) => Ok(()),
-                Err(error @ LubricantError::Temperature { .. }) => Err(Box::new(self.problem(
+                Err(error @ LubricantError::Temperature { .. }) => self.refuse_value(
                     Code::NoLawData,
                     "bearing.traction.oil_temperature",
-                    self.text("bearing.traction.oil_temperature"),
                     error.to_string(),
-                ))),
-                Err(error) => Err(Box::new(self.problem(
+                ),
+                Err(error) => self.refuse(
                     Code::MissingKey,
                     "bearing.traction.oil_conductivity",
-                    "no value".to_string(),
+                    "no value",
                     error.to_string(),
-                ))),
+                ),
             },
             Traction::Tanh { .. } | Traction::Dry { .. } => Ok(()),
         }
@@ -240,28 +231,28 @@ impl Context<'_> {
     pub fn moment(&self, moment: &Moment, bearing: &RatedBearing) -> Check {
         let needs_rating = matches!(moment, Moment::Palmgren { .. });
         if needs_rating && bearing.static_load_rating.is_none() {
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::MissingKey,
                 "bearing.static_load_rating",
-                "no value".to_string(),
+                "no value",
                 format!(
                     "bearing.moment.law = \"{}\" needs it, e.g. \"6.55 kN\"",
                     self.text("bearing.moment.law")
                 ),
-            )));
+            );
         }
         if let Moment::Measured { curve } = moment
             && let Some(row) = curve.iter().position(|row| row[1] < 0.0)
         {
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::CreatesEnergy,
                 "bearing.moment.curve",
                 format!(
                     "a moment below 0 in row {}, which would create energy",
                     row + 1
                 ),
-                "moments not below 0 are needed: the curve holds for both directions".to_string(),
-            )));
+                "moments not below 0 are needed: the curve holds for both directions",
+            );
         }
         let Err(why) = moment.law(bearing) else {
             return Ok(());
@@ -272,12 +263,12 @@ impl Context<'_> {
             }
             _ => "bearing.moment.law",
         };
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::NoLawData,
             path,
             why,
-            "another law is needed, or a bearing that this one has constants for".to_string(),
-        )))
+            "another law is needed, or a bearing that this one has constants for",
+        )
     }
 
     /// Balls that share the moment of a real lubricant are not dragged to the ground as well.
@@ -289,15 +280,14 @@ impl Context<'_> {
         ];
         let shared = bearing.fidelity == Fidelity::Planar && bearing.moment != Moment::None;
         match drags.into_iter().find(|(_, drag)| shared && *drag != 0.0) {
-            Some((path, _)) => Err(Box::new(self.problem(
+            Some((path, _)) => self.refuse_value(
                 Code::Conflict,
                 path,
-                self.text(path),
                 format!(
                     "no drag to the ground is possible together with bearing.moment.law = \"{}\", which holds it already",
                     self.text("bearing.moment.law")
                 ),
-            ))),
+            ),
             None => Ok(()),
         }
     }
@@ -337,12 +327,11 @@ impl Context<'_> {
         } else {
             format!("{}, which would create energy", self.text(&path))
         };
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::CreatesEnergy,
             &path,
             found,
-            "a value not below 0 is needed: F has the sign of the rotation, and resists it while the race speeds up and while it slows down"
-                .to_string(),
-        )))
+            "a value not below 0 is needed: F has the sign of the rotation, and resists it while the race speeds up and while it slows down",
+        )
     }
 }

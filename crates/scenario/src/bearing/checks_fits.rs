@@ -14,15 +14,15 @@ impl Context<'_> {
         let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
         let shaft = bearing.fits.on_shaft(pitch - ball);
         if bearing.inner_race_growth != Growth::None && shaft.is_none() {
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::MissingKey,
                 BORE,
-                "no value".to_string(),
+                "no value",
                 format!(
                     "{GROWTH} = \"{}\" needs it: a ring from its bore to its track grows",
                     self.text(GROWTH)
                 ),
-            )));
+            );
         }
         if let Some(fit) = shaft {
             self.nested(
@@ -49,15 +49,15 @@ impl Context<'_> {
             )?;
         }
         if bearing.inner_race_growth == Growth::FreeRing && bearing.fits.shaft_interference > 0.0 {
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::Conflict,
                 GROWTH,
                 format!(
                     "\"free ring\" beside {SHAFT_FIT} = {}",
                     self.text(SHAFT_FIT)
                 ),
-                "\"with shaft\" is needed while a fit presses the ring".to_string(),
-            )));
+                "\"with shaft\" is needed while a fit presses the ring",
+            );
         }
         self.fits_have_an_effect(bearing)
     }
@@ -67,12 +67,7 @@ impl Context<'_> {
             return Ok(());
         }
         let allowed = allowed.to_string();
-        Err(Box::new(self.problem(
-            Code::BearingGeometry,
-            path,
-            self.text(path),
-            allowed,
-        )))
+        self.refuse_value(Code::BearingGeometry, path, allowed)
     }
 
     fn fits_have_an_effect(&self, bearing: &Bearing) -> Check {
@@ -90,11 +85,11 @@ impl Context<'_> {
         let Some((path, _)) = idle.into_iter().find(|(_, idle)| *idle) else {
             return Ok(());
         };
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::UnusedKey,
             path,
             format!("{}, which has no effect", self.text(path)),
             format!("{UNMOUNTED} is needed with it: {OPERATING} is what fits have left already"),
-        )))
+        )
     }
 }

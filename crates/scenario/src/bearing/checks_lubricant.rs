@@ -16,7 +16,7 @@ impl Context<'_> {
             return Ok(());
         };
         let refuse = |code: Code, path: &str, found: String, allowed: String| {
-            Err(Box::new(self.problem(code, path, found, allowed)))
+            self.refuse(code, path, found, allowed)
         };
         let without_moment = bearing.moment == Moment::None;
         let no_traction = bearing.fidelity == Fidelity::Rolling || state.films.is_none();

@@ -25,35 +25,31 @@ impl Context<'_> {
         let most = 0.5 * bearing.gap_between_balls();
         if bearing.ball_count >= FEWEST_NEIGHBOURS && cage.pocket_gap > most {
             let path = "bearing.cage.pocket_gap";
-            return Err(Box::new(self.problem(
+            return self.refuse_value(
                 Code::BearingGeometry,
                 path,
-                self.text(path),
                 format!(
                     "at most {} is possible: half of what the balls leave between each other",
                     millimetres(most.max(0.0))
                 ),
-            )));
+            );
         }
         if !cage.pocket_contact && cage.guidance != Guidance::Centred {
-            return Err(Box::new(
-                self.problem(
-                    Code::Conflict,
-                    "bearing.cage.pocket_contact",
-                    "false".to_string(),
-                    "true is needed for a cage that is free to move: nothing else would turn it"
-                        .to_string(),
-                ),
-            ));
+            return self.refuse(
+                Code::Conflict,
+                "bearing.cage.pocket_contact",
+                "false",
+                "true is needed for a cage that is free to move: nothing else would turn it"
+                    .to_string(),
+            );
         }
         Ok(())
     }
 
     /// Lands between the tracks, and rows of balls that fit and do not fall apart.
     pub fn separation(&self, bearing: &Bearing) -> Check {
-        let refuse = |code: Code, path: &str, allowed: String| {
-            Err(Box::new(self.problem(code, path, self.text(path), allowed)))
-        };
+        let refuse =
+            |code: Code, path: &str, allowed: String| self.refuse_value(code, path, allowed);
         let (pitch, ball) = (bearing.pitch_diameter, bearing.ball_diameter);
         match &bearing.separation {
             Separation::FullComplement(_) => {
@@ -127,24 +123,17 @@ impl Context<'_> {
         const PRELOAD: &str = "bearing.axial_preload";
         const ANGLE: &str = "bearing.contact_angle";
         if bearing.contact_angle > WIDEST_ANGLE {
-            return Err(Box::new(self.problem(
+            return self.refuse_value(
                 Code::OutOfRange,
                 ANGLE,
-                self.text(ANGLE),
-                "an angle from 0 to 60 deg is needed".to_string(),
-            )));
+                "an angle from 0 to 60 deg is needed",
+            );
         }
         if bearing.axial_preload == 0.0 {
             return Ok(());
         }
-        let refuse = |code, found: String, allowed: &str| {
-            Err(Box::new(self.problem(
-                code,
-                PRELOAD,
-                found,
-                allowed.to_string(),
-            )))
-        };
+        let refuse =
+            |code, found: String, allowed: &str| self.refuse(code, PRELOAD, found, allowed);
         if bearing.contact_angle == 0.0 {
             let allowed = "bearing.contact_angle above 0 is needed with it: balls without an angle carry no axial load here";
             return refuse(Code::Conflict, self.text(PRELOAD), allowed);

@@ -49,15 +49,8 @@ impl Values {
             return Ok(());
         }
         let found = format!("{} where a bearing is driven", quoted("bushing"));
-        let needed = "\"planar\" or \"rolling\" is needed: a bushing does not turn".to_string();
-        let place = self.place(FIDELITY);
-        Err(Box::new(self.problem(
-            Code::Conflict,
-            FIDELITY,
-            place,
-            found,
-            needed,
-        )))
+        let needed = "\"planar\" or \"rolling\" is needed: a bushing does not turn";
+        self.refuse(Code::Conflict, FIDELITY, found, needed)
     }
 
     /// Fills what follows from other values.
@@ -227,15 +220,14 @@ impl Values {
         let blamed = chosen
             .find(|path| self.place(path) != Place::Whole)
             .unwrap_or(path);
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::NoLawData,
             blamed,
-            self.place(blamed),
             format!("a contact angle of {degrees} deg"),
             format!(
                 "{least} to {largest} deg is needed, for which the constants of {of} are; else Palmgren's law with f0, f1_factor and f1_exponent by hand, or a measured curve"
             ),
-        )))
+        )
     }
 
     /// The type of the bearing; deep groove where nothing asks for it.
@@ -280,13 +272,12 @@ impl Values {
             None => return Err(Box::new(self.no_factor(missing))),
             Some(other @ (Lubricated::OilAndAir | Lubricated::OilBath)) => {
                 let other = other.as_word();
-                return Err(Box::new(self.problem(
+                return self.refuse(
                     Code::NoLawData,
                     LUBRICATION,
-                    self.place(LUBRICATION),
                     format!("\"{other}\", which Palmgren's tables do not have"),
                     "one of \"grease\", \"oil mist\", \"low oil bath\", \"oil jet\" is needed, or f0 and f1 by hand",
-                )));
+                );
             }
         };
         let Some(series) = self.text(SERIES) else {
@@ -343,20 +334,13 @@ impl Values {
     fn skf_lubrication(&self) -> Done {
         let needed = "one of \"grease\", \"oil and air\", \"oil bath\", \"low oil bath\", \"oil jet\" is needed for the SKF model";
         match self.chosen(LUBRICATION) {
-            None => Err(Box::new(self.problem(
-                Code::MissingKey,
-                LUBRICATION,
-                Place::Whole,
-                "no value",
-                needed,
-            ))),
-            Some(Lubricated::OilMist) => Err(Box::new(self.problem(
+            None => self.refuse(Code::MissingKey, LUBRICATION, "no value", needed),
+            Some(Lubricated::OilMist) => self.refuse(
                 Code::NoLawData,
                 LUBRICATION,
-                self.place(LUBRICATION),
                 "\"oil mist\", which the SKF model does not have",
                 needed,
-            ))),
+            ),
             Some(
                 Lubricated::Grease
                 | Lubricated::OilAndAir
@@ -433,13 +417,12 @@ impl Values {
                 return self.viscosity_of_lubricant(&first);
             }
             return match self.text(TEMPERATURE) {
-                Some(text) => Err(Box::new(self.problem(
+                Some(text) => self.refuse(
                     Code::UnusedKey,
                     TEMPERATURE,
-                    self.place(TEMPERATURE),
                     format!("\"{text}\", which has no effect"),
                     "it is used only with bearing.moment.viscosity_points; a given viscosity holds as it is",
-                ))),
+                ),
                 None => Ok(()),
             };
         };
@@ -455,13 +438,12 @@ impl Values {
             ));
         };
         let Some(temperature) = self.number(TEMPERATURE) else {
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::MissingKey,
                 TEMPERATURE,
-                Place::Whole,
                 "no value",
                 "a temperature above 0 is needed with viscosity_points, e.g. \"60 degC\"",
-            )));
+            );
         };
         let line = Viscosity::through((one[0], one[1]), (other[0], other[1])).map_err(|error| {
             of_points(

@@ -1,7 +1,6 @@
 //! How the rings of a bearing sit: what fits take from its clearance, and how its inner race grows with its speed.
 
 use crate::checks::Check;
-use crate::section::Section;
 use crate::values::{Value, Values};
 use physics::materials::BEARING_STEEL;
 use physics::ring::{PressFit, outside_growth};
@@ -61,10 +60,7 @@ impl Growth {
 
 impl Fits {
     pub(crate) fn from_values(values: &Values) -> Self {
-        let fits = Section {
-            values,
-            path: "bearing.fits",
-        };
+        let fits = values.section("bearing.fits");
         Fits {
             bore_diameter: fits.maybe("bore_diameter"),
             shaft_interference: fits.number("shaft_interference"),

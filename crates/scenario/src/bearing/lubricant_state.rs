@@ -1,6 +1,5 @@
 //! The slow state of the lubricant, as typed values in SI.
 
-use crate::section::Section;
 use crate::values::Values;
 use physics::lubricant_state::{FilmHeating, Grease};
 use problem::words;
@@ -50,10 +49,7 @@ pub struct LubricantState {
 impl LubricantState {
     /// None where nothing changes.
     pub fn from_values(values: &Values) -> Option<LubricantState> {
-        let state = Section {
-            values,
-            path: "bearing.lubricant_state",
-        };
+        let state = values.section("bearing.lubricant_state");
         let (greased, filmed) = match state.chosen("kind")? {
             StateKind::None => return None,
             StateKind::Grease => (true, false),

@@ -211,9 +211,8 @@ pub struct Drag {
 
 /// The bearing of a system in which it moves.
 pub fn bearing(values: &Values) -> Bearing {
-    let section = |path| Section { values, path };
-    let bearing = section("bearing");
-    let drag = section("bearing.drag");
+    let bearing = values.section("bearing");
+    let drag = values.section("bearing.drag");
     Bearing {
         name: values.text("bearing.name"),
         kind: bearing.choice("type"),
@@ -244,7 +243,7 @@ pub fn bearing(values: &Values) -> Bearing {
         hertz_pressure_limit: bearing.number("hertz_pressure_limit"),
         separation: Separation::from_values(values),
         fits: Fits::from_values(values),
-        traction: traction(&section("bearing.traction")),
+        traction: traction(&values.section("bearing.traction")),
         drag: Drag {
             orbit: drag.maybe("orbit").unwrap_or(0.0),
             spin: drag.maybe("spin").unwrap_or(0.0),

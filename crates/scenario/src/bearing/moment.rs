@@ -1,7 +1,6 @@
 //! The friction of a bearing as a whole, as typed values in SI.
 
 use crate::bearing::kind::{BallMaterial, BearingType};
-use crate::section::Section;
 use crate::values::Values;
 use physics::friction::Friction;
 use physics::moment_curve::MomentCurve;
@@ -209,10 +208,7 @@ pub struct RatedBearing {
 
 impl Moment {
     pub(crate) fn from_values(values: &Values) -> Moment {
-        let moment = Section {
-            values,
-            path: "bearing.moment",
-        };
+        let moment = values.section("bearing.moment");
         let law = moment.chosen("law").unwrap_or(MomentLaw::None);
         match law {
             MomentLaw::None => Moment::None,
@@ -390,10 +386,7 @@ impl Moment {
 
 impl MomentShare {
     pub(crate) fn from_values(values: &Values) -> MomentShare {
-        let moment = Section {
-            values,
-            path: "bearing.moment",
-        };
+        let moment = values.section("bearing.moment");
         // where nothing is shared these have no meaning
         MomentShare {
             orbit_share: moment.maybe("orbit_share").unwrap_or(0.5),
@@ -405,10 +398,7 @@ impl MomentShare {
 
 impl AccelerationLoss {
     pub(crate) fn from_values(values: &Values) -> AccelerationLoss {
-        let loss = Section {
-            values,
-            path: "bearing.acceleration_loss",
-        };
+        let loss = values.section("bearing.acceleration_loss");
         let rows = |name| loss.rows(name).unwrap_or_default();
         match loss.chosen("kind").unwrap_or(LossKind::None) {
             LossKind::None => AccelerationLoss::None,

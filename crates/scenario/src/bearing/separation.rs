@@ -1,6 +1,5 @@
 //! What keeps the balls apart, as typed values in SI.
 
-use crate::section::Section;
 use crate::values::{Value, Values};
 use problem::words;
 
@@ -103,17 +102,16 @@ pub struct FullComplement {
 
 impl Separation {
     pub(crate) fn from_values(values: &Values) -> Self {
-        let section = |path| Section { values, path };
-        let bearing = section("bearing");
+        let bearing = values.section("bearing");
         if bearing.choice::<SeparationKind>("separation") == SeparationKind::FullComplement {
-            let row = section("bearing.full_complement");
+            let row = values.section("bearing.full_complement");
             return Separation::FullComplement(FullComplement {
                 friction_coefficient: row.number("friction_coefficient"),
                 friction_reference_speed: row.number("friction_reference_speed"),
                 hertz_pressure_limit: row.number("hertz_pressure_limit"),
             });
         }
-        let cage = section("bearing.cage");
+        let cage = values.section("bearing.cage");
         let land = || Land {
             radial_clearance: cage.number("land_radial_clearance"),
             diameter: cage.number("land_diameter"),

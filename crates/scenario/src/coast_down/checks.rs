@@ -34,12 +34,7 @@ impl Context<'_> {
                 "less than rotor.speed = {} is needed",
                 self.text("rotor.speed")
             );
-            return Err(Box::new(self.problem(
-                Code::OutOfRange,
-                path,
-                self.text(path),
-                needed,
-            )));
+            return self.refuse_value(Code::OutOfRange, path, needed);
         }
         self.warm(bearing)
     }

@@ -4,7 +4,6 @@ pub mod checks;
 pub mod keys;
 
 use crate::heat::Warm;
-use crate::section::Section;
 use crate::values::Values;
 
 /// A run-out. All values are SI, temperatures in K.
@@ -41,10 +40,7 @@ pub struct RunOut {
 
 impl RunOut {
     pub(crate) fn from_values(values: &Values) -> RunOut {
-        let coast = Section {
-            values,
-            path: "coast_down",
-        };
+        let coast = values.section("coast_down");
         RunOut {
             stop_speed: coast.number("stop_speed"),
             longest: coast.number("longest"),
@@ -55,11 +51,10 @@ impl RunOut {
 
 impl CoastDown {
     pub(crate) fn from_values(values: &Values) -> CoastDown {
-        let section = |path| Section { values, path };
-        let rotor = section("rotor");
+        let rotor = values.section("rotor");
         CoastDown {
-            bearing: Warm::from_values(values, section("coast_down").number("radial_load")),
-            shaft_bore_diameter: section("bearing.fits").number("shaft_bore_diameter"),
+            bearing: Warm::from_values(values, values.section("coast_down").number("radial_load")),
+            shaft_bore_diameter: values.section("bearing.fits").number("shaft_bore_diameter"),
             rotor_mass: rotor.number("mass"),
             polar_inertia: rotor.number("polar_inertia"),
             speed: rotor.number("speed"),

@@ -3,7 +3,7 @@
 use crate::bearing::Bearing;
 use crate::bearing::separation::Separation;
 use crate::checks::{Check, Context};
-use crate::drop::{AuxiliaryBearing, Drop, Spin};
+use crate::drop::{AuxiliaryBearing, Body, Drop, RigidBody, Spin};
 use crate::heat::RotorBodies;
 use crate::values::Values;
 use catalogue::geometry::millimetres;
@@ -17,7 +17,7 @@ impl Context<'_> {
     pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
         self.planes(drop)?;
         self.torques(drop)?;
-        for (k, (part, values)) in drop.auxiliary_bearings.iter().zip(all).enumerate() {
+        for (part, values) in drop.auxiliary_bearings.iter().zip(all) {
             let own = Context {
                 values,
                 file: self.file,
@@ -34,8 +34,8 @@ impl Context<'_> {
                 own.perturbed_balls(drop, bearing)?;
             }
             // what a flexible rotor does on its magnets is known when they are computed
-            if drop.shaft.is_none() {
-                own.levitated_orbit(drop, part, drop.share(k))?;
+            if let Body::Rigid(body) = &drop.body {
+                own.levitated_orbit(drop, part, body)?;
             }
         }
         let bearings = drop.auxiliary_bearings.iter();
@@ -45,32 +45,16 @@ impl Context<'_> {
 
     /// What temperatures need, and what a run-out needs that follows the drop.
     fn warms(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
-        let refuse = |path: &str, found: String, needed: &str| {
-            let needed = needed.to_string();
-            Err(Box::new(self.problem(Code::Conflict, path, found, needed)))
-        };
+        let refuse = |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed);
         if let Some(warm) = &part.warm {
             if part.bearing.is_none() {
                 let needed = "\"off\" is needed beside bearing.fidelity = \"bushing\": the network is one of balls and races";
-                return refuse("heat.network", self.text("heat.network"), needed);
+                return refuse("heat.network", needed);
             }
             self.warm(warm)?;
             if warm.heat.rotor_bodies == RotorBodies::LayerAndCore && part.contact.width.is_none() {
                 let needed = "contact.width is needed beside it: without a landing surface there is no layer";
-                return refuse("heat.rotor_bodies", self.text("heat.rotor_bodies"), needed);
-            }
-            let metal = part.contact.metals[0].material;
-            let capacity = metal.density * metal.specific_heat * part.contact.rotor_layer_depth();
-            let layer = capacity * part.area_over_core().unwrap_or(0.0);
-            if warm.heat.rotor_capacity.is_some_and(|whole| whole <= layer) {
-                let needed = format!(
-                    "more than the {layer:.3} J/K of its surface layer is needed beside heat.rotor_bodies: its core is the rest"
-                );
-                return refuse(
-                    "heat.rotor_capacity",
-                    self.text("heat.rotor_capacity"),
-                    &needed,
-                );
+                return refuse("heat.rotor_bodies", needed);
             }
             for (path, given) in [
                 ("heat.mount_contact", warm.heat.mount_contact),
@@ -78,50 +62,45 @@ impl Context<'_> {
             ] {
                 if given > 0.0 && warm.heat.mount_capacity.is_none() {
                     let needed = "heat.mount_capacity is needed beside it: without one the mount is no body of its own";
-                    return refuse(path, self.text(path), needed);
+                    return refuse(path, needed);
                 }
             }
         }
         let known = part.warm.is_some() && part.contact.width.is_some();
         if !known && !part.contact.friction_over_temperature.is_empty() {
             let needed = "contact.width and heat.network = \"on\" are needed beside it: without them the temperature of the contact is not known";
-            let path = "contact.friction_over_temperature";
-            return refuse(path, self.text(path), needed);
+            return refuse("contact.friction_over_temperature", needed);
         }
         if part.contact.wear_coefficient.is_some() && part.contact.width.is_none() {
             let needed =
                 "contact.width is needed beside it: without a landing surface nothing is worn";
-            let path = "contact.surface.wear_coefficient";
-            return refuse(path, self.text(path), needed);
+            return refuse("contact.surface.wear_coefficient", needed);
         }
         let Some(end) = &drop.run_out else {
             return Ok(());
         };
         if drop.rotor.spin == Spin::Held {
             let needed = "run.until = \"duration\", or a rotor whose spin is not held: this one never stands";
-            return refuse("run.until", self.text("run.until"), needed);
+            return refuse("run.until", needed);
         }
         if end.stop_speed >= drop.rotor.speed.abs() {
             let needed = "less than rotor.speed is needed";
-            let path = "coast_down.stop_speed";
-            return refuse(path, self.text(path), needed);
+            return refuse("coast_down.stop_speed", needed);
         }
         if drop.gravity.acceleration == 0.0 {
             let needed = "more than 0 is needed beside run.until = \"standstill\": a rotor that no weight holds on its races does not roll in them";
-            let path = "gravity.acceleration";
-            return refuse(path, self.text(path), needed);
+            return refuse("gravity.acceleration", needed);
         }
         let bearing = part.bearing.as_ref();
         if bearing.is_some_and(|bearing| bearing.lubricant_state.is_some()) {
             let needed = "no [bearing.lubricant_state] is needed beside run.until = \"standstill\": its grease does not age in slow time";
-            let path = "bearing.lubricant_state.kind";
-            return refuse(path, self.text(path), needed);
+            return refuse("bearing.lubricant_state.kind", needed);
         }
         match &part.warm {
             Some(warm) => self.brakes(warm),
             None => {
                 let needed = "heat.network = \"on\" is needed of every bearing that the rotor runs out on: what brakes it depends on their temperatures";
-                refuse("run.until", self.text("run.until"), needed)
+                refuse("run.until", needed)
             }
         }
     }
@@ -133,21 +112,21 @@ impl Context<'_> {
         let rotor = &drop.rotor;
         if rotor.torque_over_speed.is_empty() && !rotor.torque_share_over_time.is_empty() {
             let needed = format!("{OVER_SPEED} beside it is needed");
-            let problem = self.problem(Code::MissingKey, SHARE, "this alone".to_string(), needed);
-            return Err(Box::new(problem));
+            return self.refuse(Code::MissingKey, SHARE, "this alone", needed);
         }
         if let Some([fastest, _]) = rotor.torque_over_speed.last()
             && *fastest < rotor.speed.abs()
         {
             let needed = "a last row at the size of rotor.speed or above is needed: beyond it the torque is not known";
-            let found = self.text(OVER_SPEED);
-            let problem = self.problem(Code::Conflict, OVER_SPEED, found, needed.to_string());
-            return Err(Box::new(problem));
+            return self.refuse_value(Code::Conflict, OVER_SPEED, needed);
         }
         if drop.run_out.is_none() {
             return Ok(());
         }
-        let drive = (drop.shaft.as_ref()).map_or([0.0; 2], |s| [s.drive_torque, s.drive_slope]);
+        let drive = match &drop.body {
+            Body::Flexible(shaft) => [shaft.drive_torque, shaft.drive_slope],
+            Body::Rigid(_) => [0.0; 2],
+        };
         let path = match (rotor.torque_over_speed.is_empty(), drive) {
             (false, _) => OVER_SPEED,
             (true, [torque, _]) if torque > 0.0 => "rotor.drive_torque",
@@ -155,13 +134,7 @@ impl Context<'_> {
             _ => return Ok(()),
         };
         let needed = "a rotor that only rotor.brake_torque, drag, windage and its bearings brake is needed beside run.until = \"standstill\"";
-        let found = self.text(path);
-        Err(Box::new(self.problem(
-            Code::Conflict,
-            path,
-            found,
-            needed.to_string(),
-        )))
+        self.refuse_value(Code::Conflict, path, needed)
     }
 
     /// Planes count bearings that are alike; bearings with names are counted by their names.
@@ -169,19 +142,17 @@ impl Context<'_> {
         if drop.rotor.planes == 1 || drop.auxiliary_bearings.len() == 1 {
             return Ok(());
         }
-        Err(Box::new(
-            self.problem(
-                Code::Conflict,
-                "rotor.planes",
-                format!(
-                    "{} beside {} bearings in [[auxiliary_bearing]]",
-                    drop.rotor.planes,
-                    drop.auxiliary_bearings.len()
-                ),
-                "one of the two is needed: equal bearings by their number, others by their names"
-                    .to_string(),
+        self.refuse(
+            Code::Conflict,
+            "rotor.planes",
+            format!(
+                "{} beside {} bearings in [[auxiliary_bearing]]",
+                drop.rotor.planes,
+                drop.auxiliary_bearings.len()
             ),
-        ))
+            "one of the two is needed: equal bearings by their number, others by their names"
+                .to_string(),
+        )
     }
 
     /// Keys that make one part of a mount stand together; a squeeze film is kept from closing by a stop.
@@ -205,23 +176,23 @@ impl Context<'_> {
             let lacking = paths.iter().find(|path| !there(path));
             let given = paths.iter().find(|path| there(path));
             if let (Some(lacking), Some(given)) = (lacking, given) {
-                return Err(Box::new(self.problem(
+                return self.refuse(
                     Code::MissingKey,
                     given,
-                    "this alone".to_string(),
+                    "this alone",
                     format!("{lacking} beside it is needed"),
-                )));
+                );
             }
         }
         let [stiffnesses, times] = ["mount.branch_stiffness", "mount.branch_time"]
             .map(|path| self.values.numbers(path).len());
         if stiffnesses != times {
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::Conflict,
                 "mount.branch_time",
                 format!("{times} times for {stiffnesses} stiffnesses"),
-                "one time for each Maxwell branch is needed".to_string(),
-            )));
+                "one time for each Maxwell branch is needed",
+            );
         }
         let parts = &part.mount.parts;
         let Some(clearance) = parts.film_clearance else {
@@ -231,12 +202,12 @@ impl Context<'_> {
             return Ok(());
         }
         let allowed = "a hard stop with a smaller mount.stop_gap is needed: the film cannot carry a race that reaches its wall";
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::Conflict,
             "mount.film_clearance",
             millimetres(clearance),
-            allowed.to_string(),
-        )))
+            allowed,
+        )
     }
 
     fn air_clearance(&self, part: &AuxiliaryBearing) -> Check {
@@ -244,15 +215,14 @@ impl Context<'_> {
         if contact.radial_air_clearance < 0.5 * contact.bore_diameter {
             return Ok(());
         }
-        Err(Box::new(self.problem(
+        self.refuse_value(
             Code::ClearanceTooLarge,
             "contact.radial_air_clearance",
-            self.text("contact.radial_air_clearance"),
             format!(
                 "less than half of contact.bore_diameter = {} is needed",
                 self.text("contact.bore_diameter")
             ),
-        )))
+        )
     }
 
     /// A perturbed ball must stay in its pocket.
@@ -268,24 +238,27 @@ impl Context<'_> {
         if repeat.count < 2 || shift <= free {
             return Ok(());
         }
-        Err(Box::new(self.problem(
+        self.refuse_value(
             Code::OutOfRange,
             "repeat.ball_angle_deviation",
-            self.text("repeat.ball_angle_deviation"),
             format!(
                 "at most a sixth of the {} that {path} = {} leaves a ball along the pitch circle is needed",
                 millimetres(free),
                 self.text(path)
             ),
-        )))
+        )
     }
 
     /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
-    fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing, share: f64) -> Check {
-        let levitation = &drop.levitation;
+    fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing, body: &RigidBody) -> Check {
+        let (rotor, levitation) = (&drop.rotor, &drop.levitation);
+        let mass = drop.equal_share() * body.mass;
         let clearance = part.contact.radial_air_clearance;
         let offset = levitation.offset_x.hypot(levitation.offset_y);
-        let whirl = levitated_whirl_radius(drop, share);
+        let (stiffness, damping) = (levitation.stiffness, levitation.damping);
+        let eccentricity = body.unbalance_eccentricity;
+        let (along, ahead) = whirl(stiffness, damping, mass, rotor.speed, eccentricity);
+        let whirl = along.hypot(ahead);
         let repeat = &drop.repeat;
         let (spread, narrowest) = if repeat.count > 1 {
             let narrowing = (-SPREAD * repeat.radial_air_clearance_deviation).exp();
@@ -298,34 +271,31 @@ impl Context<'_> {
         };
         if offset + whirl < clearance && offset + whirl >= narrowest {
             let path = "repeat.radial_air_clearance_deviation";
-            return Err(Box::new(self.problem(
+            return self.refuse_value(
                 Code::ContactAtStart,
                 path,
-                self.text(path),
                 format!(
                     "less is needed: six deviations leave {}, and the levitated rotor takes {} of it",
                     millimetres(narrowest),
                     millimetres(offset + whirl)
                 ),
-            )));
+            );
         }
         if offset + whirl < clearance && offset + whirl + spread >= clearance {
-            return Err(Box::new(self.problem(
+            return self.refuse_value(
                 Code::ContactAtStart,
                 "repeat.rotor_position_deviation",
-                self.text("repeat.rotor_position_deviation"),
                 format!(
                     "less than a sixth of the {} that the levitated rotor leaves free is needed, so that no perturbed \
                      start touches",
                     millimetres(clearance - offset - whirl)
                 ),
-            )));
+            );
         }
         if offset + whirl < clearance {
             return Ok(());
         }
-        let rotor = &drop.rotor;
-        let resonance = (levitation.stiffness / (share * rotor.mass)).sqrt();
+        let resonance = (stiffness / mass).sqrt();
         let near = (0.7..1.4).contains(&(rotor.speed.abs() / resonance));
         let hint = near.then(|| {
             format!(
@@ -352,17 +322,4 @@ impl Context<'_> {
             .with_hint(hint),
         ))
     }
-}
-
-/// Radius of the whirl of the levitated rotor's geometric centre at one plane, m.
-fn levitated_whirl_radius(drop: &Drop, share: f64) -> f64 {
-    let (rotor, levitation) = (&drop.rotor, &drop.levitation);
-    let (along, ahead) = whirl(
-        levitation.stiffness,
-        levitation.damping,
-        share * rotor.mass,
-        rotor.speed,
-        rotor.unbalance_eccentricity,
-    );
-    along.hypot(ahead)
 }

@@ -18,7 +18,7 @@ use crate::section::Section;
 use crate::values::Values;
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
-use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
+use physics::heat_conduction::ThermalMaterial;
 use problem::Problem;
 pub use shaft::{BearingPlace, Shaft};
 use std::f64::consts::PI;
@@ -26,10 +26,10 @@ use std::f64::consts::PI;
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drop {
-    /// The rotor as a whole; a rigid one where there is no shaft.
+    /// Speed and torques of the rotor.
     pub rotor: Rotor,
-    /// The rotor as it bends.
-    pub shaft: Option<Box<Shaft>>,
+    /// What the rotor is.
+    pub body: Body,
     /// Weight.
     pub gravity: Gravity,
     /// The magnetic bearing before the release.
@@ -59,15 +59,29 @@ pub struct AuxiliaryBearing {
     pub warm: Option<Box<Warm>>,
 }
 
-/// The rotor as a whole, shared by all planes.
+/// What a rotor is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rotor {
-    /// Mass of the whole rotor, kg.
+pub enum Body {
+    /// A rigid body.
+    Rigid(RigidBody),
+    /// A shaft that bends.
+    Flexible(Box<Shaft>),
+}
+
+/// Mass and inertia of a whole rotor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidBody {
+    /// Mass, kg.
     pub mass: f64,
-    /// Moment of inertia of the whole rotor about its axis, kg m².
+    /// Moment of inertia about the axis, kg m².
     pub polar_inertia: f64,
     /// Distance of the centre of mass from the geometric centre, m.
     pub unbalance_eccentricity: f64,
+}
+
+/// How the rotor turns, shared by all planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rotor {
     /// Direction of the unbalance at the release, rad from x.
     pub unbalance_angle: f64,
     /// Spin at the release, rad/s, counter-clockwise positive.
@@ -230,108 +244,40 @@ pub struct Repeat {
 }
 
 impl Drop {
-    /// What an auxiliary bearing carries of the rotor's weight.
-    pub fn share(&self, bearing: usize) -> f64 {
-        match &self.shaft {
-            Some(shaft) => shaft.places[bearing].share.abs(),
-            None => 1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64),
-        }
+    /// What an auxiliary bearing carries of the weight of a rigid rotor.
+    pub fn equal_share(&self) -> f64 {
+        1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64)
     }
 
-    /// Weight of the rotor on an auxiliary bearing, N.
-    pub fn weight(&self, bearing: usize) -> f64 {
-        self.rotor.mass * self.gravity.acceleration * self.share(bearing)
-    }
-
-    /// A flexible rotor with the values of each auxiliary bearing.
-    pub fn of_shaft(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
-        let shaft = Shaft::of(document, all)?;
-        let whole = shaft.properties();
+    /// Of a document, with the values of each auxiliary bearing.
+    pub(crate) fn of(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
         let values = &all[0];
-        let rotor = Section {
-            values,
-            path: "rotor",
-        };
-        let moments = shaft.model.rotor.unbalance.iter();
-        let moment: rotor::C64 = moments
-            .map(|plane| rotor::C64::from_polar(plane.amount, plane.phase))
-            .sum();
-        let rotor = Rotor {
-            mass: whole.mass,
-            polar_inertia: whole.polar,
-            unbalance_eccentricity: moment.norm() / whole.mass,
-            unbalance_angle: rotor.number("unbalance_angle"),
-            speed: rotor.number("speed"),
-            spin: spin(&rotor),
-            torque_over_speed: rows(&rotor, "torque_over_speed"),
-            torque_share_over_time: rows(&rotor, "torque_share_over_time"),
-            planes: 1,
-            first_bending_frequency: None,
+        let gravity = values.section("gravity");
+        let repeat = values.section("repeat");
+        let until = values.chosen("run.until");
+        let bends = document.system.has_shaft();
+        // magnets of a rotor that bends are parts of it, and no spring about a point
+        let levitation = |name| match bends {
+            true => 0.0,
+            false => values.section("levitation").number(name),
         };
         Ok(Drop {
-            shaft: Some(Box::new(shaft)),
-            // nothing of a linear spring about a point
-            ..Drop::of_rotor(
-                rotor,
-                Levitation {
-                    stiffness: 0.0,
-                    damping: 0.0,
-                    offset_x: 0.0,
-                    offset_y: 0.0,
-                },
-                all,
-            )
-        }
-        .loaded())
-    }
-
-    /// With the weight on each bearing that warms, and the rotor's part that warms with it.
-    fn loaded(mut self) -> Drop {
-        for k in 0..self.auxiliary_bearings.len() {
-            let load = self.weight(k);
-            let capacity = self.rotor.mass * self.share(k) * STEEL_HEAT.specific_heat;
-            let part = &mut self.auxiliary_bearings[k];
-            if let Some(warm) = &mut part.warm {
-                warm.radial_load = load;
-                warm.heat.radial_air_clearance = Some(part.contact.radial_air_clearance);
-                warm.heat.rotor_capacity.get_or_insert(capacity);
-            }
-        }
-        self
-    }
-
-    /// Of the values of each auxiliary bearing.
-    pub fn from_values(all: &[Values]) -> Drop {
-        let values = &all[0];
-        let levitation = Section {
-            values,
-            path: "levitation",
-        };
-        let levitation = Levitation {
-            stiffness: levitation.number("stiffness"),
-            damping: levitation.number("damping"),
-            offset_x: levitation.number("offset_x"),
-            offset_y: levitation.number("offset_y"),
-        };
-        let path = "rotor";
-        Drop::of_rotor(rotor(&Section { values, path }), levitation, all).loaded()
-    }
-
-    fn of_rotor(rotor: Rotor, levitation: Levitation, all: &[Values]) -> Drop {
-        let values = &all[0];
-        let section = |path| Section { values, path };
-        let gravity = section("gravity");
-        let repeat = section("repeat");
-        let until = values.chosen("run.until");
-        Drop {
-            rotor,
+            rotor: rotor(&values.section("rotor"), bends),
+            body: match bends {
+                true => Body::Flexible(Box::new(Shaft::of(document, all)?)),
+                false => Body::Rigid(body(&values.section("rotor"))),
+            },
             run_out: (until == Some(Until::Standstill)).then(|| RunOut::from_values(values)),
-            shaft: None,
             gravity: Gravity {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),
             },
-            levitation,
+            levitation: Levitation {
+                stiffness: levitation("stiffness"),
+                damping: levitation("damping"),
+                offset_x: levitation("offset_x"),
+                offset_y: levitation("offset_y"),
+            },
             auxiliary_bearings: (all.iter()).map(auxiliary_bearing).collect(),
             run: Run::from_values(values),
             repeat: Repeat {
@@ -345,17 +291,16 @@ impl Drop {
                 mount_stiffness_deviation: repeat.number("mount_stiffness_deviation"),
                 radial_air_clearance_deviation: repeat.number("radial_air_clearance_deviation"),
             },
-        }
+        })
     }
 }
 
 fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
     let followed = values.chosen("heat.network") == Some(Network::On);
-    let section = |path| Section { values, path };
-    let mount = section("mount");
+    let mount = values.section("mount");
     AuxiliaryBearing {
         name: values.bearing.clone().unwrap_or_default(),
-        contact: contact(&section("contact")),
+        contact: contact(&values.section("contact")),
         mount: Mount {
             stiffness: mount.number("stiffness"),
             damping: mount.number("damping"),
@@ -369,25 +314,27 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
     }
 }
 
-fn rotor(rotor: &Section<'_>) -> Rotor {
-    Rotor {
+fn body(rotor: &Section<'_>) -> RigidBody {
+    RigidBody {
         mass: rotor.number("mass"),
         polar_inertia: rotor.number("polar_inertia"),
         unbalance_eccentricity: rotor.number("unbalance_eccentricity"),
-        unbalance_angle: rotor.number("unbalance_angle"),
-        speed: rotor.number("speed"),
-        spin: spin(rotor),
-        torque_over_speed: rows(rotor, "torque_over_speed"),
-        torque_share_over_time: rows(rotor, "torque_share_over_time"),
-        planes: rotor.count("planes") as u32,
-        first_bending_frequency: rotor.maybe("first_bending_frequency"),
     }
 }
 
-/// The rows of a table; none where it is not given.
-fn rows(section: &Section<'_>, name: &str) -> Vec<[f64; 2]> {
-    let path = format!("{}.{name}", section.path);
-    section.values.rows(&path).unwrap_or_default()
+fn rotor(rotor: &Section<'_>, bends: bool) -> Rotor {
+    Rotor {
+        unbalance_angle: rotor.number("unbalance_angle"),
+        speed: rotor.number("speed"),
+        spin: spin(rotor),
+        torque_over_speed: rotor.rows("torque_over_speed").unwrap_or_default(),
+        torque_share_over_time: rotor.rows("torque_share_over_time").unwrap_or_default(),
+        planes: match bends {
+            true => 1,
+            false => rotor.count("planes") as u32,
+        },
+        first_bending_frequency: rotor.maybe("first_bending_frequency"),
+    }
 }
 
 fn spin(rotor: &Section<'_>) -> Spin {
@@ -410,7 +357,9 @@ fn contact(contact: &Section<'_>) -> Contact {
         exponent: contact.number("exponent"),
         damping: contact.number("damping"),
         friction_coefficient: contact.number("friction_coefficient"),
-        friction_over_temperature: rows(contact, "friction_over_temperature"),
+        friction_over_temperature: contact
+            .rows("friction_over_temperature")
+            .unwrap_or_default(),
         friction_reference_speed: contact.number("friction_reference_speed"),
         metals: ["rotor", "race"].map(|body| metal(contact, body)),
         modulus: contact.number("surface.modulus"),

@@ -8,22 +8,13 @@ use physics::air::{LARGEST_REYNOLDS, reynolds};
 use problem::Code;
 
 impl Context<'_> {
-    fn refuse_warm(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
-        Err(Box::new(self.problem(
-            code,
-            path,
-            found,
-            needed.to_string(),
-        )))
-    }
-
     /// What its network needs.
     pub fn warm(&self, bearing: &Warm) -> Check {
         let heat = &bearing.heat;
         if heat.outer_diameter <= heat.bore_diameter {
             let path = "heat.outer_diameter";
             let needed = "more than heat.bore_diameter is needed";
-            return self.refuse_warm(Code::OutOfRange, path, self.text(path), needed);
+            return self.refuse_value(Code::OutOfRange, path, needed);
         }
         if heat.surroundings.is_none() && !heat.is_open(heat.housing_emissivity) {
             let path = "heat.surroundings";
@@ -38,14 +29,14 @@ impl Context<'_> {
         if heat.surroundings.is_some() && heat.housing_emissivity > 0.0 {
             let path = "heat.housing_emissivity";
             let needed = "0 is needed beside heat.surroundings, which is all that the housing gives; or leave that out";
-            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+            return self.refuse_value(Code::Conflict, path, needed);
         }
         let windage = self.values.number("rotor.windage").unwrap_or(0.0);
         if heat.atmosphere == Atmosphere::Vacuum && windage > 0.0 {
             let path = "rotor.windage";
             let needed =
                 "0 is needed beside heat.atmosphere = \"vacuum\": no gas brakes the rotor there";
-            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+            return self.refuse_value(Code::Conflict, path, needed);
         }
         self.stirs(heat)?;
         for (path, limit) in [
@@ -58,7 +49,7 @@ impl Context<'_> {
                 let needed = format!(
                     "more than heat.start_temperature = {start} is needed: it is passed before anything turns"
                 );
-                return self.refuse_warm(Code::OutOfRange, path, self.text(path), &needed);
+                return self.refuse_value(Code::OutOfRange, path, &needed);
             }
         }
         Ok(())
@@ -105,7 +96,7 @@ impl Context<'_> {
         if bearing.kind != BearingType::DeepGroove {
             let path = "bearing.type";
             let needed = "\"deep groove\" is needed: a run-out knows radial contacts alone, not an angle and its axial preload";
-            return self.refuse_warm(Code::NotModelled, path, self.text(path), needed);
+            return self.refuse_value(Code::NotModelled, path, needed);
         }
         if !matches!(
             bearing.moment,
@@ -117,12 +108,12 @@ impl Context<'_> {
         ) {
             let path = "bearing.moment.law";
             let needed = "\"palmgren\" without an axial load is needed: warmth and clearance act on its two parts";
-            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+            return self.refuse_value(Code::Conflict, path, needed);
         }
         if bearing.viscosity_points.len() != 2 {
             let path = "bearing.moment.viscosity";
             let needed = "bearing.moment.viscosity_points, two temperatures with their viscosities, are needed: the lubricant warms";
-            return self.refuse_warm(Code::Conflict, path, self.text(path), needed);
+            return self.refuse_value(Code::Conflict, path, needed);
         }
         Ok(())
     }

@@ -215,9 +215,8 @@ pub struct Heat {
 impl Warm {
     /// Of the values of a bearing under a radial load, N.
     pub fn from_values(values: &Values, radial_load: f64) -> Warm {
-        let section = |path| Section { values, path };
-        let bearing = section("bearing");
-        let heat = Heat::from_values(&section("heat"));
+        let bearing = values.section("bearing");
+        let heat = Heat::from_values(&values.section("heat"));
         Warm {
             name: values.text("bearing.name"),
             kind: bearing.choice("type"),
@@ -275,8 +274,7 @@ impl Warm {
 
 /// Growth of the radius of the inner track with the square of its speed, m s².
 fn growth(values: &Values, heat: &Heat) -> f64 {
-    let section = |path| Section { values, path };
-    let (bearing, fits) = (section("bearing"), section("bearing.fits"));
+    let (bearing, fits) = (values.section("bearing"), values.section("bearing.fits"));
     let track = bearing.number("pitch_diameter") - bearing.number("ball_diameter");
     let ring_bore = fits.maybe("bore_diameter").unwrap_or(heat.bore_diameter);
     let chosen: Growth = bearing.chosen("inner_race_growth").unwrap_or(Growth::None);

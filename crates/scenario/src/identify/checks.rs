@@ -58,7 +58,7 @@ impl Context<'_> {
             && until <= from
         {
             let needed = "a time behind identify.rotor_friction.from is needed";
-            return self.refuse(Code::Impossible, to, self.text(to), needed);
+            return self.refuse_value(Code::Impossible, to, needed);
         }
         Ok(())
     }

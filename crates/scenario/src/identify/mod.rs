@@ -5,7 +5,6 @@ pub mod keys;
 
 use crate::bearing::kind::BallMaterial;
 use crate::bearing::{ball_material, cage_ring_mass};
-use crate::section::Section;
 use crate::values::Values;
 use problem::words;
 use std::path::PathBuf;
@@ -109,11 +108,10 @@ pub struct RotorFriction {
 
 impl Identify {
     pub(crate) fn from_values(values: &Values) -> Identify {
-        let section = |path| Section { values, path };
-        let (bearing, identify) = (section("bearing"), section("identify"));
+        let (bearing, identify) = (values.section("bearing"), values.section("identify"));
         let (explanations, rotor) = (
-            section("identify.explanations"),
-            section("identify.rotor_friction"),
+            values.section("identify.explanations"),
+            values.section("identify.rotor_friction"),
         );
         let files = |path| values.texts(path).iter().map(PathBuf::from).collect();
         Identify {

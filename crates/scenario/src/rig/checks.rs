@@ -40,22 +40,21 @@ impl Context<'_> {
         if matches!(rig.pickup.kind, RigPickupKind::Edges { .. })
             && rig.logger.format != RawFormat::Tdms
         {
-            return self.refuse(
+            return self.refuse_value(
                 Code::Conflict,
                 "rig.logger.file",
-                self.text("rig.logger.file"),
                 "\"tdms\" is needed with rig.pickup.kind = \"edges\": instants are no column beside samples",
             );
         }
         let values = rig.logger.total_rate * rig.run.duration;
         if values > MOST_VALUES {
             let path = self.blamed(&["rig.logger.total_rate", "run.duration"]);
-            return Err(Box::new(self.problem(
+            return self.refuse(
                 Code::TooManyRows,
                 path,
                 format!("{}, which gives {values:.1e} values", self.text(path)),
                 format!("at most {MOST_VALUES:.0e} values in a raw file are needed"),
-            )));
+            );
         }
         self.output(&rig.run, rig.bearing.ball_count)
     }
@@ -70,11 +69,6 @@ impl Context<'_> {
             p if p == first => format!("less than {second} = {} is needed", self.text(second)),
             _ => format!("more than {first} = {} is needed", self.text(first)),
         };
-        Err(Box::new(self.problem(
-            Code::OutOfRange,
-            path,
-            self.text(path),
-            needed,
-        )))
+        self.refuse_value(Code::OutOfRange, path, needed)
     }
 }

@@ -282,21 +282,20 @@ pub struct Logger {
 
 impl Rig {
     pub(crate) fn from_values(values: &Values) -> Rig {
-        let section = |path| Section { values, path };
         let (rig, motor, flywheel) = (
-            section("rig"),
-            section("rig.motor"),
-            section("rig.flywheel"),
+            values.section("rig"),
+            values.section("rig.motor"),
+            values.section("rig.flywheel"),
         );
         let (clutch, shaft, load) = (
-            section("rig.clutch"),
-            section("rig.shaft"),
-            section("rig.load"),
+            values.section("rig.clutch"),
+            values.section("rig.shaft"),
+            values.section("rig.load"),
         );
         let (arm, temperature, logger) = (
-            section("rig.arm"),
-            section("rig.temperature"),
-            section("rig.logger"),
+            values.section("rig.arm"),
+            values.section("rig.temperature"),
+            values.section("rig.logger"),
         );
         Rig {
             program: program(&rig, &motor, &clutch),
@@ -340,11 +339,11 @@ impl Rig {
                 conductance: temperature.maybe("conductance"),
                 lag: temperature.number("lag"),
                 ambient: (temperature.maybe("ambient"))
-                    .unwrap_or_else(|| section("heat").number("start_temperature")),
+                    .unwrap_or_else(|| values.section("heat").number("start_temperature")),
                 noise: temperature.number("noise"),
             },
-            pickup: pickup(&section("rig.pickup")),
-            ball_pass: ball_pass(&section("rig.ball_pass")),
+            pickup: pickup(&values.section("rig.pickup")),
+            ball_pass: ball_pass(&values.section("rig.ball_pass")),
             logger: Logger {
                 format: logger.choice("file"),
                 total_rate: logger.number("total_rate"),

@@ -1,4 +1,4 @@
-//! The part of the table of keys that says what is asked of a flexible rotor.
+//! The keys of a flexible rotor: what is asked of it, and its parts, arrays of tables `[[rotor.section]]`, `[[levitation.magnet]]` and so on.
 
 use crate::key::{Key, Kind, Range, Section};
 use crate::system::SystemName;
@@ -40,3 +40,305 @@ pub const KEYS: &[Key] = &[
     Key::new("analysis.map_count", Kind::Count, "41", "Number of stiffnesses of the map, evenly spaced on a logarithmic axis.")
         .within(Range::FromTo(2.0, 1000.0)).default("41", "ten a decade"),
 ];
+
+/// A kind of part.
+#[derive(Debug)]
+pub struct PartKind {
+    /// Its word: `section` of `[[rotor.section]]`.
+    pub word: &'static str,
+    pub(crate) doc: &'static str,
+    /// Whether a single one may stand as a plain table.
+    pub alone: bool,
+    pub(crate) keys: &'static [Key],
+    /// Parts of the starting file: values of keys as written, without quotes.
+    pub starting: &'static [&'static [(&'static str, &'static str)]],
+}
+
+/// A key of a part.
+macro_rules! key {
+    ($part:literal, $name:literal, $kind:expr, $example:literal, $doc:expr) => {
+        Key::new(concat!("rotor.", $part, ".", $name), $kind, $example, $doc)
+    };
+}
+
+/// A name; results and messages carry it.
+macro_rules! name {
+    ($part:literal, $example:literal) => {
+        key!(
+            $part,
+            "name",
+            Kind::Text,
+            $example,
+            "Its name, in results and messages."
+        )
+        .optional("its number names it")
+    };
+}
+
+/// Where a part sits.
+macro_rules! at {
+    ($part:literal) => {
+        key!(
+            $part,
+            "at",
+            Kind::Text,
+            "0.25 m",
+            "Where it sits: a position along the shaft, or the name of a [[rotor.node]]."
+        )
+    };
+}
+
+/// A key of a part of the levitation.
+macro_rules! lev {
+    ($part:literal, $name:literal, $kind:expr, $example:literal, $doc:expr) => {
+        Key::new(
+            concat!("levitation.", $part, ".", $name),
+            $kind,
+            $example,
+            $doc,
+        )
+    };
+}
+
+const FOUR: &str = "Coefficients are constant, or one for each of speeds.";
+
+/// Of a support: it acts on after the release.
+pub const STAYS: &str = "stays";
+
+/// Stiffness and damping of a support, over speed where a table is given.
+macro_rules! coefficients {
+    ($part:literal, $($more:expr),* $(,)?) => {
+        &[
+            $($more,)*
+            key!($part, "speeds", Kind::Series("rad/s"), "[\"0 rpm\", \"6000 rpm\"]", "Speeds of a table of coefficients, rising. Between them coefficients are linear, beyond them they stay.")
+                .optional("coefficients are constant"),
+            key!($part, "stiffness", Kind::Series("N/m"), "1e6 N/m", FOUR).optional("it is 0"),
+            key!($part, "stiffness_yy", Kind::Series("N/m"), "0.8e6 N/m", "Stiffness in y; stiffness is then that in x.").optional("it is that in x"),
+            key!($part, "stiffness_xy", Kind::Series("N/m"), "1e5 N/m", "Force against x for a displacement in y.").optional("it is 0"),
+            key!($part, "stiffness_yx", Kind::Series("N/m"), "-1e5 N/m", "Force against y for a displacement in x; of a rotating fluid opposite to stiffness_xy.").optional("it is 0"),
+            key!($part, "damping", Kind::Series("N s/m"), "200 N s/m", "Damping.").optional("it is 0"),
+            key!($part, "damping_yy", Kind::Series("N s/m"), "200 N s/m", "Damping in y; damping is then that in x.").optional("it is that in x"),
+            key!($part, "damping_xy", Kind::Series("N s/m"), "20 N s/m", "Force against x for a velocity in y.").optional("it is 0"),
+            key!($part, "damping_yx", Kind::Series("N s/m"), "-20 N s/m", "Force against y for a velocity in x.").optional("it is 0"),
+            key!($part, "added_mass", Kind::Series("kg"), "0.5 kg", "Mass of the fluid that moves with it.").optional("it is 0"),
+            key!($part, "added_mass_yy", Kind::Series("kg"), "0.5 kg", "The same in y.").optional("it is that in x"),
+            key!($part, "added_mass_xy", Kind::Series("kg"), "0 kg", "Force against x for an acceleration in y.").optional("it is 0"),
+            key!($part, "added_mass_yx", Kind::Series("kg"), "0 kg", "Force against y for an acceleration in x.").optional("it is 0"),
+        ]
+    };
+}
+
+pub(crate) const PARTS: &[PartKind] = &[
+    PartKind {
+        word: "material",
+        doc: "A material of your own. Known by name are steel, stainless_steel, titanium, aluminium and nickel_alloy.",
+        alone: false,
+        keys: &[
+            key!("material", "name", Kind::Text, "shaft_steel", "Its name."),
+            key!("material", "youngs_modulus", Kind::Quantity("Pa"), "211 GPa", "Young's modulus.").within(Range::FromTo(1e5, 1e14)),
+            key!("material", "poisson_ratio", Kind::Coefficient, "0.3", "Poisson's ratio.").within(Range::FromTo(0.0, 0.499)).optional("it follows from shear_modulus, else it is 0.3"),
+            key!("material", "shear_modulus", Kind::Quantity("Pa"), "81.2 GPa", "Shear modulus.").positive().optional("it is E/(2(1 + poisson_ratio))").excludes("rotor.material.poisson_ratio"),
+            key!("material", "density", Kind::Quantity("kg/m^3"), "7810 kg/m^3", "Density.").positive(),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "node",
+        doc: "A place on the shaft with a name.",
+        alone: false,
+        keys: &[
+            key!("node", "name", Kind::Text, "drive_end", "Its name."),
+            key!("node", "at", Kind::Quantity("m"), "0.1 m", "Position along the shaft."),
+            key!("node", "clearance", Kind::Quantity("m"), "0.3 mm", "Radial clearance of what stands around the rotor here: a seal, a sensor, a magnet. A run on auxiliary bearings says what is left of it.").positive().optional("the least distance is not given"),
+        ],
+        starting: &[&[("name", "drive_end"), ("at", "0.1 m")], &[("name", "other_end"), ("at", "0.7 m")]],
+    },
+    PartKind {
+        word: "section",
+        doc: "A piece of shaft, solid, hollow or tapered. Pieces follow each other; one that lies over another gives from.",
+        alone: false,
+        keys: &[
+            name!("section", "journal"),
+            key!("section", "from", Kind::Quantity("m"), "0 m", "Position of its left end.").optional("it begins where the section before it ends, the first at 0"),
+            key!("section", "length", Kind::Quantity("m"), "0.8 m", "Length.").positive(),
+            key!("section", "outer_diameter", Kind::Quantity("m"), "40 mm", "Outer diameter, of a tapered piece at its left end.").positive(),
+            key!("section", "outer_diameter_end", Kind::Quantity("m"), "50 mm", "Outer diameter at its right end.").positive().optional("it is that of the left end"),
+            key!("section", "inner_diameter", Kind::Quantity("m"), "10 mm", "Diameter of the bore, of a tapered one at its left end.").not_negative().default("0 m", "a solid shaft"),
+            key!("section", "inner_diameter_end", Kind::Quantity("m"), "10 mm", "Diameter of the bore at its right end.").not_negative().optional("it is that of the left end"),
+            key!("section", "material", Kind::Text, "steel", "Its material, by name."),
+            key!("section", "elements", Kind::Count, "4", "Number of elements that it is divided into, where nothing sits between them.").within(Range::FromTo(1.0, 1000.0)).optional("as many as rotor.longest_element asks for"),
+            key!("section", "damping_of_mass", Kind::Quantity("1/s"), "2.5 1/s", "As rotor.damping_of_mass, of this piece.").not_negative().optional("rotor.damping_of_mass counts"),
+            key!("section", "damping_of_stiffness", Kind::Quantity("s"), "1 us", "As rotor.damping_of_stiffness, of this piece.").not_negative().optional("rotor.damping_of_stiffness counts"),
+            key!("section", "damping_rotating", Kind::Quantity("s"), "1 us", "As rotor.damping_rotating, of this piece.").not_negative().optional("rotor.damping_rotating counts"),
+        ],
+        starting: &[&[("length", "0.8 m"), ("outer_diameter", "39.5 mm"), ("material", "steel")]],
+    },
+    PartKind {
+        word: "sleeve",
+        doc: "A ring on the shaft that adds mass and inertia but no stiffness. One that is shrunk on so that it bends with the shaft is a section.",
+        alone: false,
+        keys: &[
+            name!("sleeve", "landing_sleeve"),
+            key!("sleeve", "from", Kind::Quantity("m"), "0.1 m", "Position of its left end."),
+            key!("sleeve", "length", Kind::Quantity("m"), "30 mm", "Length.").positive(),
+            key!("sleeve", "outer_diameter", Kind::Quantity("m"), "50 mm", "Outer diameter.").positive(),
+            key!("sleeve", "inner_diameter", Kind::Quantity("m"), "40 mm", "Inner diameter.").not_negative(),
+            key!("sleeve", "material", Kind::Text, "steel", "Its material, by name."),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "disk",
+        doc: "A rigid disk: its mass and inertia, or its dimensions and material.",
+        alone: false,
+        keys: &[
+            name!("disk", "impeller"),
+            at!("disk"),
+            key!("disk", "mass", Kind::Quantity("kg"), "5 kg", "Mass.").positive().optional("it follows from the dimensions"),
+            key!("disk", "polar_inertia", Kind::Quantity("kg m^2"), "0.02 kg m^2", "Moment of inertia about the axis.").not_negative().optional("it follows from the dimensions"),
+            key!("disk", "diametral_inertia", Kind::Quantity("kg m^2"), "0.01 kg m^2", "Moment of inertia about a diameter.").not_negative().optional("it follows from the dimensions"),
+            key!("disk", "width", Kind::Quantity("m"), "20 mm", "Width of a disk that is given by its dimensions; else only for the drawing.").positive().optional("mass and inertias are needed"),
+            key!("disk", "outer_diameter", Kind::Quantity("m"), "200 mm", "Outer diameter of a disk that is given by its dimensions; else only for the drawing.").positive().optional("mass and inertias are needed"),
+            key!("disk", "inner_diameter", Kind::Quantity("m"), "40 mm", "Inner diameter of such a disk.").not_negative().optional("it is 0"),
+            key!("disk", "material", Kind::Text, "steel", "Material of such a disk.").optional("mass and inertias are needed"),
+        ],
+        starting: &[&[("name", "impeller"), ("at", "0.4 m"), ("mass", "5 kg"), ("polar_inertia", "0.02 kg m^2"), ("diametral_inertia", "0.012 kg m^2")]],
+    },
+    PartKind {
+        word: "mass",
+        doc: "A mass without inertia on the shaft.",
+        alone: false,
+        keys: &[
+            name!("mass", "coupling_half"),
+            at!("mass"),
+            key!("mass", "mass", Kind::Quantity("kg"), "0.4 kg", "Mass.").positive(),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "housing",
+        doc: "A housing or pedestal: a mass that supports stand on, on a mount of its own.",
+        alone: false,
+        keys: coefficients![
+            "housing",
+            key!("housing", "name", Kind::Text, "pedestal", "Its name, for rotor.support.on."),
+            key!("housing", "mass", Kind::Quantity("kg"), "5 kg", "Mass.").positive(),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "support",
+        doc: "A linear support: two-by-two stiffness and damping, constant or over speed.",
+        alone: false,
+        keys: coefficients![
+            "support",
+            name!("support", "drive_end_bearing"),
+            at!("support"),
+            key!("support", "on", Kind::Text, "pedestal", "Name of the [[rotor.housing]] that it stands on.").optional("it stands on the ground"),
+            key!("support", "after_release", Kind::Word(&["lets go", STAYS]), "stays", "What it does when a machine's rotor is released: it lets go with the levitation, or stays and goes on carrying its share of the weight.").default("lets go", "it stands for the levitation that is lost"),
+        ],
+        starting: &[
+            &[("name", "bearing_1"), ("at", "drive_end"), ("stiffness", "1e7 N/m"), ("damping", "500 N s/m")],
+            &[("name", "bearing_2"), ("at", "other_end"), ("stiffness", "1e7 N/m"), ("damping", "500 N s/m")],
+        ],
+    },
+    PartKind {
+        word: "seal",
+        doc: "A seal: coefficients as a support's, but no static load.",
+        alone: false,
+        keys: coefficients![
+            "seal",
+            name!("seal", "balance_piston"),
+            at!("seal"),
+            key!("seal", "on", Kind::Text, "pedestal", "Name of the [[rotor.housing]] that it stands on.").optional("it stands on the ground"),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "unbalance",
+        doc: "An unbalance plane. All act together.",
+        alone: false,
+        keys: &[
+            name!("unbalance", "impeller_unbalance"),
+            at!("unbalance"),
+            key!("unbalance", "amount", Kind::Quantity("kg m"), "20 g mm", "Mass times distance from the axis.").not_negative(),
+            key!("unbalance", "phase", Kind::Quantity("rad"), "90 deg", "Angle on the rotor.").default("0 deg", "along the mark that angles count from"),
+        ],
+        starting: &[&[("at", "0.4 m"), ("amount", "20 g mm")]],
+    },
+    PartKind {
+        word: "magnet",
+        doc: "A radial magnet with two axes at right angles.",
+        alone: false,
+        keys: &[
+            lev!("magnet", "name", Kind::Text, "drive_end", "Its name, in results and messages."),
+            lev!("magnet", "at", Kind::Text, "0.25 m", "Where it sits: a position along the shaft, or the name of a [[rotor.node]]."),
+            lev!("magnet", "angle", Kind::Quantity("rad"), "45 deg", "Direction of its first axis from x; the second is a right angle ahead.").default("45 deg", "the usual frame"),
+            lev!("magnet", "current_stiffness", Kind::Quantity("N/A"), "40 N/A", "Force over control current of an axis, k_i.").positive(),
+            lev!("magnet", "position_stiffness", Kind::Quantity("N/m"), "1.6e5 N/m", "Force over displacement of an axis, k_s; it pushes away from the centre.").positive(),
+            lev!("magnet", "gap", Kind::Quantity("m"), "0.4 mm", "Gap g₀ of an opposed pair with bias current; static position, forces, poles and sensitivities are then those of the pair under its load.").positive().optional("the force is linear"),
+            lev!("magnet", "bias_current", Kind::Quantity("A"), "1.6 A", "Bias current of both coils of an axis, g₀k_s/k_i; given, it is checked.").positive().optional("it follows from gap and stiffnesses").beside(&["gap"]),
+            lev!("magnet", "bias_difference_1", Kind::Quantity("A"), "0.8 A", "Bias of the coil that pulls along the first axis, less that of the coil against it; their mean is bias_current. Carries weight without control current; stiffnesses are given for equal biases.").default("0 A", "equal biases").beside(&["gap"]),
+            lev!("magnet", "bias_difference_2", Kind::Quantity("A"), "0.8 A", "The same of the second axis.").default("0 A", "equal biases").beside(&["gap"]),
+            lev!("magnet", "largest_current", Kind::Quantity("A"), "3.2 A", "Largest current of a coil, of a linear magnet largest control current.").positive().optional("no limit"),
+            lev!("magnet", "amplifier_bandwidth", Kind::Quantity("1/s"), "2 kHz", "Corner of a current amplifier.").positive().optional("the current is the command").excludes("levitation.magnet.inductance"),
+            lev!("magnet", "inductance", Kind::Quantity("H"), "20 mH", "Inductance of an axis, its two coils in series: twice that of one coil, k_i²/k_s without stray flux. It asks for a voltage amplifier.").positive().optional("a current amplifier"),
+            lev!("magnet", "resistance", Kind::Quantity("ohm"), "1.5 ohm", "Resistance of an axis, its two coils in series.").positive().optional("needed beside inductance").beside(&["inductance"]),
+            lev!("magnet", "amplifier_gain", Kind::Quantity("ohm"), "300 ohm", "Volts of the amplifier for each ampere that lacks.").positive().optional("the command is the voltage itself, gains are of V instead of A").beside(&["inductance"]),
+            lev!("magnet", "largest_voltage", Kind::Quantity("V"), "150 V", "Largest voltage across the two coils of an axis in series.").positive().optional("no limit").beside(&["inductance"]),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "sensor",
+        doc: "A position sensor, its two axes along those of its magnet.",
+        alone: false,
+        keys: &[
+            lev!("sensor", "magnet", Kind::Text, "drive_end", "Name of its magnet.").optional("it is that of every magnet without its own"),
+            lev!("sensor", "at", Kind::Text, "0.23 m", "Where it sits: a position along the shaft, or the name of a [[rotor.node]]."),
+            lev!("sensor", "bandwidth", Kind::Quantity("1/s"), "8 kHz", "Its corner, first order.").positive().optional("it follows at once"),
+            lev!("sensor", "offset_1", Kind::Quantity("m"), "5 um", "What its first axis shows too much.").default("0 m", "calibrated"),
+            lev!("sensor", "offset_2", Kind::Quantity("m"), "5 um", "What its second axis shows too much.").default("0 m", "calibrated"),
+        ],
+        starting: &[],
+    },
+    PartKind {
+        word: "controller",
+        doc: "A controller: a PID with filters on each axis, or matrices from all sensors to all magnets.",
+        alone: true,
+        keys: &[
+            lev!("controller", "magnet", Kind::Text, "drive_end", "Name of its magnet.").optional("it is that of every magnet without its own"),
+            lev!("controller", "proportional", Kind::Quantity("A/m"), "8000 A/m", "Gain of the displacement.").default("0 A/m", "none").unless(&["d"]),
+            lev!("controller", "integral", Kind::Quantity("A/(m s)"), "8e4 A/(m s)", "Gain of its integral.").default("0 A/(m s)", "none").unless(&["d"]),
+            lev!("controller", "derivative", Kind::Quantity("A s/m"), "22 A s/m", "Gain of its rate.").default("0 A s/m", "none").unless(&["d"]),
+            lev!("controller", "derivative_time", Kind::Quantity("s"), "45 us", "Time constant that ends the derivative.").positive().optional("needed beside derivative").beside(&["derivative"]).unless(&["d"]),
+            lev!("controller", "filters", Kind::Texts, "[\"1 30 6.3e6 / 1 900 6.3e6\"]", "Filters behind the PID, each coefficients of s over coefficients of s, the highest power first, of second order at most, s in 1/s.").optional("no filter").unless(&["d"]),
+            lev!("controller", "a", Kind::Text, "-1000 0; 0 -1000", "Matrix A of ẋ = A x + B e, rows between semicolons; e the errors of all sensor axes in the order of the magnets, m and s.").optional("no states").beside(&["b", "c", "d"]),
+            lev!("controller", "b", Kind::Text, "1000 0; 0 1000", "Matrix B.").optional("0").beside(&["a"]),
+            lev!("controller", "c", Kind::Text, "1 0; 0 1", "Matrix C of commands = C x + D e, A or V.").optional("0").beside(&["a"]),
+            lev!("controller", "d", Kind::Text, "8000 0; 0 8000", "Matrix D; given, the controller is that of the matrices.").optional("PID and filters"),
+            lev!("controller", "delay", Kind::Quantity("s"), "50 us", "Delay of the commands.").not_negative().default("0 s", "none").unless(&["sampling_period"]),
+            lev!("controller", "sampling_period", Kind::Quantity("s"), "50 us", "Period of a sampled controller; its delay is half of it and computing_time.").positive().optional("the controller runs at every instant"),
+            lev!("controller", "computing_time", Kind::Quantity("s"), "25 us", "From a sample to its command.").not_negative().default("0 s", "none").beside(&["sampling_period"]),
+        ],
+        starting: &[],
+    },
+];
+
+/// The kind of part at a path: `rotor.section`.
+pub fn kind_at(path: &str) -> Option<&'static PartKind> {
+    PARTS.iter().find(|kind| kind.path() == path)
+}
+
+impl PartKind {
+    /// The table it stands in: `rotor` of `[[rotor.section]]`.
+    pub fn table(&self) -> &'static str {
+        let path = self.keys.first().map_or("rotor", |key| key.path);
+        path.split('.').next().unwrap_or("rotor")
+    }
+
+    /// Table and word: `rotor.section`.
+    pub fn path(&self) -> String {
+        format!("{}.{}", self.table(), self.word)
+    }
+}

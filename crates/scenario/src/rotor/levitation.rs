@@ -1,35 +1,91 @@
-//! From the tables of magnets, sensors and controllers to the levitation of the kernel.
+//! From the tables of magnets, sensors and controllers to their values.
 
 use crate::key::quoted;
-use crate::rotor::parts::Part;
-use ::levitation::{
-    Actuator, Amplifier, Axis, Control, Levitation, Refused, Sensor, StateSpace, Timing,
-};
-use nalgebra::DMatrix;
-use physics::magnet::{Magnet, OpposedPair};
-use problem::{Code, Problem, did_you_mean};
+use crate::rotor::parts::{Checked, OfKind};
+use crate::rotor::tables::Part;
+use physics::magnet::{Amplifier, Magnet, OpposedPair, Timing};
+use problem::{Code, did_you_mean};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-type Built<T> = Result<T, Box<Problem>>;
+/// Magnets that hold a rotor, with their sensors and controllers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Magnets {
+    /// The magnets.
+    pub magnets: Vec<RadialMagnet>,
+    /// What commands them.
+    pub control: Control,
+    /// When commands take effect.
+    pub timing: Timing,
+    /// The table that answers for all of them: `levitation.controller.1`.
+    pub path: String,
+}
+
+/// A radial magnet with its sensor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RadialMagnet {
+    /// Its name.
+    pub name: String,
+    /// Position along the shaft, m.
+    pub at: f64,
+    /// Position of its sensor, m.
+    pub sensed_at: f64,
+    /// Corner of its sensor, rad/s; none follows at once.
+    pub sensor_corner: Option<f64>,
+    /// How commands become currents.
+    pub amplifier: Amplifier,
+    /// Both axes, at right angles.
+    pub axes: [MagnetAxis; 2],
+}
+
+/// An axis of a magnet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MagnetAxis {
+    /// Direction, rad from x.
+    pub angle: f64,
+    /// Force law.
+    pub law: Magnet<f64>,
+    /// Lowest control current, A.
+    pub lowest_current: f64,
+    /// Largest control current, A.
+    pub largest_current: f64,
+    /// What its sensor shows too much, m.
+    pub offset: f64,
+}
+
+/// From position errors to commands.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Control {
+    /// One filter of each magnet, for both axes.
+    Channels(Vec<Channel>),
+    /// Matrices A, B, C, D by rows, from all sensors to all magnets; A, B and C may be left out.
+    Matrices([Option<Vec<Vec<f64>>>; 4]),
+}
+
+/// A PID with filters behind it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// The table of its controller: `levitation.controller.1`.
+    pub path: String,
+    /// Gain of the error, A/m or V/m.
+    pub proportional: f64,
+    /// Gain of its integral.
+    pub integral: f64,
+    /// Gain of its rate.
+    pub derivative: f64,
+    /// Time constant that ends the derivative, s.
+    pub derivative_time: f64,
+    /// Coefficients of s above and below, the highest power first.
+    pub filters: Vec<[Vec<f64>; 2]>,
+}
 
 /// Share by which a given bias may differ from g₀k_s/k_i: makers round their data.
 const BIAS_SHARE: f64 = 0.02;
 
-/// The levitation of a rotor.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LevitationModel {
-    /// The levitation as the kernel has it; two axes of each magnet in turn.
-    pub levitation: Levitation,
-    /// Magnets by name with node and node of their sensor.
-    pub magnets: Vec<(String, usize, usize)>,
-}
-
-/// The levitation of all parts; none without magnets.
-pub fn model<'a>(
-    of: &dyn Fn(&str) -> Vec<&'a Part>,
-    node: &dyn Fn(&Part) -> Built<usize>,
-    nodes: usize,
-) -> Built<Option<LevitationModel>> {
+/// All magnets; none where the file has none.
+pub(super) fn magnets<'a>(
+    of: OfKind<'a, '_>,
+    at: &dyn Fn(&Part) -> Checked<f64>,
+) -> Checked<Option<Magnets>> {
     let (magnets, sensors, controllers) = (of("magnet"), of("sensor"), of("controller"));
     for part in sensors.iter().chain(&controllers) {
         belongs(part, &magnets)?;
@@ -40,44 +96,36 @@ pub fn model<'a>(
     let Some(first) = magnets.first() else {
         return Ok(None);
     };
-    let (mut axes, mut actuators, mut channels) = (Vec::new(), Vec::new(), Vec::new());
-    let mut names = Vec::new();
-    let own = |list: &[&'a Part], magnet: &Part, what: &str| -> Built<&'a Part> {
+    let own = |list: &[&'a Part], magnet: &Part, what: &str| -> Checked<&'a Part> {
         let of_it = |part: &&&Part| part.text("magnet") == Some(&magnet.label);
         let for_all = |part: &&&Part| part.text("magnet").is_none();
         let mut found = list.iter().filter(of_it).chain(list.iter().filter(for_all));
-        found.next().copied().ok_or_else(|| {
-            let found = format!("a magnet without {what}");
-            let allowed = format!(
-                "a [[levitation.{what}]] with magnet = {} is needed",
-                quoted(&magnet.label)
-            );
-            Box::new(magnet.problem(Code::LevitationParts, "", found, allowed))
-        })
+        found.next().copied().map_or_else(
+            || {
+                let allowed = format!(
+                    "a [[levitation.{what}]] with magnet = {} is needed",
+                    quoted(&magnet.label)
+                );
+                let found = format!("a magnet without {what}");
+                magnet.refuse(Code::LevitationParts, "", found, allowed)
+            },
+            Ok,
+        )
     };
+    let (mut list, mut channels) = (Vec::new(), Vec::new());
     for magnet in &magnets {
         let sensor = own(&sensors, magnet, "sensor")?;
         let controller = own(&controllers, magnet, "controller")?;
-        let (at, sensed) = (node(magnet)?, node(sensor)?);
-        names.push((magnet.label.clone(), at, sensed));
-        for (number, turned) in [(1, 0.0), (2, FRAC_PI_2)] {
-            let axis = |node| Axis {
-                name: format!("{} {number}", magnet.label),
-                node,
-                angle: magnet.needed("angle") + turned,
-            };
-            axes.push(Sensor {
-                axis: axis(sensed),
-                corner: sensor.number("bandwidth").map(|hertz| TAU * hertz),
-                offset: sensor.needed(&format!("offset_{number}")),
-                reference: 0.0,
-            });
-            actuators.push(Actuator {
-                amplifier: amplifier(magnet)?,
-                ..actuator(magnet, number, axis(at))?
-            });
-        }
-        channels.push((controller, channel(controller)?));
+        let amplifier = amplifier(magnet)?;
+        list.push(RadialMagnet {
+            name: magnet.label.clone(),
+            at: at(magnet)?,
+            sensed_at: at(sensor)?,
+            sensor_corner: sensor.number("bandwidth").map(|hertz| TAU * hertz),
+            amplifier,
+            axes: [axis(magnet, sensor, 1)?, axis(magnet, sensor, 2)?],
+        });
+        channels.push(channel(controller)?);
     }
     let timing = timing(&controllers)?;
     let matrix = controllers.iter().find(|part| part.known.contains_key("d"));
@@ -85,38 +133,33 @@ pub fn model<'a>(
         Some(part) if controllers.len() > 1 => {
             let found = "matrices of a controller, and another controller";
             let allowed = "one [levitation.controller] from all sensors to all magnets is needed";
-            return Err(Box::new(part.problem(Code::Conflict, "d", found, allowed)));
+            return part.refuse(Code::Conflict, "d", found, allowed);
         }
-        Some(part) => Control::Matrix(state_space(part)?),
-        None => Control::Channels(
-            channels
-                .iter()
-                .flat_map(|(_, channel)| [channel.clone(), channel.clone()])
-                .collect(),
-        ),
+        Some(part) => Control::Matrices([
+            rows(part, "a")?,
+            rows(part, "b")?,
+            rows(part, "c")?,
+            rows(part, "d")?,
+        ]),
+        None => Control::Channels(channels),
     };
-    let teller = matrix.or(controllers.first()).unwrap_or(first);
-    let levitation = Levitation::new(nodes, axes, control, timing, actuators)
-        .map_err(|error| refused(teller, "", &error))?;
-    Ok(Some(LevitationModel {
-        levitation,
-        magnets: names,
+    let path = matrix.or(controllers.first()).unwrap_or(first).path.clone();
+    Ok(Some(Magnets {
+        magnets: list,
+        control,
+        timing,
+        path,
     }))
 }
 
 /// Refuses a part of a magnet that is not there.
-fn belongs(part: &Part, magnets: &[&Part]) -> Built<()> {
+fn belongs(part: &Part, magnets: &[&Part]) -> Checked<()> {
     let Some(name) = part.text("magnet") else {
         return match magnets.is_empty() {
             true => {
                 let allowed = "a [[levitation.magnet]] is needed";
                 let found = format!("a {} without a magnet", part.kind.word);
-                Err(Box::new(part.problem(
-                    Code::LevitationParts,
-                    "",
-                    found,
-                    allowed,
-                )))
+                part.refuse(Code::LevitationParts, "", found, allowed)
             }
             false => Ok(()),
         };
@@ -134,7 +177,7 @@ fn belongs(part: &Part, magnets: &[&Part]) -> Built<()> {
 }
 
 /// Refuses a second part for what one serves, and one for all magnets where each has its own: it would not act.
-fn each_acts(list: &[&Part], magnets: &[&Part]) -> Built<()> {
+fn each_acts(list: &[&Part], magnets: &[&Part]) -> Checked<()> {
     // what stands beside matrices is refused with them
     if list.iter().any(|part| part.known.contains_key("d")) {
         return Ok(());
@@ -154,34 +197,29 @@ fn each_acts(list: &[&Part], magnets: &[&Part]) -> Built<()> {
             None => format!("a second {word} of every magnet without its own"),
         };
         let allowed = format!("one {word} for each magnet is needed: this one would not act");
-        return Err(Box::new(part.problem(
-            Code::LevitationParts,
-            "magnet",
-            found,
-            allowed,
-        )));
+        return part.refuse(Code::LevitationParts, "magnet", found, allowed);
     }
     Ok(())
 }
 
-/// An axis of a magnet with its force law and limits of its control current; its amplifier is another matter.
-fn actuator(part: &Part, number: usize, axis: Axis) -> Built<Actuator> {
-    let magnet = law(part, number)?;
+/// An axis of a magnet with its force law and limits of its control current.
+fn axis(part: &Part, sensor: &Part, number: u8) -> Checked<MagnetAxis> {
+    let law = law(part, number)?;
     let largest = part.number("largest_current").unwrap_or(f64::INFINITY);
-    let [plus, minus] = match magnet {
+    let [plus, minus] = match law {
         Magnet::Pair(pair) => [pair.bias_plus, pair.bias_minus],
         Magnet::Linear { .. } => [0.0; 2],
     };
-    Ok(Actuator {
-        axis,
-        magnet,
-        amplifier: Amplifier::Direct,
+    Ok(MagnetAxis {
+        angle: part.needed("angle") + if number == 2 { FRAC_PI_2 } else { 0.0 },
+        law,
         lowest_current: minus - largest,
         largest_current: largest - plus,
+        offset: sensor.needed(&format!("offset_{number}")),
     })
 }
 
-fn law(part: &Part, number: usize) -> Built<Magnet<f64>> {
+fn law(part: &Part, number: u8) -> Checked<Magnet<f64>> {
     let current_stiffness = part.needed("current_stiffness");
     let position_stiffness = part.needed("position_stiffness");
     let Some(gap) = part.number("gap") else {
@@ -200,12 +238,7 @@ fn law(part: &Part, number: usize) -> Built<Magnet<f64>> {
         let allowed = format!(
             "{bias:.4} A is needed: bias/gap is position_stiffness/current_stiffness of a pair; or leave it out"
         );
-        return Err(Box::new(part.problem(
-            Code::MagnetValues,
-            "bias_current",
-            found,
-            allowed,
-        )));
+        return part.refuse(Code::MagnetValues, "bias_current", found, allowed);
     }
     let name = format!("bias_difference_{number}");
     let difference = part.needed(&name);
@@ -214,12 +247,7 @@ fn law(part: &Part, number: usize) -> Built<Magnet<f64>> {
         let allowed = format!(
             "less than twice the mean bias of {bias:.4} A is needed: both coils carry current"
         );
-        return Err(Box::new(part.problem(
-            Code::MagnetValues,
-            &name,
-            found,
-            allowed,
-        )));
+        return part.refuse(Code::MagnetValues, &name, found, allowed);
     }
     let pair = pair.with_bias_difference(difference);
     let bias = pair.bias_plus.max(pair.bias_minus);
@@ -228,17 +256,12 @@ fn law(part: &Part, number: usize) -> Built<Magnet<f64>> {
         let allowed = format!(
             "at least the bias is needed: {bias:.4} A follow from gap, stiffnesses and bias_difference_{number}"
         );
-        return Err(Box::new(part.problem(
-            Code::MagnetValues,
-            "largest_current",
-            found,
-            allowed,
-        )));
+        return part.refuse(Code::MagnetValues, "largest_current", found, allowed);
     }
     Ok(Magnet::Pair(pair))
 }
 
-fn amplifier(part: &Part) -> Built<Amplifier> {
+fn amplifier(part: &Part) -> Checked<Amplifier> {
     let Some(inductance) = part.number("inductance") else {
         return Ok(match part.number("amplifier_bandwidth") {
             Some(hertz) => Amplifier::Current {
@@ -249,8 +272,7 @@ fn amplifier(part: &Part) -> Built<Amplifier> {
     };
     let Some(resistance) = part.number("resistance") else {
         let allowed = "resistance is needed beside inductance";
-        let problem = part.problem(Code::MissingKey, "resistance", "no value", allowed);
-        return Err(Box::new(problem));
+        return part.refuse(Code::MissingKey, "resistance", "no value", allowed);
     };
     Ok(Amplifier::Voltage {
         inductance,
@@ -260,29 +282,29 @@ fn amplifier(part: &Part) -> Built<Amplifier> {
     })
 }
 
-/// The filter of an axis: PID, then quotients.
-fn channel(part: &Part) -> Built<StateSpace> {
-    let time = part.number("derivative_time").unwrap_or_default();
-    let gain = |name| part.needed(name);
-    let mut out = StateSpace::pid(
-        gain("proportional"),
-        gain("integral"),
-        gain("derivative"),
-        time,
-    )
-    .map_err(|error| refused(part, "derivative_time", &error))?;
-    for text in part.texts("filters") {
+/// The filter of a magnet's axes: PID, then quotients.
+fn channel(part: &Part) -> Checked<Channel> {
+    let quotient = |text: &String| {
+        let both = text.split_once('/');
+        let both = both.and_then(|(above, below)| Some([row(above)?, row(below)?]));
         let wrong = || {
             let allowed = "coefficients of s, the highest power first, as \"1 30 6.3e6 / 1 900 6.3e6\" are needed";
-            Box::new(part.problem(Code::ControllerFilter, "filters", quoted(text), allowed))
+            part.refuse(Code::ControllerFilter, "filters", quoted(text), allowed)
         };
-        let (above, below) = text.split_once('/').ok_or_else(wrong)?;
-        let (num, den) = (row(above).ok_or_else(wrong)?, row(below).ok_or_else(wrong)?);
-        let next = StateSpace::rational("filter", &num, &den)
-            .map_err(|error| refused(part, "filters", &error))?;
-        out = out.then(&next);
-    }
-    Ok(out)
+        both.map_or_else(wrong, Ok)
+    };
+    Ok(Channel {
+        path: part.path.clone(),
+        proportional: part.needed("proportional"),
+        integral: part.needed("integral"),
+        derivative: part.needed("derivative"),
+        derivative_time: part.needed("derivative_time"),
+        filters: part
+            .texts("filters")
+            .iter()
+            .map(quotient)
+            .collect::<Checked<_>>()?,
+    })
 }
 
 /// Numbers between spaces.
@@ -292,36 +314,23 @@ fn row(text: &str) -> Option<Vec<f64>> {
         .collect()
 }
 
-/// A controller by its matrices; a, b and c may be left out of one without states.
-fn state_space(part: &Part) -> Built<StateSpace> {
-    let read = |name: &str| -> Built<Option<DMatrix<f64>>> {
-        let Some(text) = part.text(name) else {
-            return Ok(None);
-        };
-        let rows: Option<Vec<Vec<f64>>> = text.split(';').map(row).collect();
-        let rows = rows.filter(|rows| rows.iter().all(|row| row.len() == rows[0].len()));
-        let Some(rows) = rows else {
-            let allowed = "rows of equally many numbers, \"1 0; 0 1\", are needed";
-            return Err(Box::new(part.problem(
-                Code::ControllerFilter,
-                name,
-                quoted(text),
-                allowed,
-            )));
-        };
-        Ok(Some(DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| {
-            rows[i][j]
-        })))
+/// A matrix by its rows, where it is given.
+fn rows(part: &Part, name: &str) -> Checked<Option<Vec<Vec<f64>>>> {
+    let Some(text) = part.text(name) else {
+        return Ok(None);
     };
-    let d = read("d")?.unwrap_or_default();
-    let a = read("a")?.unwrap_or_default();
-    let b = read("b")?.unwrap_or_else(|| DMatrix::zeros(a.nrows(), d.ncols()));
-    let c = read("c")?.unwrap_or_else(|| DMatrix::zeros(d.nrows(), a.nrows()));
-    StateSpace::new("controller", a, b, c, d).map_err(|error| refused(part, "d", &error))
+    let rows: Option<Vec<Vec<f64>>> = text.split(';').map(row).collect();
+    match rows.filter(|rows| rows.iter().all(|row| row.len() == rows[0].len())) {
+        Some(rows) => Ok(Some(rows)),
+        None => {
+            let allowed = "rows of equally many numbers, \"1 0; 0 1\", are needed";
+            part.refuse(Code::ControllerFilter, name, quoted(text), allowed)
+        }
+    }
 }
 
 /// When commands take effect: the same for all controllers.
-fn timing(controllers: &[&Part]) -> Built<Timing> {
+fn timing(controllers: &[&Part]) -> Checked<Timing> {
     let of = |part: &Part| match part.number("sampling_period") {
         Some(period) => Timing::Sampled {
             period,
@@ -338,29 +347,8 @@ fn timing(controllers: &[&Part]) -> Built<Timing> {
         Some(other) => {
             let found = "another delay or sampling than of the first controller";
             let allowed = "the same for all controllers is needed: one computer runs them";
-            Err(Box::new(other.problem(
-                Code::ControllerTime,
-                "",
-                found,
-                allowed,
-            )))
+            other.refuse(Code::ControllerTime, "", found, allowed)
         }
         None => Ok(of(first)),
     }
-}
-
-/// What the kernel refuses, as a message at a part.
-fn refused(part: &Part, key: &str, error: &Refused) -> Box<Problem> {
-    let (code, allowed) = match error {
-        Refused::ControllerSize { .. } | Refused::MatrixSizes { .. } => (
-            Code::ControllerSize,
-            "two signals for each sensor and two commands for each magnet, in the order of the magnets, are needed",
-        ),
-        Refused::Time { .. } => (Code::ControllerTime, "a time within its range is needed"),
-        Refused::NotPositive { .. } | Refused::Bias { .. } => {
-            (Code::MagnetValues, "another value is needed")
-        }
-        _ => (Code::ControllerFilter, "another filter is needed"),
-    };
-    Box::new(part.problem(code, key, error.to_string(), allowed))
 }

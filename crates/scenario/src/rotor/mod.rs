@@ -1,33 +1,133 @@
 //! A flexible rotor with what carries it, and what is asked of it.
 
-pub mod build;
-mod grade;
 pub mod keys;
 pub mod levitation;
-pub mod part_keys;
 pub mod parts;
-pub mod written;
+pub mod tables;
 
 use crate::document::Document;
 use crate::key::Key;
-use crate::section::Section;
 use crate::values::Values;
-use ::rotor::ModeCount;
-pub use build::{DrawnPiece, RotorModel};
-pub use levitation::LevitationModel;
+use physics::shaft::Layer;
+use physics::support::Coefficients;
 use problem::{Code, Problem};
 use units::number_text;
 
+/// A flexible rotor as its file gives it. Positions are along the shaft, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlexibleRotor {
+    /// Sections, then sleeves.
+    pub pieces: Vec<Piece>,
+    /// Named places.
+    pub nodes: Vec<Node>,
+    /// Disks.
+    pub disks: Vec<Disk>,
+    /// Masses without inertia.
+    pub masses: Vec<PointMass>,
+    /// Supports, then seals, then the mounts of housings.
+    pub supports: Vec<Support>,
+    /// Masses of the housings, kg.
+    pub housings: Vec<f64>,
+    /// Unbalance planes.
+    pub unbalance: Vec<Unbalance>,
+    /// Balance quality grade G of ISO 21940-11 that the unbalances are scaled to, m/s.
+    pub balance_grade: Option<f64>,
+    /// Magnets with their sensors and controllers.
+    pub levitation: Option<levitation::Magnets>,
+    /// Longest element of a section that says nothing of elements, m.
+    pub longest_element: f64,
+}
+
+/// A section of the shaft, or a sleeve on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Its name, else its number.
+    pub name: String,
+    /// Name of its material.
+    pub material: String,
+    /// Dimensions; a sleeve does not bend with the shaft.
+    pub layer: Layer,
+}
+
+/// A named place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Its name.
+    pub name: String,
+    /// Its position.
+    pub at: f64,
+    /// Radial clearance of what stands around the rotor there, m.
+    pub clearance: Option<f64>,
+}
+
+/// A rigid disk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disk {
+    /// Its name, else its number.
+    pub name: String,
+    /// Its position.
+    pub at: f64,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moment of inertia about the axis, kg m².
+    pub polar: f64,
+    /// Moment of inertia about a diameter, kg m².
+    pub diametral: f64,
+    /// Diameter, m, where the file gives it.
+    pub outer_diameter: Option<f64>,
+    /// Width, m, where the file gives it.
+    pub width: Option<f64>,
+}
+
+/// A mass without inertia.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointMass {
+    /// Its position.
+    pub at: f64,
+    /// Mass, kg.
+    pub mass: f64,
+}
+
+/// A linear support, a seal, or the mount of a housing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Support {
+    /// Its name, else its number.
+    pub name: String,
+    /// Its position; none of the mount of a housing, in the order of the housings.
+    pub at: Option<f64>,
+    /// The housing that it stands on; the ground without.
+    pub on: Option<usize>,
+    /// Stiffness, damping and mass over speed.
+    pub coefficients: Coefficients,
+    /// Whether it is a seal, which takes no static load.
+    pub seal: bool,
+    /// Whether it acts on after the release of a machine's rotor.
+    pub stays: bool,
+}
+
+/// An unbalance plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unbalance {
+    /// Its name, else its number.
+    pub name: String,
+    /// Its position.
+    pub at: f64,
+    /// Mass times distance from the axis, kg m.
+    pub amount: f64,
+    /// Angle on the rotor, rad.
+    pub phase: f64,
+}
+
 /// The kinds of parts of a flexible rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
 pub fn parts_of_rotors() -> impl Iterator<Item = (String, &'static [Key])> {
-    part_keys::PARTS.iter().map(|kind| (kind.path(), kind.keys))
+    keys::PARTS.iter().map(|kind| (kind.path(), kind.keys))
 }
 
 /// A rotor and what is asked of it. Speeds in rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorAnalysis {
     /// The rotor.
-    pub model: RotorModel,
+    pub rotor: FlexibleRotor,
     /// Rated speed.
     pub speed: f64,
     /// Lowest speed looked at.
@@ -38,14 +138,14 @@ pub struct RotorAnalysis {
     pub speed_count: usize,
     /// Highest frequency looked at, rad/s.
     pub frequency_to: f64,
-    /// Number of modes shown at the rated speed; by default no more than there are.
-    pub modes: ModeCount,
+    /// Number of modes shown at the rated speed.
+    pub modes: usize,
+    /// Whether the file gives that number; else fewer are shown where there are no more.
+    pub modes_given: bool,
     /// Modes of the free rotor up to this frequency are kept, rad/s.
     pub cutoff: f64,
     /// Whether the file gives that frequency; else more are kept where the modes shown need them.
     pub cutoff_given: bool,
-    /// Longest element of what does not say it itself, m.
-    pub longest_element: f64,
     /// Gravity across the shaft, m/s².
     pub gravity: f64,
     /// Direction of gravity from x, rad.
@@ -69,12 +169,8 @@ pub struct RotorAnalysis {
 impl RotorAnalysis {
     /// The typed values of a document, checked.
     pub fn of(document: &Document, values: &Values) -> Result<RotorAnalysis, Box<Problem>> {
-        let parts = parts::resolve(document, values)?;
-        let model = build::model(&parts, values)?;
-        let analysis = Section {
-            values,
-            path: "analysis",
-        };
+        let rotor = FlexibleRotor::of_document(document, values)?;
+        let analysis = values.section("analysis");
         let speed = values.number("rotor.speed").unwrap_or_default();
         let operating = |name: &str| analysis.maybe(name).unwrap_or(speed.abs());
         let (operating_from, operating_to) =
@@ -89,7 +185,7 @@ impl RotorAnalysis {
             .maybe("frequency_to")
             .unwrap_or(1.5 * speed_to.max(speed.abs()));
         let followed = frequency_to.max(speed_to);
-        let typical = build::typical_stiffness(&model, speed);
+        let typical = rotor.typical_stiffness(speed);
         let map = |name: &str, factor: f64| analysis.maybe(name).unwrap_or(typical * factor);
         let this = RotorAnalysis {
             speed,
@@ -97,17 +193,11 @@ impl RotorAnalysis {
             speed_to,
             speed_count: analysis.count("speed_count") as usize,
             frequency_to,
-            modes: match (
-                analysis.count("modes") as usize,
-                values.is_own("analysis.modes"),
-            ) {
-                (asked, true) => ModeCount::Exactly(asked),
-                (most, false) => ModeCount::AtMost(most),
-            },
+            modes: analysis.count("modes") as usize,
+            modes_given: values.is_own("analysis.modes"),
             cutoff: analysis.maybe("cutoff").unwrap_or(6.0 * followed),
             cutoff_given: values.is_own("analysis.cutoff"),
-            longest_element: build::longest_element(&model, values),
-            model,
+            rotor,
             gravity: analysis.number("gravity"),
             gravity_angle: analysis.number("gravity_angle"),
             operating_from,
@@ -137,9 +227,7 @@ impl RotorAnalysis {
         const SPEED_TO: &str = "analysis.speed_to";
         const OPERATING_TO: &str = "analysis.operating_to";
         let refuse = |path: &str, found: String, allowed: &str| {
-            let place = values.place(path);
-            let problem = values.problem(Code::OutOfRange, path, place, found, allowed);
-            Err(Box::new(problem))
+            values.refuse(Code::OutOfRange, path, found, allowed)
         };
         // what is not given follows from rotor.speed
         let text = |path: &str, value: f64, unit: &str| {
@@ -153,8 +241,8 @@ impl RotorAnalysis {
                 "one is needed: speed_to in [analysis], or --set analysis.speed_to=\"18000 rpm\"",
             );
         }
-        let outer = |piece: &DrawnPiece| piece.layer.start.outer.max(piece.layer.end.outer);
-        let radius = 0.5 * self.model.pieces.iter().map(outer).fold(0.0, f64::max);
+        let outer = |piece: &Piece| piece.layer.start.outer.max(piece.layer.end.outer);
+        let radius = 0.5 * self.rotor.pieces.iter().map(outer).fold(0.0, f64::max);
         let path = match values.text(SPEED_TO) {
             Some(_) => SPEED_TO,
             None => "rotor.speed",
@@ -180,22 +268,12 @@ impl RotorAnalysis {
         Ok(())
     }
 
-    /// Gravity x + jy, m/s².
-    pub fn weight(&self) -> rotor::C64 {
-        rotor::C64::from_polar(self.gravity, self.gravity_angle)
-    }
-
     /// The speeds looked at, rad/s: evenly apart, and those at which a table of a support or seal has a row.
     pub fn speeds(&self) -> Vec<f64> {
         let last = (self.speed_count - 1) as f64;
         let span = self.speed_to - self.speed_from;
         let even = (0..self.speed_count).map(|k| self.speed_from + span * k as f64 / last);
-        let tables = self
-            .model
-            .rotor
-            .supports
-            .iter()
-            .map(|own| &own.coefficients);
+        let tables = self.rotor.supports.iter().map(|own| &own.coefficients);
         let rows = tables
             .filter(|own| own.range().is_some())
             .flat_map(|own| own.rows());

@@ -154,10 +154,7 @@ pub enum InertiaSource {
 }
 
 pub(crate) fn converter(values: &Values) -> Option<ConverterSignal> {
-    let section = Section {
-        values,
-        path: "signals.converter",
-    };
+    let section = values.section("signals.converter");
     let channels = values.texts("signals.converter.channels");
     (!channels.is_empty()).then(|| {
         let highest = section.number("highest");
@@ -171,10 +168,7 @@ pub(crate) fn converter(values: &Values) -> Option<ConverterSignal> {
 }
 
 pub(crate) fn vibration(values: &Values) -> Option<VibrationSignal> {
-    let section = Section {
-        values,
-        path: "signals.vibration",
-    };
+    let section = values.section("signals.vibration");
     Some(VibrationSignal {
         channel: values.text("signals.vibration.channel")?,
         orders: orders(values),
@@ -194,10 +188,7 @@ fn orders(values: &Values) -> Vec<f64> {
 }
 
 pub(crate) fn steady(values: &Values) -> Option<SteadySignal> {
-    let section = Section {
-        values,
-        path: "signals.steady",
-    };
+    let section = values.section("signals.steady");
     let number = |name: &str| section.number(name);
     let inertia = match section.choice("inertia_from") {
         InertiaFrom::Pendulum => Some(InertiaSource::Pendulum {

@@ -10,10 +10,9 @@ impl Context<'_> {
         if let (Some(from), Some(to)) = (signals.from, signals.to)
             && to <= from
         {
-            return self.refuse(
+            return self.refuse_value(
                 Code::OutOfRange,
                 "signals.to",
-                self.text("signals.to"),
                 &format!(
                     "more than signals.from = {} is needed",
                     self.text("signals.from")
@@ -38,10 +37,9 @@ impl Context<'_> {
         if let Some(speed) = signals.speed.as_ref().filter(|speed| with_marks(speed))
             && speed.missing_marks >= speed.marks_per_revolution
         {
-            return self.refuse(
+            return self.refuse_value(
                 Code::OutOfRange,
                 "signals.speed.missing_marks",
-                self.text("signals.speed.missing_marks"),
                 "fewer than signals.speed.marks_per_revolution are needed",
             );
         }
@@ -115,7 +113,7 @@ impl Context<'_> {
         }
         let path = "signals.converter.highest";
         let needed = "more than signals.converter.lowest is needed; a positive number where that is not given";
-        self.refuse(Code::OutOfRange, path, self.text(path), needed)
+        self.refuse_value(Code::OutOfRange, path, needed)
     }
 
     /// Parts of the record: begin and end together, in this order.
@@ -135,7 +133,7 @@ impl Context<'_> {
                 && end <= begin
             {
                 let needed = format!("more than {from} = {} is needed", self.text(from));
-                return self.refuse(Code::OutOfRange, to, self.text(to), &needed);
+                return self.refuse_value(Code::OutOfRange, to, &needed);
             }
         }
         if signals.steady.is_some() {
@@ -158,7 +156,7 @@ impl Context<'_> {
             let needed = format!(
                 "either the law of the windage ({part}) or a run without bearing is needed"
             );
-            return self.refuse(Code::Conflict, file, self.text(file), &needed);
+            return self.refuse_value(Code::Conflict, file, &needed);
         }
         Ok(())
     }
@@ -196,14 +194,5 @@ impl Context<'_> {
             "no value".to_string(),
             &format!("with {by} {needed}"),
         )
-    }
-
-    pub(crate) fn refuse(&self, code: Code, path: &str, found: String, needed: &str) -> Check {
-        Err(Box::new(self.problem(
-            code,
-            path,
-            found,
-            needed.to_string(),
-        )))
     }
 }

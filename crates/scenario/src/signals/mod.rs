@@ -5,7 +5,6 @@ pub mod checks;
 pub mod keys;
 pub mod keys_analysis;
 
-use crate::section::Section;
 use crate::signals::analysis::{ConverterSignal, SteadySignal, VibrationSignal};
 use crate::values::Values;
 use problem::words;
@@ -252,10 +251,7 @@ pub enum CageKind {
 
 impl Signals {
     pub(crate) fn from_values(values: &Values) -> Signals {
-        let signals = Section {
-            values,
-            path: "signals",
-        };
+        let signals = values.section("signals");
         Signals {
             file: values.text("signals.file").unwrap_or_default().into(),
             from: signals.maybe("from"),
@@ -277,10 +273,7 @@ impl Signals {
 }
 
 fn speed(values: &Values) -> Option<SpeedSignal> {
-    let speed = Section {
-        values,
-        path: "signals.speed",
-    };
+    let speed = values.section("signals.speed");
     Some(SpeedSignal {
         channel: values.text("signals.speed.channel")?,
         kind: match speed.choice("kind") {
@@ -313,10 +306,7 @@ fn speed(values: &Values) -> Option<SpeedSignal> {
 }
 
 fn torque(values: &Values) -> Option<TorqueSignal> {
-    let torque = Section {
-        values,
-        path: "signals.torque",
-    };
+    let torque = values.section("signals.torque");
     let channel = values.text("signals.torque.channel")?;
     let sensor = match (
         values.text("signals.torque.tap_file"),
@@ -350,10 +340,7 @@ fn torque(values: &Values) -> Option<TorqueSignal> {
 }
 
 fn cage(values: &Values) -> Option<CageSignal> {
-    let cage = Section {
-        values,
-        path: "signals.cage",
-    };
+    let cage = values.section("signals.cage");
     Some(CageSignal {
         channel: values.text("signals.cage.channel")?,
         kind: match cage.choice("kind") {

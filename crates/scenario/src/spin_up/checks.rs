@@ -37,12 +37,11 @@ impl Context<'_> {
             Drive::Speed(SpeedCourse::Table(_)) => "drive.speed_history",
             Drive::Speed(_) => "drive.final_speed",
         };
-        Err(Box::new(self.problem(
+        self.refuse_value(
             Code::OutOfRange,
             path,
-            self.text(path),
-            "an angular speed other than 0 is needed".to_string(),
-        )))
+            "an angular speed other than 0 is needed",
+        )
     }
 
     /// Without a force the rotor turns nothing, and no energy is there to compare anything with.
@@ -54,15 +53,12 @@ impl Context<'_> {
                 ..
             } if *friction_coefficient == 0.0 => {
                 let path = "drive.friction_coefficient";
-                return Err(Box::new(
-                    self.problem(
-                        Code::Impossible,
-                        path,
-                        self.text(path),
-                        "a coefficient above 0 is needed: without friction the rotor turns nothing"
-                            .to_string(),
-                    ),
-                ));
+                return self.refuse_value(
+                    Code::Impossible,
+                    path,
+                    "a coefficient above 0 is needed: without friction the rotor turns nothing"
+                        .to_string(),
+                );
             }
             Drive::SlidingRotor { .. } => (
                 &spin_up.radial_load,
@@ -86,12 +82,7 @@ impl Context<'_> {
                 (history, format!("nothing but 0 until run.duration = {end}"))
             }
         };
-        Err(Box::new(self.problem(
-            Code::Impossible,
-            path,
-            found,
-            needed.to_string(),
-        )))
+        self.refuse(Code::Impossible, path, found, needed)
     }
 
     /// Balls that always roll would need an infinite torque.
@@ -150,13 +141,13 @@ impl Context<'_> {
         if largest < most {
             return Ok(());
         }
-        Err(Box::new(self.problem(
+        self.refuse(
             Code::Impossible,
             path,
             format!("{} N s^2/rad", units::number_text(largest)),
             format!(
                 "less than {most:.3e} N s^2/rad is needed, the inertia of race, balls and cage over the arm of F: beyond, a race that slows down would be pushed on by its own loss"
             ),
-        )))
+        )
     }
 }

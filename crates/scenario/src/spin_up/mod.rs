@@ -106,10 +106,7 @@ pub enum SpeedCourse {
 
 impl SpinUp {
     pub(crate) fn from_values(values: &Values) -> SpinUp {
-        let section = Section {
-            values,
-            path: "drive",
-        };
+        let section = values.section("drive");
         let radial_load = course(&section, "radial_load", "load_history");
         let run = Run::from_values(values);
         let load = radial_load.at(run.duration);

@@ -17,24 +17,18 @@ impl Context<'_> {
     fn torque_points(&self, torque: &Torque) -> Check {
         if torque.speed_to <= torque.speed_from {
             let path = "torque.speed_to";
-            return Err(Box::new(self.problem(
+            return self.refuse_value(
                 Code::OutOfRange,
                 path,
-                self.text(path),
                 format!(
                     "more than torque.speed_from = {} is needed",
                     self.text("torque.speed_from")
                 ),
-            )));
+            );
         }
         let unused = |path: &str, needed: &str| {
             let found = format!("{}, which has no effect", self.text(path));
-            Err(Box::new(self.problem(
-                Code::UnusedKey,
-                path,
-                found,
-                needed.to_string(),
-            )))
+            self.refuse(Code::UnusedKey, path, found, needed)
         };
         if !torque.lubricants.is_empty() && torque.moment.viscosity().is_none() {
             return unused(

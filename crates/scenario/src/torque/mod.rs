@@ -94,14 +94,8 @@ impl Torque {
         values: &Values,
         laws: Vec<ComparedLaw>,
     ) -> Result<Torque, Box<Problem>> {
-        let bearing = Section {
-            values,
-            path: "bearing",
-        };
-        let torque = Section {
-            values,
-            path: "torque",
-        };
+        let bearing = values.section("bearing");
+        let torque = values.section("torque");
         Ok(Torque {
             name: values.text("bearing.name"),
             kind: bearing.choice("type"),

@@ -1,6 +1,6 @@
 //! From a bearing of a scenario to the constants of the model.
 
-use crate::bearing::contacts::{BallContacts, SCENARIO};
+use crate::bearing::contacts::BallContacts;
 use crate::bearing::loss;
 use crate::bearing::traction::{inlet_rolling, traction};
 use model::bearing::ball::BallConstants;
@@ -15,7 +15,7 @@ use model::contact::JournalContact;
 use number::Vec2;
 use physics::angular_contact::{preload_interference, radial_stiffness, spin_inertia};
 use problem::{Code, Problem};
-use scenario::{Bearing, Fidelity, Guidance, Land, Separation};
+use scenario::{Bearing, Fidelity, Guidance, Land, Separation, problem_at};
 
 /// The bearing.
 pub(crate) fn bearing(
@@ -27,15 +27,8 @@ pub(crate) fn bearing(
         .moment
         .law(&bearing.rated())
         .map_err(|why| {
-            Box::new(
-                Problem::new(
-                    Code::NoLawData,
-                    SCENARIO,
-                    why,
-                    "a law that has constants for this bearing",
-                )
-                .on_key("bearing.moment.law"),
-            )
+            let allowed = "a law that has constants for this bearing";
+            problem_at(Code::NoLawData, "bearing.moment.law", why, allowed)
         })?
         .scaled(bearing.moment_share.scale);
     let plane = Plane::of(bearing, contacts);

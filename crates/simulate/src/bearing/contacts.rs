@@ -7,10 +7,7 @@ use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, Curvature, PointContact, Race};
 use physics::materials::{BEARING_STEEL, contact_modulus};
 use problem::{Code, Problem};
-use scenario::{Bearing, Separation, UNNAMED};
-
-/// What a problem found after reading names as its place.
-pub(crate) const SCENARIO: &str = UNNAMED;
+use scenario::{Bearing, Separation, problem_at};
 
 /// The Hertz contacts of a ball, and its mass.
 #[derive(Debug)]
@@ -68,16 +65,11 @@ pub(crate) fn ball_contacts(bearing: &Bearing) -> Result<BallContacts, Box<Probl
         }
         .curvature();
         let contact = PointContact::new(curvature, modulus).map_err(|_| {
-            Box::new(
-                Problem::new(
-                    Code::BearingGeometry,
-                    SCENARIO,
-                    format!(
-                        "a groove curvature of {groove_curvature}, which gives no point contact"
-                    ),
-                    "a groove curvature above 0.5 and balls smaller than the pitch diameter",
-                )
-                .on_key("bearing"),
+            problem_at(
+                Code::BearingGeometry,
+                "bearing",
+                format!("a groove curvature of {groove_curvature}, which gives no point contact"),
+                "a groove curvature above 0.5 and balls smaller than the pitch diameter",
             )
         })?;
         Ok::<_, Box<Problem>>((contact, curvature))

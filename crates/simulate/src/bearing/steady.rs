@@ -1,6 +1,6 @@
 //! The steady moment of a bearing at its speed, and whether traction can carry it.
 
-use crate::bearing::contacts::{SCENARIO, ball_contacts};
+use crate::bearing::contacts::ball_contacts;
 use crate::bearing::traction::traction;
 use model::bearing::BearingConstants;
 use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
@@ -8,7 +8,7 @@ use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
 use model::system::spin_up::{Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use problem::{Code, Problem};
-use scenario::{Bearing, Moment};
+use scenario::{Bearing, Moment, problem_at};
 
 /// Whether traction can carry the friction moment at one speed and load.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,13 +87,6 @@ pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
         Refusal::MomentShare => "bearing.moment",
         Refusal::LubricantState => "bearing.lubricant_state",
     };
-    Box::new(
-        Problem::new(
-            Code::Impossible,
-            SCENARIO,
-            refusal.to_string(),
-            "a machine that can be computed is needed",
-        )
-        .on_key(key),
-    )
+    let allowed = "a machine that can be computed is needed";
+    problem_at(Code::Impossible, key, refusal.to_string(), allowed)
 }

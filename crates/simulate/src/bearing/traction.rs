@@ -1,6 +1,6 @@
 //! From the traction of a scenario to a law of the model.
 
-use crate::bearing::contacts::{BallContacts, SCENARIO};
+use crate::bearing::contacts::BallContacts;
 use physics::film::EntrainedContact;
 use physics::hertz::{Curvature, PointContact};
 use physics::inlet_rolling::ResistanceAtRaces;
@@ -11,7 +11,7 @@ use physics::traction::{
     DryTraction, FourParameterTraction, LubricatedRaces, TanhTraction, Traction,
 };
 use problem::{Code, Problem};
-use scenario::{BallMaterial, Bearing, OilFilm, Traction as TractionChoice};
+use scenario::{BallMaterial, Bearing, OilFilm, Traction as TractionChoice, problem_at};
 
 /// The traction law of a bearing.
 pub(crate) fn traction(
@@ -82,15 +82,8 @@ fn film_contacts(
     let [inner, outer] = contacts.curvatures;
     let of = |curvature, hertz: &PointContact, key| {
         lubricated(film, bearing, contacts.modulus, curvature, hertz).map_err(|why| {
-            Box::new(
-                Problem::new(
-                    Code::Impossible,
-                    SCENARIO,
-                    why,
-                    "a contact that a law of oil films can describe is needed",
-                )
-                .on_key(key),
-            )
+            let allowed = "a contact that a law of oil films can describe is needed";
+            problem_at(Code::Impossible, key, why, allowed)
         })
     };
     Ok([

@@ -13,7 +13,7 @@ use physics::viscosity::Viscosity;
 use problem::{Code, Problem};
 pub(crate) use scenario::heat::ICE_POINT;
 use scenario::heat::{SHOULDER, STEEL_EXPANSION};
-use scenario::{CoastDown, Feedback, Moment, RunOut, UNNAMED, Warm};
+use scenario::{CoastDown, Feedback, Moment, RunOut, Warm, problem_at};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use thermal::bearing_network::{
@@ -287,7 +287,7 @@ pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Pr
 }
 
 fn problem(key: &str, found: String, needed: &str) -> Box<Problem> {
-    Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed.to_string()).on_key(key))
+    problem_at(Code::Impossible, key, found, needed)
 }
 
 /// The network of a bearing, and its balls under their load.
@@ -421,9 +421,7 @@ pub(crate) fn losses(
     viscosity: Option<Viscosity>,
     sides: u32,
 ) -> Result<WarmBearings, Box<Problem>> {
-    let missing = |key: &str, needed: &str| {
-        Box::new(Problem::new(Code::NoLawData, UNNAMED, "no value", needed.to_string()).on_key(key))
-    };
+    let missing = |key: &str, needed: &str| problem_at(Code::NoLawData, key, "no value", needed);
     let (
         Moment::Palmgren {
             f0,

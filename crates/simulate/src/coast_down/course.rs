@@ -251,9 +251,9 @@ fn operating<T>(
 
 fn no_network(why: NetworkError) -> Box<Problem> {
     use problem::Code;
-    use scenario::UNNAMED;
+    use scenario::problem_at;
     let needed = "finite capacities and conductances are needed";
-    Box::new(Problem::new(Code::Impossible, UNNAMED, why.to_string(), needed).on_key("heat"))
+    problem_at(Code::Impossible, "heat", why.to_string(), needed)
 }
 
 fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {

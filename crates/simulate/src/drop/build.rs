@@ -3,6 +3,7 @@
 use crate::bearing;
 use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint};
+use crate::drop::Drop;
 use crate::drop::layers;
 use crate::drop::mount;
 use crate::drop::shaft::{self, BuiltShaft};
@@ -19,11 +20,13 @@ use model::system::spin_up::InnerRace;
 use number::Vec2;
 use problem::Problem;
 use scenario::several::path_of;
-use scenario::{AuxiliaryBearing, Drop, Spin};
+use scenario::{AuxiliaryBearing, Spin};
 
 /// A drop ready to be simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Built {
+    /// The drop with the model of its rotor.
+    pub drop: Drop,
     /// Constants of the model.
     pub constants: MachineConstants,
     /// What the model does not hold of each auxiliary bearing.
@@ -42,11 +45,16 @@ pub struct BuiltBearing {
 }
 
 /// Builds the constants of a drop: identical planes share the rotor equally, so that one of them is computed.
-pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
+pub fn drop(given: &scenario::Drop) -> Result<Built, Box<Problem>> {
+    built(Drop::of(given)?)
+}
+
+/// Builds the constants of a drop whose rotor has its model.
+pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
     let shaft = match &drop.shaft {
         Some(given) => {
-            let built = shaft::build(drop, given, gravity(drop))?;
-            shaft::clear(drop, given, &built)?;
+            let built = shaft::build(&drop, given, gravity(&drop))?;
+            shaft::clear(&drop, given, &built)?;
             Some(built)
         }
         None => None,
@@ -54,7 +62,7 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
     let mut parts = Vec::new();
     let mut bearings = Vec::new();
     for (k, part) in drop.auxiliary_bearings.iter().enumerate() {
-        let (mut constants, built) = auxiliary_bearing(drop, k).map_err(|mut problem| {
+        let (mut constants, built) = auxiliary_bearing(&drop, k).map_err(|mut problem| {
             let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
             problem.key = problem.key.map(|key| path_of(of, &key));
             problem
@@ -72,12 +80,13 @@ pub fn drop(drop: &Drop) -> Result<Built, Box<Problem>> {
         bearings.push(built);
     }
     let magnets = shaft.as_ref().and_then(|built| built.magnets.clone());
-    let mut constants = constants(drop, parts, magnets);
+    let mut constants = constants(&drop, parts, magnets);
     if let Some(built) = &shaft {
         constants.rotor = built.rotor.clone();
         constants.seals = built.seals.clone();
     }
     Ok(Built {
+        drop,
         constants,
         bearings,
         shaft,
@@ -108,7 +117,7 @@ fn auxiliary_bearing(
         },
         SteadyPoint {
             speed: drop.rotor.speed,
-            load: drop.rotor.mass * drop.share(k) * drop.gravity.acceleration,
+            load: drop.body.mass * drop.share(k) * drop.gravity.acceleration,
         },
     )?;
     let built = BuiltBearing {
@@ -200,7 +209,7 @@ fn constants(
     let share = 1.0 / f64::from(drop.rotor.planes);
     let each = bearings.len() as f64;
     let gravity = gravity(drop);
-    let mass = drop.rotor.mass * share;
+    let mass = drop.body.mass * share;
     // the brake follows the release
     let released = magnets.as_ref().map_or(0.0, |own| own.lost);
     let (brake_torque, brake_start) = match drop.rotor.spin {
@@ -215,8 +224,8 @@ fn constants(
             spin_held: drop.rotor.spin == Spin::Held,
             ..RotorConstants::point(
                 mass,
-                drop.rotor.polar_inertia * share,
-                drop.rotor.unbalance_eccentricity,
+                drop.body.polar_inertia * share,
+                drop.body.unbalance_eccentricity,
             )
         },
         // a magnetic bearing stands beside each auxiliary one

@@ -7,22 +7,31 @@ use crate::bearing::warm::{Followed, Heated};
 use crate::drop::build::Built;
 use crate::drop::ensemble::Finished;
 use crate::drop::feedback::Warmed;
+use crate::drop::shaft::BuiltShaft;
+use crate::drop::{Drop, Shaft};
 use model::auxiliary_bearing::probe;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
 use model::system::sampling::Peak;
-use scenario::{AuxiliaryBearing, Drop, Shaft};
+use scenario::AuxiliaryBearing;
 
 /// A drop before its run.
 #[derive(Clone, Copy)]
 pub(crate) struct Setup<'a> {
-    pub drop: &'a Drop,
     pub built: &'a Built,
     pub machine: &'a RotorMachine,
 }
 
 impl<'a> Setup<'a> {
+    /// The drop with the model of its rotor.
+    pub fn drop(self) -> &'a Drop {
+        &self.built.drop
+    }
+    /// A rotor that bends, with its coordinates.
+    pub fn bent(self) -> Option<(&'a Shaft, &'a BuiltShaft)> {
+        Some((self.drop().shaft.as_deref()?, self.built.shaft.as_ref()?))
+    }
     /// The names of the bearings; one without a name where it is the only one.
     pub fn parts(self) -> impl Iterator<Item = &'a str> {
         let parts = self.machine.constants.bearings.iter();
@@ -30,11 +39,11 @@ impl<'a> Setup<'a> {
     }
     /// What the scenario says of a bearing.
     pub fn given(self, bearing: usize) -> &'a AuxiliaryBearing {
-        &self.drop.auxiliary_bearings[bearing]
+        &self.drop().auxiliary_bearings[bearing]
     }
     /// The rotor whose magnets have controllers that act in time.
     pub fn controlled(self) -> Option<&'a Shaft> {
-        let shaft = self.drop.shaft.as_deref();
+        let shaft = self.drop().shaft.as_deref();
         shaft.filter(|_| self.machine.controlled())
     }
     /// A bearing whose temperatures are followed.
@@ -103,7 +112,7 @@ impl<'a> Context<'a> {
             .setup
             .controlled()
             .map(|_| self.finished.ending.state[spin]);
-        lost.or(now).unwrap_or(self.setup.drop.rotor.speed).abs()
+        lost.or(now).unwrap_or(self.setup.drop().rotor.speed).abs()
     }
     pub fn record(&self, bearing: usize) -> &'a BearingRecord {
         &self.finished.record.bearings[bearing]

@@ -22,22 +22,20 @@ pub struct One<'a> {
     /// What was written.
     pub scenario: &'a Scenario,
     /// The drop in it.
-    pub drop: Drop,
-    built: Built,
+    pub built: Built,
     machine: Arc<RotorMachine>,
     stepping: Stepping,
     kind: Kind,
 }
 
 /// Builds a drop of its scenario.
-pub fn one<'a>(scenario: &'a Scenario, drop: &Drop) -> Result<One<'a>, Box<Problem>> {
-    let built = build::drop(drop)?;
+pub fn one<'a>(scenario: &'a Scenario, given: &Drop) -> Result<One<'a>, Box<Problem>> {
+    let built = build::drop(given)?;
     let machine = Arc::new(RotorMachine::new(built.constants.clone()));
     Ok(One {
         scenario,
-        stepping: stepping(drop, &built, machine.tangents()),
+        stepping: stepping(&built, machine.tangents()),
         kind: kind_of(scenario),
-        drop: drop.clone(),
         built,
         machine,
     })
@@ -52,7 +50,7 @@ pub fn run(all: &[One], options: &Options) -> Vec<Single> {
             let first = &all[group[0]];
             first.kind == one.kind
                 && first.stepping == one.stepping
-                && first.drop.run == one.drop.run
+                && first.built.drop.run == one.built.drop.run
                 && share_lanes(&first.machine, &one.machine)
         };
         match groups.iter_mut().find(fits) {
@@ -94,10 +92,10 @@ fn together(
     let finished = ensemble::run(
         &members,
         &Plan {
-            settings: settings_at(&first.drop.run, first.stepping.tolerance),
+            settings: settings_at(&first.built.drop.run, first.stepping.tolerance),
             steps: first.stepping.steps,
-            interval: first.drop.run.output_interval,
-            until_rolling: first.drop.run_out.is_some(),
+            interval: first.built.drop.run.output_interval,
+            until_rolling: first.built.drop.run_out.is_some(),
             // those of the pool in which this is called
             threads: None,
             interrupt: options.interrupt,
@@ -108,7 +106,6 @@ fn together(
         let one = &all[*k];
         let context = Context {
             setup: Setup {
-                drop: &one.drop,
                 built: &one.built,
                 machine: &one.machine,
             },
@@ -138,7 +135,7 @@ fn member(one: &One) -> Member {
     };
     Member {
         machine: one.machine.clone(),
-        following: Following::of(&one.drop).map(Arc::new),
+        following: Following::of(&one.built.drop).map(Arc::new),
         start,
         keep_rows: false,
         kind: 0,

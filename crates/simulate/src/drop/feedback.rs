@@ -11,11 +11,12 @@
 
 use crate::bearing::feedback::{FollowedBearing, Renewals, State};
 use crate::coast_down::build::ICE_POINT;
+use crate::drop::Drop;
 use crate::drop::build::gravity;
 use model::system::machine::RotorMachine;
 use model::table::Table;
 use scenario::heat::{RotorBodies, STEEL_EXPANSION};
-use scenario::{AuxiliaryBearing, Drop, Feedback};
+use scenario::{AuxiliaryBearing, Feedback};
 use thermal::bearing_network::{INNER_RACE, ROTOR, ROTOR_CORE};
 
 /// Change of an air clearance that matters, m: less than the roughness of ground surfaces.

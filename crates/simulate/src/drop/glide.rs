@@ -232,7 +232,7 @@ pub(super) fn calm(context: &Context) -> f64 {
     let constants = &context.setup.machine.constants;
     let bearings = constants.bearings.iter();
     let most = bearings.map(|bearing| constants.rotor.most_eccentric(&bearing.node));
-    (SHAKES * context.setup.drop.gravity.acceleration / most.fold(0.0, f64::max)).sqrt()
+    (SHAKES * context.setup.drop().gravity.acceleration / most.fold(0.0, f64::max)).sqrt()
 }
 
 /// What the bearings take beside what the laws of a rotor that rolls say, less 1; of the powers of a window or a batch.

@@ -2,6 +2,7 @@
 
 use crate::bearing::columns::Table;
 use crate::bearing::run::BearingRun;
+use crate::drop::Shaft;
 use crate::drop::context::{Context, Setup};
 use crate::drop::warning_table::ShaftWarning;
 use crate::ending;
@@ -11,7 +12,6 @@ use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use outcome::{Column, Stop, Warning};
-use scenario::Shaft;
 
 /// Share of the time with power at a limit from which on it is reported.
 const LONG_AT_LIMIT: f64 = 1e-4;
@@ -39,7 +39,8 @@ pub(crate) fn stop(context: &Context) -> Stop {
     let shares = context.setup.machine.towards_poles(&ending.state);
     let nearest = (shares.iter().enumerate()).max_by(|a, b| a.1.total_cmp(b.1));
     let diverged = matches!(ending.stop, solve::Stop::Diverged { .. });
-    if let (Some((axis, share)), Some(given), true) = (nearest, &context.setup.drop.shaft, diverged)
+    if let (Some((axis, share)), Some(given), true) =
+        (nearest, &context.setup.drop().shaft, diverged)
         && *share > AT_POLE
     {
         stop.text = format!(
@@ -90,7 +91,7 @@ results! {
 /// Control currents of all axes.
 pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
     let machine = setup.machine;
-    let Some(given) = &setup.drop.shaft else {
+    let Some(given) = &setup.drop().shaft else {
         return Vec::new();
     };
     let mut table = Table::over(run);

@@ -1,10 +1,11 @@
 //! From magnets that hold a rotor to those of the model, which act in time.
 
+use crate::drop::{Drop, Shaft};
 use levitation::{Levitation, Timing};
 use model::magnets::{AxisConstants, ControlConstants, MagnetConstants, MagnetsConstants};
 use number::Vec2;
 use problem::{Code, Problem};
-use scenario::{Drop, Shaft, UNNAMED};
+use scenario::problem_at;
 use std::sync::Arc;
 
 /// Samples of a run, at most: each ends a step.
@@ -21,10 +22,8 @@ fn few_samples(drop: &Drop, shaft: &Shaft, timing: Timing) -> Result<(), Box<Pro
     }
     let found = format!("{samples:.1e} samples in this run");
     let allowed = "at most 10 million are needed: a longer period, or a shorter run";
-    let problem = Problem::new(Code::ControllerTime, UNNAMED, found, allowed);
-    Err(Box::new(
-        problem.on_key("levitation.controller.sampling_period"),
-    ))
+    let key = "levitation.controller.sampling_period";
+    Err(problem_at(Code::ControllerTime, key, found, allowed))
 }
 
 /// Magnets that hold a rotor.
@@ -38,12 +37,9 @@ pub(super) struct OnMagnets {
 /// Refuses currents that decay where there are none, and a loss of power after the start where there is none to lose, or where the run has no end of its own.
 pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>> {
     if shaft.decay_time > 0.0 && shaft.model.levitation.is_none() {
-        let (found, allowed) = (
-            "a key that has no effect",
-            "it is used only with [[levitation.magnet]]",
-        );
-        let problem = Problem::new(Code::UnusedKey, UNNAMED, found, allowed);
-        return Err(Box::new(problem.on_key("levitation.decay_time")));
+        let (key, found) = ("levitation.decay_time", "a key that has no effect");
+        let allowed = "it is used only with [[levitation.magnet]]";
+        return Err(problem_at(Code::UnusedKey, key, found, allowed));
     }
     let found = match (&shaft.model.levitation, &drop.run_out) {
         _ if shaft.power_lost <= 0.0 => return Ok(()),
@@ -52,8 +48,8 @@ pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>>
         (Some(model), None) => return few_samples(drop, shaft, model.levitation.timing()),
     };
     let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
-    let problem = Problem::new(Code::Conflict, UNNAMED, found, allowed);
-    Err(Box::new(problem.on_key("levitation.power_lost_at")))
+    let key = "levitation.power_lost_at";
+    Err(problem_at(Code::Conflict, key, found, allowed))
 }
 
 /// The magnets: with their controllers until the power is lost, or as their currents decay from the start on.

@@ -1,5 +1,6 @@
 //! The members of a repeated drop: perturbed starts, and machines that differ.
 
+use crate::drop::Drop;
 use crate::drop::build::{self, Built};
 use crate::drop::ensemble::Member;
 use crate::drop::feedback::Following;
@@ -7,7 +8,7 @@ use model::bearing::BearingConstants;
 use model::system::machine::RotorMachine;
 use number::Vec2;
 use problem::{Place, Problem};
-use scenario::{Drop, Scenario, System};
+use scenario::{Scenario, System};
 use statistics::random::Random;
 use std::sync::Arc;
 
@@ -15,8 +16,6 @@ use std::sync::Arc;
 pub struct Varied {
     /// What it drew: paths with their values.
     pub drawn: Vec<(String, String)>,
-    /// Its scenario.
-    pub drop: Drop,
     /// Its machine.
     pub built: Built,
     /// What its lanes must share: words, counts and switches of its file.
@@ -24,16 +23,17 @@ pub struct Varied {
 }
 
 /// The machines of members 1, 2, … where they differ; none where starts alone do.
-pub fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Box<Problem>> {
-    let count = drop.repeat.count.max(1) as usize;
+pub fn varied(scenario: &Scenario, built: &Built) -> Result<Vec<Varied>, Box<Problem>> {
+    let repeat = &built.drop.repeat;
+    let count = repeat.count.max(1) as usize;
     if scenario.vary.is_empty() {
         return Ok(Vec::new());
     }
-    let given = build::drop(drop).map(|built| RotorMachine::new(built.constants))?;
+    let given = RotorMachine::new(built.constants.clone());
     let mut kinds = vec![(kind_of(scenario), given)];
     (1..count)
         .map(|k| {
-            let mut random = numbers(drop.repeat.seed ^ MACHINES, k);
+            let mut random = numbers(repeat.seed ^ MACHINES, k);
             let drawn: Vec<_> = (scenario.vary.iter())
                 .flat_map(|vary| vary.draw(&mut random))
                 .collect();
@@ -52,7 +52,6 @@ pub fn varied(scenario: &Scenario, drop: &Drop) -> Result<Vec<Varied>, Box<Probl
                     kinds.push((kind, machine));
                     kinds.len() - 1
                 }),
-                drop: of.clone(),
                 drawn,
                 built,
             })
@@ -98,7 +97,8 @@ fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) ->
 }
 
 /// All members: the machine and start given, then others by numbers that depend on (seed, k) alone.
-pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
+pub(crate) fn of(built: &Built, varied: &[Varied]) -> Vec<Member> {
+    let drop = &built.drop;
     let count = drop.repeat.count.max(1) as usize;
     let given = Arc::new(RotorMachine::new(built.constants.clone()));
     let following = Following::of(drop).map(Arc::new);
@@ -120,7 +120,7 @@ pub(crate) fn of(drop: &Drop, built: &Built, varied: &[Varied]) -> Vec<Member> {
             Member {
                 kind: other.map_or(0, |varied| varied.kind),
                 following: match other {
-                    Some(varied) => Following::of(&varied.drop).map(Arc::new),
+                    Some(varied) => Following::of(&varied.built.drop).map(Arc::new),
                     None => following.clone(),
                 },
                 machine,

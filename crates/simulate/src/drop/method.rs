@@ -9,13 +9,13 @@
 //! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
 //! the largest.
 
+use crate::drop::Drop;
 use crate::drop::build::Built;
 use crate::ending::DESIGN;
 use crate::stepping::{Asked, Stepping};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::tangents::Known;
 use model::bearing::{BearingConstants, PlanarConstants};
-use scenario::Drop;
 
 /// Tolerance of linearly implicit steps at design accuracy: their energies close as those of explicit ones at half of it.
 const DESIGN_IMPLICIT: f64 = 2e-4;
@@ -43,28 +43,23 @@ pub(crate) fn asked(drop: &Drop, known: Known) -> Asked<'_> {
 }
 
 /// The steps of a drop.
-pub(crate) fn stepping(drop: &Drop, built: &Built, known: Known) -> Stepping {
-    asked(drop, known).stepping(|| stiffest(drop, built))
+pub(crate) fn stepping(built: &Built, known: Known) -> Stepping {
+    asked(&built.drop, known).stepping(|| stiffest(built))
 }
 
 /// The largest λ/ω of its auxiliary bearings.
-fn stiffest(drop: &Drop, built: &Built) -> f64 {
+fn stiffest(built: &Built) -> f64 {
     let parts = built.constants.bearings.iter();
     let stiffnesses = parts.filter_map(|part| match &part.bearing {
-        BearingConstants::Planar(bearing) => Some(stiffness(drop, built, part, bearing)),
+        BearingConstants::Planar(bearing) => Some(stiffness(built, part, bearing)),
         BearingConstants::Rolling(_) => None,
     });
     stiffnesses.fold(0.0, f64::max)
 }
 
 /// λ/ω of an auxiliary bearing in a first impact.
-fn stiffness(
-    drop: &Drop,
-    built: &Built,
-    part: &AuxiliaryBearingConstants,
-    bearing: &PlanarConstants,
-) -> f64 {
-    let fall = 2.0 * drop.gravity.acceleration * part.contact.radial_clearance;
+fn stiffness(built: &Built, part: &AuxiliaryBearingConstants, bearing: &PlanarConstants) -> f64 {
+    let fall = 2.0 * built.drop.gravity.acceleration * part.contact.radial_clearance;
     let force = (fall * part.mount.stiffness * built.constants.rotor.mass()).sqrt();
     let load = 5.0 * force / bearing.balls as f64;
     let ball = &bearing.ball;

@@ -1,5 +1,6 @@
 //! Runs a drop and names what came out.
 
+mod body;
 pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
@@ -30,6 +31,8 @@ mod went;
 mod window;
 mod windows;
 
+pub use body::{Drop, Shaft};
+
 use crate::bearing::races::{LIFE_BY_POINT, without_count};
 use crate::drop::build::Built;
 use crate::drop::context::{Context, Setup};
@@ -42,30 +45,22 @@ use model::system::machine::RotorMachine;
 use outcome::options::Options;
 use outcome::{Column, Contact, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Work};
 use rayon::prelude::*;
-use scenario::{Drop, Scenario};
+use scenario::Scenario;
 use std::time::Instant;
 
 /// The columns of its history, without values.
-pub fn columns(drop: &Drop, built: &Built) -> Vec<Column> {
+pub fn columns(built: &Built) -> Vec<Column> {
     let machine = &RotorMachine::new(built.constants.clone());
-    let setup = Setup {
-        drop,
-        built,
-        machine,
-    };
+    let setup = Setup { built, machine };
     columns::history(setup, None)
 }
 
 /// The results of a drop, without values.
-pub fn results(drop: &Drop, built: &Built) -> Vec<Quantity> {
+pub fn results(built: &Built) -> Vec<Quantity> {
     let machine = &RotorMachine::new(built.constants.clone());
-    let setup = Setup {
-        drop,
-        built,
-        machine,
-    };
+    let setup = Setup { built, machine };
     let mut list = quantities::name(setup, None);
-    if drop.run_out.is_some() {
+    if built.drop.run_out.is_some() {
         list.extend(run_out::results(setup));
     }
     list.extend(orders::named(setup.parts(), None));
@@ -73,16 +68,11 @@ pub fn results(drop: &Drop, built: &Built) -> Vec<Quantity> {
 }
 
 /// Runs a drop.
-pub fn run(
-    scenario: &Scenario,
-    drop: &Drop,
-    built: &Built,
-    varied: &[Varied],
-    options: &Options,
-) -> Outcome {
+pub fn run(scenario: &Scenario, built: &Built, varied: &[Varied], options: &Options) -> Outcome {
+    let drop = &built.drop;
     let count = drop.repeat.count.max(1) as usize;
-    let members: Vec<Member> = members::of(drop, built, varied);
-    let stepping = method::stepping(drop, built, members[0].machine.tangents());
+    let members: Vec<Member> = members::of(built, varied);
+    let stepping = method::stepping(built, members[0].machine.tangents());
     let clock = Instant::now();
     let finished = ensemble::run(
         &members,
@@ -97,14 +87,13 @@ pub fn run(
         },
     );
 
-    let given = |k: usize| match k.checked_sub(1).and_then(|k| varied.get(k)) {
-        Some(varied) => (&varied.drop, &varied.built),
-        None => (drop, built),
+    let given = |k: usize| {
+        let own = k.checked_sub(1).and_then(|k| varied.get(k));
+        own.map_or(built, |varied| &varied.built)
     };
     let context = |k: usize| Context {
         setup: Setup {
-            drop: given(k).0,
-            built: given(k).1,
+            built: given(k),
             machine: &members[k].machine,
         },
         finished: &finished[k],

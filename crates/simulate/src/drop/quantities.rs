@@ -200,7 +200,7 @@ results! {
         "rotor_race_friction_energy": number "J", ENERGY, "friction heat of rotor and inner race" => run.balls.heat("rotor_race_friction");
         "ball_slip_energy": number "J", ENERGY, "sliding heat of the balls at both races" => run.balls.ball_slip();
         "blow_index": number "1", BLOWS, "sum of all blows beyond the load at rest" => {
-            blows(run.record.contacts.iter().map(|contact| contact.peak_force), run.context.setup.drop.weight(run.k))
+            blows(run.record.contacts.iter().map(|contact| contact.peak_force), run.context.setup.drop().weight(run.k))
         };
     }
     /// What half of the heats at its surfaces warms the inner race by.
@@ -215,13 +215,13 @@ results! {
     }
     fn release(setup: &Setup, run: &Context) {
         "release_time": number "s", RELEASE, "instant of the release" in instants "release" => run.release_time().ok_or_else(magnets::kept);
-        "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop.gravity.acceleration);
+        "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop().gravity.acceleration);
     }
     fn energies(setup: &Setup, run: &Context) {
         "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
         "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
-        "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop.rotor.planes as f64 * run.heat();
-        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" when Following::of(setup.drop).is_some() => {
+        "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop().rotor.planes as f64 * run.heat();
+        "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" when Following::of(setup.drop()).is_some() => {
             run.renewals().map_or(0.0, |renewals| renewals.work_until(f64::INFINITY))
         };
         "work_of_sources": number "J", BALANCE, "work of sources" => run.balance().end.1.work - run.balance().start.1.work;

@@ -46,7 +46,7 @@ pub(crate) struct After {
 
 /// Follows a drop until the rotor stands; none where that is not asked.
 pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> {
-    let end = context.setup.drop.run_out.as_ref()?;
+    let end = context.setup.drop().run_out.as_ref()?;
     let ending = &context.finished.ending;
     let stop = ending::stop(ending);
     let rolls = ending.stop == solve::Stop::Halted(ROLLS);
@@ -154,14 +154,14 @@ fn parts(setup: Setup) -> Result<Vec<Part>, String> {
     let of_bearing = |(k, name): (usize, &str)| {
         let given = setup.given(k);
         let warm = given.warm.as_deref().ok_or(NOT_FOLLOWED)?;
-        let sides = setup.drop.rotor.planes;
+        let sides = setup.drop().rotor.planes;
         let mut one = part(warm, name.to_string(), sides).map_err(|problem| problem.found)?;
         let constants = &setup.machine.constants.bearings[k];
         let contact = &constants.contact;
         if let Some(warm) = &constants.warm {
             one.network.clone_from(&warm.network);
         }
-        one.load_direction = setup.drop.gravity.direction;
+        one.load_direction = setup.drop().gravity.direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
         if let Some(bearing) = &given.bearing {
             one.pressure_limit = bearing.hertz_pressure_limit;
@@ -173,7 +173,7 @@ fn parts(setup: Setup) -> Result<Vec<Part>, String> {
 
 /// The machine of the run-out, from the state in which the drop ended.
 fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String> {
-    let (drop, machine) = (context.setup.drop, context.setup.machine);
+    let (drop, machine) = (context.setup.drop(), context.setup.machine);
     let ending = &context.finished.ending;
     let rotor = &machine.constants.rotor;
     let sides = drop.rotor.planes;
@@ -202,7 +202,7 @@ fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String
     let kinetic = content.translation + content.spin;
     let (speed, inertia) = match goes_on && spin > 0.0 {
         true => (spin, whole * 2.0 * kinetic / (spin * spin)),
-        false => (drop.rotor.speed.abs(), drop.rotor.polar_inertia),
+        false => (drop.rotor.speed.abs(), drop.body.polar_inertia),
     };
     let bearings = parts.len();
     Ok(Built {

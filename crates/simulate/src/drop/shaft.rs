@@ -1,8 +1,9 @@
 //! From a flexible rotor to the coordinates of the model, and the motion in which it is released.
 
 use crate::drop::magnets_in_time::{self, OnMagnets};
-use crate::drop::torque;
+use crate::drop::{Drop, Shaft, torque};
 use crate::levitated;
+use crate::rotor::RotorModel;
 use catalogue::geometry::millimetres;
 use levitation::response::{Loaded, excesses, unbalance};
 use levitation::{Plant, weight};
@@ -16,7 +17,7 @@ use physics::magnet::Magnet;
 use problem::{Code, Problem};
 use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
 use scenario::several::path_of;
-use scenario::{Drop, RotorModel, Shaft, Spin, UNNAMED};
+use scenario::{Spin, problem_at};
 use std::cmp::Ordering;
 
 /// A flexible rotor in the coordinates of the model.
@@ -108,15 +109,8 @@ pub(crate) fn build(
     if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
         return Err(too_unbalanced());
     }
-    constants.places = places
-        .iter()
-        .map(|node| row(&within.basis, *node))
-        .collect();
-    let nodes = shaft
-        .places
-        .iter()
-        .map(|place| row(&within.basis, place.node))
-        .collect();
+    constants.places = places.iter().map(|node| at(*node)).collect();
+    let nodes = shaft.nodes.iter().map(|node| at(*node)).collect();
     Ok(BuiltShaft {
         rotor: constants,
         nodes,
@@ -134,12 +128,7 @@ pub(crate) fn build(
 fn basis(shaft: &Shaft, rotor: &Rotor, matrices: &Matrices) -> Result<Basis, Box<Problem>> {
     let full = Basis::full(rotor, matrices).map_err(|error| failed(&error.to_string()))?;
     let mut kept = rotor.kept();
-    kept.extend(
-        shaft
-            .places
-            .iter()
-            .map(|place| rotor.displacement(place.node)),
-    );
+    kept.extend(shaft.nodes.iter().map(|node| rotor.displacement(*node)));
     if let Some(levitation) = &shaft.model.levitation {
         let nodes = levitation.magnets.iter().map(|(_, at, _)| *at);
         kept.extend(nodes.map(|node| rotor.displacement(node)));
@@ -159,8 +148,7 @@ fn places(shaft: &Shaft) -> Vec<usize> {
     let rotor = &shaft.model.rotor;
     let (first, last) = (0, rotor.nodes.len() - 1);
     let mut places = vec![first, last];
-    places.extend(shaft.places.iter().map(|place| place.node));
-    places.extend(shaft.model.nodes.iter().map(|(_, node)| *node));
+    places.extend(shaft.nodes.iter().chain(&shaft.model.named));
     let magnets = shaft
         .model
         .levitation
@@ -192,7 +180,7 @@ fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> 
         Spin::Free | Spin::Held => 0.0,
     };
     RotorConstants {
-        polar_inertia: drop.rotor.polar_inertia,
+        polar_inertia: drop.body.polar_inertia,
         drive_torque: shaft.drive_torque,
         drive_slope: shaft.drive_slope,
         drag: shaft.drag,
@@ -392,8 +380,8 @@ fn staying(
         let own = |other: &&rotor::Support| !other.seal && other.at == Place::Node(node);
         supports.iter().filter(own).count().max(1) as f64
     };
-    let all = supports.iter().zip(&model.stays);
-    all.filter(|(_, stays)| **stays)
+    let all = supports.iter().zip(&model.supports);
+    all.filter(|(_, given)| given.stays)
         .filter_map(|(support, _)| {
             let Place::Node(at) = support.at else {
                 return None;
@@ -431,9 +419,8 @@ pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<()
             .sqrt();
         let key = "contact.radial_air_clearance";
         let problem = |code, found: String, allowed: String| {
-            Err(Box::new(
-                Problem::new(code, UNNAMED, found, allowed).on_key(path_of(Some(&part.name), key)),
-            ))
+            let key = path_of(Some(&part.name), key);
+            Err(problem_at(code, key, found, allowed))
         };
         if apart >= clearance {
             return problem(
@@ -518,26 +505,24 @@ fn hold(rotor: &Rotor, within: &Analysis, speed: f64) -> Result<Vec<HeldMode>, B
         }
     };
     let needed = "supports that hold the rotor until the release are needed";
-    Err(Box::new(
-        Problem::new(Code::NotHeld, UNNAMED, found, needed).on_key("rotor.support"),
-    ))
+    Err(problem_at(Code::NotHeld, "rotor.support", found, needed))
 }
 
 fn not_held() -> Box<Problem> {
     let found = "supports that do not hold the rotor";
     let needed =
         "two places at least, with stiffness in every direction, are needed until the release";
-    Box::new(Problem::new(Code::NotHeld, UNNAMED, found, needed).on_key("rotor.support"))
+    problem_at(Code::NotHeld, "rotor.support", found, needed)
 }
 
 fn too_unbalanced() -> Box<Problem> {
     let found =
         "unbalances that together leave the rotor no moment of inertia about its mass centre";
     let needed = "smaller amounts are needed";
-    Box::new(Problem::new(Code::Impossible, UNNAMED, found, needed).on_key("rotor.unbalance"))
+    problem_at(Code::Impossible, "rotor.unbalance", found, needed)
 }
 
 fn failed(text: &str) -> Box<Problem> {
     let needed = "another rotor is needed";
-    Box::new(Problem::new(Code::Impossible, UNNAMED, text, needed).on_key("rotor"))
+    problem_at(Code::Impossible, "rotor", text, needed)
 }

@@ -3,19 +3,21 @@
 use crate::bearing::columns::Table;
 use crate::bearing::run::BearingRun;
 use crate::drawing::{self, GIVEN};
+use crate::drop::Shaft;
 use crate::drop::context::{Context, Setup};
 use crate::drop::shaft::{BuiltShaft, HeldMode};
 use crate::drop::warning_table::{COMPARED, ShaftWarning};
+use crate::rotor::RotorModel;
 use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Column, Warning};
 use physics::magnet::Magnet;
-use scenario::{AuxiliaryBearing, RotorModel, Shaft};
+use scenario::AuxiliaryBearing;
 
 /// The results that only a flexible rotor has.
 pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
-    let (Some(given), Some(built)) = (&setup.drop.shaft, &setup.built.shaft) else {
+    let Some((given, built)) = setup.bent() else {
         return;
     };
     for node in named(given, built) {
@@ -25,7 +27,7 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     let bent = Bent {
         given,
         built,
-        speed: setup.drop.rotor.speed.abs(),
+        speed: setup.drop().rotor.speed.abs(),
     };
     basis(list, &(), run.map(|_| &bent));
     drawing::name(list, &given.model);
@@ -43,7 +45,7 @@ results! {
     }
     /// What the modes are.
     fn basis(setup: &(), bent: &Bent) {
-        "rotor_mass": number "kg", BASIS, "mass of the rotor" in rotor_line "rotor" => bent.given.properties().mass;
+        "rotor_mass": number "kg", BASIS, "mass of the rotor" in rotor_line "rotor" => rotor::properties(&bent.given.model.rotor).mass;
         "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" in rotor_line "bends at" => {
             let mut bends = bent.frequencies().filter(|omega| *omega > 0.0);
             bends.next().ok_or_else(|| "the rotor does not bend".to_string())
@@ -56,7 +58,7 @@ results! {
     /// Where everything stands.
     fn positions(setup: &(), bent: &Bent) {
         "shape_positions": list "m", GIVEN, "places along the shaft at which its shape is known" in shape "place" => bent.z(bent.built.places.iter().copied());
-        "bearing_positions": list "m", GIVEN, "places of the auxiliary bearings" in bearings "place" => bent.z(bent.given.places.iter().map(|place| place.node));
+        "bearing_positions": list "m", GIVEN, "places of the auxiliary bearings" in bearings "place" => bent.z(bent.given.nodes.iter().copied());
         "bearing_offsets_x": list "m", GIVEN, "misalignments of the auxiliary bearings to the right" in bearings "x" => bent.offsets(0);
         "bearing_offsets_y": list "m", GIVEN, "misalignments of the auxiliary bearings upwards" in bearings "y" => bent.offsets(1);
     }
@@ -106,7 +108,7 @@ impl<'a> Bent<'a> {
     }
     /// Of each place along it with a clearance.
     fn around<T>(&self, of: fn(&Named<'a>) -> T) -> Vec<T> {
-        let all = named(self.given, self.built).chain(magnets(self.given, self.built));
+        let all = around(self.given, self.built);
         let around = all.filter(|own| own.clearance.is_some());
         around.map(|own| of(&own)).collect()
     }
@@ -114,7 +116,7 @@ impl<'a> Bent<'a> {
 
 /// Displacements along the shaft.
 pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
-    let (Some(given), Some(built)) = (&setup.drop.shaft, &setup.built.shaft) else {
+    let Some((given, built)) = setup.bent() else {
         return Vec::new();
     };
     let mut table = Table::over(run);
@@ -131,19 +133,14 @@ pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
 
 /// Number of places whose clearance may be watched.
 pub(crate) fn clearances(context: &Context) -> usize {
-    match (&context.setup.drop.shaft, &context.setup.built.shaft) {
-        (Some(given), Some(built)) => named(given, built).chain(magnets(given, built)).count(),
-        _ => 0,
-    }
+    let bent = context.setup.bent();
+    bent.map_or(0, |(given, built)| around(given, built).count())
 }
 
 /// A clearance along the shaft that a member uses up, and by how much.
 pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> {
-    let (given, built) = (
-        context.setup.drop.shaft.as_ref()?,
-        context.setup.built.shaft.as_ref()?,
-    );
-    let node = named(given, built).chain(magnets(given, built)).nth(node)?;
+    let (given, built) = context.setup.bent()?;
+    let node = around(given, built).nth(node)?;
     let (peak, clearance) = (context.finished.record.places[node.place], node.clearance?);
     let warning = ShaftWarning::Rub {
         part: node.name.to_string(),
@@ -159,10 +156,7 @@ const FEW_MODES: f64 = 10.0;
 
 /// Modes that are too few for impacts.
 pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
-    let (given, built) = (
-        context.setup.drop.shaft.as_ref()?,
-        context.setup.built.shaft.as_ref()?,
-    );
+    let (given, built) = context.setup.bent()?;
     let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
     let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
     let needed = FEW_MODES * bends.max(context.release_speed());
@@ -175,13 +169,13 @@ const DEPTH: f64 = 1e-5;
 
 /// Contacts and mounts so stiff that the default number of modes was not shown to do.
 pub(crate) fn stiff(context: &Context) -> Option<Warning> {
-    let given = context.setup.drop.shaft.as_ref()?;
+    let given = context.setup.drop().shaft.as_ref()?;
     let (contact, mount, cutoff) = COMPARED;
     let slope = |part: &AuxiliaryBearing| {
         let own = &part.contact;
         own.exponent * own.stiffness * DEPTH.powf(own.exponent - 1.0)
     };
-    let mut parts = context.setup.drop.auxiliary_bearings.iter();
+    let mut parts = context.setup.drop().auxiliary_bearings.iter();
     let hard = parts.find(|part| slope(part) > contact || part.mount.stiffness > mount)?;
     let warning = ShaftWarning::StiffContact {
         contact: slope(hard),
@@ -201,7 +195,7 @@ pub fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
     let all = model.supports.iter().zip(&model.rotor.supports);
     let names = all
         .filter(|(_, own)| crosses(own))
-        .map(|(name, _)| name.as_str());
+        .map(|(given, _)| given.name.as_str());
     let names: Vec<&str> = names.collect();
     let supports = names.join(", ");
     (speed < 0.0 && !names.is_empty()).then(|| ShaftWarning::AgainstSpin { supports }.into())
@@ -209,15 +203,12 @@ pub fn against_spin(model: &RotorModel, speed: f64) -> Option<Warning> {
 
 /// A mode of the levitated rotor near the speed at which it is released, with its amplification.
 pub(crate) fn resonance(context: &Context) -> Option<(f64, Warning)> {
-    let (given, built) = (
-        context.setup.drop.shaft.as_ref()?,
-        context.setup.built.shaft.as_ref()?,
-    );
+    let (given, built) = context.setup.bent()?;
     // modes are those of the start: a rotor that runs up is released elsewhere
     if context.setup.controlled().is_some() {
         return None;
     }
-    let speed = context.setup.drop.rotor.speed.abs();
+    let speed = context.setup.drop().rotor.speed.abs();
     let near = built.held.iter().filter(|mode| {
         mode.excited
             && (mode.frequency.abs() - speed).abs() < NEAR * speed
@@ -258,14 +249,19 @@ struct Named<'a> {
 }
 
 fn named<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {
-    let nodes = given.model.nodes.iter().zip(&given.model.clearances);
-    nodes.filter_map(|((name, node), clearance)| {
+    let nodes = given.model.nodes.iter().zip(&given.model.named);
+    nodes.filter_map(|(own, node)| {
         Some(Named {
-            name,
+            name: &own.name,
             place: built.places.iter().position(|place| place == node)?,
-            clearance: *clearance,
+            clearance: own.clearance,
         })
     })
+}
+
+/// Named places, and magnets whose gap is given.
+fn around<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {
+    named(given, built).chain(magnets(given, built))
 }
 
 /// Magnets whose gap is given.
@@ -305,8 +301,8 @@ origins! {
 
 /// A shaft that does not go through the bore of an auxiliary bearing; at a step the thinner side counts.
 pub(crate) fn thick(context: &Context, k: usize) -> Option<Warning> {
-    let given = context.setup.drop.shaft.as_ref()?;
-    let z = given.model.rotor.nodes[given.places[k].node];
+    let given = context.setup.drop().shaft.as_ref()?;
+    let z = given.model.rotor.nodes[given.nodes[k]];
     let side = |at: f64| {
         let there = (given.model.pieces.iter()).map(|piece| &piece.layer);
         let there = there.filter(|layer| layer.from < at && at < layer.to);

@@ -1,12 +1,12 @@
 //! The torque of a drive or a load on the rotor, by tables over speed and time.
 
 use crate::bearing::loss::table;
+use crate::drop::Drop;
 use model::magnets::MagnetsConstants;
 use model::rotor::TorqueTables;
 use model::schedule::Schedule;
 use model::system::machine::Event;
 use model::table::Table;
-use scenario::Drop;
 
 /// Torque of the rotor's drive or load over speed and time, for one of its planes.
 pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {

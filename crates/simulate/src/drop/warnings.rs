@@ -22,7 +22,7 @@ const LARGEST_DAMPING: f64 = 0.5;
 
 /// What decides the steps of a drop.
 fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
-    method::asked(context.setup.drop, context.setup.machine.tangents())
+    method::asked(context.setup.drop(), context.setup.machine.tangents())
 }
 
 /// A warning of one member, and how grave it is there.
@@ -78,7 +78,7 @@ pub(crate) fn of(
         true => &contexts[..1],
         false => contexts,
     };
-    let drop = context.setup.drop;
+    let drop = context.setup.drop();
     let names: Vec<&str> = context.setup.parts().collect();
     let each = |of: &dyn Fn(usize) -> Vec<Warning>| -> Vec<Warning> {
         let parts = names.iter().enumerate();
@@ -151,7 +151,7 @@ pub(crate) fn of(
     let shaft = drop.shaft.as_ref();
     list.extend(shaft.and_then(|own| shaft_results::against_spin(&own.model, drop.rotor.speed)));
     let known = context.setup.machine.tangents();
-    let stepping = method::stepping(drop, context.setup.built, known);
+    let stepping = method::stepping(context.setup.built, known);
     list.extend(asked(context).warnings(stepping.steps));
     if drop.rotor.planes > 1 {
         let planes = f64::from(drop.rotor.planes);
@@ -163,7 +163,7 @@ pub(crate) fn of(
         let mut list = given.map_or(Vec::new(), |bearing| shared::films(&run, bearing));
         list.extend(shared::film_rise(&run));
         list.extend(given.map_or(Vec::new(), |bearing| {
-            shared::law_range(bearing, run.fastest(), context.setup.drop.weight(k))
+            shared::law_range(bearing, run.fastest(), context.setup.drop().weight(k))
         }));
         let mut list = of_rows(contexts, list);
         list.extend(judged(machines, |member| skids(member, k)));
@@ -216,7 +216,7 @@ fn beyond_speeds(context: &Context, k: usize) -> Vec<Graded> {
 
 /// A load beyond what the axial preload holds.
 fn preload(context: &Context, k: usize) -> Option<Graded> {
-    let drop = context.setup.drop;
+    let drop = context.setup.drop();
     let weight = drop.weight(k);
     let peak = context.record(k).peak_contact_force();
     let peak = peak.map(|peak| (peak.value, peak.time));
@@ -234,7 +234,7 @@ fn skids(context: &Context, k: usize) -> Option<Graded> {
 
 /// A rotor that bends where it is taken as rigid.
 fn bending(context: &Context) -> Option<Graded> {
-    let rotor = &context.setup.drop.rotor;
+    let rotor = &context.setup.drop().rotor;
     let bending = rotor.first_bending_frequency?;
     let speed = rotor.speed.abs();
     let side = if bending < speed {
@@ -252,9 +252,9 @@ fn bending(context: &Context) -> Option<Graded> {
 
 /// Several bearings under a rotor that does not tilt.
 fn one_motion(context: &Context) -> Option<Warning> {
-    let count = context.setup.drop.auxiliary_bearings.len();
+    let count = context.setup.drop().auxiliary_bearings.len();
     let bearings = count as f64;
-    (count > 1 && context.setup.drop.shaft.is_none())
+    (count > 1 && context.setup.drop().shaft.is_none())
         .then(|| DropWarning::OneMotion { bearings }.into())
 }
 

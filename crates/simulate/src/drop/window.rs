@@ -10,6 +10,7 @@
 use crate::bearing::feedback::Follows;
 use crate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::coast_down::rows::BallsSeen;
+use crate::drop::Drop;
 use crate::drop::build;
 use crate::drop::context::Context;
 use crate::drop::ensemble::{self, Finished, Member, Plan};
@@ -21,7 +22,6 @@ use model::bearing_heat::OfNodes;
 use model::surface_heat::Slid;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
-use scenario::Drop;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -195,20 +195,15 @@ impl<'a> Way<'a> {
     /// The machine at the speed and the temperatures that the run-out has come to, in the motion it had, and how it is computed.
     fn condition(&mut self, built: &Built) -> Result<Plan<'a>, &'static str> {
         let speed = built.start.speed;
-        let drop = conditioned(self.context.setup.drop, built);
-        let made =
-            build::drop(&drop).map_err(|_| "no machine could be built at these temperatures")?;
+        let made = build::built(conditioned(self.context.setup.drop(), built))
+            .map_err(|_| "no machine could be built at these temperatures")?;
         let mut constants = made.constants.clone();
         constants.rotor.spin_held = true;
         for bearing in &mut constants.bearings {
             bearing.warm = None;
         }
-        let stepping = method::stepping(
-            &drop,
-            &made,
-            RotorMachine::new(constants.clone()).tangents(),
-        );
         let machine = Arc::new(RotorMachine::new(constants));
+        let stepping = method::stepping(&made, machine.tangents());
         let layout = machine.layout();
         let state = &mut self.last.state;
         let spin = layout.rotor.spin();
@@ -221,7 +216,7 @@ impl<'a> Way<'a> {
         }
         self.last.machine = machine;
         Ok(Plan {
-            settings: settings_at(&drop.run, stepping.tolerance),
+            settings: settings_at(&made.drop.run, stepping.tolerance),
             steps: stepping.steps,
             interval: f64::INFINITY,
             until_rolling: false,
@@ -561,9 +556,9 @@ fn rises(built: &Built, above: &[f64]) -> Vec<f64> {
 /// The drop with oil, clearance and friction as warm as the run-out has made them.
 fn conditioned(drop: &Drop, built: &Built) -> Drop {
     let mut warm = drop.clone();
-    warm.rotor.speed = built.start.speed * drop.rotor.speed.signum();
+    warm.given.rotor.speed = built.start.speed * drop.rotor.speed.signum();
     let temperatures = built.start.temperatures.chunks(NODES.len());
-    let bearings = warm.auxiliary_bearings.iter_mut().zip(&built.parts);
+    let bearings = warm.given.auxiliary_bearings.iter_mut().zip(&built.parts);
     for ((part, rolling), temperatures) in bearings.zip(temperatures) {
         part.contact.friction_coefficient = friction(part, temperatures);
         if let Some(air) = AirClearance::of(part) {

@@ -1,7 +1,6 @@
 //! From a test on a rig to the constants of the model.
 
 use crate::bearing;
-use crate::bearing::contacts::SCENARIO;
 use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint};
 use model::bearing_heat::WarmBearing;
@@ -12,7 +11,7 @@ use model::system::rig::{
 use model::system::spin_up::InnerRace;
 use number::Vec2;
 use problem::{Code, Problem};
-use scenario::{Engagement as EngagementChoice, Rig, RigProgram};
+use scenario::{Engagement as EngagementChoice, Rig, RigProgram, problem_at};
 use std::f64::consts::PI;
 use thermal::bearing_network::OUTER_RACE;
 
@@ -123,15 +122,8 @@ fn drag(constant: f64, viscous: f64) -> Drag {
 }
 
 fn refused(why: impl std::fmt::Display) -> Box<Problem> {
-    Box::new(
-        Problem::new(
-            Code::Impossible,
-            SCENARIO,
-            why.to_string(),
-            "a rig that can be built is needed",
-        )
-        .on_key("rig"),
-    )
+    let allowed = "a rig that can be built is needed";
+    problem_at(Code::Impossible, "rig", why.to_string(), allowed)
 }
 
 /// Rate of the clutch's torque, N m/s, where it engages in the test.
@@ -147,14 +139,11 @@ fn torque_rate(rig: &Rig, constants: &RigConstants) -> Result<Option<f64>, Box<P
         EngagementChoice::PeakAcceleration(wanted) => engagement_ramp(constants, wanted, rig.speed)
             .map(Some)
             .map_err(|why| {
-                Box::new(
-                    Problem::new(
-                        Code::Impossible,
-                        SCENARIO,
-                        format!("{wanted} rad/s^2, which the clutch does not give"),
-                        format!("a peak acceleration that it can give is needed: {why}"),
-                    )
-                    .on_key("rig.peak_acceleration"),
+                problem_at(
+                    Code::Impossible,
+                    "rig.peak_acceleration",
+                    format!("{wanted} rad/s^2, which the clutch does not give"),
+                    format!("a peak acceleration that it can give is needed: {why}"),
                 )
             }),
     }

@@ -68,7 +68,7 @@ fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
     };
     let asked = Asked::of(analysis)?;
     let mut list = List::default();
-    name(&mut list, analysis, asked.levitated.as_ref());
+    name(&mut list, &asked.model, asked.levitated.as_ref());
     Ok(list
         .quantities
         .into_iter()
@@ -110,10 +110,10 @@ fn the_scenario_that_ships_has_the_sensitivity_of_the_reference() {
     let System::Rotor(analysis) = &scenario.system else {
         panic!("a rotor");
     };
-    assert_eq!(analysis.model.rotor.nodes.len(), 53);
     let asked = Asked::of(analysis).unwrap_or_else(|problem| panic!("{problem}"));
+    assert_eq!(asked.rotor().nodes.len(), 53);
     let mut list = List::default();
-    name(&mut list, analysis, asked.levitated.as_ref());
+    name(&mut list, &asked.model, asked.levitated.as_ref());
     let found: Vec<_> = list
         .quantities
         .into_iter()
@@ -309,7 +309,7 @@ fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
         panic!("a rotor");
     };
     let mut list = List::default();
-    simulate::drawing::name(&mut list, &analysis.model);
+    simulate::drawing::name(&mut list, &Asked::of(analysis).unwrap().model);
     let of = |name: &str| {
         let found = list.quantities.iter().find(|q| q.name == name);
         found.unwrap_or_else(|| panic!("{name}")).value.clone()

@@ -1,0 +1,178 @@
+//! A drop as its file gives it, with the model of its rotor: mass, inertia, and what each bearing carries.
+
+use crate::drop::layers;
+use crate::rotor::RotorModel;
+use ::rotor::{C64, Place, properties};
+use physics::heat_conduction::STEEL_HEAT;
+use problem::{Code, Problem};
+use scenario::several::path_of;
+use scenario::{Body, RigidBody, problem_at};
+use std::ops::Deref;
+use units::number_text;
+
+/// A drop with the model of its rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drop {
+    pub(super) given: scenario::Drop,
+    /// Mass and inertia of the rotor as a whole.
+    pub body: RigidBody,
+    /// The rotor as it bends.
+    pub shaft: Option<Box<Shaft>>,
+}
+
+/// A rotor that bends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shaft {
+    given: scenario::Shaft,
+    /// Its model. Supports hold it until the release where there are no magnets.
+    pub model: RotorModel,
+    /// Nodes of the auxiliary bearings, in their order.
+    pub nodes: Vec<usize>,
+    /// Shares of its weight by statics: of a rigid rotor on bearings that are equally stiff. Negative where one lifts.
+    pub shares: Vec<f64>,
+}
+
+impl Deref for Drop {
+    type Target = scenario::Drop;
+
+    fn deref(&self) -> &scenario::Drop {
+        &self.given
+    }
+}
+
+impl Deref for Shaft {
+    type Target = scenario::Shaft;
+
+    fn deref(&self) -> &scenario::Shaft {
+        &self.given
+    }
+}
+
+impl Drop {
+    /// The drop with the model of its rotor.
+    ///
+    /// # Errors
+    /// A rotor that has none, or that cannot land.
+    pub fn of(given: &scenario::Drop) -> Result<Drop, Box<Problem>> {
+        let (body, shaft) = match &given.body {
+            Body::Rigid(body) => (*body, None),
+            Body::Flexible(own) => {
+                let shaft = Shaft::of(given, own)?;
+                (shaft.body(), Some(Box::new(shaft)))
+            }
+        };
+        let this = Drop {
+            given: given.clone(),
+            body,
+            shaft,
+        };
+        this.loaded()
+    }
+
+    /// What an auxiliary bearing carries of the rotor's weight.
+    pub fn share(&self, bearing: usize) -> f64 {
+        match &self.shaft {
+            Some(shaft) => shaft.shares[bearing].abs(),
+            None => self.equal_share(),
+        }
+    }
+
+    /// Weight of the rotor on an auxiliary bearing, N.
+    pub fn weight(&self, bearing: usize) -> f64 {
+        self.body.mass * self.gravity.acceleration * self.share(bearing)
+    }
+
+    /// With the weight on each bearing that warms, and the rotor's part that warms with it.
+    fn loaded(mut self) -> Result<Drop, Box<Problem>> {
+        for k in 0..self.auxiliary_bearings.len() {
+            let load = self.weight(k);
+            let capacity = self.body.mass * self.share(k) * STEEL_HEAT.specific_heat;
+            let part = &mut self.given.auxiliary_bearings[k];
+            let Some(warm) = &mut part.warm else {
+                continue;
+            };
+            warm.radial_load = load;
+            warm.heat.radial_air_clearance = Some(part.contact.radial_air_clearance);
+            let whole = *warm.heat.rotor_capacity.get_or_insert(capacity);
+            let area = part.area_over_core().unwrap_or(0.0);
+            let layer = layers::rotor_layer(&part.contact).capacity(area);
+            if whole <= layer {
+                let found = format!("{} J/K", number_text(whole));
+                let needed = format!(
+                    "more than the {layer:.3} J/K of its surface layer is needed beside heat.rotor_bodies: its core is the rest"
+                );
+                return Err(conflict(&part.name, "heat.rotor_capacity", &found, &needed));
+            }
+        }
+        Ok(self)
+    }
+}
+
+impl Shaft {
+    fn of(drop: &scenario::Drop, given: &scenario::Shaft) -> Result<Shaft, Box<Problem>> {
+        let model = RotorModel::new(&given.rotor, drop.rotor.speed)?;
+        let nodes = given.places.iter().map(|place| model.named[place.node]);
+        let nodes: Vec<usize> = nodes.collect();
+        lands(drop, &nodes, &model)?;
+        Ok(Shaft {
+            shares: shares(&model, &nodes),
+            given: given.clone(),
+            model,
+            nodes,
+        })
+    }
+
+    fn body(&self) -> RigidBody {
+        let whole = properties(&self.model.rotor);
+        let planes = self.model.rotor.unbalance.iter();
+        let moment: C64 = planes
+            .map(|plane| C64::from_polar(plane.amount, plane.phase))
+            .sum();
+        RigidBody {
+            mass: whole.mass,
+            polar_inertia: whole.polar,
+            unbalance_eccentricity: moment.norm() / whole.mass,
+        }
+    }
+}
+
+/// Bearings, and supports that stay, must be at two nodes at least: about one alone nothing keeps the rotor from tilting.
+fn lands(drop: &scenario::Drop, nodes: &[usize], model: &RotorModel) -> Result<(), Box<Problem>> {
+    let stays = model.rotor.supports.iter().zip(&model.supports);
+    let staying = stays.filter_map(|(support, given)| match support.at {
+        Place::Node(node) if given.stays && !support.seal => Some(node),
+        _ => None,
+    });
+    let mut all = nodes.iter().copied().chain(staying);
+    if all.any(|node| node != nodes[0]) {
+        return Ok(());
+    }
+    let (part, found) = match drop.auxiliary_bearings.as_slice() {
+        [only] => (only, "the only auxiliary bearing"),
+        all => (&all[1], "the node of all other bearings"),
+    };
+    let needed = "a rotor lands on two nodes at least";
+    Err(conflict(&part.name, "contact.node", found, needed))
+}
+
+/// A key of an auxiliary bearing that contradicts the rotor.
+fn conflict(bearing: &str, key: &str, found: &str, needed: &str) -> Box<Problem> {
+    let of = Some(bearing).filter(|name| !name.is_empty());
+    problem_at(Code::Conflict, path_of(of, key), found, needed)
+}
+
+/// Shares of the weight: 1/n and what balances the moment about the middle of the bearings.
+fn shares(model: &RotorModel, nodes: &[usize]) -> Vec<f64> {
+    let places: Vec<f64> = nodes.iter().map(|node| model.rotor.nodes[*node]).collect();
+    let count = places.len() as f64;
+    let middle = places.iter().sum::<f64>() / count;
+    let spread: f64 = places.iter().map(|z| (z - middle).powi(2)).sum();
+    let lever = properties(&model.rotor).centre - middle;
+    places
+        .iter()
+        .map(|z| match spread > 0.0 {
+            true => 1.0 / count + lever * (z - middle) / spread,
+            false => 1.0 / count,
+        })
+        .collect()
+}
