@@ -39,8 +39,7 @@ impl Context<'_> {
                 Code::Conflict,
                 "bearing.cage.pocket_contact",
                 "false",
-                "true is needed for a cage that is free to move: nothing else would turn it"
-                    .to_string(),
+                "true is needed for a cage that is free to move: nothing else would turn it",
             );
         }
         Ok(())

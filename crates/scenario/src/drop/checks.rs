@@ -150,8 +150,7 @@ impl Context<'_> {
                 drop.rotor.planes,
                 drop.auxiliary_bearings.len()
             ),
-            "one of the two is needed: equal bearings by their number, others by their names"
-                .to_string(),
+            "one of the two is needed: equal bearings by their number, others by their names",
         )
     }
 

@@ -44,7 +44,7 @@ impl Context<'_> {
                         Code::UnusedKey,
                         key.path,
                         "a key that has no effect".to_string(),
-                        &format!("{ROTOR_FILE} is needed with it"),
+                        format!("{ROTOR_FILE} is needed with it"),
                     ),
                 }
             }

@@ -13,7 +13,7 @@ impl Context<'_> {
             return self.refuse_value(
                 Code::OutOfRange,
                 "signals.to",
-                &format!(
+                format!(
                     "more than signals.from = {} is needed",
                     self.text("signals.from")
                 ),
@@ -170,7 +170,7 @@ impl Context<'_> {
                 Code::UnusedKey,
                 key.path,
                 "a key that has no effect".to_string(),
-                &format!("{first} is needed with it"),
+                format!("{first} is needed with it"),
             ),
             _ => Ok(()),
         }
@@ -192,7 +192,7 @@ impl Context<'_> {
             Code::MissingKey,
             path,
             "no value".to_string(),
-            &format!("with {by} {needed}"),
+            format!("with {by} {needed}"),
         )
     }
 }

@@ -56,8 +56,7 @@ impl Context<'_> {
                 return self.refuse_value(
                     Code::Impossible,
                     path,
-                    "a coefficient above 0 is needed: without friction the rotor turns nothing"
-                        .to_string(),
+                    "a coefficient above 0 is needed: without friction the rotor turns nothing",
                 );
             }
             Drive::SlidingRotor { .. } => (
