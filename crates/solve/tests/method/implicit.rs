@@ -1,7 +1,10 @@
 //! The linearly implicit method: order with exact, poor and no tangents, stiffness, quadratures.
 
 use crate::problems::{Alone, Blind, Problem, adaptive, equal_steps};
-use solve::{Batch, Ending, Flow, Machine, Observer, Settings, Step, Stop, Tangents, run_implicit};
+use solve::{
+    Batch, Ending, Flow, Machine, Observer, Settings, Start, Step, Stepper, Stop, Tangents,
+    run_implicit,
+};
 use std::sync::atomic::AtomicBool;
 
 /// ẋ = v, v̇ = k ((1 - x²) v - x), and Q = ∫v² on which nothing depends. State x, k, v, Q.
@@ -244,4 +247,33 @@ fn no_step_passes_over_the_onset_of_a_contact() {
             falls.most
         );
     }
+}
+
+#[test]
+fn a_run_saved_at_each_stop_has_the_bits_of_one_that_is_not() {
+    let (problem, never) = (van_der_pol(), AtomicBool::new(false));
+    let starts = [Start {
+        machine: &problem,
+        state: &[2.0, 10.0, 0.0, 0.0],
+        observer: 0,
+        settings: adaptive(3.0, 1e-5),
+        pause_at_events: false,
+    }];
+    let new = || Stepper::<f64, Sloped<100, true>, _>::implicit(&starts);
+    let [still, moved] = [false, true].map(|moved| {
+        let mut stepper = new();
+        for stop in 1..10 {
+            stepper.go_on(0, 0.37 * f64::from(stop));
+            stepper.advance(&mut [Blind], &never);
+            if moved {
+                // rates before the start of a step are among what it depends on
+                let saved = stepper.save(0);
+                stepper = new();
+                stepper.restore(0, &saved);
+            }
+        }
+        stepper.ending(0).expect("it is over")
+    });
+    assert_eq!(still.stop, Stop::Finished);
+    assert_eq!(still, moved);
 }
