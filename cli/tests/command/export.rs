@@ -164,9 +164,15 @@ fn a_summary_of_the_first_format_stays_readable() {
     fs::write(path, summary.to_string()).unwrap();
     place.call(&["export", "run", "--csv"]).done();
     let table = rows(&place.path("run/csv/warnings.csv"));
-    assert_eq!(table[1][..3], ["AB1014", "Backward whirl.", ""]);
+    assert_eq!(table[1][..3], ["AB1014", "Backward whirl.", "destroys"]);
     assert_eq!(table.len(), 3);
     place.call(&["report", "run", "--out", "page.html"]).done();
     let page = fs::read_to_string(place.path("page.html")).unwrap();
     assert!(page.replace('\\', "").contains("\"graveness\":0"));
+
+    summary["format"] = "auxbear.summary/3".into();
+    let path = place.path("run").join("summary.json");
+    fs::write(path, summary.to_string()).unwrap();
+    let refused = place.call(&["export", "run", "--csv"]);
+    refused.refused(&["auxbear.summary/3", "auxbear.summary/2"]);
 }

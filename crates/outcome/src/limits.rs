@@ -389,10 +389,13 @@ fn room(limit: &Limit, value: f64) -> String {
 fn of_all(members: usize, hold: usize, open: usize, why: &str) -> (Verdict, String) {
     let broken = members - hold - open;
     if broken > 0 {
-        let known = members - open;
+        let lacking = match open {
+            0 => String::new(),
+            _ => format!("; {open} have no value: {why}"),
+        };
         return (
             Verdict::Fail,
-            format!("{broken} of {known} members break it"),
+            format!("{broken} of {members} members break it{lacking}"),
         );
     }
     if open > 0 {

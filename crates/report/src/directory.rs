@@ -301,11 +301,13 @@ pub fn free_path(name: &str) -> PathBuf {
 /// Most bytes of a summary or scenario that is read.
 const MOST_BYTES: u64 = 1 << 29;
 
+/// Formats of a summary that are read.
+const READ_FORMATS: [&str; 2] = ["auxbear.summary/1", summary::FORMAT];
+
 /// What every summary has: without it a page would show a run without results.
 #[derive(serde::Deserialize)]
 struct Head {
-    #[serde(rename = "format")]
-    _format: String,
+    format: String,
     #[serde(rename = "quantities")]
     _quantities: BTreeMap<String, serde::de::IgnoredAny>,
 }
@@ -373,9 +375,15 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         directory: path.display().to_string(),
         summary_json: with_figures(
             text(SUMMARY, |text| {
-                let head: Result<Head, _> = serde_json::from_str(text);
-                let error = head.err()?;
-                Some(format!("what cannot be read as a summary ({error})"))
+                match serde_json::from_str::<Head>(text) {
+                    Err(error) => Some(format!("what cannot be read as a summary ({error})")),
+                    Ok(head) if READ_FORMATS.contains(&head.format.as_str()) => None,
+                    Ok(head) => Some(format!(
+                        "a summary of format {:?}; this version reads {}",
+                        head.format,
+                        READ_FORMATS.join(" and ")
+                    )),
+                }
             })?,
             &path.join(SCENARIO),
         ),

@@ -18,6 +18,7 @@ use super::table::{Cell, Table};
 use super::workbook;
 use outcome::limits::{meant, stands_for};
 use problem::{Code, Problem};
+use run::warnings::rank;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;
@@ -53,6 +54,13 @@ pub fn export(
         let path = directory.join("summary.json");
         Box::new(Problem::at_path(Code::FileUnreadable, &path, found, needed))
     })?;
+    // the first format had none
+    for warning in &mut summary.warnings {
+        let severity = rank(warning["code"].as_str().unwrap_or_default()).0;
+        if let Some(own) = warning.as_object_mut() {
+            own.entry("severity").or_insert(severity.word().into());
+        }
+    }
     if !only.is_empty() {
         keep(directory, &mut run, &mut summary, only)?;
     }

@@ -11,7 +11,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::io::{BufWriter, Write};
 
-const FORMAT: &str = "auxbear.summary/2";
+pub(crate) const FORMAT: &str = "auxbear.summary/2";
 
 /// Members that the page carries: a thousandth of what a repetition can have weighs as much as the rest of the page.
 pub(super) const OF_PAGE: usize = 500;

@@ -37,7 +37,7 @@ function closeAxes(upright, marks, height) {
 function firstContactsSection(runs) {
   const shown = runs.filter(closeWindow);
   const span = closeSpan(shown);
-  if (!span) return section("first-contacts", "First contacts, closely", runs.map((run) => notInThisRun(run.contacts.length ? "it has no time history" : "rotor and race never touched", run)));
+  if (!span) return section("first-contacts", "First contacts in detail", runs.map((run) => notInThisRun(run.contacts.length ? "it has no time history" : "rotor and race never touched", run)));
   const several = runs.length > 1;
   const look = (label, part, dash) => ({ label, colour: SERIES_COLOURS[part], width: 1.5, dash: several ? dash : undefined });
   const inside = (run) => run.contacts.filter((contact) => isNumber(contact.peak_force_N) && contact.peak_time_s >= span[0] && contact.peak_time_s <= span[1]);
@@ -59,7 +59,7 @@ function firstContactsSection(runs) {
   const upto = `${engineeringText(span[0], "s", 3)} to ${engineeringText(span[1], "s", 3)} of ${engineeringText(timeline.last - timeline.first, "s", 4)}`;
   return section(
     "first-contacts",
-    "First contacts, closely",
+    "First contacts in detail",
     figure("Contact force", `${upto}. Circles: the peak of each contact, from dense output.${several ? "" : " Upright lines: contacts begin."}`, curves({ series: force, ...closeAxes("force [N]", starts, 270) })),
     figure("Speeds of race and cage", null, curves({ series: speeds, ...closeAxes("speed [rpm]", starts, 200), right: IN_RADIANS })),
     pressure.length ? figure("Largest Hertz pressure of all balls", null, curves({ series: pressure, ...closeAxes("pressure [MPa]", starts, 200) })) : null,

@@ -119,7 +119,7 @@ function energySection(runs) {
   const totals = runs.length > 1 ? totalHeatFigure(runs) : null;
   return section(
     "energy",
-    "Where the energy went",
+    "Energy balance",
     totals,
     runs.map((run) => heatHistory(run, runs)),
     wholesOf(runs).map((machine, _, machines) => balanceFigure(machine, machines)),
