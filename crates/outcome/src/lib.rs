@@ -4,6 +4,7 @@
 
 pub mod columns;
 pub mod forbidden;
+pub mod joined;
 pub mod limits;
 pub mod list;
 pub mod options;
@@ -16,7 +17,7 @@ use serde::Serialize;
 const NOT_FINITE: &str = "what was computed is not a finite number";
 
 /// Everything known after a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Name of the system, e.g. `drop`.
     pub system: &'static str,
@@ -141,7 +142,7 @@ impl Members {
         }
     }
     /// Adds a member with its results; words and lists are left out.
-    pub fn push(&mut self, results: Vec<Quantity>) {
+    pub fn push(&mut self, results: &[Quantity]) {
         let mut next = 0;
         for result in results {
             let value = match result.value {
@@ -315,17 +316,6 @@ pub struct Contact {
     pub peak_time: f64,
 }
 
-/// What came out of one of many runs.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Single {
-    /// Named results; none of one that could not be built.
-    pub quantities: Vec<Quantity>,
-    /// What it warns of.
-    pub warnings: Vec<Warning>,
-    /// How it ended.
-    pub stop: Stop,
-}
-
 /// A limit with its verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
@@ -368,7 +358,7 @@ impl Verdict {
 }
 
 /// How a run ended.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Stop {
     /// `finished`, `still turning`, `interrupted`, `diverged`, `step limit`, `left the model`, `not answered` or `not written`.
     pub reason: &'static str,

@@ -128,6 +128,10 @@ pub struct Warning {
     pub time: Option<f64>,
     /// Values with names and units.
     pub values: Vec<(&'static str, Amount, &'static str)>,
+    /// In which members of a repeated run it is evaluated.
+    pub evaluation: Evaluation,
+    /// How grave it is beside the same of another member.
+    pub grade: f64,
     /// In which members it was found.
     pub scope: Scope,
     /// One or two sentences.
@@ -163,6 +167,8 @@ impl Warning {
             part,
             time,
             values,
+            evaluation: kind.evaluation,
+            grade: 0.0,
             scope: Scope::Alike,
             text,
         }

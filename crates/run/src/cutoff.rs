@@ -3,7 +3,7 @@
 use outcome::list::results;
 use outcome::list::{List, origins};
 use outcome::options::Options;
-use outcome::{Quantity, Single, Value};
+use outcome::{Outcome, Quantity};
 use scenario::{Scenario, System};
 use simulate::drop::{Shaft, each};
 
@@ -49,7 +49,7 @@ pub(super) fn changes(
 }
 
 /// Both runs, or why there are none.
-pub(super) type Tried = Result<Vec<Single>, String>;
+pub(super) type Tried = Result<Vec<Outcome>, String>;
 
 /// Names these changes, each after what changes; without both runs those of any.
 pub(super) fn name(known: &[Quantity], tried: Option<&Tried>) -> Vec<Quantity> {
@@ -67,19 +67,15 @@ pub(super) fn name(known: &[Quantity], tried: Option<&Tried>) -> Vec<Quantity> {
 fn changed(tried: &Tried, name: &str) -> Result<f64, String> {
     let found = tried.as_ref().map_err(String::clone)?;
     let value = |k: usize| {
-        let single = found.get(k)?;
-        let quantity = single.quantities.iter().find(|q| q.name == name)?;
-        match quantity.value {
-            Value::Number(value) if single.stop.complete() => Some(value),
-            _ => None,
-        }
+        let run = found.get(k).filter(|run| run.stop.complete())?;
+        run.number(name)
     };
     match (value(0), value(1)) {
         (Some(before), Some(after)) if before != 0.0 => Ok(after / before - 1.0),
         _ => {
-            let part = found.iter().find(|single| !single.stop.complete());
+            let part = found.iter().find(|run| !run.stop.complete());
             let none = "one of the two runs has no such result; a longer rotor.cutoff_check may";
-            Err(part.map_or(none, |single| &single.stop.text).to_string())
+            Err(part.map_or(none, |run| &run.stop.text).to_string())
         }
     }
 }

@@ -1,49 +1,38 @@
 //! Many single runs of scenarios that differ.
 
 use crate::{build, known};
-use outcome::options::{Options, bounded};
-use outcome::{Single, Stop};
+use outcome::options::{Options, in_pool};
+use outcome::{Outcome, Stop};
 use problem::Problem;
 use rayon::prelude::*;
 use scenario::{Scenario, System};
 use simulate::drop::each::{self, One};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-fn not_built(problem: &Problem) -> Single {
-    Single {
-        quantities: Vec::new(),
-        warnings: Vec::new(),
+fn not_built(problem: &Problem) -> Outcome {
+    Outcome {
         stop: Stop {
             reason: "not built",
             time: 0.0,
             text: problem.to_string(),
         },
+        ..Outcome::default()
     }
 }
 
 /// Runs each scenario once; drops of one kind share lanes. A scenario that could not be read or built is a result that says
-/// why. The numbers of one depend on its scenario alone.
-pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Single> {
-    let all = || of_pool(scenarios, options);
-    let pool = (options.threads).map(|n| {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(bounded(n))
-            .build()
-    });
-    match pool {
-        Some(Ok(pool)) => pool.install(all),
-        // the machine refuses more threads: the shared pool gives the same numbers
-        _ => all(),
-    }
+/// why; histories are not kept. The numbers of one depend on its scenario alone.
+pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Outcome> {
+    in_pool(options.threads, || of_pool(scenarios, options))
 }
 
 /// A scenario on its way.
 enum Stage<'a> {
     Drop(Box<One<'a>>),
-    Done(Single),
+    Done(Outcome),
 }
 
-fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Single> {
+fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Outcome> {
     let done = AtomicUsize::new(0);
     let stages: Vec<Stage> = (scenarios.par_iter())
         .map(|scenario| {
@@ -58,10 +47,10 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
     let before = done.into_inner();
     let mut places = Vec::new();
     let mut drops = Vec::new();
-    let mut list: Vec<Option<Single>> = Vec::new();
+    let mut list: Vec<Option<Outcome>> = Vec::new();
     for (k, stage) in stages.into_iter().enumerate() {
         list.push(match stage {
-            Stage::Done(single) => Some(single),
+            Stage::Done(outcome) => Some(outcome),
             Stage::Drop(one) => {
                 places.push(k);
                 drops.push(*one);
@@ -77,10 +66,11 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
         progress: &progress,
         ..*options
     };
-    let singles = each::run(&drops, &plan).into_iter().zip(&drops);
-    for (place, (mut single, one)) in places.into_iter().zip(singles) {
-        single.warnings = known::with_those_before(one.scenario, &one.built.drop, single.warnings);
-        list[place] = Some(single);
+    let made = each::run(&drops, &plan).into_iter().zip(&drops);
+    for (place, (mut outcome, one)) in places.into_iter().zip(made) {
+        outcome.warnings =
+            known::with_those_before(one.scenario, &one.built.drop, outcome.warnings);
+        list[place] = Some(outcome);
     }
     list.into_iter().flatten().collect()
 }
@@ -103,14 +93,11 @@ fn staged<'a>(scenario: &'a Result<Scenario, Box<Problem>>, options: &Options) -
         progress: &|_| {},
     };
     Stage::Done(match build(scenario) {
-        Ok(machine) => {
-            let outcome = machine.run(&unwatched);
-            Single {
-                quantities: outcome.quantities,
-                warnings: outcome.warnings,
-                stop: outcome.stop,
-            }
-        }
+        Ok(machine) => Outcome {
+            history: Vec::new(),
+            files: Vec::new(),
+            ..machine.run(&unwatched)
+        },
         Err(problem) => not_built(&problem),
     })
 }

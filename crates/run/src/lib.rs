@@ -28,6 +28,7 @@ pub use recording::file::parquet::panic_is_caught;
 use scenario::{CoastDown, Rig, Scenario, SpinUp, System};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -37,7 +38,7 @@ pub struct Machine<'a> {
 
 /// The machine of each system.
 enum Built<'a> {
-    Drop(Box<drop::build::Built>, Vec<drop::members::Varied>),
+    Drop(Arc<drop::build::Built>),
     SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Arc<signals::Asked>),
@@ -51,8 +52,8 @@ enum Built<'a> {
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
-            let varied = drop::members::varied(scenario, &built)?;
-            Ok(Built::Drop(Box::new(built), varied))
+            drop::repetition::check(scenario, &built)?;
+            Ok(Built::Drop(Arc::new(built)))
         }),
         System::SpinUp(of) => {
             spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
@@ -81,7 +82,10 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
+        let clock = Instant::now();
         let mut outcome = self.computed(options);
+        outcome.work.seconds = clock.elapsed().as_secs_f64();
+        outcome.work.members = outcome.work.members.max(1);
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
         let declared: Vec<_> = warnings::declared().collect();
         outcome.limits = limits::of(self.scenario, &outcome, &declared);
@@ -90,7 +94,7 @@ impl Machine<'_> {
 
     fn computed(&self, options: &Options) -> Outcome {
         match &self.system {
-            Built::Drop(built, varied) => self.dropped(built, varied, options),
+            Built::Drop(built) => self.dropped(built, options),
             Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
@@ -101,13 +105,8 @@ impl Machine<'_> {
         }
     }
 
-    fn dropped(
-        &self,
-        built: &drop::build::Built,
-        varied: &[drop::members::Varied],
-        options: &Options,
-    ) -> Outcome {
-        let mut outcome = drop::run(self.scenario, built, varied, options);
+    fn dropped(&self, built: &Arc<drop::build::Built>, options: &Options) -> Outcome {
+        let mut outcome = drop::repetition::run(self.scenario, built, options);
         if let Some(shaft) = &built.drop.shaft {
             let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
             outcome.quantities.extend(changes);
@@ -118,7 +117,7 @@ impl Machine<'_> {
     /// The columns of a run's history, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn columns(&self) -> Vec<Column> {
         match &self.system {
-            Built::Drop(built, _) => drop::columns(built),
+            Built::Drop(built) => drop::columns(built),
             Built::SpinUp(of, built) => spin_up::columns(of, built),
             Built::Rig(of, built) => rig::columns(of, built),
             Built::CoastDown(_, built) => coast_down::columns(built),
@@ -132,7 +131,7 @@ impl Machine<'_> {
     /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn results(&self) -> Vec<Quantity> {
         match &self.system {
-            Built::Drop(built, _) => {
+            Built::Drop(built) => {
                 let mut list = drop::results(built);
                 let shaft = built.drop.shaft.as_ref();
                 if shaft.is_some_and(|shaft| shaft.cutoff_check.is_some()) {

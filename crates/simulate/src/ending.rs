@@ -61,13 +61,7 @@ pub(crate) fn stop(ending: &Ending) -> Stop {
     let time = ending.time;
     let (reason, text) = match &ending.stop {
         solve::Stop::Finished => ("finished", "The whole duration was computed.".to_string()),
-        solve::Stop::Interrupted => (
-            "interrupted",
-            format!(
-                "Interrupted at {}; everything until then is kept.",
-                instant(time)
-            ),
-        ),
+        solve::Stop::Interrupted => return interrupted(time),
         solve::Stop::Halted(why) => (
             "left the model",
             format!("Stopped at {}: {why}.", instant(time)),
@@ -92,4 +86,16 @@ pub(crate) fn stop(ending: &Ending) -> Stop {
         ),
     };
     Stop { reason, time, text }
+}
+
+/// What the user ended.
+pub(crate) fn interrupted(time: f64) -> Stop {
+    Stop {
+        reason: "interrupted",
+        time,
+        text: format!(
+            "Interrupted at {}; everything until then is kept.",
+            instant(time)
+        ),
+    }
 }

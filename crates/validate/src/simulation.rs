@@ -151,7 +151,6 @@ fn simulate(
             until_rolling: false,
             steps: Steps::Explicit,
             interval: duration,
-            threads: None,
             interrupt: &AtomicBool::new(false),
             progress: &|_| {},
         },

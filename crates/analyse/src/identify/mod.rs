@@ -29,7 +29,6 @@ use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Warning, Work};
 pub use read::Asked;
 use scenario::Scenario;
 use simulate::assumptions::assumptions;
-use std::time::Instant;
 
 /// The columns of its history, without values.
 pub fn columns(asked: &Asked) -> Vec<Column> {
@@ -43,7 +42,6 @@ pub fn results(asked: &Asked) -> Vec<Quantity> {
 
 /// Computes what is asked for and names it.
 pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
-    let clock = Instant::now();
     let found = Found::of(asked, options);
     let mut warnings = found.warnings.clone();
     warnings.extend(assumed(scenario, asked));
@@ -77,17 +75,8 @@ pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
             .unwrap_or_else(|| "What the tests show of the bearing".to_string()),
         quantities: answer::name(asked, Some(&found)),
         history,
-        contacts: Vec::new(),
         stop,
         warnings,
-        work: Work {
-            members: 1,
-            seconds: clock.elapsed().as_secs_f64(),
-            ..Work::default()
-        },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -95,7 +84,7 @@ pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
             rolling_cage_ratio: found.set.cage_speed(1.0),
             balls: asked.identify.ball_count,
         }],
-        files: Vec::new(),
+        ..Outcome::default()
     }
 }
 

@@ -17,7 +17,6 @@ use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 use scenario::Scenario;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// The columns of its history, without values.
 pub fn columns(asked: &Asked) -> Vec<Column> {
@@ -31,7 +30,6 @@ pub fn results(asked: &Asked) -> Vec<Quantity> {
 
 /// Computes everything and names it.
 pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
-    let clock = Instant::now();
     let own = Arc::clone(asked);
     // an eigenproblem knows of no interrupt: its thread is left
     let found = interruptible(options.interrupt, move || {
@@ -54,21 +52,12 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
             .unwrap_or_else(|| "Rotor".to_string()),
         quantities: found.map_or_else(Vec::new, |found| quantities::name(asked, Some(found))),
         history: found.map_or_else(Vec::new, |found| history(asked, Some(found))),
-        contacts: Vec::new(),
         warnings: found.map_or_else(Vec::new, |found| warnings::of(asked, found)),
         stop: Stop {
             reason,
             time: 0.0,
             text,
         },
-        work: Work {
-            members: 1,
-            seconds: clock.elapsed().as_secs_f64(),
-            ..Work::default()
-        },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -76,7 +65,7 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
             rolling_cage_ratio: 0.0,
             balls: 0,
         }],
-        files: Vec::new(),
+        ..Outcome::default()
     }
 }
 

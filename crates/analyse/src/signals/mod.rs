@@ -40,7 +40,6 @@ use scenario::{Scenario, SensorSource, SteadySignal};
 use simulate::assumptions::assumptions;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 /// Keys that say something of a sensor only where it is given, not where a tap tells it.
 const OF_GIVEN_SENSOR: &[&str] = &[
@@ -278,7 +277,6 @@ pub fn results(asked: &Asked) -> Vec<Quantity> {
 
 /// Computes what is asked for and names it.
 pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
-    let clock = Instant::now();
     let mut found = find(asked, options.interrupt);
     found.warnings.extend(assumed(scenario, asked, &found));
     let history = history::columns(asked, Some(&found));
@@ -291,7 +289,6 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
             .unwrap_or_else(|| "Measured signals".to_string()),
         quantities: answer::name(asked, Some(&found)),
         history,
-        contacts: Vec::new(),
         stop: match found.refused.as_slice() {
             refused if refused.iter().any(|(_, why)| why == INTERRUPTED) => Stop {
                 reason: "interrupted",
@@ -310,14 +307,6 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
             },
         },
         warnings: found.warnings,
-        work: Work {
-            members: 1,
-            seconds: clock.elapsed().as_secs_f64(),
-            ..Work::default()
-        },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -333,6 +322,6 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
                 .as_ref()
                 .map_or(0, |cage| cage.ball_count),
         }],
-        files: Vec::new(),
+        ..Outcome::default()
     }
 }

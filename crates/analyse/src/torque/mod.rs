@@ -19,7 +19,6 @@ use outcome::columns::{Columns, columns};
 use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 
 use scenario::Scenario;
-use std::time::Instant;
 
 /// The columns of its history, without values.
 pub fn columns(asked: &Asked) -> Vec<Column> {
@@ -33,7 +32,6 @@ pub fn results(asked: &Asked) -> Vec<Quantity> {
 
 /// Computes the moments and names them.
 pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
-    let clock = Instant::now();
     let torque = asked.torque;
     let history = history(asked, &asked.speeds());
     let quantities = quantities::name(asked, Some(asked));
@@ -46,21 +44,12 @@ pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             .unwrap_or_else(|| format!("Torque of a {named}")),
         quantities,
         history,
-        contacts: Vec::new(),
         warnings: warnings::of(scenario, asked),
         stop: Stop {
             reason: "finished",
             time: 0.0,
             text: "Everything asked for was computed.".to_string(),
         },
-        work: Work {
-            members: 1,
-            seconds: clock.elapsed().as_secs_f64(),
-            ..Work::default()
-        },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -68,7 +57,7 @@ pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
             rolling_cage_ratio: asked.set.cage_speed(1.0),
             balls: torque.ball_count,
         }],
-        files: Vec::new(),
+        ..Outcome::default()
     }
 }
 

@@ -25,7 +25,6 @@ use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
 use problem::Problem;
 use scenario::{CoastDown, Scenario};
-use std::time::Instant;
 use thermal::coast_down::Endless;
 
 /// The results of a run-out, without values.
@@ -42,28 +41,16 @@ pub fn columns(built: &Built) -> Vec<Column> {
 
 /// Computes it and names what it finds.
 pub fn run(scenario: &Scenario, run: &CoastDown, built: &Built, options: &Options) -> Outcome {
-    let clock = Instant::now();
     let found = ran::ran(built, options.interrupt);
     let named = run.bearing.name.as_deref().unwrap_or("bearing");
     let mut outcome = Outcome {
         system: "coast_down",
         title: (scenario.title.clone()).unwrap_or_else(|| format!("Run-out on a {named}")),
-        quantities: Vec::new(),
-        history: Vec::new(),
-        contacts: Vec::new(),
-        warnings: Vec::new(),
         stop: Stop {
             reason: "finished",
             time: 0.0,
             text: String::new(),
         },
-        work: Work {
-            members: 1,
-            ..Work::default()
-        },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -71,7 +58,7 @@ pub fn run(scenario: &Scenario, run: &CoastDown, built: &Built, options: &Option
             rolling_cage_ratio: f64::NAN,
             balls: run.bearing.ball_count,
         }],
-        files: Vec::new(),
+        ..Outcome::default()
     };
     match found {
         Ok(ran) => {
@@ -85,7 +72,6 @@ pub fn run(scenario: &Scenario, run: &CoastDown, built: &Built, options: &Option
         }
         Err(problem) => outcome.stop = failed(&problem),
     }
-    outcome.work.seconds = clock.elapsed().as_secs_f64();
     outcome
 }
 

@@ -4,13 +4,12 @@ use crate::drop::build::{self, Built};
 use crate::drop::context::{Context, Setup};
 use crate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::drop::feedback::Following;
-use crate::drop::members::{Kind, kind_of, share_lanes};
 use crate::drop::method::stepping;
-use crate::drop::{run_out, warnings};
-use crate::ending::{settings_at, stop};
+use crate::drop::{self, run_out};
+use crate::ending::settings_at;
 use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
-use outcome::Single;
+use outcome::Outcome;
 use outcome::options::Options;
 use problem::Problem;
 use rayon::prelude::*;
@@ -18,41 +17,81 @@ use scenario::{Drop, Scenario};
 use std::sync::{Arc, Mutex};
 
 /// A drop that is ready to run.
+#[derive(Clone)]
 pub struct One<'a> {
     /// What was written.
     pub scenario: &'a Scenario,
-    /// The drop in it.
-    pub built: Built,
-    machine: Arc<RotorMachine>,
-    stepping: Stepping,
-    kind: Kind,
+    /// The drop in it, and its constants.
+    pub built: Arc<Built>,
+    pub(crate) member: Member,
+    pub(crate) stepping: Stepping,
+    kind: Arc<Kind>,
+    /// Number of members of its repetition.
+    pub(crate) members: usize,
 }
+
+/// Values that are no real numbers, by their paths.
+type Kind = Vec<(String, Option<String>)>;
 
 /// Builds a drop of its scenario.
 pub fn one<'a>(scenario: &'a Scenario, given: &Drop) -> Result<One<'a>, Box<Problem>> {
-    let built = build::drop(given)?;
-    let machine = Arc::new(RotorMachine::new(built.constants.clone()));
-    Ok(One {
-        scenario,
-        stepping: stepping(&built, machine.tangents()),
-        kind: kind_of(scenario),
-        built,
-        machine,
-    })
+    Ok(One::of(scenario, Arc::new(build::drop(given)?)))
+}
+
+impl<'a> One<'a> {
+    /// A drop of its scenario; its history is not kept.
+    pub(crate) fn of(scenario: &'a Scenario, built: Arc<Built>) -> Self {
+        let machine = RotorMachine::new(built.constants.clone());
+        let start = match &built.shaft {
+            Some(shaft) => machine.start_with(&shaft.position, &shaft.velocity),
+            None => machine.start(),
+        };
+        let of_kind = (scenario.resolved.values.iter()).filter(|value| value.is_of_kind());
+        let kind: Kind = of_kind
+            .map(|value| (value.shown(), value.text.clone()))
+            .collect();
+        One {
+            scenario,
+            stepping: stepping(&built, machine.tangents()),
+            kind: kind.into(),
+            member: Member {
+                following: Following::of(&built.drop).map(Arc::new),
+                ..Member::of(machine, start)
+            },
+            built,
+            members: 1,
+        }
+    }
+    /// Whether lanes may hold both: the same words, counts and switches of their files, the same laws, states and settings.
+    fn shares_lanes(&self, other: &One) -> bool {
+        self.kind == other.kind
+            && self.stepping == other.stepping
+            && self.built.drop.run == other.built.drop.run
+            && share_lanes(&self.member.machine, &other.member.machine)
+    }
+}
+
+/// Whether machines of one kind have the same states: another rotor or cutoff has other modes.
+fn share_lanes(a: &RotorMachine, b: &RotorMachine) -> bool {
+    let rows = |machine: &RotorMachine| -> Vec<usize> {
+        let seals = machine.constants.seals.iter();
+        seals.map(|seal| seal.rows.len()).collect()
+    };
+    a.layout() == b.layout()
+        && match (&a.constants.magnets, &b.constants.magnets) {
+            (Some(a), Some(b)) => a.share_lanes(b),
+            (a, b) => a.is_none() && b.is_none(),
+        }
+        && a.constants.rotor.spin_held == b.constants.rotor.spin_held
+        && rows(a) == rows(b)
 }
 
 /// Runs all of them; they stand in their order.
-pub fn run(all: &[One], options: &Options) -> Vec<Single> {
+pub fn run(all: &[One], options: &Options) -> Vec<Outcome> {
     // those that can share lanes and settings
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, one) in all.iter().enumerate() {
-        let fits = |group: &&mut Vec<usize>| {
-            let first = &all[group[0]];
-            first.kind == one.kind
-                && first.stepping == one.stepping
-                && first.built.drop.run == one.built.drop.run
-                && share_lanes(&first.machine, &one.machine)
-        };
+        let fits = |group: &&mut Vec<usize>| all[group[0]].shares_lanes(one);
         match groups.iter_mut().find(fits) {
             Some(group) => group.push(k),
             None => groups.push(vec![k]),
@@ -68,76 +107,46 @@ pub fn run(all: &[One], options: &Options) -> Vec<Single> {
         };
         together(all, group, options, &progress)
     };
-    let finished: Vec<Vec<Single>> = groups.par_iter().enumerate().map(of_group).collect();
-    let mut list: Vec<Option<Single>> = all.iter().map(|_| None).collect();
-    for (place, result) in groups
-        .into_iter()
-        .flatten()
-        .zip(finished.into_iter().flatten())
-    {
-        list[place] = Some(result);
-    }
-    list.into_iter().flatten().collect()
+    let made: Vec<Vec<Outcome>> = groups.par_iter().enumerate().map(of_group).collect();
+    let mut list: Vec<_> = (groups.into_iter().flatten())
+        .zip(made.into_iter().flatten())
+        .collect();
+    list.sort_by_key(|(place, _)| *place);
+    list.into_iter().map(|(_, made)| made).collect()
 }
 
-/// Drops of one kind.
+/// Drops that share lanes.
 fn together(
     all: &[One],
     group: &[usize],
     options: &Options,
     progress: &(dyn Fn(f64) + Sync),
-) -> Vec<Single> {
-    let members: Vec<Member> = group.iter().map(|k| member(&all[*k])).collect();
-    let first = &all[group[0]];
-    let finished = ensemble::run(
-        &members,
-        &Plan {
-            settings: settings_at(&first.built.drop.run, first.stepping.tolerance),
-            steps: first.stepping.steps,
-            interval: first.built.drop.run.output_interval,
-            until_rolling: first.built.drop.run_out.is_some(),
-            // those of the pool in which this is called
-            threads: None,
-            interrupt: options.interrupt,
-            progress,
-        },
-    );
+) -> Vec<Outcome> {
+    let members: Vec<Member> = group.iter().map(|k| all[*k].member.clone()).collect();
+    let One {
+        built, stepping, ..
+    } = &all[group[0]];
+    let plan = Plan {
+        settings: settings_at(&built.drop.run, stepping.tolerance),
+        steps: stepping.steps,
+        interval: built.drop.run.output_interval,
+        until_rolling: built.drop.run_out.is_some(),
+        interrupt: options.interrupt,
+        progress,
+    };
+    let finished = ensemble::run(&members, &plan);
     let named = |(k, finished): (&usize, &Finished)| {
         let one = &all[*k];
         let context = Context {
             setup: Setup {
                 built: &one.built,
-                machine: &one.machine,
+                machine: &one.member.machine,
             },
             finished,
-            members: 1,
+            members: one.members,
         };
         let after = run_out::after(&context, options.interrupt);
-        let quantities = run_out::quantities(&context, after.as_ref());
-        let ended = match &after {
-            Some(after) => after.stop.clone(),
-            None => stop(&finished.ending),
-        };
-        Single {
-            quantities,
-            warnings: warnings::of(one.scenario, &[context], &[after]),
-            stop: ended,
-        }
+        drop::outcome(one, &context, after.as_ref())
     };
-    group.iter().zip(&finished).map(named).collect()
-}
-
-/// The machine with its start; its history is not kept.
-fn member(one: &One) -> Member {
-    let start = match &one.built.shaft {
-        Some(shaft) => one.machine.start_with(&shaft.position, &shaft.velocity),
-        None => one.machine.start(),
-    };
-    Member {
-        machine: one.machine.clone(),
-        following: Following::of(&one.built.drop).map(Arc::new),
-        start,
-        keep_rows: false,
-        kind: 0,
-    }
+    group.par_iter().zip(&finished).map(named).collect()
 }

@@ -8,7 +8,6 @@ use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
 use number::Level;
-use outcome::options::bounded;
 use rayon::prelude::*;
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::sync::Arc;
@@ -25,8 +24,6 @@ pub struct Member {
     pub start: Vec<f64>,
     /// Whether its history is kept.
     pub keep_rows: bool,
-    /// Members of one kind have the same laws and the same states: lanes are for these alone.
-    pub kind: usize,
 }
 
 impl Member {
@@ -37,7 +34,6 @@ impl Member {
             following: None,
             start,
             keep_rows: false,
-            kind: 0,
         }
     }
 }
@@ -65,39 +61,10 @@ pub struct Plan<'a> {
     pub interval: f64,
     /// Whether a run ends once its rotor rolls.
     pub until_rolling: bool,
-    /// Number of threads; all cores if none.
-    pub threads: Option<usize>,
     /// Stops everything when true.
     pub interrupt: &'a AtomicBool,
     /// Called with the fraction done.
     pub progress: &'a (dyn Fn(f64) + Sync),
-}
-
-/// Runs all members; the results stand in their order.
-pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
-    let kinds = members.iter().map(|member| member.kind).max().unwrap_or(0) + 1;
-    if kinds == 1 {
-        return run_of_a_kind(members, plan);
-    }
-    let mut all: Vec<Option<Finished>> = members.iter().map(|_| None).collect();
-    let mut before = 0;
-    for kind in 0..kinds {
-        let places: Vec<usize> = (0..members.len())
-            .filter(|k| members[*k].kind == kind)
-            .collect();
-        let some: Vec<Member> = places.iter().map(|k| members[*k].clone()).collect();
-        let share = |done: f64| (before as f64 + done * some.len() as f64) / members.len() as f64;
-        let progress = |done: f64| (plan.progress)(share(done));
-        let plan = Plan {
-            progress: &progress,
-            ..*plan
-        };
-        for (place, finished) in places.iter().zip(run_of_a_kind(&some, &plan)) {
-            all[*place] = Some(finished);
-        }
-        before += some.len();
-    }
-    all.into_iter().flatten().collect()
 }
 
 /// Runs one member alone.
@@ -115,8 +82,9 @@ pub(crate) fn one(member: &Member, plan: &Plan) -> Finished {
     }
 }
 
-/// Runs members that lanes may share.
-fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
+/// Runs members that lanes may share, those of one layout and the same laws, on the threads of the pool in which this is called; the
+/// results stand in their order.
+pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
     let done = AtomicU64::new(0);
     let report = Report {
         done: &done,
@@ -124,20 +92,12 @@ fn run_of_a_kind(members: &[Member], plan: &Plan) -> Vec<Finished> {
         progress: plan.progress,
     };
     let chunk = |members: &[Member]| side_by_side(members, plan, &report);
-    let threads = plan
-        .threads
-        .map_or_else(rayon::current_num_threads, bounded);
+    let threads = rayon::current_num_threads();
     let together = together(members.len(), Level::detect().lanes(), threads);
-    let all = || -> Vec<Finished> { members.par_chunks(together).flat_map_iter(chunk).collect() };
-    match plan.threads {
-        _ if members.len() <= together => chunk(members),
-        None => all(),
-        Some(_) => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-            Ok(pool) => pool.install(all),
-            // the machine refuses more threads: the shared pool gives the same numbers
-            Err(_) => all(),
-        },
+    if members.len() <= together {
+        return chunk(members);
     }
+    members.par_chunks(together).flat_map_iter(chunk).collect()
 }
 
 /// Most members a lane takes one after the other: their records stand in memory together.

@@ -12,7 +12,7 @@ use crate::drop::warning_table::{BENDING_SHARE, DropWarning};
 use crate::drop::{magnets, method, mount_results, shaft_results, surfaces};
 use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
-use outcome::{Scope, Warning};
+use outcome::Warning;
 use scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
@@ -28,56 +28,17 @@ fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
 /// A warning of one member, and how grave it is there.
 type Graded = (f64, Warning);
 
-/// Judges every member: a warning of any of them once, as the one has it where it is most severe, with the number of those that have it.
-fn judged<I: IntoIterator<Item = Graded>>(
-    contexts: &[Context],
-    of: impl Fn(&Context) -> I,
-) -> Vec<Warning> {
-    let mut found: Vec<(usize, usize, Graded)> = Vec::new();
-    for (k, context) in contexts.iter().enumerate() {
-        for (grade, warning) in of(context) {
-            let mut known = found.iter_mut();
-            match known.find(|(.., (_, other))| other.code == warning.code) {
-                Some((count, member, worst)) => {
-                    *count += 1;
-                    if grade > worst.0 {
-                        (*member, *worst) = (k, (grade, warning));
-                    }
-                }
-                None => found.push((1, k, (grade, warning))),
-            }
-        }
-    }
-    let told = |(count, member, (_, mut warning)): (usize, usize, Graded)| {
-        let all = contexts.len();
-        if all > 1 {
-            warning.scope = Scope::Each { count, all, member };
-        }
+/// Warnings that say how grave they are.
+fn graded(list: impl IntoIterator<Item = Graded>) -> Vec<Warning> {
+    let told = |(grade, mut warning): Graded| {
+        warning.grade = grade;
         warning
     };
-    found.into_iter().map(told).collect()
+    list.into_iter().map(told).collect()
 }
 
-/// Warnings from rows, which of repeated runs the first member alone keeps.
-fn of_rows(contexts: &[Context], mut list: Vec<Warning>) -> Vec<Warning> {
-    for warning in list.iter_mut().filter(|_| contexts.len() > 1) {
-        warning.scope = Scope::Unperturbed;
-    }
-    list
-}
-
-/// All warnings of a run, the most severe first; `contexts` are its members.
-pub(crate) fn of(
-    scenario: &Scenario,
-    contexts: &[Context],
-    after: &[Option<After>],
-) -> Vec<Warning> {
-    let context = &contexts[0];
-    // what follows from the machine alone is the same in all members where none is varied
-    let machines = match scenario.vary.is_empty() {
-        true => &contexts[..1],
-        false => contexts,
-    };
+/// All warnings of a drop, the most severe first.
+pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) -> Vec<Warning> {
     let drop = context.setup.drop();
     let names: Vec<&str> = context.setup.parts().collect();
     let each = |of: &dyn Fn(usize) -> Vec<Warning>| -> Vec<Warning> {
@@ -85,64 +46,39 @@ pub(crate) fn of(
         let named = parts.flat_map(|(k, name)| of(k).into_iter().map(|own| own.of_part(name)));
         named.collect()
     };
-    let mut list = each(&|k| judged(contexts, |member| whirl(member, k)));
+    let mut list = each(&|k| graded(whirl(context, k)));
     for node in 0..shaft_results::clearances(context) {
-        list.extend(judged(contexts, |member| {
-            shaft_results::reached(member, node)
-        }));
+        list.extend(graded(shaft_results::reached(context, node)));
     }
+    list.extend(each(&|k| graded(magnets::touched(context, k))));
+    list.extend(graded(magnets::limited(context)));
+    list.extend(graded(magnets::voltage_limited(context)));
     list.extend(each(&|k| {
-        judged(contexts, |member| magnets::touched(member, k))
-    }));
-    list.extend(judged(contexts, magnets::limited));
-    list.extend(judged(contexts, magnets::voltage_limited));
-    list.extend(each(&|k| {
-        let mut list = judged(contexts, |member| hot(member, k));
-        list.extend(judged(contexts, |member| mount_results::stopped(member, k)));
-        list.extend(judged(contexts, |member| surfaces::judged(member, k)));
-        list.extend(judged(contexts, |member| member.bearing(k).hot_skid()));
-        list.extend(judged(contexts, |member| {
-            (member.followed(k).as_ref()).map_or(Vec::new(), warm::judged)
-        }));
+        let mut list = graded(hot(context, k));
+        list.extend(graded(mount_results::stopped(context, k)));
+        list.extend(graded(surfaces::judged(context, k)));
+        list.extend(graded(context.bearing(k).hot_skid()));
+        list.extend(graded(context.followed(k).iter().flat_map(warm::judged)));
         list
     }));
-    if after[0].iter().any(|after| after.says(DRAWN_ON)) {
-        // the run-out says it of all, from where the drop left the data on
-        list.retain(|warning| !warning.is(DRAWN_ON));
-    }
-    if after[0]
-        .iter()
-        .any(|after| after.says(CLOSES) || after.says(RUNS_AWAY))
-    {
-        // a bearing that closes on
-        list.retain(|warning| !warning.is(CLOSES));
-    }
-    // of repeated runs those of the unperturbed run-out
-    list.extend(of_rows(
-        contexts,
-        (after[0].iter())
-            .flat_map(|after| after.warnings.clone())
-            .collect(),
-    ));
-    list.extend(each(&|k| {
-        judged(machines, |member| beyond_speeds(member, k))
-    }));
-    list.extend(judged(machines, bending));
-    list.extend(judged(machines, shaft_results::resonance));
+    let says = |kind| after.is_some_and(|after| after.says(kind));
+    // the run-out says it of all, from where the drop left the data on, and of a bearing that closes on
+    let (drawn_on, closes) = (says(DRAWN_ON), says(CLOSES) || says(RUNS_AWAY));
+    list.retain(|own| !(drawn_on && own.is(DRAWN_ON) || closes && own.is(CLOSES)));
+    list.extend(after.iter().flat_map(|after| after.warnings.clone()));
+    list.extend(each(&|k| graded(beyond_speeds(context, k))));
+    list.extend(graded(bending(context)));
+    list.extend(graded(shaft_results::resonance(context)));
     list.extend(one_motion(context));
-    list.extend(each(&|k| judged(contexts, |member| preload(member, k))));
+    list.extend(each(&|k| graded(preload(context, k))));
     list.extend(each(&|k| {
-        let mut list = judged(contexts, |member| loads(member, k));
-        list.extend(of_rows(contexts, damping(context, k)));
+        let mut list = graded(loads(context, k));
+        list.extend(damping(context, k));
         list
     }));
     let most = asked(context).largest_residual(shared::LARGEST_RESIDUAL);
-    list.extend(judged(contexts, |member| {
-        let residual = residuals(member).0.ok();
-        let graded =
-            |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
-        residual.and_then(graded)
-    }));
+    let beyond = |residual: f64| Some((residual.abs(), shared::residual_beyond(most, residual)?));
+    list.extend(graded(residuals(context).0.ok().and_then(beyond)));
     list.extend(each(&|k| Vec::from_iter(shaft_results::thick(context, k))));
     list.extend(shaft_results::few_modes(context));
     list.extend(shaft_results::stiff(context));
@@ -165,9 +101,8 @@ pub(crate) fn of(
         list.extend(given.map_or(Vec::new(), |bearing| {
             shared::law_range(bearing, run.fastest(), context.setup.drop().weight(k))
         }));
-        let mut list = of_rows(contexts, list);
-        list.extend(judged(machines, |member| skids(member, k)));
-        list.extend(of_bearing(scenario, contexts, k));
+        list.extend(graded(skids(context, k)));
+        list.extend(of_bearing(scenario, context, k));
         list
     }));
     list.extend(each(&|k| {
@@ -311,12 +246,10 @@ fn bushing(context: &Context, k: usize) -> Warning {
 }
 
 /// What the laws of a bearing leave open.
-fn of_bearing(scenario: &Scenario, contexts: &[Context], k: usize) -> Vec<Warning> {
-    let context = &contexts[0];
+fn of_bearing(scenario: &Scenario, context: &Context, k: usize) -> Vec<Warning> {
     let given = context.setup.given(k);
     let Some(bearing) = &given.bearing else {
-        let mut touches = contexts.iter().map(|member| &member.record(k).contacts);
-        let touches = touches.any(|contacts| !contacts.is_empty());
+        let touches = !context.record(k).contacts.is_empty();
         return touches.then(|| bushing(context, k)).into_iter().collect();
     };
     let mut list: Vec<Warning> = shared::cage_inertia(bearing).into_iter().collect();

@@ -220,7 +220,6 @@ impl<'a> Way<'a> {
             steps: stepping.steps,
             interval: f64::INFINITY,
             until_rolling: false,
-            threads: Some(1),
             interrupt: self.interrupt,
             progress: &|_| {},
         })
@@ -250,7 +249,6 @@ impl<'a> Way<'a> {
             following: None,
             start: self.last.state.clone(),
             keep_rows: false,
-            kind: 0,
         };
         let finished = ensemble::one(&member, plan);
         self.steps += finished.ending.work.accepted;

@@ -31,7 +31,6 @@ use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
 use scenario::{Rig, RigProgram, Scenario};
 use std::iter;
-use std::time::Instant;
 use thermal::bearing_network::OUTER_RACE;
 use thermocouple::Bead;
 
@@ -48,7 +47,6 @@ pub fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
 /// Runs a test.
 pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
     let machine = &built.machine;
-    let clock = Instant::now();
     let taps = chain::taps(rig);
     let end = rig.run.duration;
     let keep = Keep {
@@ -63,7 +61,6 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
     let ending = simulate(machine, &settings, &mut watched, options.interrupt);
     let (mut record, warming, at_end) = watched.finish(machine, &ending);
     record.finish(&at_end, ending.time, &ending.state);
-    let seconds = clock.elapsed().as_secs_f64();
     let bead = warming.as_ref().map(|warming| bead(rig, warming));
     let happened = happened(rig, &record, bead.as_ref());
     let raw = chain::raw(rig, &happened);
@@ -87,21 +84,16 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
     Outcome {
         system: "rig",
         history: columns::history(rig, built, Some(&context)),
-        contacts: Vec::new(),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,
         stop: stop(&ending),
         work: Work {
-            members: 1,
             steps: ending.work.accepted,
             rejected: ending.work.rejected,
             rate_calls: ending.work.rate_calls,
-            seconds,
             method: Some(stepping::EXPLICIT),
+            ..Work::default()
         },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -111,6 +103,7 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
         }],
         files: raw_file::files(rig, &title, raw, rolling_cage_ratio, rested(rig, &happened)),
         title,
+        ..Outcome::default()
     }
 }
 

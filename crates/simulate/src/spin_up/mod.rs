@@ -18,7 +18,6 @@ use outcome::options::Options;
 use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
 use scenario::{Scenario, SpinUp};
 use solve::Ending;
-use std::time::Instant;
 
 /// The columns of its history, without values.
 pub fn columns(spin_up: &SpinUp, built: &Built) -> Vec<Column> {
@@ -33,10 +32,8 @@ pub fn results(spin_up: &SpinUp, built: &Built) -> Vec<Quantity> {
 /// Runs a spin-up.
 pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Options) -> Outcome {
     let start = built.machine.start();
-    let clock = Instant::now();
     let stepping = asked(spin_up, built).stepping(|| 0.0);
     let (record, ending, warming) = integrate(built, &start, (spin_up, stepping), options);
-    let seconds = clock.elapsed().as_secs_f64();
     let context = Context {
         spin_up,
         built,
@@ -53,21 +50,16 @@ pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Optio
             .clone()
             .unwrap_or_else(|| "Spin-up of an inner race".to_string()),
         history: columns::history(spin_up, built, Some(&context)),
-        contacts: Vec::new(),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,
         stop: stop(&ending),
         work: Work {
-            members: 1,
             steps: ending.work.accepted,
             rejected: ending.work.rejected,
             rate_calls: ending.work.rate_calls,
-            seconds,
             method: Some(stepping.name()),
+            ..Work::default()
         },
-        members: Members::default(),
-        drawn: Vec::new(),
-        limits: Vec::new(),
         pictures: vec![Picture {
             bearing: String::new(),
             clearance: None,
@@ -75,7 +67,7 @@ pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Optio
             rolling_cage_ratio: built.machine.constants.bearing.rolling_cage_ratio(),
             balls: spin_up.bearing.ball_count,
         }],
-        files: Vec::new(),
+        ..Outcome::default()
     }
 }
 

@@ -1,0 +1,321 @@
+//! A drop, and its repetition: a study of starts that are perturbed and machines that differ, whose first member is kept whole.
+//!
+//! Members are run as those of any study, in parts: what is kept of one are its results, its warnings and how it ended.
+
+use crate::bearing::races::LIFE_BY_POINT;
+use crate::drop::Drop;
+use crate::drop::build::{self, Built};
+use crate::drop::each::{self, One};
+use crate::drop::ensemble::Member;
+use crate::ending;
+use model::bearing::BearingConstants;
+use number::Vec2;
+use outcome::joined::Joined;
+use outcome::options::{Options, in_pool};
+use outcome::{Members, Outcome, Quantity, Spread, Stop, Value, Work};
+use problem::{Place, Problem};
+use rayon::prelude::*;
+use scenario::{Scenario, System};
+use statistics::random::Random;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// Members of a part, each thread: its lanes stay full, and their records stand in memory together.
+const PART: usize = 256;
+
+/// What a member draws: paths with their values.
+type Drawn = Vec<(String, String)>;
+
+/// Reads and builds every member with what it draws, so that what is wrong with one is known before a run.
+///
+/// # Errors
+/// What is wrong with the first of these.
+pub fn check(scenario: &Scenario, built: &Built) -> Result<(), Box<Problem>> {
+    if scenario.vary.is_empty() {
+        return Ok(());
+    }
+    let read = |k| member(scenario, &draw(scenario, &built.drop, k), k).err();
+    let members = 1..count(&built.drop);
+    let wrong = members.into_par_iter().filter_map(read);
+    wrong.find_first(|_| true).map_or(Ok(()), Err)
+}
+
+fn count(drop: &Drop) -> usize {
+    drop.repeat.count.max(1) as usize
+}
+
+/// What a member draws: nothing where starts alone differ, and in the first.
+fn draw(scenario: &Scenario, drop: &Drop, k: usize) -> Drawn {
+    if k == 0 {
+        return Vec::new();
+    }
+    let mut random = numbers(drop.repeat.seed ^ MACHINES, k);
+    let each = scenario.vary.iter();
+    each.flat_map(|vary| vary.draw(&mut random)).collect()
+}
+
+/// A member of a machine of its own.
+fn member(
+    scenario: &Scenario,
+    drawn: &Drawn,
+    k: usize,
+) -> Result<(Scenario, Arc<Built>), Box<Problem>> {
+    let blame = |problem: Box<Problem>| member_problem(k, drawn, *problem);
+    let member = scenario.with(drawn).map_err(blame)?;
+    let System::Drop(of) = &member.system else {
+        unreachable!("no value that is varied changes the system");
+    };
+    let built = build::drop(of).map_err(blame)?;
+    Ok((member, built.into()))
+}
+
+/// What is wrong with a member, with what it drew.
+fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) -> Box<Problem> {
+    let draws: Vec<String> = (drawn.iter())
+        .map(|(path, value)| format!("{path} = {value}"))
+        .collect();
+    problem.found = format!("{} in member {k} of the repetition", problem.found);
+    problem.place = Place::Whole;
+    Box::new(problem.with_hint(format!("It drew {}", draws.join(", "))))
+}
+
+/// Runs a drop, as often as it asks.
+pub fn run(scenario: &Scenario, built: &Arc<Built>, options: &Options) -> Outcome {
+    let made = in_pool(options.threads, || {
+        let mut given = One::of(scenario, built.clone());
+        given.member.keep_rows = true;
+        match count(&built.drop) {
+            1 => each::run(&[given], options).pop(),
+            _ => repeated(&given, options).outcome(scenario, &built.drop),
+        }
+    });
+    let Some(outcome) = made else {
+        unreachable!("the first member has run");
+    };
+    outcome
+}
+
+/// Runs the members, part by part.
+fn repeated(given: &One, options: &Options) -> Repetition {
+    let (scenario, drop) = (given.scenario, &given.built.drop);
+    let count = count(drop);
+    let mut given = given.clone();
+    given.members = count;
+    let mut all = Repetition::default();
+    let part = PART * rayon::current_num_threads();
+    for begin in (0..count).step_by(part) {
+        let part = begin..(begin + part).min(count);
+        let drawn: Vec<Drawn> = part.clone().map(|k| draw(scenario, drop, k)).collect();
+        let read = |(k, drawn): (usize, &Drawn)| match drawn.is_empty() {
+            true => Ok(None),
+            false => member(scenario, drawn, k).map(Some),
+        };
+        let read: Vec<_> = part.clone().into_par_iter().zip(&drawn).map(read).collect();
+        let mut others = Vec::with_capacity(read.len());
+        for (k, other) in part.clone().zip(read) {
+            match other {
+                Ok(other) => others.push(other),
+                // its files are no longer those that were checked
+                Err(problem) => {
+                    all.broken.get_or_insert((k, not_built(&problem)));
+                    break;
+                }
+            }
+        }
+        let ones: Vec<One> = (part.clone().zip(&others))
+            .map(|(k, other)| perturbed(&given, k, other.as_ref()))
+            .collect();
+        let progress = |fraction: f64| {
+            let done = begin as f64 + fraction * ones.len() as f64;
+            (options.progress)(done / count as f64);
+        };
+        let plan = Options {
+            progress: &progress,
+            ..*options
+        };
+        for (made, drawn) in each::run(&ones, &plan).into_iter().zip(drawn) {
+            all.add(made, drawn);
+        }
+        if others.len() < part.len() || options.interrupt.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    all
+}
+
+/// A member at its own start: of the machine given, or of another.
+fn perturbed<'a>(given: &One<'a>, k: usize, other: Option<&'a (Scenario, Arc<Built>)>) -> One<'a> {
+    let mut one = match other {
+        Some((scenario, built)) => One::of(scenario, built.clone()),
+        None => given.clone(),
+    };
+    one.members = given.members;
+    if k > 0 {
+        one.member.keep_rows = false;
+        perturb(&one.built.drop, &mut one.member, k);
+    }
+    one
+}
+
+fn not_built(problem: &Problem) -> Stop {
+    Stop {
+        reason: "not built",
+        time: 0.0,
+        text: problem.to_string(),
+    }
+}
+
+/// What members have made so far.
+#[derive(Default)]
+struct Repetition {
+    /// The first member.
+    first: Option<Outcome>,
+    /// Those that ended as planned: another would pull every mean.
+    table: Members,
+    drawn: Vec<Drawn>,
+    /// Sums of lives by point over these, and how many have one.
+    lives: BTreeMap<String, (Vec<f64>, f64)>,
+    warnings: Joined,
+    /// The first that did not, and how.
+    broken: Option<(usize, Stop)>,
+    work: Work,
+}
+
+impl Repetition {
+    fn add(&mut self, mut made: Outcome, drawn: Drawn) {
+        let k = self.work.members;
+        self.work.members += 1;
+        self.work.steps += made.work.steps;
+        self.work.rejected += made.work.rejected;
+        self.work.rate_calls += made.work.rate_calls;
+        self.warnings.add(std::mem::take(&mut made.warnings));
+        if made.stop.complete() {
+            for result in &made.quantities {
+                if let (Value::List(values), true) = (&result.value, is_life(result)) {
+                    let (sum, count) = self.lives.entry(result.name.clone()).or_default();
+                    sum.resize(values.len(), 0.0);
+                    sum.iter_mut()
+                        .zip(values)
+                        .for_each(|(sum, value)| *sum += value);
+                    *count += 1.0;
+                }
+            }
+            self.drawn.push(drawn);
+            self.table.push(&made.quantities);
+        } else {
+            self.broken.get_or_insert_with(|| (k, made.stop.clone()));
+        }
+        self.first.get_or_insert(made);
+    }
+
+    fn outcome(mut self, scenario: &Scenario, drop: &Drop) -> Option<Outcome> {
+        let count = count(drop);
+        let mut first = self.first?;
+        let least = chaotic_from(scenario, drop);
+        for quantity in &mut first.quantities {
+            if is_life(quantity) {
+                let (sum, count) = self.lives.remove(&quantity.name).unwrap_or_default();
+                quantity.value = Value::List(sum.iter().map(|sum| sum / count).collect());
+            }
+            let values = self.table.values(&quantity.name);
+            quantity.spread = Spread::of(values.into_iter().flatten().collect());
+            let deviation = quantity.spread.map_or(0.0, |of| of.relative_deviation());
+            quantity.chaotic = least.is_some_and(|least| deviation > least)
+                // what a ledger misses is an error of the integration, and has no size of its own
+                && !quantity.name.ends_with("residual");
+        }
+        if self.work.members < count {
+            let next = self.work.members;
+            self.broken
+                .get_or_insert_with(|| (next, ending::interrupted(0.0)));
+        }
+        first.warnings = self.warnings.list(scenario.vary.is_empty());
+        if let Some((k, stop)) = self.broken.filter(|_| first.stop.complete()) {
+            let whole = self.table.len();
+            first.stop = Stop {
+                text: format!(
+                    "Member {k} of the repetition: {} {whole} of {count} members are whole; only these enter the spread.",
+                    stop.text
+                ),
+                ..stop
+            };
+        }
+        self.table.end = drop.run.duration;
+        Some(Outcome {
+            work: Work {
+                method: first.work.method,
+                ..self.work
+            },
+            members: self.table,
+            drawn: if scenario.vary.is_empty() {
+                Vec::new()
+            } else {
+                self.drawn
+            },
+            ..first
+        })
+    }
+}
+
+fn is_life(quantity: &Quantity) -> bool {
+    quantity.name.ends_with(LIFE_BY_POINT)
+}
+
+/// Relative deviation of members that starts make chaotic: below it no reader sees it.
+const SEEN: f64 = 1e-3;
+/// How much larger than that of the starts it must be at least.
+const AMPLIFIED: f64 = 1e3;
+
+/// Relative deviation of the members from which a result is chaotic: far above that of their starts. None where their machines
+/// differ, which is another reason to differ.
+fn chaotic_from(scenario: &Scenario, drop: &Drop) -> Option<f64> {
+    if !scenario.vary.is_empty() {
+        return None;
+    }
+    let clearances = drop.auxiliary_bearings.iter();
+    let smallest = clearances
+        .map(|part| part.contact.radial_air_clearance)
+        .fold(f64::INFINITY, f64::min);
+    let repeat = &drop.repeat;
+    let of_starts = (repeat.rotor_position_deviation / smallest).max(repeat.ball_angle_deviation);
+    Some(SEEN.max(AMPLIFIED * of_starts))
+}
+
+/// Moves the rotor and every ball a little.
+fn perturb(drop: &Drop, member: &mut Member, k: usize) {
+    let machine = &member.machine;
+    let mut random = numbers(drop.repeat.seed, k);
+    let mut normal = || random.normal();
+    let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
+    let angles: Vec<Vec<f64>> = (machine.constants.bearings.iter())
+        .map(|part| {
+            let balls = match &part.bearing {
+                BearingConstants::Planar(bearing) => bearing.balls,
+                BearingConstants::Rolling(_) => 0,
+            };
+            (0..balls)
+                .map(|_| normal() * drop.repeat.ball_angle_deviation)
+                .collect()
+        })
+        .collect();
+    machine.perturb(&mut member.start, shift, &|bearing, ball| {
+        angles[bearing][ball]
+    });
+}
+
+/// Keeps the numbers of machines apart from those of starts.
+const MACHINES: u64 = 0x5851_f42d_4c95_7f2d;
+
+/// The random numbers of a member: (seed, k) mixed so that neighbouring pairs share nothing.
+fn numbers(seed: u64, k: usize) -> Random {
+    // finaliser of SplitMix64, twice
+    let mix = |mut x: u64| {
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    };
+    Random::new(mix(
+        mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64)
+    ))
+}
