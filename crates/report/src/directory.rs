@@ -374,16 +374,14 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         name: name_of(path),
         directory: path.display().to_string(),
         summary_json: with_figures(
-            text(SUMMARY, |text| {
-                match serde_json::from_str::<Head>(text) {
-                    Err(error) => Some(format!("what cannot be read as a summary ({error})")),
-                    Ok(head) if READ_FORMATS.contains(&head.format.as_str()) => None,
-                    Ok(head) => Some(format!(
-                        "a summary of format {:?}; this version reads {}",
-                        head.format,
-                        READ_FORMATS.join(" and ")
-                    )),
-                }
+            text(SUMMARY, |text| match serde_json::from_str::<Head>(text) {
+                Err(error) => Some(format!("what cannot be read as a summary ({error})")),
+                Ok(head) if READ_FORMATS.contains(&head.format.as_str()) => None,
+                Ok(head) => Some(format!(
+                    "a summary of format {:?}; this version reads {}",
+                    head.format,
+                    READ_FORMATS.join(" and ")
+                )),
             })?,
             &path.join(SCENARIO),
         ),

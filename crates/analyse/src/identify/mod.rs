@@ -25,7 +25,7 @@ mod read;
 
 use found::Found;
 use outcome::options::Options;
-use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Warning, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Stop, Warning};
 pub use read::Asked;
 use scenario::Scenario;
 use simulate::assumptions::assumptions;

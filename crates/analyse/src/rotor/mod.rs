@@ -14,7 +14,7 @@ pub use crate::rotor::asked::Asked;
 use crate::rotor::asked::{Found, Motion, sense};
 use outcome::columns::{Columns, columns};
 use outcome::options::Options;
-use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Stop};
 use scenario::Scenario;
 use std::sync::Arc;
 

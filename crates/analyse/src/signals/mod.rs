@@ -35,7 +35,7 @@ use crate::signals::found::Found;
 use crate::signals::warning_table::SignalsWarning;
 use identify::coasting::Windage;
 use outcome::options::Options;
-use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Warning, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Stop, Warning};
 use scenario::{Scenario, SensorSource, SteadySignal};
 use simulate::assumptions::assumptions;
 use std::sync::Arc;

@@ -16,7 +16,7 @@ pub mod warnings;
 pub use crate::torque::asked::Asked;
 use crate::torque::asked::{law_of, name_of};
 use outcome::columns::{Columns, columns};
-use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Stop};
 
 use scenario::Scenario;
 

@@ -22,7 +22,7 @@ use model::system::layout::of_part;
 use outcome::columns::{Columns, columns};
 use outcome::list::List;
 use outcome::options::Options;
-use outcome::{Column, Members, Outcome, Picture, Quantity, Stop, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Stop};
 use problem::Problem;
 use scenario::{CoastDown, Scenario};
 use thermal::coast_down::Endless;

@@ -28,7 +28,7 @@ use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use model::system::rig::record::Keep;
 use model::system::rig::{Record, RigMachine, simulate};
 use outcome::options::Options;
-use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Work};
 use scenario::{Rig, RigProgram, Scenario};
 use std::iter;
 use thermal::bearing_network::OUTER_RACE;

@@ -15,7 +15,7 @@ use model::system::spin_up::SpinUpMachine;
 use model::system::spin_up::record::Record;
 use model::system::spin_up::simulate::simulate;
 use outcome::options::Options;
-use outcome::{Column, Members, Outcome, Picture, Quantity, Work};
+use outcome::{Column, Outcome, Picture, Quantity, Work};
 use scenario::{Scenario, SpinUp};
 use solve::Ending;
 
