@@ -9,15 +9,15 @@ use scenario::{Scenario, System};
 use simulate::drop::each::{self, One};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-fn not_built(problem: &Problem) -> Outcome {
-    Outcome {
+fn not_built(problem: &Problem) -> Box<Outcome> {
+    Box::new(Outcome {
         stop: Stop {
             reason: "not built",
             time: 0.0,
             text: problem.to_string(),
         },
         ..Outcome::default()
-    }
+    })
 }
 
 /// Runs each scenario once; drops of one kind share lanes. A scenario that could not be read or built is a result that says
@@ -26,18 +26,12 @@ pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> 
     in_pool(options.threads, || of_pool(scenarios, options))
 }
 
-/// A scenario on its way.
-enum Stage<'a> {
-    Drop(Box<One<'a>>),
-    Done(Outcome),
-}
-
 fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Outcome> {
     let done = AtomicUsize::new(0);
-    let stages: Vec<Stage> = (scenarios.par_iter())
+    let stages: Vec<Result<One, Box<Outcome>>> = (scenarios.par_iter())
         .map(|scenario| {
             let stage = staged(scenario, options);
-            if matches!(stage, Stage::Done(_)) {
+            if stage.is_err() {
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 (options.progress)(done as f64 / scenarios.len() as f64);
             }
@@ -50,10 +44,10 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
     let mut list: Vec<Option<Outcome>> = Vec::new();
     for (k, stage) in stages.into_iter().enumerate() {
         list.push(match stage {
-            Stage::Done(outcome) => Some(outcome),
-            Stage::Drop(one) => {
+            Err(outcome) => Some(*outcome),
+            Ok(one) => {
                 places.push(k);
-                drops.push(*one);
+                drops.push(one);
                 None
             }
         });
@@ -76,28 +70,28 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
 }
 
 /// Builds a drop; runs anything else at once, on the thread that has it.
-fn staged<'a>(scenario: &'a Result<Scenario, Box<Problem>>, options: &Options) -> Stage<'a> {
+fn staged<'a>(
+    scenario: &'a Result<Scenario, Box<Problem>>,
+    options: &Options,
+) -> Result<One<'a>, Box<Outcome>> {
     let scenario = match scenario {
         Ok(scenario) => scenario,
-        Err(problem) => return Stage::Done(not_built(problem)),
+        Err(problem) => return Err(not_built(problem)),
     };
     if let System::Drop(drop) = &scenario.system {
-        return match each::one(scenario, drop) {
-            Ok(one) => Stage::Drop(Box::new(one)),
-            Err(problem) => Stage::Done(not_built(&scenario.locate(problem))),
-        };
+        return each::one(scenario, drop).map_err(|problem| not_built(&scenario.locate(problem)));
     }
     let unwatched = Options {
         threads: Some(1),
         interrupt: options.interrupt,
         progress: &|_| {},
     };
-    Stage::Done(match build(scenario) {
-        Ok(machine) => Outcome {
+    Err(match build(scenario) {
+        Ok(machine) => Box::new(Outcome {
             history: Vec::new(),
             files: Vec::new(),
             ..machine.run(&unwatched)
-        },
+        }),
         Err(problem) => not_built(&problem),
     })
 }
