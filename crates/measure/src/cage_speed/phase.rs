@@ -2,7 +2,7 @@
 
 use super::CageSpeed;
 use crate::shaft::Shaft;
-use crate::state_space::{Filter, Observation, colour};
+use crate::state_space::{Belief, Filter, Matrix, Observation, Vector, colour};
 use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::simplex;
 use std::f64::consts::PI;
@@ -103,8 +103,8 @@ impl Deviations<'_> {
             from_rest: filled.from_rest,
             ..*self
         };
-        let states = dense.filtered(&hyper, kink, true).smoothed();
-        let mut variance: Vec<f64> = states.iter().map(|s| s.variance[1] * wide).collect();
+        let states = dense.filtered(&hyper, kink, true).smoother().nodes();
+        let mut variance: Vec<f64> = states.iter().map(|s| s.covariance[(1, 1)] * wide).collect();
         for axis in 0..if self.engagement.is_some() { 5 } else { 3 } {
             let moved = |by: f64| {
                 let mut other = hyper;
@@ -114,9 +114,11 @@ impl Deviations<'_> {
             let curvature = (cost(&moved(0.5)) + cost(&moved(-0.5)) - 2.0 * lowest) / 0.25;
             let deviation = (1.0 / curvature.max(0.25)).sqrt();
             for by in [deviation, -deviation] {
-                let other = dense.filtered(&moved(by), kink, true).smoothed();
+                let other = dense.filtered(&moved(by), kink, true).smoother().nodes();
                 for ((v, a), b) in variance.iter_mut().zip(&states).zip(&other) {
-                    *v += 0.5 * ((b.mean[1] - a.mean[1]).powi(2) + b.variance[1] - a.variance[1]);
+                    *v += 0.5
+                        * ((b.mean[1] - a.mean[1]).powi(2) + b.covariance[(1, 1)]
+                            - a.covariance[(1, 1)]);
                 }
             }
         }
@@ -146,11 +148,11 @@ impl Deviations<'_> {
             let rolling = ratio * shaft.speed_at(time);
             let shaft_part = ratio * shaft.speed_deviation_at(time);
             let excess = state.mean[1] + self.removed.get(k).copied().unwrap_or(0.0);
-            let own = variance.max(state.variance[1]).max(0.0).sqrt();
+            let own = variance.max(state.covariance[(1, 1)]).max(0.0).sqrt();
             // Before the first ball has passed the cage may be anywhere between rest and rolling.
             let unseen = self.time.first().is_some_and(|first| time < *first);
             let own = own.hypot(if unseen { rolling / 12f64.sqrt() } else { 0.0 });
-            let rate = (state.variance[2] * wide).max(0.0).sqrt();
+            let rate = (state.covariance[(2, 2)] * wide).max(0.0).sqrt();
             result.correlation_time.push(match self.time.first() {
                 Some(first) if unseen => ONE_ERROR * (first - dense.time[0]),
                 _ => INDEPENDENT * own / rate.max(f64::MIN_POSITIVE),
@@ -275,12 +277,11 @@ impl Deviations<'_> {
         let speed = (0.2 * spread / step).powi(2);
         let rate = (0.02 * spread / (step * step)).powi(2).min(1e12 * speed);
         let speed = if self.from_rest { 0.0 } else { speed };
-        let prior = [
-            [spread * spread, 0.0, 0.0],
-            [0.0, speed, 0.0],
-            [0.0, 0.0, rate],
-        ];
-        let mut filter = Filter::new([first, 0.0, 0.0], prior, keep);
+        let prior = Belief {
+            mean: Vector::from([first, 0.0, 0.0]),
+            covariance: Matrix::from_diagonal(&Vector::from([spread * spread, speed, rate])),
+        };
+        let mut filter = Filter::new(prior, keep);
         for (k, (&time, &deviation)) in self.time.iter().zip(self.deviation).enumerate() {
             if k > 0 {
                 let dt = (time - self.time[k - 1]).max(0.0);
@@ -303,7 +304,7 @@ impl Deviations<'_> {
                 }
             }
             let seen = Observation {
-                row: [1.0, 0.0, 0.0],
+                row: Vector::from([1.0, 0.0, 0.0]),
                 value: deviation,
                 variance: noise * self.weight.get(k).copied().unwrap_or(1.0),
             };
@@ -326,21 +327,14 @@ fn advance(filter: &mut Filter<3>, dt: f64, q: f64, wander: f64, jump: f64) {
         q * dt.powi(4) / 8.0,
         q * dt.powi(5) / 20.0,
     ];
-    let gathered = [
-        [
-            powers[4] + wander * dt.powi(3) / 3.0,
-            powers[3] + wander * dt * dt / 2.0,
-            0.5 * powers[2],
-        ],
-        [
-            powers[3] + wander * dt * dt / 2.0,
-            powers[2] + wander * dt,
-            powers[1],
-        ],
-        [0.5 * powers[2], powers[1], powers[0] + jump],
-    ];
+    let angle = powers[4] + wander * dt.powi(3) / 3.0;
+    let both = powers[3] + wander * dt * dt / 2.0;
+    let speed = powers[2] + wander * dt;
+    let (far, rate) = (0.5 * powers[2], powers[0] + jump);
     filter.predict(
-        &[[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]],
-        &gathered,
+        &Matrix::<3>::new(1.0, dt, 0.5 * dt * dt, 0.0, 1.0, dt, 0.0, 0.0, 1.0),
+        &Matrix::<3>::new(
+            angle, both, far, both, speed, powers[1], far, powers[1], rate,
+        ),
     );
 }

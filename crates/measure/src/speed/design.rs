@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::matrix::Memory;
 use super::plan::{Data, Knot, Knots, Noise, Plan};
 use super::track::{Track, mixed};
+use super::transition::Memory;
 use crate::pulse::Pulses;
 
 /// Numbers of marks that wheels and encoders have.
@@ -135,7 +135,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
         };
         let (nodes, start) = plan.nodes(&data, 0..n);
         let fit = plan.likelihood(&data, 0..n);
-        parts.push((fit, Track::new(nodes, start, plan.quiet[2], memory)));
+        parts.push((fit, Track::new(&nodes, &start, plan.quiet[2], memory)));
     }
     let top = parts.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
     let total: f64 = parts.iter().map(|p| (p.0 - top).exp()).sum();
@@ -147,7 +147,7 @@ fn uncertainty(change: f64, duration: f64, timing: f64, marks: usize) -> Option<
                 .iter()
                 .map(|p| ((p.0 - top).exp() / total, p.1.at(time)))
                 .collect();
-            mixed(beliefs.iter().copied()).covariance[2][2] / points as f64
+            mixed(beliefs.iter().copied()).covariance[(2, 2)] / points as f64
         })
         .sum();
     Some(square.sqrt() / peak)

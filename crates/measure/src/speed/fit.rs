@@ -1,8 +1,8 @@
 //! Noises and densities from the pulses themselves, and a quick change at first sight.
 
-use super::matrix::Memory;
 use super::plan::{Data, Noise, Passage, Plan, Unsteady};
 use super::settings::Transient;
+use super::transition::Memory;
 use statistics::simplex;
 
 /// Passages in one stretch of a quiet part whose likelihood is taken.

@@ -1,9 +1,8 @@
 //! A record fitted to its end: what it is before, in and behind a quick change, and the tracks of all of it.
 
 use super::fit::{self, Sight};
-use super::matrix::N;
 use super::motion::Change;
-use super::node::Belief;
+use super::node::moving;
 use super::plan::{Data, Knot, Knots, Noise, Plan};
 use super::smoothed::Speed;
 use super::smoothness::{self, Smoothness};
@@ -51,11 +50,8 @@ pub(super) fn fitted(
     }
     let mut speed = Speed {
         base: Track::new(
-            Vec::new(),
-            Belief {
-                mean: [0.0; N],
-                covariance: [[0.0; N]; N],
-            },
+            &[],
+            &moving(0.0, 0.0, 0.0, &noise.memory),
             0.0,
             noise.memory,
         ),
@@ -86,7 +82,7 @@ pub(super) fn fitted(
         base = *best;
         let track = |plan: &Plan| {
             let (nodes, start) = plan.nodes(data, range.clone());
-            Track::new(nodes, start, plan.quiet[2], noise.memory)
+            Track::new(&nodes, &start, plan.quiet[2], noise.memory)
         };
         speed.parts = plans
             .iter()
@@ -111,7 +107,7 @@ pub(super) fn fitted(
     }
     data.unsteady = fit::unsteady(data, &base);
     let (nodes, start) = base.nodes(data, 0..n);
-    speed.base = Track::new(nodes, start, base.quiet[2], noise.memory);
+    speed.base = Track::new(&nodes, &start, base.quiet[2], noise.memory);
     if !(speed.base.is_finite() && speed.parts.iter().all(|(_, track)| track.is_finite())) {
         let (what, needed) = match data.channel {
             true => ("speeds", "the speed of one shaft"),

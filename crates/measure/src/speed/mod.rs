@@ -21,7 +21,7 @@ mod channel;
 mod design;
 mod fit;
 mod fitted;
-mod matrix;
+
 mod motion;
 mod node;
 mod plan;
@@ -34,6 +34,7 @@ mod stop;
 mod too_few;
 mod track;
 mod transient;
+mod transition;
 
 use crate::pulse::{Pitch, Pulses, Refusal};
 use breakaway::Breakaway;

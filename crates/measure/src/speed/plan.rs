@@ -1,10 +1,11 @@
 //! From pulses, or from samples of a speed, to the nodes of a track: noises, densities, knots.
 
-use super::matrix::{Memory, N, Vector};
-use super::node::{Belief, Fresh, Node, Sight, moving};
-use super::track::{Pass, forward};
+use super::node::{Node, mark, moving};
+use super::track::filtered;
+use super::transition::{Belief, Matrix, Memory, N, Observation, Vector};
 use crate::pulse::{Pitch, Pulses};
 use statistics::normal::below;
+use std::f64::consts::TAU;
 
 /// A mark that passes, or a mean of samples of a speed, in the units of the fit.
 #[derive(Clone, Copy, Debug)]
@@ -227,20 +228,20 @@ impl Knots {
     /// an even acceleration jumps by its mean, one that rises or falls evenly has the jerk of twice the mean over the length.
     /// It does not follow the density: a clutch whose torque rises evenly is as quiet between its knots as it is loud at
     /// them.
-    fn added(&self, knot: Knot) -> [f64; N] {
+    fn added(&self, knot: Knot) -> Vector {
         let length = self.lock - self.engage;
         let acceleration = self.change / length;
         let jerk = (STEEPEST * acceleration / length).powi(2);
-        match knot {
+        Vector::from(match knot {
             Knot::Soft => [0.0; N],
             Knot::Kink => [0.0, 0.0, 0.0, jerk, 0.0],
             Knot::Jump => [0.0, 0.0, acceleration * acceleration, jerk, 0.0],
-        }
+        })
     }
 
     /// The same for the engagement: a start that is less steady than the whole change may reach the mean acceleration before the
     /// first mark.
-    fn started(&self) -> [f64; N] {
+    fn started(&self) -> Vector {
         let mut added = self.added(self.start);
         if let Some(head) = &self.head
             && self.start != Knot::Soft
@@ -317,18 +318,17 @@ impl Plan {
 
     fn nodes_of(&self, data: &Data, passages: &[Passage]) -> (Vec<Node>, Belief) {
         let mut nodes = Vec::with_capacity(passages.len() + 2);
-        let mut joints: Vec<(f64, Option<[f64; N]>)> = Vec::new();
+        let mut joints: Vec<(f64, Option<Vector>)> = Vec::new();
         let first = passages[0];
         let mut before = first;
         let mut start = match data.channel {
             true => shown(data, passages, &self.noise),
-            false => moving(first.value, first.speed, data.pitch),
+            false => moving(first.value, first.speed, data.pitch, &self.noise.memory),
         };
-        let clock = self.noise.memory.spread * self.noise.memory.spread;
         if let Some(knots) = &self.transient {
             // A channel that shows the rest before the engagement begins there: nothing moves before.
             if self.rests && (data.channel || knots.engage <= first.time) {
-                start = resting(data, knots);
+                start = resting(data, knots, &self.noise.memory);
                 joints.push((knots.engage, None));
             } else if knots.engage > first.time {
                 joints.push((knots.engage, Some(knots.started())));
@@ -336,9 +336,6 @@ impl Plan {
             if knots.lock > first.time {
                 joints.push((knots.lock, Some(knots.added(knots.stop))));
             }
-        }
-        if !data.channel {
-            start.covariance[4][4] = clock;
         }
         let density = |time: f64| self.density(time).max(data.unsteady_at(time));
         let mut joints = joints.into_iter().peekable();
@@ -360,24 +357,19 @@ impl Plan {
                 time: passage.time,
                 density: density(passage.time),
                 pulse: Some(match data.channel {
-                    true => Sight {
+                    true => Observation {
                         value: passage.value,
                         variance: self.noise.variance(passage),
                         row: self.noise.memory.row(),
                     },
-                    false => {
-                        Sight::mark(passage.value, self.noise.variance(passage), passage.speed)
-                    }
+                    false => mark(passage.value, self.noise.variance(passage), passage.speed),
                 }),
                 added: (passed > 0 && data.channel).then(|| {
                     let guess = Guess::of(data, &passages[k..], &self.noise);
                     unseen(&before, passage, &guess, data.pitch)
                 }),
-                fresh: (passed > 0 && !data.channel).then_some(Fresh {
-                    angle: passage.value,
-                    speed: passage.speed,
-                    pitch: data.pitch,
-                }),
+                fresh: (passed > 0 && !data.channel)
+                    .then(|| moving(passage.value, passage.speed, data.pitch, &self.noise.memory)),
             });
             before = *passage;
         }
@@ -409,22 +401,24 @@ impl Plan {
     pub fn likelihood_of(&self, data: &Data, passages: &[Passage]) -> f64 {
         let (nodes, start) = self.nodes_of(data, passages);
         let leading = self.leading();
-        let mut direction = [0.0; N];
+        let mut direction = Vector::zeros();
         if let Some(state) = leading {
             direction[state] = 1.0;
         }
-        let pass = forward(&nodes, &start, &direction, &self.noise.memory, |_, _| ());
+        let memory = &self.noise.memory;
+        let filter = filtered(&nodes, &start, direction, memory, false, |_| ());
         let resting: f64 = (passages[..self.at_rest(data, passages)].iter())
             .map(|passage| {
                 let variance = self.noise.variance(passage);
-                -0.5 * (passage.value * passage.value / variance + variance.ln())
+                -0.5 * (passage.value * passage.value / variance + (TAU * variance).ln())
             })
             .sum();
-        match leading {
-            Some(state) => {
-                pass.likelihood + resting + forward_only(&pass, start.covariance[state][state])
-            }
-            None => pass.likelihood + resting,
+        let forward = leading.map_or(0.0, |state| {
+            forward_only(filter.derivatives(), start.covariance[(state, state)])
+        });
+        match filter.log_likelihood() + resting + forward {
+            sum if sum.is_finite() => sum,
+            _ => f64::NEG_INFINITY,
         }
     }
 
@@ -440,15 +434,15 @@ impl Plan {
 
 /// What the logarithm of the likelihood gains where a state at the start, of mean zero and some variance, is known to be
 /// positive: twice the probability that it is, from all pulses.
-fn forward_only(pass: &Pass, variance: f64) -> f64 {
-    let left = variance * (1.0 - variance * pass.curvature).max(1e-12);
-    let z = variance * pass.slope / left.sqrt();
+fn forward_only((slope, curvature): (f64, f64), variance: f64) -> f64 {
+    let left = variance * (1.0 - variance * curvature).max(1e-12);
+    let z = variance * slope / left.sqrt();
     // Far below, that is no number that has a logarithm.
     (2.0 * below(z)).max(f64::MIN_POSITIVE).ln()
 }
 
 /// What may differ between a motion of which hardly anything is known and the speed that is shown, as parts of the largest speed.
-const OPEN: Vector = [0.0, 0.3, 0.1, 0.03, 0.3];
+const OPEN: [f64; N] = [0.0, 0.3, 0.1, 0.03, 0.3];
 /// Passages from which a start is guessed.
 const LINE: usize = 8;
 /// How far a motion may be from that guess, over what the passages differ by.
@@ -488,14 +482,14 @@ impl Guess {
     }
 
     /// Variance of a motion about the guess.
-    fn open(&self, largest: f64, beside: f64) -> [f64; N] {
-        OPEN.map(|part| (part * largest).min(self.wide + BEYOND * beside).powi(2))
+    fn open(&self, largest: f64, beside: f64) -> Vector {
+        Vector::from(OPEN).map(|part| (part * largest).min(self.wide + BEYOND * beside).powi(2))
     }
 }
 
 /// Variance added where a channel shows nothing between two passages: the motion behind does not follow from that before, and the
 /// angle between by the mean of both speeds, off by the half of their difference.
-fn unseen(before: &Passage, behind: &Passage, guess: &Guess, largest: f64) -> [f64; N] {
+fn unseen(before: &Passage, behind: &Passage, guess: &Guess, largest: f64) -> Vector {
     let change = (behind.speed - before.speed).abs();
     let mut added = guess.open(largest, change);
     added[0] = (0.5 * (behind.time - before.time) * change).powi(2);
@@ -507,39 +501,28 @@ fn unseen(before: &Passage, behind: &Passage, guess: &Guess, largest: f64) -> [f
 fn shown(data: &Data, passages: &[Passage], noise: &Noise) -> Belief {
     let guess = Guess::of(data, passages, noise);
     let value = passages[0].value;
-    let mut covariance = [[0.0; N]; N];
-    for (state, variance) in guess.open(data.pitch, 0.0).into_iter().enumerate() {
-        covariance[state][state] = variance;
-    }
+    let speed = value + guess.late * guess.slope;
     Belief {
-        mean: [
-            0.0,
-            value + guess.late * guess.slope,
-            guess.slope,
-            0.0,
-            value,
-        ],
-        covariance,
+        mean: Vector::from([0.0, speed, guess.slope, 0.0, value]),
+        covariance: Matrix::from_diagonal(&guess.open(data.pitch, 0.0)),
     }
 }
 
 /// Belief at the engagement from rest: no speed, an angle anywhere before the first mark.
-fn resting(data: &Data, knots: &Knots) -> Belief {
-    let added = knots.started();
-    let mut covariance = [[0.0; N]; N];
+fn resting(data: &Data, knots: &Knots, memory: &Memory) -> Belief {
+    let mut variances = knots.started();
     // A channel counts its angle from here.
-    let passed = if data.channel { 0.0 } else { data.before };
-    let first = if data.channel {
-        0.0
-    } else {
-        data.passages[0].value
+    let (passed, first) = match data.channel {
+        true => (0.0, 0.0),
+        false => (data.before, data.passages[0].value),
     };
-    covariance[0][0] = passed * passed / 12.0;
-    covariance[2][2] = added[2];
-    covariance[3][3] = added[3];
+    variances[0] = passed * passed / 12.0;
+    if !data.channel {
+        variances[4] = memory.spread * memory.spread;
+    }
     Belief {
-        mean: [first - 0.5 * passed, 0.0, 0.0, 0.0, 0.0],
-        covariance,
+        mean: Vector::from([first - 0.5 * passed, 0.0, 0.0, 0.0, 0.0]),
+        covariance: Matrix::from_diagonal(&variances),
     }
 }
 
@@ -549,14 +532,7 @@ mod tests {
 
     #[test]
     fn a_start_that_must_be_forward_gains_at_most_a_factor_of_two() {
-        let gain = |slope: f64| {
-            let pass = Pass {
-                likelihood: 0.0,
-                slope,
-                curvature: 0.5,
-            };
-            forward_only(&pass, 1.0)
-        };
+        let gain = |slope: f64| forward_only((slope, 0.5), 1.0);
         assert!(gain(0.0).abs() < 1e-15);
         assert!((gain(10.0) - 2f64.ln()).abs() < 1e-12);
         // Two deviations below zero: twice 0.02275.

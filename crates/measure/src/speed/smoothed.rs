@@ -3,11 +3,11 @@
 use super::breakaway::Breakaway;
 use super::bridge::Bridge;
 use super::motion::{Change, Motion};
-use super::node::Belief;
 use super::smoothness::Smoothness;
 use super::stiffest::Stiffest;
 use super::stop::Stop;
 use super::track::{Track, mixed};
+use super::transition::Belief;
 use crate::pulse::Gap;
 
 /// The motion of a shaft over a record, with covariance.
@@ -92,7 +92,7 @@ impl Speed {
         let wrong = self.wrong_wheel(speed, acceleration);
         let mut covariance: [[f64; 3]; 3] = std::array::from_fn(|i| {
             let factor = |i: usize| factors[i] * scale[i];
-            std::array::from_fn(|j| belief.covariance[i][j] * factor(i) * factor(j))
+            std::array::from_fn(|j| belief.covariance[(i, j)] * factor(i) * factor(j))
         });
         if let Some(stiffest) = &self.stiffest {
             for order in [1, 2] {

@@ -20,9 +20,9 @@
 //! **Does not model**: the first and the last fifth of a change, where knots leave more open than the density does: there the
 //! factor fades out.
 
-use super::node::Belief;
 use super::plan::Plan;
 use super::track::{Track, mixed};
+use super::transition::Belief;
 
 /// How much stiffer the other fit is.
 const STIFFER: f64 = 10.0;
@@ -124,13 +124,15 @@ fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Co
     let (mean_soft, mean_hard) = (mixed(soft.iter().copied()), mixed(hard.iter().copied()));
     [1, 2].map(|state| {
         let within = |beliefs: &[(f64, Belief)]| -> f64 {
-            let variances = beliefs.iter().map(|(w, b)| w * b.covariance[state][state]);
+            let variances = beliefs
+                .iter()
+                .map(|(w, b)| w * b.covariance[(state, state)]);
             variances.sum::<f64>().max(0.0)
         };
         let (soft, hard) = (within(&soft), within(&hard));
         let exponent = ((soft / hard).ln() / STIFFER.ln()).clamp(0.0, 1.0);
         Compared {
-            whole: mean_soft.covariance[state][state],
+            whole: mean_soft.covariance[(state, state)],
             within: soft,
             exponent,
             moved: (mean_soft.mean[state] - mean_hard.mean[state]).powi(2),
@@ -141,8 +143,8 @@ fn compared(tracks: &[(f64, Track)], stiffer: &[(f64, Track)], time: f64) -> [Co
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::{Memory, N};
-    use super::super::node::{Node, Sight};
+    use super::super::node::{Node, mark};
+    use super::super::transition::{Matrix, Memory, Vector};
     use super::*;
 
     /// Integral of a function over u from 0 to infinity, by the rule of trapezia over ln u.
@@ -161,20 +163,17 @@ mod tests {
         let node = |k: i32| Node {
             time: f64::from(k),
             density,
-            pulse: Some(Sight::mark(0.0, variance, 0.0)),
+            pulse: Some(mark(0.0, variance, 0.0)),
             added: None,
             fresh: None,
         };
-        let mut covariance = [[0.0; N]; N];
-        for (i, spread) in [1.0, 0.1, 0.01, 1e-3].into_iter().enumerate() {
-            covariance[i][i] = spread;
-        }
         let start = Belief {
-            mean: [0.0; N],
-            covariance,
+            mean: Vector::zeros(),
+            covariance: Matrix::from_diagonal(&Vector::from([1.0, 0.1, 0.01, 1e-3, 0.0])),
         };
         let memory = Memory::of_clock(1e-9, 1.0);
-        Track::new((0..=400).map(node).collect(), start, density, memory)
+        let nodes: Vec<Node> = (0..=400).map(node).collect();
+        Track::new(&nodes, &start, density, memory)
     }
 
     /// A spline of order four through noise, in the frequency u that the density q and the noise r make one, u⁸ = ω⁸ r/q:

@@ -1,9 +1,7 @@
 //! The chain of states that is filtered and smoothed, for one sensor, one engagement and one growth of the disturbance.
 
 use super::Swing;
-use crate::state_space::{
-    Filter, GAUSS, Matrix, Observation, Vector, applied, exponential, gathered_noise, identity,
-};
+use crate::state_space::{Belief, Filter, GAUSS, Matrix, Observation, Vector, gathered_noise};
 use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::simplex;
 use statistics::uncertain::Uncertain;
@@ -215,21 +213,21 @@ impl<'a> Chain<'a> {
         };
         let wander = (input.zero_wander / self.scale).powi(2) * input.interval;
         let with_drift = |gathered: &Matrix<STATES>, intensity: f64| {
-            let mut noise = scaled(gathered, intensity);
-            noise[COSINE][COSINE] += drift;
-            noise[SINE][SINE] += drift;
-            noise[ZERO][ZERO] += wander;
+            let mut noise = gathered * intensity;
+            noise[(COSINE, COSINE)] += drift;
+            noise[(SINE, SINE)] += drift;
+            noise[(ZERO, ZERO)] += wander;
             noise
         };
-        let mut mean = [0.0; STATES];
+        let mut mean = Vector::zeros();
         mean[ZERO] = input.zero.value / self.scale;
-        let mut prior = [[0.0; STATES]; STATES];
+        let mut prior = Matrix::zeros();
         // Wide: four times the spread of the reading, in amplitude.
         let wide = 16.0;
-        prior[ZERO][ZERO] = zero * zero;
+        prior[(ZERO, ZERO)] = zero * zero;
         if !input.angle.is_empty() {
-            prior[COSINE][COSINE] = wide;
-            prior[SINE][SINE] = wide;
+            prior[(COSINE, COSINE)] = wide;
+            prior[(SINE, SINE)] = wide;
         }
         if !rests {
             // Reading and torque agree up to what a swing of the size of the record does, about what the record begins with: a
@@ -237,26 +235,32 @@ impl<'a> Chain<'a> {
             let level = self.first_level() / self.scale - mean[ZERO];
             (mean[0], mean[TORQUE]) = (level, level);
             let torque = wide + 100.0 * zero * zero;
-            prior[TORQUE][TORQUE] = torque;
-            prior[RATE][RATE] = wide / 0.05_f64.powi(2);
-            prior[0][0] = torque + wide;
-            prior[0][TORQUE] = torque;
-            prior[TORQUE][0] = torque;
-            prior[1][1] = wide;
+            prior[(TORQUE, TORQUE)] = torque;
+            prior[(RATE, RATE)] = wide / 0.05_f64.powi(2);
+            prior[(0, 0)] = torque + wide;
+            prior[(0, TORQUE)] = torque;
+            prior[(TORQUE, 0)] = torque;
+            prior[(1, 1)] = wide;
         } else if self.power == 0.0
             && let Some(angle) = input.angle.first()
         {
             // Settled under a run-out, which does not ask for motion.
             let (sine, cosine) = angle.sin_cos();
-            prior[0][0] = wide;
+            prior[(0, 0)] = wide;
             for (index, part) in [(COSINE, cosine), (SINE, sine)] {
-                (prior[0][index], prior[index][0]) = (wide * part, wide * part);
+                (prior[(0, index)], prior[(index, 0)]) = (wide * part, wide * part);
             }
         }
-        let mut jump = [[0.0; STATES]; STATES];
-        jump[TORQUE][TORQUE] = wide;
-        jump[RATE][RATE] = wide / 0.05_f64.powi(2);
-        let mut filter = Filter::new(mean, prior, keep);
+        let mut jump = Matrix::zeros();
+        jump[(TORQUE, TORQUE)] = wide;
+        jump[(RATE, RATE)] = wide / 0.05_f64.powi(2);
+        let mut filter = Filter::new(
+            Belief {
+                mean,
+                covariance: prior,
+            },
+            keep,
+        );
         let mut turning = !rests;
         for (k, &value) in input.reading.iter().enumerate() {
             if k > 0 {
@@ -265,15 +269,15 @@ impl<'a> Chain<'a> {
                 let engages = self.engaging.as_ref().filter(here);
                 let locks = self.locking.as_ref().filter(here);
                 if let Some(split) = engages {
-                    filter.predict(&split.until.0, &[[0.0; STATES]; STATES]);
-                    filter.predict(&identity(), &jump);
+                    filter.predict(&split.until.0, &Matrix::zeros());
+                    filter.predict(&Matrix::identity(), &jump);
                     let mut transition = split.after.0;
                     self.put_forcing(k, &mut transition);
                     filter.predict(&transition, &with_drift(&split.after.1, slow + fast));
                     turning = true;
                 } else if let Some(split) = locks.filter(|_| turning) {
-                    filter.predict(&split.until.0, &scaled(&split.until.1, slow + fast));
-                    filter.predict(&identity(), &jump);
+                    filter.predict(&split.until.0, &(split.until.1 * (slow + fast)));
+                    filter.predict(&Matrix::identity(), &jump);
                     let mut transition = split.after.0;
                     self.put_forcing(k, &mut transition);
                     filter.predict(&transition, &with_drift(&split.after.1, slow + fast));
@@ -284,7 +288,7 @@ impl<'a> Chain<'a> {
                     filter.predict(&transition, &with_drift(&self.whole.1, intensity));
                 }
             }
-            let mut row = [0.0; STATES];
+            let mut row = Vector::zeros();
             row[0] = 1.0;
             row[ZERO] = 1.0;
             let seen = Observation {
@@ -308,23 +312,25 @@ impl<'a> Chain<'a> {
 
     fn put_forcing(&self, k: usize, transition: &mut Matrix<STATES>) {
         let [cosine_reading, cosine_rate, sine_reading, sine_rate] = self.forcing[k];
-        transition[0][COSINE] = cosine_reading;
-        transition[1][COSINE] = cosine_rate;
-        transition[0][SINE] = sine_reading;
-        transition[1][SINE] = sine_rate;
+        transition[(0, COSINE)] = cosine_reading;
+        transition[(1, COSINE)] = cosine_rate;
+        transition[(0, SINE)] = sine_reading;
+        transition[(1, SINE)] = sine_rate;
     }
 
     /// What all readings give; the amplitudes of the disturbance are those at each time.
     pub(super) fn smoothed(&self, hyper: &Hyper) -> Pass {
         let filter = self.filtered(hyper, true);
         let scale = self.scale;
-        let states = filter
-            .smoothed()
+        let innovations = filter.innovations().to_vec();
+        let log_likelihood = filter.log_likelihood() - innovations.len() as f64 * scale.ln();
+        let nodes = filter.smoother().nodes();
+        let states = nodes
             .iter()
             .enumerate()
             .map(|(k, s)| {
                 let mut mean = s.mean.map(|m| m * scale);
-                let mut variance = s.variance.map(|v| v * scale * scale);
+                let mut variance = s.covariance.diagonal() * (scale * scale);
                 let growth = self.growth(k);
                 for index in [COSINE, SINE] {
                     mean[index] *= growth;
@@ -335,9 +341,8 @@ impl<'a> Chain<'a> {
             .collect();
         Pass {
             states,
-            innovations: filter.innovations().to_vec(),
-            log_likelihood: filter.log_likelihood()
-                - filter.innovations().len() as f64 * scale.ln(),
+            innovations,
+            log_likelihood,
         }
     }
 }
@@ -346,7 +351,7 @@ impl<'a> Chain<'a> {
 pub(super) fn mixed(likely: &Pass, others: &[(f64, Pass)]) -> Pass {
     let rest = 1.0 - others.iter().map(|(weight, _)| weight).sum::<f64>();
     let mix = |k: usize, (first, variance): &(Vector<STATES>, Vector<STATES>)| {
-        let (mut mean, mut square) = ([0.0; STATES], [0.0; STATES]);
+        let (mut mean, mut square) = (Vector::zeros(), Vector::zeros());
         for index in 0..STATES {
             // about the first, so that nothing is lost in rounding
             square[index] = rest * variance[index];
@@ -392,25 +397,20 @@ fn calm(input: &Samples, knots: Knots) -> Vec<f64> {
 /// Sensor and torque without disturbance: rates of the states.
 fn rates(swing: Swing) -> Matrix<STATES> {
     let Swing { omega, zeta } = swing;
-    let mut a = [[0.0; STATES]; STATES];
-    a[0][1] = omega;
-    a[1][0] = -omega;
-    a[1][1] = -2.0 * zeta * omega;
-    a[1][TORQUE] = omega;
-    a[TORQUE][RATE] = 1.0;
+    let mut a = Matrix::zeros();
+    a[(0, 1)] = omega;
+    a[(1, 0)] = -omega;
+    a[(1, 1)] = -2.0 * zeta * omega;
+    a[(1, TORQUE)] = omega;
+    a[(TORQUE, RATE)] = 1.0;
     a
 }
 
 /// Transition over a step, and the covariance gathered by unit intensity of the torque's rate.
 fn stepped(swing: Swing, step: f64) -> (Matrix<STATES>, Matrix<STATES>) {
     let a = rates(swing);
-    let mut push = [0.0; STATES];
-    push[RATE] = 1.0;
-    let mut reach = a;
-    for value in reach.iter_mut().flatten() {
-        *value *= step;
-    }
-    (exponential(&reach), gathered_noise(&a, &push, step, 2))
+    let reached = |time: f64| (a * time).exp().column(RATE).into_owned();
+    ((a * step).exp(), gathered_noise(reached, step, 2))
 }
 
 /// Places in the step, weights, and what a unit torque there does to reading and rate at the step's end.
@@ -420,27 +420,15 @@ fn force_response(swing: Swing, step: f64) -> Vec<(f64, f64, [f64; 2])> {
     for piece in 0..2 {
         for (node, weight) in GAUSS {
             let place = 0.5 * (f64::from(piece) + node);
-            let mut left = a;
-            for value in left.iter_mut().flatten() {
-                *value *= (1.0 - place) * step;
-            }
-            let reach = exponential(&left);
+            let reach = (a * ((1.0 - place) * step)).exp();
             nodes.push((
                 place,
                 0.5 * weight * step,
-                [reach[0][1] * swing.omega, reach[1][1] * swing.omega],
+                [reach[(0, 1)] * swing.omega, reach[(1, 1)] * swing.omega],
             ));
         }
     }
     nodes
-}
-
-fn scaled(matrix: &Matrix<STATES>, factor: f64) -> Matrix<STATES> {
-    let mut result = *matrix;
-    for value in result.iter_mut().flatten() {
-        *value *= factor;
-    }
-    result
 }
 
 /// Reading of a sensor at rest at the first value that then feels a torque, linear between its values, and a disturbance given
@@ -458,12 +446,12 @@ pub(super) fn reading_of(
     for (k, &now) in torque.iter().enumerate() {
         readings.push(reading);
         let next = torque.get(k + 1).copied().unwrap_or(now);
-        let mut state = [0.0; STATES];
+        let mut state = Vector::zeros();
         state[0] = reading;
         state[1] = rate;
         state[TORQUE] = now;
         state[RATE] = (next - now) / interval;
-        let moved = applied(&transition, &state);
+        let moved = transition * state;
         (reading, rate) = (moved[0], moved[1]);
         for &(place, weight, [to_reading, to_rate]) in &nodes {
             let force = weight * disturbance(k as f64 + place);

@@ -18,13 +18,13 @@ use super::bridge::Bridge;
 use super::design::FEWEST_WITHIN;
 use super::fit::{self, Sight};
 use super::fitted::{QUIET_BEFORE, fitted};
-use super::matrix::{Memory, N};
 use super::plan::{Data, Noise, Passage, Plan};
 use super::settings::{SpeedSettings, Transient};
 use super::smoothed::Speed;
 use super::stiffest::Stiffest;
 use super::stop::Stop;
-use super::track::forward;
+use super::track::filtered;
+use super::transition::{Memory, Vector};
 use crate::pulse::Refusal;
 use crate::state_space::colour;
 use samples::{Rise, Samples};
@@ -426,10 +426,8 @@ fn lasting(data: &Data, range: std::ops::Range<usize>, noise: Noise, density: f6
     let plan = Plan::steady(noise, density);
     let most = 2000.min(range.len());
     let (nodes, start) = plan.nodes(data, range.end - most..range.end);
-    let mut innovations = Vec::with_capacity(nodes.len());
-    forward(&nodes, &start, &[0.0; N], &noise.memory, |_, update| {
-        innovations.push(update.innovation());
-    });
+    let filter = filtered(&nodes, &start, Vector::zeros(), &noise.memory, true, |_| ());
+    let innovations = filter.innovations();
     let settled = 8.min(innovations.len());
     colour(&innovations[settled..])
 }
