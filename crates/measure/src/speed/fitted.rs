@@ -61,7 +61,6 @@ pub(super) fn fitted(
         origin: data.origin,
         unit: data.unit,
         latency: 0.0,
-        stiffest: None,
         stop: None,
         breakaway: None,
         bridges: Vec::new(),

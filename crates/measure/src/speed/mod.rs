@@ -29,7 +29,6 @@ mod settings;
 mod smoothed;
 mod smoothness;
 mod spread;
-mod stiffest;
 mod stop;
 mod too_few;
 mod track;
@@ -46,7 +45,6 @@ pub use motion::{Change, Motion};
 use plan::Data;
 pub use settings::{SpeedSettings, Transient};
 pub use smoothed::Speed;
-use stiffest::Stiffest;
 use stop::Stop;
 use too_few::{carried, enough, needed, seen, stated};
 
@@ -141,13 +139,6 @@ pub fn smooth(
     speed.eccentricity = pitch.map_or(0.0, |p| {
         settings.ripple.max(0.0) / (p.speed * p.speed).max(1e-12)
     });
-    if speed.change.is_none() {
-        let angles = pulses.times.iter().zip(&pulses.uncertainties);
-        let deviations: Vec<f64> = angles
-            .map(|(time, timing)| speed.at(*time).speed * timing * speed.timing_factor)
-            .collect();
-        speed.stiffest = Stiffest::of_angles(&pulses.times, &deviations);
-    }
     speed.bridges = Bridge::all(pulses, |time| speed.at(time));
     speed.stop = Stop::of(pulses, |time| speed.at(time));
     if let (Some(change), Some(stop)) = (speed.change.filter(|c| c.from_rest), &speed.stop) {

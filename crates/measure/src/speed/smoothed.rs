@@ -4,7 +4,6 @@ use super::breakaway::Breakaway;
 use super::bridge::Bridge;
 use super::motion::{Change, Motion};
 use super::smoothness::Smoothness;
-use super::stiffest::Stiffest;
 use super::stop::Stop;
 use super::track::{Track, mixed};
 use super::transition::Belief;
@@ -22,8 +21,6 @@ pub struct Speed {
     pub(super) origin: f64,
     pub(super) unit: f64,
     pub(super) latency: f64,
-    /// What the variances cannot be less than; none where there is a quick change, whose are larger.
-    pub(super) stiffest: Option<Stiffest>,
     /// How the shaft comes to rest after the last mark, where it does.
     pub(super) stop: Option<Stop>,
     /// What the friction seen there hides of a start from rest.
@@ -94,12 +91,6 @@ impl Speed {
             let factor = |i: usize| factors[i] * scale[i];
             std::array::from_fn(|j| belief.covariance[(i, j)] * factor(i) * factor(j))
         });
-        if let Some(stiffest) = &self.stiffest {
-            for order in [1, 2] {
-                let own = &mut covariance[order][order];
-                *own = own.max(stiffest.variance(order as i32, seconds));
-            }
-        }
         for (i, row) in covariance.iter_mut().enumerate() {
             for (j, value) in row.iter_mut().enumerate() {
                 *value += late[i] * late[j] + wrong.iter().map(|w| w[i] * w[j]).sum::<f64>();

@@ -21,7 +21,6 @@ use super::fitted::{QUIET_BEFORE, fitted};
 use super::plan::{Data, Noise, Passage, Plan};
 use super::settings::{SpeedSettings, Transient};
 use super::smoothed::Speed;
-use super::stiffest::Stiffest;
 use super::stop::Stop;
 use super::track::filtered;
 use super::transition::{Memory, Vector};
@@ -194,12 +193,6 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
     }
     let mut speed = fitted(&mut data, sight.as_ref(), (noise, density), notes)?;
     speed.latency = settings.latency.max(0.0);
-    if speed.change.is_none() {
-        let (times, deviations): (Vec<f64>, Vec<f64>) = (data.passages.iter())
-            .map(|p| (data.seconds(p.time), noise.variance(p).sqrt() / data.unit))
-            .unzip();
-        speed.stiffest = Stiffest::of_speeds(&times, &deviations);
-    }
     let last = data.passages.len() - 1;
     speed.bridges = (data.fresh.iter())
         .map(|&time| {
