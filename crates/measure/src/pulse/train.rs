@@ -347,49 +347,10 @@ fn steps(kept: &[usize], times: &[f64]) -> Vec<i64> {
             .map_or(next, |&after| if next > 1.6 * after { after } else { next });
         let ratio = gaps[k] / (left * right).sqrt();
         if ratio > 1.6 && gaps[k] > 1.5 * left.max(right) && ratio < 1e6 {
-            steps[k] = long_steps(&gaps, &steps, k, ratio);
+            steps[k] = ratio.round() as i64;
         }
     }
     steps
-}
-
-/// Intervals on each side of a long gap that give its positions, at most.
-const BESIDE: usize = 60;
-
-/// Positions over a gap, given what the two intervals beside it say. Over many positions errors of single marks and instants
-/// add up to a whole position; the mean intervals of more pulses on both sides, carried on to the middle of the gap as they
-/// change, do not.
-fn long_steps(gaps: &[f64], steps: &[i64], k: usize, ratio: f64) -> i64 {
-    let count = BESIDE
-        .min(k)
-        .min(gaps.len() - k - 1)
-        .min(4 * ratio as usize);
-    if ratio < 4.5 || count < 4 {
-        return ratio.round() as i64;
-    }
-    let usual = gaps[k] / ratio;
-    // Time and positions of some intervals, each taken for the whole number of usual ones that it is.
-    let mean = |range: std::ops::Range<usize>| {
-        let mut positions = 0.0;
-        let mut time = 0.0;
-        for j in range {
-            let found = if j < k {
-                steps[j] as f64
-            } else {
-                (gaps[j] / usual).round().max(1.0)
-            };
-            positions += found;
-            time += gaps[j];
-        }
-        (time / positions, time)
-    };
-    let (left, before) = mean(k - count..k);
-    let (right, after) = mean(k + 1..k + 1 + count);
-    // Rates at the middles of the two sides; the gap has that of its own middle, between them.
-    let (rate_left, rate_right) = (left.recip(), right.recip());
-    let part = (0.5 * before + 0.5 * gaps[k]) / (0.5 * (before + after) + gaps[k]);
-    let rate = rate_left + (rate_right - rate_left) * part;
-    (gaps[k] * rate).round().max(1.0) as i64
 }
 
 /// Pulses without the two beside a long silence: a pickup that fails or comes back within a pulse makes a flank of its own.
