@@ -23,6 +23,7 @@ pub mod inertia;
 mod kernel;
 pub mod order;
 pub mod pulse;
+mod quantile;
 pub mod shaft;
 pub mod spectrum;
 pub mod speed;

@@ -1,9 +1,9 @@
 //! Deviation of the cage angle from that of a rolling cage, smoothed.
 
 use super::CageSpeed;
+use crate::quantile::noise;
 use crate::shaft::Shaft;
 use crate::state_space::{Belief, Filter, Matrix, Observation, Vector, colour};
-use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::simplex;
 use std::f64::consts::PI;
 
@@ -226,16 +226,7 @@ impl Deviations<'_> {
 
     /// Noise as second differences show it, and the usual changes of slip.
     fn guess(&self, rolling: f64) -> Hyper {
-        let mut seconds = Vec::new();
-        for d in self.deviation.windows(3) {
-            let second = d[2] - 2.0 * d[1] + d[0];
-            if second.is_finite() {
-                seconds.push(second.abs());
-            }
-        }
-        seconds.sort_by(f64::total_cmp);
-        let middle = seconds.get(seconds.len() / 2).copied().unwrap_or(1.0);
-        let noise = (middle / MEDIAN_OF_SIZE).powi(2) / 6.0;
+        let noise = noise(self.deviation, [1.0, -2.0, 1.0]).powi(2);
         let usual = USUAL_CHANGE * rolling.max(1e-9);
         // Integrated random walk: ω = √(q t³/3).
         let slow = 3.0 * usual * usual / USUAL_TIME.powi(3);

@@ -2,6 +2,7 @@
 
 use super::phase::Deviations;
 use super::{CageSpeed, QuickChange};
+use crate::quantile::median;
 use crate::shaft::Shaft;
 use std::f64::consts::TAU;
 
@@ -102,9 +103,7 @@ fn counted(
     for (k, &step) in advance.iter().enumerate() {
         since += step;
         let near = &advance[k.saturating_sub(5)..(k + 6).min(advance.len())];
-        let mut sorted = near.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let usual = sorted[sorted.len() / 2].max(1e-9);
+        let usual = median(near.iter().copied()).max(1e-9);
         let passed = (since / usual).round().min(1e6) as i64;
         // After an engagement the cage may lag by several pitches: every passing is taken as the next.
         let lagging = engagement.is_some_and(|e| time[k + 1] > e && time[k + 1] < e + LAG);

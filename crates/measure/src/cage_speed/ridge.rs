@@ -20,6 +20,7 @@ use super::CageSpeed;
 use super::cells::{Cell, Signal};
 use super::path::{APART, HOP, LENGTH, OVERLAPS, Path, RIVAL_HALF, Rival, followed, rival};
 use super::phase::Deviations;
+use crate::quantile::median;
 use crate::shaft::Shaft;
 use std::f64::consts::{PI, TAU};
 
@@ -140,9 +141,7 @@ pub fn from_vibration(
         .collect();
     let slip: Vec<f64> = kept.iter().map(|&k| path.slip_at(travel_of(k))).collect();
     // Against one slip, so that all that the slip does is seen by what smooths it.
-    let mut steady = slip.clone();
-    steady.sort_by(f64::total_cmp);
-    let steady = steady[steady.len() / 2];
+    let steady = median(slip.iter().copied());
     let removed: Vec<f64> = time
         .iter()
         .map(|&t| -steady * line.ratio * shaft.speed_at(t))
@@ -433,18 +432,13 @@ fn rivals(
 
 /// Reports where the ridge stays at an order of the shaft.
 fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
-    let middle = |values: &mut Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
-    let known = |list: &[f64]| list.iter().copied().filter(|v| v.is_finite()).collect();
-    let mut slips: Vec<f64> = known(&found.slip);
-    let slip = middle(&mut slips)?;
-    let deviation = middle(&mut known(&found.slip_deviation))?;
-    let mut away = slips.iter().map(|s| (s - slip).abs()).collect();
+    let slips = || found.slip.iter().copied().filter(|v| v.is_finite());
+    let slip = median(slips());
+    let deviations = found.slip_deviation.iter().copied();
+    let deviation = median(deviations.filter(|v| v.is_finite()));
     let limit = AT_ORDER.max(2.0 * deviation);
     let order = (periods * (1.0 - slip)).round();
-    let steady = middle(&mut away)? < 0.5 * limit;
+    let steady = median(slips().map(|s| (s - slip).abs())) < 0.5 * limit;
     let at = order >= 1.0 && (periods * (1.0 - slip) - order).abs() < limit * periods;
     (steady && at).then(|| {
         format!(

@@ -12,7 +12,7 @@
 //!
 //! **Does not model**: a height that changes by more than a half from a pulse to the next, but at the first and last ones.
 
-use super::median;
+use crate::quantile::median;
 
 /// Height of swings that count, over the standard deviation of the noise.
 const ABOVE_NOISE: f64 = 8.0;
@@ -71,12 +71,11 @@ impl Envelope {
         if own.len() < 4 * BESIDE {
             return None;
         }
-        let level = median(&mut own.iter().map(|s| s.middle).collect::<Vec<_>>());
+        let level = median(own.iter().map(|s| s.middle));
         let own_level = if !is_steady(&own) {
             slope(&own).abs() < OWN_LEVEL
         } else if has_no_plateaus(samples, &own) {
-            let mut away: Vec<f64> = own.iter().map(|s| (s.middle - level).abs()).collect();
-            median(&mut away) < EVEN * usual
+            median(own.iter().map(|s| (s.middle - level).abs())) < EVEN * usual
         } else {
             return None;
         };

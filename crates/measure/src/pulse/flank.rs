@@ -5,7 +5,7 @@
 //! the angle the shape is the same at every speed, so the slow passages of the same record show it in full.
 
 use super::level::Levels;
-use super::median;
+use crate::quantile::median;
 use statistics::normal::MEDIAN_OF_SIZE;
 
 /// A crossing of the middle, in samples.
@@ -356,10 +356,8 @@ fn learn(samples: &[f64], found: &[Passing], pupils: &[(usize, f64)], scale: f64
         })
         .collect();
     let steepest = away.iter().map(|a| a.1).fold(0.0, f64::max);
-    let deviation = |least: f64| {
-        let mut sizes: Vec<f64> = away.iter().filter(|a| a.1 >= least).map(|a| a.0).collect();
-        median(&mut sizes) / MEDIAN_OF_SIZE
-    };
+    let deviation =
+        |least: f64| median(away.iter().filter(|a| a.1 >= least).map(|a| a.0)) / MEDIAN_OF_SIZE;
     (shape.scatter, shape.steep_scatter) = (deviation(0.0).max(1e-3), deviation(0.5 * steepest));
     shape.steepest = steepest.max(1e-12);
     Some(shape)

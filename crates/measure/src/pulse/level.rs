@@ -1,7 +1,8 @@
 //! The two levels of a pulse signal, from the signal itself.
 
+use super::Refusal;
 use super::envelope::Envelope;
-use super::{Refusal, median, quantile};
+use crate::quantile::{median, quantile};
 
 /// Where a signal is high or low, over the samples.
 pub(super) struct Levels {
@@ -72,12 +73,11 @@ impl Levels {
         ranges.sort_by(f64::total_cmp);
         let largest = ranges[ranges.len() - if many { 2 } else { 1 }].max(0.0);
         let both = |&(low, high): &(f64, f64)| high - low > 0.6 * largest;
-        let mut full: Vec<f64> = extremes
+        let full = extremes
             .iter()
             .filter(|e| both(e))
-            .map(|&(low, high)| high - low)
-            .collect();
-        let span = median(&mut full);
+            .map(|&(low, high)| high - low);
+        let span = median(full);
         let noise = noise(samples);
         if !(span > 8.0 * noise && span > 0.0) {
             return Err(Refusal::new(
@@ -134,13 +134,12 @@ fn noise(samples: &[f64]) -> f64 {
     let stride = (samples.len() / 20_000).max(1);
     // A tenth of |x| is below 0.1257 standard deviations for normal x; a difference has √2 the noise, the third one √20.
     let of = |width: usize, factor: f64, difference: &dyn Fn(&[f64]) -> f64| {
-        let mut steps: Vec<f64> = samples
+        let steps = samples
             .windows(width)
             .step_by(stride)
             .map(|near| difference(near).abs())
-            .filter(|step| step.is_finite())
-            .collect();
-        quantile(&mut steps, 0.1) / (0.1257 * factor.sqrt())
+            .filter(|step| step.is_finite());
+        quantile(steps, 0.1) / (0.1257 * factor.sqrt())
     };
     let first = of(2, 2.0, &|x| x[1] - x[0]);
     let third = of(4, 20.0, &|x| x[3] - 3.0 * x[2] + 3.0 * x[1] - x[0]);

@@ -144,17 +144,3 @@ impl fmt::Display for Refusal {
 }
 
 impl std::error::Error for Refusal {}
-
-/// Median of finite values; zero of none.
-pub(crate) fn median(values: &mut [f64]) -> f64 {
-    quantile(values, 0.5)
-}
-
-/// Value below which a fraction of the values lies; zero of none.
-pub(crate) fn quantile(values: &mut [f64], fraction: f64) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let place = ((values.len() - 1) as f64 * fraction).round() as usize;
-    *values.select_nth_unstable_by(place, f64::total_cmp).1
-}

@@ -20,7 +20,8 @@
 //! least squares and taken out. What is left of it repeats after numbers of pulses that take a whole number of samples: such
 //! lags alone prove nothing and are left out of all combs, so that at some speeds nothing is reported.
 
-use super::{Pulses, median};
+use super::Pulses;
+use crate::quantile::median;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 use statistics::linear::solved;
@@ -158,8 +159,7 @@ impl Correlated {
     /// Scatter of the combs that have nothing to do with a period.
     fn scatter_beside(&self, period: usize) -> f64 {
         let others = (3..=self.largest()).filter(|&other| common(other, period) == 1);
-        let mut sizes: Vec<f64> = others.filter_map(|p| self.comb(p)).map(f64::abs).collect();
-        (median(&mut sizes) / MEDIAN_OF_SIZE).max(1.0)
+        (median(others.filter_map(|p| self.comb(p)).map(f64::abs)) / MEDIAN_OF_SIZE).max(1.0)
     }
 
     /// Mean correlation over the multiples of a number that are none of another; none where no lag counts.
@@ -338,8 +338,7 @@ fn pattern(pulses: &Pulses, times: &[f64], gaps: &[f64]) -> Vec<f64> {
             .for_each(|k| pattern[k] -= mean);
     }
     // Slow starts bend the logarithm: such values are cut, or they would outweigh all others.
-    let mut sizes: Vec<f64> = pattern.iter().map(|x| x.abs()).collect();
-    let cut = 6.0 * median(&mut sizes);
+    let cut = 6.0 * median(pattern.iter().map(|x| x.abs()));
     pattern.iter_mut().for_each(|x| *x = x.clamp(-cut, cut));
     if let Some(interval) = pulses.sample_interval
         && pattern.len() >= FEWEST

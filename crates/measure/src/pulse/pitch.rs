@@ -1,9 +1,10 @@
 //! Errors of the wheel, from its own pulses.
 
+use crate::quantile::median;
 use statistics::normal::MEDIAN_OF_SIZE;
 use std::f64::consts::TAU;
 
-use super::{Pulses, Refusal, median};
+use super::{Pulses, Refusal};
 
 /// Angular errors of the marks of a wheel.
 #[derive(Clone, Debug, PartialEq)]
@@ -182,12 +183,9 @@ fn without_outliers(sights: &mut Vec<Sight>, places: usize) -> (Vec<f64>, Vec<us
     for sight in sights.iter() {
         values[sight.place].push(sight.value);
     }
-    let medians: Vec<f64> = values.iter_mut().map(|v| median(v)).collect();
-    let mut away: Vec<f64> = sights
-        .iter()
-        .map(|s| (s.value - medians[s.place]).abs())
-        .collect();
-    let usual = median(&mut away) / MEDIAN_OF_SIZE;
+    let medians: Vec<f64> = values.iter().map(|v| median(v.iter().copied())).collect();
+    let away = sights.iter().map(|s| (s.value - medians[s.place]).abs());
+    let usual = median(away) / MEDIAN_OF_SIZE;
     if values
         .iter()
         .filter(|v| !v.is_empty())
@@ -215,7 +213,7 @@ fn too_short(revolutions: f64) -> Refusal {
 
 /// The position whose error stands out.
 fn odd(errors: &[f64], seen: &[usize]) -> Option<usize> {
-    let mut sizes: Vec<f64> = errors
+    let sizes: Vec<f64> = errors
         .iter()
         .zip(seen)
         .filter(|(_, s)| **s > 0)
@@ -224,7 +222,7 @@ fn odd(errors: &[f64], seen: &[usize]) -> Option<usize> {
     if sizes.len() < 8 {
         return None;
     }
-    let usual = median(&mut sizes) / MEDIAN_OF_SIZE;
+    let usual = median(sizes) / MEDIAN_OF_SIZE;
     let (at, error) = errors
         .iter()
         .enumerate()

@@ -11,7 +11,7 @@
 
 use super::flank::Passing;
 use super::level::Levels;
-use super::median;
+use crate::quantile::median;
 
 /// Steepness of the quickest third of flanks over that of the slowest, and its inverse, within which they count as the same.
 const SAME: f64 = 1.25;
@@ -82,8 +82,7 @@ impl Shape {
     pub fn of(samples: &[f64], found: &[Passing], rises: bool, levels: &Levels) -> Shape {
         let own: Vec<&Passing> = found.iter().filter(|f| f.rises == rises).collect();
         let hidden = own.iter().filter(|f| !f.resolved);
-        let mut spreads: Vec<f64> = hidden.map(|f| f.spread).collect();
-        if median(&mut spreads) < EXACT {
+        if median(hidden.map(|f| f.spread)) < EXACT {
             return Shape::None;
         }
         let mut seen = steepness(samples, &own, levels);
@@ -93,9 +92,7 @@ impl Shape {
         seen.sort_by(|a, b| a.interval.total_cmp(&b.interval));
         let third = seen.len() / 3;
         let (quick, slow) = (&seen[..third], &seen[seen.len() - third..]);
-        let usual = |part: &[Seen], value: &dyn Fn(&Seen) -> f64| {
-            median(&mut part.iter().map(value).collect::<Vec<_>>())
-        };
+        let usual = |part: &[Seen], value: &dyn Fn(&Seen) -> f64| median(part.iter().map(value));
         let same = |value: &dyn Fn(&Seen) -> f64| {
             (SAME.recip()..SAME).contains(&(usual(quick, value) / usual(slow, value)))
         };

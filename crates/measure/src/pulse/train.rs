@@ -3,7 +3,8 @@
 use super::gap::{LONG, count as count_over, is_sure};
 use super::undersampled::undersampled;
 use super::wheel::Wheel;
-use super::{Edges, Flank, Gap, Refusal, median};
+use super::{Edges, Flank, Gap, Refusal};
+use crate::quantile::median;
 use statistics::normal::MEDIAN_OF_SIZE;
 
 /// Passages with the number of the mark that passed.
@@ -286,7 +287,7 @@ fn without_strays(
             expected.abs()
         })
         .collect();
-    let usual = median(&mut away.clone()) / MEDIAN_OF_SIZE;
+    let usual = median(away.iter().copied()) / MEDIAN_OF_SIZE;
     let stray = |k: usize| {
         let near = &away[k.saturating_sub(2)..(k + 3).min(away.len())];
         away[k] > 0.1f64.max(8.0 * usual) && near.iter().all(|&other| other <= away[k])
@@ -315,7 +316,7 @@ fn rest(kept: &[usize], times: &[f64]) -> Option<(f64, f64)> {
         .windows(2)
         .map(|pair| times[pair[1]] - times[pair[0]])
         .collect();
-    let usual = super::median(&mut gaps.clone());
+    let usual = median(gaps.iter().copied());
     let rests = |k: usize| {
         let [c, b, a] = [gaps[k - 3], gaps[k - 2], gaps[k - 1]];
         let [x, y, z] = [gaps[k + 1], gaps[k + 2], gaps[k + 3]];

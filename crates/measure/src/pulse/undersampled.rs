@@ -9,7 +9,8 @@
 //!
 //! **Does not see**: marks that were too fast from the first sample to the last and never changed.
 
-use super::{Edges, Refusal, Wheel, median};
+use super::{Edges, Refusal, Wheel};
+use crate::quantile::median;
 use std::f64::consts::TAU;
 
 /// Samples a mark up to which marks are at the limit of the sampling. Wheels are uneven, and flanks hide between samples: three and
@@ -31,7 +32,7 @@ pub(super) fn undersampled(marks: &[usize], edges: &Edges, wheel: &Wheel) -> Opt
         .collect();
     let at_limit = |row: &[f64]| {
         let off = row.iter().filter(|gap| !(ONE..=LIMIT + 0.8).contains(*gap));
-        off.count() <= OFF && median(&mut row.to_vec()) < LIMIT
+        off.count() <= OFF && median(row.iter().copied()) < LIMIT
     };
     let first = gaps.windows(ROW).position(at_limit)?;
     let rate = 1.0 / interval;
@@ -40,7 +41,7 @@ pub(super) fn undersampled(marks: &[usize], edges: &Edges, wheel: &Wheel) -> Opt
         format!(
             "at {:.4} s a mark passes every {:.2} samples, and faster ones would be shown as slower ones, to a stop that was none: {:.0} samples a second cannot hold {} marks above {:.0} rpm ({:.1} rad/s)",
             edges.times[marks[first]],
-            median(&mut gaps[first..first + ROW].to_vec()),
+            median(gaps[first..first + ROW].iter().copied()),
             rate,
             wheel.marks,
             60.0 * limit,

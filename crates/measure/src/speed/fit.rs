@@ -131,11 +131,9 @@ const BLURRED: usize = 7;
 
 /// Intervals, an odd number of them, over which a speed is taken to see it clearly.
 fn intervals(data: &Data) -> usize {
-    let mut parts: Vec<f64> = (data.passages.iter())
-        .map(|p| p.spread * p.speed.abs() / data.pitch)
-        .collect();
+    let parts = (data.passages.iter()).map(|p| p.spread * p.speed.abs() / data.pitch);
     // Some flanks are met by a sample; those that are not count.
-    let noise = std::f64::consts::SQRT_2 * crate::pulse::quantile(&mut parts, 0.9);
+    let noise = std::f64::consts::SQRT_2 * crate::quantile::quantile(parts, 0.9);
     let needed = (noise / CLEAR).ceil().min(BLURRED as f64) as usize;
     needed.max(1) | 1
 }
@@ -205,11 +203,8 @@ pub(super) fn quiet(data: &Data, range: std::ops::Range<usize>) -> (Noise, f64) 
         .max(1e-9);
     // What is not stated: residual mark errors, and noise of the signal that flanks carry into the angle.
     let usual = data.pitch * if data.calibrated { 3e-4 } else { 3e-3 };
-    let mut spreads: Vec<f64> = parts
-        .iter()
-        .flat_map(|p| data.passages[p.clone()].iter().map(|p| p.spread))
-        .collect();
-    let stated = crate::pulse::median(&mut spreads).max(1e-12);
+    let all = parts.iter().flat_map(|part| &data.passages[part.clone()]);
+    let stated = crate::quantile::median(all.map(|p| p.spread)).max(1e-12);
     let noise = |x: &[f64; 4]| Noise {
         timing: if data.calibrated { x[0].exp() } else { 1.0 },
         angle: if data.calibrated {

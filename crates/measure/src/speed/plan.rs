@@ -82,12 +82,8 @@ impl Data {
             None => 0.0,
         };
         let origin = pulses.times[0];
-        let mut gaps: Vec<f64> = pulses
-            .times
-            .windows(2)
-            .map(|pair| pair[1] - pair[0])
-            .collect();
-        let unit = crate::pulse::median(&mut gaps).max(1e-12);
+        let gaps = pulses.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let unit = crate::quantile::median(gaps).max(1e-12);
         let first = error(0);
         let mut passages: Vec<Passage> = (0..pulses.times.len())
             .map(|k| Passage {

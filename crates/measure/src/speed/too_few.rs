@@ -7,6 +7,7 @@ use super::plan::Data;
 use super::settings::SpeedSettings;
 use super::smoothed::Speed;
 use crate::pulse::{Gap, Pulses, Refusal};
+use crate::quantile::median;
 
 /// Fewest pulses within a quick change that are looked at.
 const FEWEST_LOOKED_AT: usize = 4;
@@ -38,8 +39,7 @@ pub(super) fn enough(data: &Data, sight: &Sight, settings: &SpeedSettings) -> Re
     let longest = (2.0 * data.pitch / change).max((sight.lock - sight.engage) * data.unit);
     let duration = settings.duration.filter(|d| *d > 0.0).unwrap_or(longest);
     let wanted = settings.wanted.unwrap_or(0.1);
-    let mut spreads: Vec<f64> = data.passages.iter().map(|p| p.spread * data.unit).collect();
-    let timing = crate::pulse::median(&mut spreads);
+    let timing = median(data.passages.iter().map(|p| p.spread * data.unit));
     let marks = marks_needed(change, duration, timing, wanted);
     let least = if settings.duration.is_some() {
         ""
@@ -127,5 +127,5 @@ pub(super) fn needed(marks: Option<usize>, pulses: &Pulses, wanted: f64) -> Stri
 
 /// Usual stated uncertainty of an instant, s.
 pub(super) fn stated(pulses: &Pulses) -> f64 {
-    crate::pulse::median(&mut pulses.uncertainties.clone())
+    median(pulses.uncertainties.iter().copied())
 }

@@ -1,8 +1,8 @@
 //! The chain of states that is filtered and smoothed, for one sensor, one engagement and one growth of the disturbance.
 
 use super::Swing;
+use crate::quantile::{median, noise};
 use crate::state_space::{Belief, Filter, GAUSS, Matrix, Observation, Vector, gathered_noise};
-use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::simplex;
 use statistics::uncertain::Uncertain;
 
@@ -166,15 +166,8 @@ impl<'a> Chain<'a> {
     /// A start for the search, and the centre of the wide priors.
     pub(super) fn guess(&self) -> Hyper {
         let reading = self.input.reading;
-        // Second differences of white noise have 6 times its variance; the median ignores the fast part.
-        let mut seconds: Vec<f64> = reading
-            .windows(3)
-            .map(|w| (w[2] - 2.0 * w[1] + w[0]).abs() / self.scale)
-            .filter(|v| v.is_finite())
-            .collect();
-        seconds.sort_by(f64::total_cmp);
-        let middle = seconds.get(seconds.len() / 2).copied().unwrap_or(1.0);
-        let noise = (middle / MEDIAN_OF_SIZE / 6.0_f64.sqrt()).max(1e-6);
+        // The median ignores the fast part.
+        let noise = (noise(reading, [1.0, -2.0, 1.0]) / self.scale).max(1e-6);
         // A change of one spread in 0.5 s in the slow part, in 20 ms in the fast part: T = √(q t³/3).
         let slow = 3.0 / 0.5_f64.powi(3);
         let fast = 3.0 / 0.02_f64.powi(3);
@@ -305,9 +298,7 @@ impl<'a> Chain<'a> {
     fn first_level(&self) -> f64 {
         const FIRST: usize = 50;
         let known = self.input.reading.iter().copied();
-        let mut first: Vec<f64> = known.filter(|v| v.is_finite()).take(FIRST).collect();
-        first.sort_by(f64::total_cmp);
-        first.get(first.len() / 2).copied().unwrap_or(0.0)
+        median(known.filter(|v| v.is_finite()).take(FIRST))
     }
 
     fn put_forcing(&self, k: usize, transition: &mut Matrix<STATES>) {

@@ -53,10 +53,8 @@ pub(super) fn strongest(residual: &[f64], interval: f64, own: (f64, f64)) -> Opt
     let powers: Vec<f64> = (2..count / 2)
         .map(|bin| power(&coarse, bin as f64 / count as f64))
         .collect();
-    let mut sorted = powers.clone();
-    sorted.sort_by(f64::total_cmp);
     // the median of an exponential distribution is ln 2 of its mean
-    let usual = sorted[sorted.len() / 2] / std::f64::consts::LN_2;
+    let usual = crate::quantile::median(powers.iter().copied()) / std::f64::consts::LN_2;
     let decayed = TAU * own.0 * own.1 * (residual.len() - half.len()) as f64 * interval;
     let beside = |bin: usize| {
         decayed > DEAD || ((bin + 2) as f64 * step - own.0).abs() > 2.0 * own.1 * own.0 + 2.0 * step

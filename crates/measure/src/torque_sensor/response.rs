@@ -393,9 +393,7 @@ fn second_event(residual: &[f64], period: f64, amplitude: f64) -> Option<usize> 
             (seen().map(|v| v * v).sum::<f64>() / (seen().count() as f64).max(1.0)).sqrt()
         })
         .collect();
-    let mut sorted = loud.clone();
-    sorted.sort_by(f64::total_cmp);
-    let usual = *sorted.get(sorted.len() / 2)?;
+    let usual = crate::quantile::median(loud.iter().copied());
     let quiet = loud.iter().position(|l| *l < 2.5 * usual)?;
     let event =
         (quiet..loud.len()).find(|&k| loud[k] > 6.0 * usual && loud[k] > 0.1 * amplitude)?;

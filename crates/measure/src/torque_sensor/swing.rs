@@ -1,7 +1,6 @@
 //! The fit of a decaying swing about a level.
 
 use statistics::linear::solved;
-use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::simplex;
 use std::f64::consts::TAU;
 
@@ -129,17 +128,8 @@ impl Data<'_> {
     }
 
     fn noise(&self) -> f64 {
-        // Third differences let a slow swing pass by less than second ones; white noise has 20 times its variance in them.
-        let mut thirds: Vec<f64> = self
-            .values
-            .windows(4)
-            .map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs())
-            .filter(|v| v.is_finite())
-            .collect();
-        thirds.sort_by(f64::total_cmp);
-        thirds
-            .get(thirds.len() / 2)
-            .map_or(0.0, |v| v / MEDIAN_OF_SIZE / 20.0_f64.sqrt())
+        // Third differences let a slow swing pass by less than second ones.
+        crate::quantile::noise(self.values, [-1.0, 3.0, -3.0, 1.0])
     }
 
     /// Variances of ln f, of the damping's variable and of the level, residuals correlated up to 15 values apart.

@@ -1,6 +1,6 @@
 //! Samples of a speed: their means, the steps and the noise they show, the quick change and the rest in them.
 
-use crate::pulse::quantile;
+use crate::quantile::{median, quantile};
 
 /// Part of the differences between neighbours that are none from which on the values come in steps.
 const IN_STEPS: f64 = 0.2;
@@ -194,8 +194,7 @@ fn medians(values: &[f64], beside: usize) -> Vec<f64> {
     let n = values.len();
     (0..n)
         .map(|k| {
-            let mut about = values[k.saturating_sub(beside)..(k + beside + 1).min(n)].to_vec();
-            quantile(&mut about, 0.5)
+            median((values[k.saturating_sub(beside)..(k + beside + 1).min(n)].iter()).copied())
         })
         .collect()
 }
@@ -213,15 +212,14 @@ fn steps(values: &[f64]) -> f64 {
     if sizes.is_empty() || ((all - sizes.len()) as f64) < IN_STEPS * all as f64 {
         return 0.0;
     }
-    quantile(&mut sizes, 0.02)
+    quantile(sizes, 0.02)
 }
 
 /// Noise of a sample that changes from value to value, rad/s: fourth differences let pass what is smooth.
 fn quick_noise(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = (values.windows(5))
+    let sizes = (values.windows(5))
         .map(|w| (w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4]).abs())
-        .filter(|size| size.is_finite())
-        .collect();
+        .filter(|size| size.is_finite());
     // The weights make √70 of white noise, and 0.683 of normal numbers are within one deviation.
-    quantile(&mut sizes, 0.683) / 70f64.sqrt()
+    quantile(sizes, 0.683) / 70f64.sqrt()
 }
