@@ -56,6 +56,9 @@ impl Context<'_> {
                 let needed = "contact.width is needed beside it: without a landing surface there is no layer";
                 return refuse("heat.rotor_bodies", needed);
             }
+            if let Some(needed) = part.without_core() {
+                return refuse("heat.rotor_capacity", &needed);
+            }
             for (path, given) in [
                 ("heat.mount_contact", warm.heat.mount_contact),
                 ("heat.mount_surroundings", warm.heat.mount_surroundings),

@@ -198,6 +198,15 @@ impl AuxiliaryBearing {
         let apart = warm.heat.rotor_bodies == RotorBodies::LayerAndCore;
         apart.then_some(PI * diameter * width)
     }
+
+    /// What the rotor's heat capacity needs to be where its surface layer leaves it no core.
+    pub fn without_core(&self) -> Option<String> {
+        let whole = self.warm.as_ref()?.heat.rotor_capacity?;
+        let metal = self.contact.metals[0].material;
+        let capacity = metal.density * metal.specific_heat * self.contact.rotor_layer_depth();
+        let layer = capacity * self.area_over_core()?;
+        (whole <= layer).then(|| format!("more than the {layer:.3} J/K of its surface layer is needed beside heat.rotor_bodies: its core is the rest"))
+    }
 }
 
 /// What is below a surface that rubs.

@@ -1,6 +1,5 @@
 //! A drop as its file gives it, with the model of its rotor: mass, inertia, and what each bearing carries.
 
-use crate::drop::layers;
 use crate::rotor::RotorModel;
 use ::rotor::{C64, Place, properties};
 use physics::heat_conduction::STEEL_HEAT;
@@ -94,13 +93,8 @@ impl Drop {
             warm.radial_load = load;
             warm.heat.radial_air_clearance = Some(part.contact.radial_air_clearance);
             let whole = *warm.heat.rotor_capacity.get_or_insert(capacity);
-            let area = part.area_over_core().unwrap_or(0.0);
-            let layer = layers::rotor_layer(&part.contact).capacity(area);
-            if whole <= layer {
+            if let Some(needed) = part.without_core() {
                 let found = format!("{} J/K", number_text(whole));
-                let needed = format!(
-                    "more than the {layer:.3} J/K of its surface layer is needed beside heat.rotor_bodies: its core is the rest"
-                );
                 return Err(conflict(&part.name, "heat.rotor_capacity", &found, &needed));
             }
         }
