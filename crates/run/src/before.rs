@@ -14,7 +14,7 @@ impl Machine<'_> {
 
     fn of_system(&self) -> Vec<Warning> {
         match &self.system {
-            Built::Drop(built) => of_drop(&built.drop),
+            Built::Drop(built, _) => of_drop(&built.drop),
             Built::SpinUp(spin_up, _) => {
                 let load = spin_up.radial_load.largest_until(spin_up.run.duration);
                 let mut list = of_bearing("", &spin_up.bearing, load, spin_up.target_speed());

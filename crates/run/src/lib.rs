@@ -38,7 +38,7 @@ pub struct Machine<'a> {
 
 /// The machine of each system.
 enum Built<'a> {
-    Drop(Arc<drop::build::Built>),
+    Drop(Arc<drop::build::Built>, Vec<Arc<drop::repetition::Other>>),
     SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Arc<signals::Asked>),
@@ -52,8 +52,8 @@ enum Built<'a> {
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
-            drop::repetition::check(scenario, &built)?;
-            Ok(Built::Drop(Arc::new(built)))
+            let others = drop::repetition::others(scenario, &built)?;
+            Ok(Built::Drop(Arc::new(built), others))
         }),
         System::SpinUp(of) => {
             spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
@@ -94,7 +94,7 @@ impl Machine<'_> {
 
     fn computed(&self, options: &Options) -> Outcome {
         match &self.system {
-            Built::Drop(built) => self.dropped(built, options),
+            Built::Drop(built, others) => self.dropped(built, others, options),
             Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
             Built::Torque(asked) => torque::run(self.scenario, asked),
             Built::Signals(asked) => signals::run(self.scenario, asked, options),
@@ -105,8 +105,13 @@ impl Machine<'_> {
         }
     }
 
-    fn dropped(&self, built: &Arc<drop::build::Built>, options: &Options) -> Outcome {
-        let mut outcome = drop::repetition::run(self.scenario, built, options);
+    fn dropped(
+        &self,
+        built: &Arc<drop::build::Built>,
+        others: &[Arc<drop::repetition::Other>],
+        options: &Options,
+    ) -> Outcome {
+        let mut outcome = drop::repetition::run(self.scenario, built, others, options);
         if let Some(shaft) = &built.drop.shaft {
             let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
             outcome.quantities.extend(changes);
@@ -117,7 +122,7 @@ impl Machine<'_> {
     /// The columns of a run's history, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn columns(&self) -> Vec<Column> {
         match &self.system {
-            Built::Drop(built) => drop::columns(built),
+            Built::Drop(built, _) => drop::columns(built),
             Built::SpinUp(of, built) => spin_up::columns(of, built),
             Built::Rig(of, built) => rig::columns(of, built),
             Built::CoastDown(_, built) => coast_down::columns(built),
@@ -131,7 +136,7 @@ impl Machine<'_> {
     /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn results(&self) -> Vec<Quantity> {
         match &self.system {
-            Built::Drop(built) => {
+            Built::Drop(built, _) => {
                 let mut list = drop::results(built);
                 let shaft = built.drop.shaft.as_ref();
                 if shaft.is_some_and(|shaft| shaft.cutoff_check.is_some()) {

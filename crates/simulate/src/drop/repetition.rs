@@ -27,18 +27,24 @@ const PART: usize = 256;
 /// What a member draws: paths with their values.
 type Drawn = Vec<(String, String)>;
 
-/// Reads and builds every member with what it draws, so that what is wrong with one is known before a run.
+/// The file and the machine of a member whose machine differs from the one given.
+pub type Other = (Scenario, Arc<Built>);
+
+/// Members that are read and built before a run, so that what is wrong with one is known in time; more of them are read as they come.
+const BEFORE: usize = 512;
+
+/// Members 1, 2, … whose machines differ, the first [`BEFORE`] of them.
 ///
 /// # Errors
-/// What is wrong with the first of these.
-pub fn check(scenario: &Scenario, built: &Built) -> Result<(), Box<Problem>> {
+/// What is wrong with the first of these that cannot be built.
+pub fn others(scenario: &Scenario, built: &Built) -> Result<Vec<Arc<Other>>, Box<Problem>> {
     if scenario.vary.is_empty() {
-        return Ok(());
+        return Ok(Vec::new());
     }
-    let read = |k| member(scenario, &draw(scenario, &built.drop, k), k).err();
-    let members = 1..count(&built.drop);
-    let wrong = members.into_par_iter().filter_map(read);
-    wrong.find_first(|_| true).map_or(Ok(()), Err)
+    let members = 1..count(&built.drop).min(BEFORE);
+    let read = |k| member(scenario, &draw(scenario, &built.drop, k), k);
+    let read: Vec<_> = members.into_par_iter().map(read).collect();
+    read.into_iter().collect()
 }
 
 fn count(drop: &Drop) -> usize {
@@ -56,18 +62,14 @@ fn draw(scenario: &Scenario, drop: &Drop, k: usize) -> Drawn {
 }
 
 /// A member of a machine of its own.
-fn member(
-    scenario: &Scenario,
-    drawn: &Drawn,
-    k: usize,
-) -> Result<(Scenario, Arc<Built>), Box<Problem>> {
+fn member(scenario: &Scenario, drawn: &Drawn, k: usize) -> Result<Arc<Other>, Box<Problem>> {
     let blame = |problem: Box<Problem>| member_problem(k, drawn, *problem);
     let member = scenario.with(drawn).map_err(blame)?;
     let System::Drop(of) = &member.system else {
         unreachable!("no value that is varied changes the system");
     };
     let built = build::drop(of).map_err(blame)?;
-    Ok((member, built.into()))
+    Ok(Arc::new((member, built.into())))
 }
 
 /// What is wrong with a member, with what it drew.
@@ -80,14 +82,19 @@ fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) ->
     Box::new(problem.with_hint(format!("It drew {}", draws.join(", "))))
 }
 
-/// Runs a drop, as often as it asks.
-pub fn run(scenario: &Scenario, built: &Arc<Built>, options: &Options) -> Outcome {
+/// Runs a drop, as often as it asks; `known` are those of its [`others`] that have been read.
+pub fn run(
+    scenario: &Scenario,
+    built: &Arc<Built>,
+    known: &[Arc<Other>],
+    options: &Options,
+) -> Outcome {
     let made = in_pool(options.threads, || {
         let mut given = One::of(scenario, built.clone());
         given.member.keep_rows = true;
         match count(&built.drop) {
             1 => each::run(&[given], options).pop(),
-            _ => repeated(&given, options).outcome(scenario, &built.drop),
+            _ => repeated(&given, known, options).outcome(scenario, &built.drop),
         }
     });
     let Some(outcome) = made else {
@@ -97,7 +104,7 @@ pub fn run(scenario: &Scenario, built: &Arc<Built>, options: &Options) -> Outcom
 }
 
 /// Runs the members, part by part.
-fn repeated(given: &One, options: &Options) -> Repetition {
+fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition {
     let (scenario, drop) = (given.scenario, &given.built.drop);
     let count = count(drop);
     let mut given = given.clone();
@@ -107,16 +114,16 @@ fn repeated(given: &One, options: &Options) -> Repetition {
     for begin in (0..count).step_by(part) {
         let part = begin..(begin + part).min(count);
         let drawn: Vec<Drawn> = part.clone().map(|k| draw(scenario, drop, k)).collect();
-        let read = |(k, drawn): (usize, &Drawn)| match drawn.is_empty() {
-            true => Ok(None),
-            false => member(scenario, drawn, k).map(Some),
+        let read = |(k, drawn): (usize, &Drawn)| match known.get(k.wrapping_sub(1)) {
+            Some(other) => Ok(Some(other.clone())),
+            None if drawn.is_empty() => Ok(None),
+            None => member(scenario, drawn, k).map(Some),
         };
         let read: Vec<_> = part.clone().into_par_iter().zip(&drawn).map(read).collect();
         let mut others = Vec::with_capacity(read.len());
         for (k, other) in part.clone().zip(read) {
             match other {
                 Ok(other) => others.push(other),
-                // its files are no longer those that were checked
                 Err(problem) => {
                     all.broken.get_or_insert((k, not_built(&problem)));
                     break;
@@ -124,7 +131,7 @@ fn repeated(given: &One, options: &Options) -> Repetition {
             }
         }
         let ones: Vec<One> = (part.clone().zip(&others))
-            .map(|(k, other)| perturbed(&given, k, other.as_ref()))
+            .map(|(k, other)| perturbed(&given, k, other.as_deref()))
             .collect();
         let progress = |fraction: f64| {
             let done = begin as f64 + fraction * ones.len() as f64;
@@ -145,7 +152,7 @@ fn repeated(given: &One, options: &Options) -> Repetition {
 }
 
 /// A member at its own start: of the machine given, or of another.
-fn perturbed<'a>(given: &One<'a>, k: usize, other: Option<&'a (Scenario, Arc<Built>)>) -> One<'a> {
+fn perturbed<'a>(given: &One<'a>, k: usize, other: Option<&'a Other>) -> One<'a> {
     let mut one = match other {
         Some((scenario, built)) => One::of(scenario, built.clone()),
         None => given.clone(),
