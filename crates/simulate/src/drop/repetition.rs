@@ -33,7 +33,7 @@ pub type Other = (Scenario, Arc<Built>);
 /// Members that are read and built before a run, so that what is wrong with one is known in time; more of them are read as they come.
 const BEFORE: usize = 512;
 
-/// Members 1, 2, … whose machines differ, the first [`BEFORE`] of them.
+/// Members 1, 2, … whose machines differ, the first 512 of them.
 ///
 /// # Errors
 /// What is wrong with the first of these that cannot be built.
