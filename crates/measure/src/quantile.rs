@@ -18,7 +18,7 @@ pub(crate) fn quantile(values: impl IntoIterator<Item = f64>, fraction: f64) -> 
 }
 
 /// Standard deviation of the white noise of values, from differences of neighbours that let pass what is smooth; outliers hardly
-/// move it.
+/// move it. Of no finite difference nothing is known: that of a median of 1.
 ///
 /// - `weights`: of the neighbours in a difference
 pub(crate) fn noise<const N: usize>(values: &[f64], weights: [f64; N]) -> f64 {
@@ -30,5 +30,7 @@ pub(crate) fn noise<const N: usize>(values: &[f64], weights: [f64; N]) -> f64 {
         terms.sum::<f64>().abs()
     });
     let square: f64 = weights.iter().map(|weight| weight * weight).sum();
-    median(differences.filter(|size| size.is_finite())) / MEDIAN_OF_SIZE / square.sqrt()
+    let sizes: Vec<f64> = differences.filter(|size| size.is_finite()).collect();
+    let middle = if sizes.is_empty() { 1.0 } else { median(sizes) };
+    middle / MEDIAN_OF_SIZE / square.sqrt()
 }

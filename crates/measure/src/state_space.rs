@@ -4,7 +4,7 @@
 //! x(k+1) = F(k) x(k) + w(k),  w ~ N(0, Q(k))        z(k) = h(k) x(k) + v(k),  v ~ N(0, r(k))
 //! ```
 //!
-//! Observations are scalars and may be missing. Forward: a Kalman filter with the update of Joseph, P = L Lᵀ. Backward: the adjoint
+//! Observations are scalars and may be missing. Forward: a Kalman filter with the symmetric update, P = L Lᵀ. Backward: the adjoint
 //! recursion of Bryson and Frazier for the mean, x' = x - P g, and the information Y that all which follows holds of the state, for
 //! the covariance: P' = L (1 + Lᵀ Y L)⁻¹ Lᵀ, in which no large numbers nearly cancel however little was known before. No singular
 //! matrix is inverted, so that states without noise, states with a very wide prior and intervals of any length do no harm.
@@ -299,7 +299,7 @@ impl<const N: usize> Filter<N> {
         let gain = spread / variance;
         let pull = innovation / variance;
         self.belief.mean += gain * innovation;
-        // Joseph: (1 - k h) P (1 - k h)ᵀ + r k kᵀ stays symmetric and positive.
+        // (1 - k h) P (1 - k h)ᵀ + r k kᵀ, multiplied out: stays symmetric
         let both = gain * spread.transpose();
         self.belief.covariance += gain * gain.transpose() * variance - both - both.transpose();
         self.log_likelihood -=

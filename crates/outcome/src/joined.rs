@@ -21,13 +21,12 @@ struct OfMembers {
 }
 
 impl Joined {
-    /// Adds those of the next member, in their order; of another than the first only those evaluated in each.
-    pub fn add(&mut self, warnings: Vec<Warning>) {
-        let member = self.members;
+    /// Adds those of the next member, by its index, in their order; of another than the first only those judged in each.
+    pub fn add(&mut self, member: usize, warnings: Vec<Warning>) {
         self.members += 1;
         let mut place = 0;
         for warning in warnings {
-            let in_each = warning.evaluation == Evaluation::Each;
+            let in_each = matches!(warning.evaluation, Evaluation::Each | Evaluation::RunOut);
             if member > 0 && !in_each {
                 continue;
             }
@@ -65,10 +64,10 @@ impl Joined {
         let all = self.members;
         let scope = |own: &OfMembers| match own.warning.evaluation {
             Evaluation::File => Scope::Alike,
-            Evaluation::Unperturbed | Evaluation::RunOut => Scope::Unperturbed,
+            Evaluation::Unperturbed => Scope::Unperturbed,
             // what follows from the machine alone
-            Evaluation::Each if alike && own.alike && own.count == all => Scope::Alike,
-            Evaluation::Each => Scope::Each {
+            _ if alike && own.alike && own.count == all => Scope::Alike,
+            _ => Scope::Each {
                 count: own.count,
                 all,
                 member: own.member,

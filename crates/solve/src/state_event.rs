@@ -2,7 +2,7 @@
 //!
 //! A guard is positive while its mode holds. The step at whose end it is not positive is taken again by its lane alone, to the
 //! instant at which dense output brings it to zero; where that must be better, by the secant on steps that end there. So no
-//! observer, sample or largest value sees a state that was not.
+//! observer, sample or largest value sees a state that was not, but for an event at the very start of a step, which is taken at its end.
 
 use crate::step::Step;
 use crate::system::Machine;

@@ -42,9 +42,9 @@ pub type ModeOf<R, B> = <<B as Batch<R>>::Machine as Machine>::Mode;
 pub enum Pause {
     /// The time that was asked for is reached.
     Until,
-    /// The landing of that index is taken.
+    /// The landing of that index is taken, the last of those at one instant.
     Landing(usize),
-    /// A state event has happened.
+    /// A state event has happened, and no landing at its instant.
     Event,
     /// The run is over.
     Ended(Stop),
@@ -140,12 +140,16 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             .take_if(|pause| !matches!(pause, Pause::Ended(_)));
     }
     /// Changes the mode, inputs among it, or the state of a lane at a pause: it goes on from there as after a landing.
+    ///
+    /// # Panics
+    /// When the next landing of the new mode lies before the time that is reached.
     pub fn change(&mut self, lane: usize, change: impl FnOnce(&mut ModeOf<R, B>, &mut [f64])) {
         let own = &mut self.lanes[lane];
         self.scratch.take(&self.work, lane);
         change(&mut own.mode, &mut self.scratch.state);
         let state = &self.scratch.state;
         put(&mut self.work.state, lane, |channel| state[channel]);
+        assert!(own.due() >= own.time, "no landing lies behind");
         own.jumped(&mut self.work, lane);
         self.fresh |= 1 << lane;
     }
@@ -184,10 +188,11 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     }
 
     /// What stands on a lane at a pause, to go on later or elsewhere.
-    pub fn save(&self, lane: usize) -> Saved<'m, B::Machine>
+    pub fn save(&mut self, lane: usize) -> Saved<'m, B::Machine>
     where
         B::Machine: Clone,
     {
+        self.renew_fresh();
         let w = &self.work;
         Saved {
             lane: self.lanes[lane].clone(),
@@ -369,7 +374,8 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     fn switch<O: Observer<B::Machine>>(&mut self, observers: &mut [O]) {
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             let crossed = std::mem::take(&mut lane.crossed);
-            if !crossed && lane.due() > lane.time {
+            let stood = lane.told && lane.pause.is_some();
+            if stood || !crossed && lane.due() > lane.time {
                 continue;
             }
             self.scratch.take(&self.work, index);

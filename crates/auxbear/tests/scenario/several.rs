@@ -428,3 +428,48 @@ fn what_cannot_be_varied_is_refused() {
         "{text}"
     );
 }
+
+#[test]
+fn a_warning_that_only_other_members_have_breaks_its_limit() {
+    let text = r#"format = "auxbear.scenario/1"
+system = "drop"
+[rotor]
+mass = "8 kg"
+polar_inertia = "0.01 kg m^2"
+unbalance_eccentricity = "5 um"
+speed = "12000 rpm"
+first_bending_frequency = "8000 rad/s"
+[levitation]
+stiffness = "1e6 N/m"
+damping = "1e3 N s/m"
+[contact]
+radial_air_clearance = "150 um"
+bore_diameter = "25 mm"
+width = "12 mm"
+friction_coefficient = 0.15
+[mount]
+stiffness = "2e7 N/m"
+damping = "5000 N s/m"
+moving_mass = "150 g"
+[bearing]
+name = "6005"
+operating_diametral_clearance = "2 um"
+[run]
+duration = "8 ms"
+accuracy = "screening"
+[repeat]
+count = 4
+unbalance_angle = "as given"
+[vary]
+"contact.radial_air_clearance" = { uniform = ["5 um", "11 um"] }
+[[limit]]
+warning = "AB2336"
+"#;
+    let run = outcome(text, &[]);
+    let drawn = |k: usize| &run.drawn[k][0].1;
+    assert!(run.drawn[0].is_empty(), "the first is as given");
+    let warned = run.warnings.iter().find(|own| own.code == "AB2336");
+    let told = warned.expect("narrow members have it").to_string();
+    assert!(told.contains(" of 4 members; "), "{told} {}", drawn(2));
+    assert_eq!(run.limits[0].verdict, auxbear::outcome::Verdict::Fail);
+}

@@ -433,6 +433,7 @@ fn rivals(
 /// Reports where the ridge stays at an order of the shaft.
 fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
     let slips = || found.slip.iter().copied().filter(|v| v.is_finite());
+    slips().next()?;
     let slip = median(slips());
     let deviations = found.slip_deviation.iter().copied();
     let deviation = median(deviations.filter(|v| v.is_finite()));

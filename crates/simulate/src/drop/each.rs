@@ -62,6 +62,10 @@ impl<'a> One<'a> {
             members: 1,
         }
     }
+    /// Whether it is the one member of its repetition that is kept whole, or no repetition.
+    pub(crate) fn speaks(&self) -> bool {
+        self.members == 1 || self.member.keep_rows
+    }
     /// Whether lanes may hold both: the same words, counts and switches of their files, the same laws, states and settings.
     fn shares_lanes(&self, other: &One) -> bool {
         self.kind == other.kind

@@ -74,7 +74,7 @@ pub(crate) fn outcome(one: &One, context: &Context, after: Option<&After>) -> Ou
         title: (one.scenario.title.clone())
             .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
         quantities,
-        warnings: warnings::of(one.scenario, context, after),
+        warnings: warnings::of(one.scenario, context, after.filter(|_| one.speaks())),
         stop,
         work: Work {
             steps: work.accepted + after.map_or(0, |after| after.steps),

@@ -30,7 +30,7 @@ type Drawn = Vec<(String, String)>;
 /// The file and the machine of a member whose machine differs from the one given.
 pub type Other = (Scenario, Arc<Built>);
 
-/// Members that are read and built before a run, so that what is wrong with one is known in time; more of them are read as they come.
+/// Members that are built before a run; more of them are built as they come.
 const BEFORE: usize = 512;
 
 /// Members 1, 2, … whose machines differ, the first 512 of them.
@@ -41,10 +41,24 @@ pub fn others(scenario: &Scenario, built: &Built) -> Result<Vec<Arc<Other>>, Box
     if scenario.vary.is_empty() {
         return Ok(Vec::new());
     }
-    let members = 1..count(&built.drop).min(BEFORE);
-    let read = |k| member(scenario, &draw(scenario, &built.drop, k), k);
-    let read: Vec<_> = members.into_par_iter().map(read).collect();
-    read.into_iter().collect()
+    let drop = &built.drop;
+    let read = |k| member(scenario, &draw(scenario, drop, k), k);
+    let first: Vec<_> = (1..count(drop).min(BEFORE))
+        .into_par_iter()
+        .map(read)
+        .collect();
+    let first = first.into_iter().collect::<Result<_, _>>()?;
+    // what they draw is refused in time
+    let refused = |k| {
+        let drawn = draw(scenario, drop, k);
+        let problem = scenario.with(&drawn).err()?;
+        Some(member_problem(k, &drawn, *problem))
+    };
+    let later = (BEFORE..count(drop).max(BEFORE)).into_par_iter();
+    match later.filter_map(refused).find_first(|_| true) {
+        Some(problem) => Err(problem),
+        None => Ok(first),
+    }
 }
 
 fn count(drop: &Drop) -> usize {
@@ -120,18 +134,9 @@ fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition 
             None => member(scenario, drawn, k).map(Some),
         };
         let read: Vec<_> = part.clone().into_par_iter().zip(&drawn).map(read).collect();
-        let mut others = Vec::with_capacity(read.len());
-        for (k, other) in part.clone().zip(read) {
-            match other {
-                Ok(other) => others.push(other),
-                Err(problem) => {
-                    all.broken.get_or_insert((k, not_built(&problem)));
-                    break;
-                }
-            }
-        }
-        let ones: Vec<One> = (part.clone().zip(&others))
-            .map(|(k, other)| perturbed(&given, k, other.as_deref()))
+        let whole = part.clone().zip(&read);
+        let ones: Vec<One> = whole
+            .filter_map(|(k, other)| Some(perturbed(&given, k, other.as_ref().ok()?.as_deref())))
             .collect();
         let progress = |fraction: f64| {
             let done = begin as f64 + fraction * ones.len() as f64;
@@ -141,10 +146,17 @@ fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition 
             progress: &progress,
             ..*options
         };
-        for (made, drawn) in each::run(&ones, &plan).into_iter().zip(drawn) {
-            all.add(made, drawn);
+        let mut made = each::run(&ones, &plan).into_iter();
+        for ((k, other), drawn) in part.zip(&read).zip(drawn) {
+            let stop = match other {
+                Ok(_) => made.next().and_then(|made| all.add(k, made, drawn)),
+                Err(problem) => Some(not_built(problem)),
+            };
+            if let Some(stop) = stop {
+                all.broken.get_or_insert((k, stop));
+            }
         }
-        if others.len() < part.len() || options.interrupt.load(Ordering::Relaxed) {
+        if options.interrupt.load(Ordering::Relaxed) {
             break;
         }
     }
@@ -187,17 +199,20 @@ struct Repetition {
     /// The first that did not, and how.
     broken: Option<(usize, Stop)>,
     work: Work,
+    /// Members that ran.
+    ran: usize,
 }
 
 impl Repetition {
-    fn add(&mut self, mut made: Outcome, drawn: Drawn) {
-        let k = self.work.members;
-        self.work.members += 1;
+    /// Adds a member; how it ended where that was not as planned.
+    fn add(&mut self, k: usize, mut made: Outcome, drawn: Drawn) -> Option<Stop> {
+        self.ran += 1;
         self.work.steps += made.work.steps;
         self.work.rejected += made.work.rejected;
         self.work.rate_calls += made.work.rate_calls;
-        self.warnings.add(std::mem::take(&mut made.warnings));
-        if made.stop.complete() {
+        self.warnings.add(k, std::mem::take(&mut made.warnings));
+        let stop = made.stop.clone();
+        if stop.complete() {
             for result in &made.quantities {
                 if let (Value::List(values), true) = (&result.value, is_life(result)) {
                     let (sum, count) = self.lives.entry(result.name.clone()).or_default();
@@ -210,10 +225,9 @@ impl Repetition {
             }
             self.drawn.push(drawn);
             self.table.push(&made.quantities);
-        } else {
-            self.broken.get_or_insert_with(|| (k, made.stop.clone()));
         }
         self.first.get_or_insert(made);
+        (!stop.complete()).then_some(stop)
     }
 
     fn outcome(mut self, scenario: &Scenario, drop: &Drop) -> Option<Outcome> {
@@ -232,8 +246,8 @@ impl Repetition {
                 // what a ledger misses is an error of the integration, and has no size of its own
                 && !quantity.name.ends_with("residual");
         }
-        if self.work.members < count {
-            let next = self.work.members;
+        if self.ran < count {
+            let next = self.ran;
             self.broken
                 .get_or_insert_with(|| (next, ending::interrupted(0.0)));
         }
@@ -242,8 +256,8 @@ impl Repetition {
             let whole = self.table.len();
             first.stop = Stop {
                 text: format!(
-                    "Member {k} of the repetition: {} {whole} of {count} members are whole; only these enter the spread.",
-                    stop.text
+                    "Member {k} of the repetition: {}. {whole} of {count} members are whole; only these enter the spread.",
+                    stop.text.trim_end_matches('.')
                 ),
                 ..stop
             };
@@ -251,6 +265,7 @@ impl Repetition {
         self.table.end = drop.run.duration;
         Some(Outcome {
             work: Work {
+                members: count,
                 method: first.work.method,
                 ..self.work
             },

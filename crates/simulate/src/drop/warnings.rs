@@ -13,6 +13,7 @@ use crate::drop::{magnets, method, mount_results, shaft_results, surfaces};
 use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use outcome::Warning;
+use problem::warning::Evaluation;
 use scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
@@ -37,7 +38,7 @@ fn graded(list: impl IntoIterator<Item = Graded>) -> Vec<Warning> {
     list.into_iter().map(told).collect()
 }
 
-/// All warnings of a drop, the most severe first.
+/// All warnings of a drop, the most severe first, with those of the run-out `after` it, which one member says for all.
 pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) -> Vec<Warning> {
     let drop = context.setup.drop();
     let names: Vec<&str> = context.setup.parts().collect();
@@ -65,7 +66,11 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     // the run-out says it of all, from where the drop left the data on, and of a bearing that closes on
     let (drawn_on, closes) = (says(DRAWN_ON), says(CLOSES) || says(RUNS_AWAY));
     list.retain(|own| !(drawn_on && own.is(DRAWN_ON) || closes && own.is(CLOSES)));
-    list.extend(after.iter().flat_map(|after| after.warnings.clone()));
+    list.extend(after.iter().flat_map(|after| &after.warnings).map(|own| {
+        let mut own = own.clone();
+        own.evaluation = Evaluation::Unperturbed;
+        own
+    }));
     list.extend(each(&|k| graded(beyond_speeds(context, k))));
     list.extend(graded(bending(context)));
     list.extend(graded(shaft_results::resonance(context)));

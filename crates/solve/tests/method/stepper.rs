@@ -293,6 +293,10 @@ impl Task for Stops<'_> {
                 assert_eq!(stepper.time(lane), until, "landed to the bit");
             }
             if self.moved {
+                // inputs that change just before are part of it
+                for lane in 0..count {
+                    stepper.change(lane, |mode, _| mode.push = 0.05 * f64::from((stop + 1) % 4));
+                }
                 let saved: Vec<_> = (0..count).map(|lane| stepper.save(lane)).collect();
                 stepper = new();
                 for (lane, saved) in saved.iter().enumerate() {

@@ -172,7 +172,7 @@ impl Program {
             last = *time;
             let sound = match action {
                 Action::MotorTo { speed, rate } => speed.is_finite() && *rate > 0.0,
-                Action::Engage(by) => by.rate > 0.0 && by.largest >= 0.0 && by.largest.is_finite(),
+                Action::Engage(by) => by.rate > 0.0 && by.largest > 0.0 && by.largest.is_finite(),
                 Action::MotorOff | Action::Disengage => true,
             };
             if !sound {
