@@ -39,10 +39,10 @@ pub struct Machine<'a> {
 /// The machine of each system.
 enum Built<'a> {
     Drop(Arc<drop::build::Built>, Vec<Arc<drop::repetition::Other>>),
-    SpinUp(&'a SpinUp, Box<spin_up::build::Built>),
+    SpinUp(&'a SpinUp, Box<rig::run::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Arc<signals::Asked>),
-    Rig(&'a Rig, Box<rig::build::Built>),
+    Rig(&'a Rig, Box<rig::run::Built>),
     Identify(Box<identify::Asked<'a>>),
     Rotor(Arc<rotor::Asked>),
     CoastDown(&'a CoastDown, Box<coast_down::build::Built>),

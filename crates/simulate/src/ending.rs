@@ -13,11 +13,6 @@ const STEP_LIMIT: u64 = 20_000_000;
 /// spread, and its energy ledger closes to a millionth, by explicit and by linearly implicit steps.
 pub(crate) const DESIGN: f64 = 1e-4;
 
-/// Settings of the integration of a system for design accuracy.
-pub(crate) fn settings(run: &Run) -> Settings {
-    settings_at(run, DESIGN)
-}
-
 /// Settings of the integration with a tolerance, where none is given.
 pub(crate) fn settings_at(run: &Run, tolerance: f64) -> Settings {
     Settings {

@@ -83,7 +83,7 @@ impl<'m, M: Machine> Lane<'m, M> {
     }
     /// After a jump of the mode or the state.
     pub fn jumped<R: Real>(&mut self, work: &mut Workspace<R>, lane: usize) {
-        if M::STARTS_AFRESH {
+        if self.machine().starts_afresh() {
             self.length = self.settings.first_step;
             self.after_rejection = false;
             work.last_logarithm = with_lane(work.last_logarithm, lane, 0.0);

@@ -10,9 +10,11 @@ use number::Real;
 pub trait Machine: Sync {
     /// Discrete facts.
     type Mode: Copy + Send;
-    /// Whether the step after a jump is as long as the first of all; else the steps go on.
-    const STARTS_AFRESH: bool = false;
 
+    /// Whether the step after a jump is as long as the first of all; else the steps go on.
+    fn starts_afresh(&self) -> bool {
+        false
+    }
     /// Number of channels.
     fn dimension(&self) -> usize;
     /// Number of last channels that the rate does not depend on: sums kept along the way, such as heats.

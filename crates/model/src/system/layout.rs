@@ -7,9 +7,9 @@
 //! A layout is built once for each machine. Systems keep where their blocks start in a struct of indices beside it. Heats, sources
 //! and names carry the name of their part; a part without a name, as the only bearing of a machine, has no prefix.
 
-use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
+use crate::bearing::BearingConstants;
 use crate::body::BodyAt;
-use std::ops::{Deref, Range};
+use std::ops::Range;
 
 /// One kind of heat, source, impulse or work of one part.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,72 +165,4 @@ fn add(
         kind,
     }));
     first
-}
-
-/// The layout of a test of one bearing: the bodies stand first, then the bearing; with works by the moments on its races.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TestLayout {
-    channels: Layout,
-    own: Range<usize>,
-    /// Number of balls.
-    pub balls: usize,
-    /// First probe of the detail of the balls.
-    detail: usize,
-}
-
-/// What a test has besides its bearing.
-#[derive(Clone, Copy, Debug)]
-pub struct TestParts<'a> {
-    /// Names of the channels of its bodies.
-    pub bodies: &'a [&'static str],
-    /// Its kinds of heat, after those of the bearing.
-    pub heats: &'a [&'static str],
-    /// Its kinds of source.
-    pub sources: &'a [&'static str],
-    /// Its external angular impulses, that of the system first.
-    pub impulses: &'a [&'static str],
-    /// Its works by the moments on the races.
-    pub works: &'a [&'static str],
-    /// Number of probes before the detail of the balls.
-    pub probes: usize,
-}
-
-impl Deref for TestLayout {
-    type Target = Layout;
-    fn deref(&self) -> &Layout {
-        &self.channels
-    }
-}
-
-impl TestLayout {
-    /// The layout of a test of a bearing.
-    pub fn of(bearing: &BearingConstants, parts: TestParts<'_>) -> Self {
-        let mut channels = Layout::default();
-        channels.block("", parts.bodies.iter().map(|name| (*name).to_string()));
-        let own = channels.bearing("", bearing);
-        let heats = bearing::HEATS.iter().chain(parts.heats).copied();
-        channels.heats_of("", heats);
-        channels.sources_of("", parts.sources.iter().copied());
-        channels.impulses_of("", parts.impulses.iter().copied());
-        channels.works_of("", parts.works.iter().copied());
-        TestLayout {
-            channels,
-            own,
-            balls: bearing.balls(),
-            detail: parts.probes,
-        }
-    }
-    /// Channels of the bearing.
-    #[inline(always)]
-    pub fn bearing(&self) -> Range<usize> {
-        self.own.clone()
-    }
-    /// Number of probes.
-    pub fn probes(&self) -> usize {
-        self.detail + DETAIL_PER_BALL * self.balls
-    }
-    /// Number of probes down to the loads of the balls.
-    pub fn probes_with_loads(&self) -> usize {
-        self.detail + 2 * self.balls
-    }
 }

@@ -7,7 +7,5 @@ pub mod layout;
 pub mod machine;
 pub mod outer_race;
 pub mod race_record;
-pub mod refusal;
 pub mod rig;
 pub mod sampling;
-pub mod spin_up;

@@ -4,13 +4,13 @@ use crate::machines::{planar_bearing, settings, vec2};
 use model::bearing::{
     BearingConstants, PlanarConstants, RollingConstants, SharedMoment, SteadyMoment,
 };
-use model::system::rig::record::Keep;
 use model::system::rig::{
-    Arm, Disturbance, Drag, Flywheel, HeatNode, Housing, Motor, Program, Record, RigConstants,
-    RigMachine, Shaft, Tap, simulate,
+    Arm, ClutchDrive, Disturbance, Drag, Drive, Flywheel, HeatNode, Housing, InnerRace, Keep,
+    Motor, Program, Record, RigConstants, RigMachine, Tap, simulate,
 };
+use model::table::Table;
 use physics::palmgren::Palmgren;
-use solve::{Ending, Stop};
+use solve::{Ending, Steps, Stop};
 use std::sync::atomic::AtomicBool;
 
 /// Speed of the paper's tests, rad/s.
@@ -67,7 +67,7 @@ pub fn fidelities() -> [BearingConstants; 2] {
 
 /// The rig, its housing under dead weight.
 pub fn rig(bearing: BearingConstants, program: Program) -> RigConstants {
-    RigConstants {
+    let clutch = ClutchDrive {
         flywheel: Flywheel {
             inertia: 0.05,
             belt_drag: Drag {
@@ -80,22 +80,17 @@ pub fn rig(bearing: BearingConstants, program: Program) -> RigConstants {
             gain: 0.5,
             torque_limit: 3.0,
         },
-        shaft: Shaft {
-            inertia: 1e-4,
-            support_drag: Drag {
-                constant: 5e-3,
-                viscous: 2e-5,
-                reference_speed: 0.5,
-            },
+        support_drag: Drag {
+            constant: 5e-3,
+            viscous: 2e-5,
+            reference_speed: 0.5,
         },
-        housing: Housing {
-            mass: 2.0,
-            load: LOAD,
-            load_direction: vec2(0.0, -1.0),
-            gravity: vec2(0.0, -9.81),
-            centre_held: false,
-        },
-        bearing,
+        program,
+    };
+    let housing = Housing {
+        mass: 2.0,
+        gravity: vec2(0.0, -9.81),
+        centre_held: false,
         // 20.7 Hz: 2 % in 0.1 s
         arm: Arm {
             natural_frequency: 130.0,
@@ -112,9 +107,34 @@ pub fn rig(bearing: BearingConstants, program: Program) -> RigConstants {
             conductance: 0.3,
             thermocouple_lag: 2.0,
         },
-        program,
+    };
+    RigConstants {
+        race: InnerRace {
+            mass: 0.0,
+            inertia: 1e-4,
+            centre_held: true,
+            load_direction: vec2(0.0, -1.0),
+            gravity: vec2(0.0, 0.0),
+        },
+        bearing,
+        drive: Drive::Clutch(Box::new(clutch)),
+        load: Table::constant(LOAD),
+        housing: Some(housing),
         target_speed: SPEED,
     }
+}
+
+/// Flywheel, clutch and what is done.
+pub fn clutch(constants: &mut RigConstants) -> &mut ClutchDrive {
+    match &mut constants.drive {
+        Drive::Clutch(clutch) => clutch,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The housing.
+pub fn housing(constants: &mut RigConstants) -> &mut Housing {
+    constants.housing.as_mut().expect("it has one")
 }
 
 /// The same, concentric: balls without weight, the housing held.
@@ -123,14 +143,14 @@ pub fn concentric(mut bearing: BearingConstants, program: Program) -> RigConstan
         planar.ball.gravity = vec2(0.0, 0.0);
     }
     let mut constants = rig(bearing, program);
-    constants.housing.centre_held = true;
+    housing(&mut constants).centre_held = true;
     constants
 }
 
 /// Without anything that drags on flywheel and shaft from the frame.
 pub fn without_drag(mut constants: RigConstants) -> RigConstants {
-    constants.flywheel.belt_drag = Drag::NONE;
-    constants.shaft.support_drag = Drag::NONE;
+    clutch(&mut constants).flywheel.belt_drag = Drag::NONE;
+    clutch(&mut constants).support_drag = Drag::NONE;
     constants
 }
 
@@ -157,7 +177,8 @@ pub fn run_with(constants: RigConstants, end: f64, tolerance: f64, taps: &[Tap])
     };
     let mut record = Record::new(&machine, &keep);
     let never = AtomicBool::new(false);
-    let ending = simulate(&machine, &settings(end, tolerance), &mut record, &never);
+    let settings = settings(end, tolerance);
+    let ending = simulate(&machine, &settings, Steps::Explicit, &mut record, &never);
     record.finish(&machine, ending.time, &ending.state);
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));

@@ -1,9 +1,9 @@
 //! The clutch: its heat, when it locks, when it gives way.
 
-use super::bench::{SPEED, concentric, fidelities, frictionless, rolls, run, without_drag};
+use super::bench::{SPEED, clutch, concentric, fidelities, frictionless, rolls, run, without_drag};
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
-    ACCELERATION, CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_SLIP, CLUTCH_TORQUE, FLYWHEEL, SHAFT,
+    ACCELERATION, CLUTCH_CAPACITY, CLUTCH_SLIP, DRIVE_HEAT, DRIVE_MOMENT, FLYWHEEL, SHAFT,
 };
 use model::system::rig::{Action, Clutch, Engagement, Program, Start};
 
@@ -16,13 +16,13 @@ fn the_heat_of_a_slip_is_that_of_an_inelastic_impact() {
             BearingConstants::Rolling(frictionless()),
             program,
         ));
-        c.flywheel.inertia = 3e-4;
-        let shaft = c.shaft.inertia + frictionless().set.inner_inertia();
-        let flywheel = c.flywheel.inertia;
+        clutch(&mut c).flywheel.inertia = 3e-4;
+        let shaft = c.race.inertia + frictionless().set.inner_inertia();
+        let flywheel = clutch(&mut c).flywheel.inertia;
         let run = run(c, 0.3, 1e-7);
         // ½ I_s I_f/(I_s + I_f) Δω²
         let expected = 0.5 * shaft * flywheel / (shaft + flywheel) * SPEED * SPEED;
-        let heat = run.heat(CLUTCH_HEAT);
+        let heat = run.heat(DRIVE_HEAT);
         // a cubic in time integrated by a method of order three
         assert!((heat / expected - 1.0).abs() < 1e-9, "{heat} {expected}");
         let speed = flywheel * SPEED / (shaft + flywheel);
@@ -63,7 +63,7 @@ fn it_locks_once_and_stays_locked() {
         let locked = run.record.locked_at().expect("locks");
         for row in run.record.rows().filter(|row| row.time > locked) {
             assert_eq!(row.probe[CLUTCH_SLIP], 0.0);
-            assert!(row.probe[CLUTCH_TORQUE].abs() < row.probe[CLUTCH_CAPACITY]);
+            assert!(row.probe[DRIVE_MOMENT].abs() < row.probe[CLUTCH_CAPACITY]);
         }
         // the peak is that of the last instant of slipping
         let peak = run.record.acceleration;
@@ -97,8 +97,8 @@ fn it_gives_way_when_overloaded_and_locks_again() {
         BearingConstants::Rolling(frictionless()),
         program,
     ));
-    c.shaft.inertia = 1e-3;
-    let inertia = c.shaft.inertia + frictionless().set.inner_inertia();
+    c.race.inertia = 1e-3;
+    let inertia = c.race.inertia + frictionless().set.inner_inertia();
     let run = run(c, 10.0, 1e-7);
     let kinds: Vec<Clutch> = run.record.clutch.iter().map(|event| event.clutch).collect();
     assert_eq!(
@@ -138,7 +138,7 @@ fn a_clutch_too_weak_for_the_drags_never_moves_the_shaft_far() {
     assert_eq!(run.record.locked_at(), None);
     // 2 N mm against 5 N mm of support drag that fades at rest: it creeps
     assert!(run.end()[SHAFT.spin()] < 0.5, "{}", run.end()[SHAFT.spin()]);
-    assert!(run.heat(CLUTCH_HEAT) > 0.1);
+    assert!(run.heat(DRIVE_HEAT) > 0.1);
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn a_faster_shaft_drives_the_flywheel() {
             run.end()[SHAFT.spin()] < 0.0,
             "the flywheel is the heavier one"
         );
-        assert!(run.heat(CLUTCH_HEAT) > 0.0);
+        assert!(run.heat(DRIVE_HEAT) > 0.0);
         assert!(run.energy_residual().abs() < 1e-6);
     }
 }
@@ -199,7 +199,7 @@ fn balls_that_hit_their_pockets_do_not_keep_an_overloaded_clutch_from_a_decision
         assert!(pair[1].time >= pair[0].time && pair[1].clutch != pair[0].clutch);
     }
     assert!(run.energy_residual().abs() < 1e-6);
-    assert!(run.heat(CLUTCH_HEAT) >= 0.0);
+    assert!(run.heat(DRIVE_HEAT) >= 0.0);
     for residual in run.momentum_residuals() {
         assert!(residual.abs() < 1e-8, "{residual}");
     }

@@ -1,16 +1,17 @@
 //! What is refused, and what cannot be found.
 
-use super::bench::{SPEED, concentric, rolls};
+use super::bench::{SPEED, clutch, concentric, housing, rolls};
 use model::bearing::BearingConstants;
 use model::system::rig::{
-    Action, Engagement, Program, RampError, RigMachine, RigRefusal, Start, engagement_ramp,
+    Action, Engagement, Program, RampError, Refusal, RigMachine, Start, engagement_ramp,
 };
+use model::table::Table;
 
 fn spin_up(largest: f64) -> Program {
     Program::spin_up(SPEED, 0.0, Engagement { rate: 1.0, largest }, true)
 }
 
-fn refusal(change: impl Fn(&mut model::system::rig::RigConstants)) -> Option<RigRefusal> {
+fn refusal(change: impl Fn(&mut model::system::rig::RigConstants)) -> Option<Refusal> {
     let mut c = concentric(BearingConstants::Rolling(rolls()), spin_up(5.0));
     change(&mut c);
     RigMachine::new(c).err()
@@ -20,30 +21,33 @@ fn refusal(change: impl Fn(&mut model::system::rig::RigConstants)) -> Option<Rig
 fn constants_without_meaning_are_refused() {
     assert_eq!(refusal(|_| {}), None);
     for refused in [
-        refusal(|c| c.shaft.inertia = 0.0),
-        refusal(|c| c.flywheel.inertia = f64::NAN),
+        refusal(|c| c.race.inertia = 0.0),
+        refusal(|c| clutch(c).flywheel.inertia = f64::NAN),
         refusal(|c| c.target_speed = 0.0),
-        refusal(|c| c.heat.capacity = -1.0),
+        refusal(|c| housing(c).heat.capacity = -1.0),
         refusal(|c| {
-            c.housing.centre_held = false;
-            c.housing.mass = 0.0;
+            housing(c).centre_held = false;
+            housing(c).mass = 0.0;
         }),
     ] {
         assert!(
-            matches!(refused, Some(RigRefusal::NotPositive(_))),
+            matches!(refused, Some(Refusal::NotPositive(_))),
             "{refused:?}"
         );
     }
-    let negative = refusal(|c| c.housing.load = -1.0);
-    assert!(matches!(negative, Some(RigRefusal::Negative(_))));
-    let direction = refusal(|c| c.housing.load_direction.x = 1.0);
-    assert_eq!(direction, Some(RigRefusal::Direction));
+    let negative = refusal(|c| c.load = Table::constant(-1.0));
+    assert_eq!(negative, Some(Refusal::NegativeLoad));
+    let varies = Table::through(vec![(0.0, 1.0), (1.0, 2.0)]).expect("rises");
+    let changes = refusal(|c| c.load = varies.clone());
+    assert_eq!(changes, Some(Refusal::LoadChanges));
+    let direction = refusal(|c| c.race.load_direction.x = 1.0);
+    assert_eq!(direction, Some(Refusal::Direction));
     let order = refusal(|c| {
-        c.program.actions = vec![(1.0, Action::MotorOff), (0.5, Action::Disengage)];
+        clutch(c).program.actions = vec![(1.0, Action::MotorOff), (0.5, Action::Disengage)];
     });
-    assert_eq!(order, Some(RigRefusal::Order(1)));
+    assert_eq!(order, Some(Refusal::Order(1)));
     let action = refusal(|c| {
-        c.program.actions = vec![(
+        clutch(c).program.actions = vec![(
             0.0,
             Action::Engage(Engagement {
                 rate: -1.0,
@@ -51,7 +55,7 @@ fn constants_without_meaning_are_refused() {
             }),
         )];
     });
-    assert_eq!(action, Some(RigRefusal::Action(0)));
+    assert_eq!(action, Some(Refusal::Action(0)));
 }
 
 #[test]

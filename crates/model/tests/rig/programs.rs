@@ -1,7 +1,7 @@
 //! Programs: coast-down, spin-up, ramp and hold, repeat after rest; the engagement that gives an acceleration.
 
 use super::bench::{
-    SPEED, balls, concentric, fidelities, frictionless, rig, rolls, run, without_drag,
+    SPEED, balls, clutch, concentric, fidelities, frictionless, rig, rolls, run, without_drag,
 };
 use model::bearing::{BearingConstants, SteadyMoment};
 use model::system::rig::layout::{ACCELERATION, CAGE_SLIP, FLYWHEEL, SHAFT};
@@ -23,7 +23,7 @@ fn the_three_tests_of_the_paper_have_their_accelerations() {
         assert!((peak / wanted - 1.0).abs() < 1e-3, "{peak} {wanted}");
         // Ω rises with the square of the time, from when the capacity exceeds the drags
         let lock = run.record.locked_at().expect("locks");
-        let half = run.record.shaft_time_to_50_percent().expect("half");
+        let half = run.record.time_to_50_percent().expect("half");
         let took = (lock - half) / (1.0 - 0.5_f64.sqrt());
         // drags that grow with speed; the flywheel yields 0.2 % where the motor does not hold it
         assert!((took / time - 1.0).abs() < 0.03, "{took} {time}");
@@ -51,12 +51,12 @@ fn a_shaft_coasts_down_in_the_time_of_a_constant_drag() {
         Program::coast_down(SPEED, None),
     ));
     let (torque, reference) = (2e-3, 1e-3);
-    c.shaft.support_drag = Drag {
+    clutch(&mut c).support_drag = Drag {
         constant: torque,
         viscous: 0.0,
         reference_speed: reference,
     };
-    let inertia = c.shaft.inertia + frictionless().set.inner_inertia();
+    let inertia = c.race.inertia + frictionless().set.inner_inertia();
     let run = run(c, 9.0, 1e-6);
     let stop = SPEED * inertia / torque;
     assert!(stop > 7.0 && stop < 8.9, "{stop}");
@@ -82,9 +82,9 @@ fn a_viscous_drag_slows_by_an_exponential_with_the_flywheel_locked_to_the_shaft(
         BearingConstants::Rolling(frictionless()),
         Program::coast_down(SPEED, Some(1.0)),
     ));
-    c.flywheel.inertia = 1e-3;
-    c.flywheel.belt_drag.viscous = 1e-3;
-    let inertia = 1e-3 + c.shaft.inertia + frictionless().set.inner_inertia();
+    clutch(&mut c).flywheel.inertia = 1e-3;
+    clutch(&mut c).flywheel.belt_drag.viscous = 1e-3;
+    let inertia = 1e-3 + c.race.inertia + frictionless().set.inner_inertia();
     let run = run(c, 2.0, 1e-8);
     let expected = SPEED * (-2.0 * 1e-3 / inertia).exp();
     assert!((run.end()[SHAFT.spin()] / expected - 1.0).abs() < 1e-6);
@@ -134,8 +134,8 @@ fn a_ramp_is_held() {
     for bearing in fidelities() {
         let c = concentric(bearing, Program::ramp_and_hold(SPEED, 1500.0, 5.0));
         let mut c = c;
-        c.motor.torque_limit = 100.0;
-        c.motor.gain = 50.0;
+        clutch(&mut c).motor.torque_limit = 100.0;
+        clutch(&mut c).motor.gain = 50.0;
         let run = run(c, 0.15, 1e-5);
         assert_eq!(run.record.clutch.len(), 1, "{:?}", run.record.clutch);
         let at = |time: f64| {

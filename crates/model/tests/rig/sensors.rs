@@ -1,6 +1,6 @@
 //! The arm, the thermocouple, the converter.
 
-use super::bench::{SPEED, concentric, fidelities, rig, rolls, run, run_with};
+use super::bench::{SPEED, clutch, concentric, fidelities, housing, rig, rolls, run, run_with};
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, OUTER_MOMENT, SHAFT, TEMPERATURE, THERMOCOUPLE};
 use model::system::rig::taps::multiplexed;
@@ -12,7 +12,7 @@ fn the_arm_reads_the_moment_of_the_outer_race_once_it_has_settled() {
         BearingConstants::Rolling(rolls()),
         Program::ramp_and_hold(SPEED, 50.0, 5.0),
     );
-    c.arm.disturbance = Disturbance::NONE;
+    housing(&mut c).arm.disturbance = Disturbance::NONE;
     let run = run(c, 4.0, 1e-6);
     let last = run.record.rows().next_back().expect("rows");
     let (reading, moment) = (last.state[ARM], last.probe[OUTER_MOMENT]);
@@ -28,9 +28,10 @@ fn the_arm_settles_to_two_percent_in_a_tenth_of_a_second() {
         BearingConstants::Rolling(rolls()),
         Program::coast_down(SPEED, Some(5.0)),
     );
-    c.flywheel.inertia = 1e3;
-    c.arm.disturbance = Disturbance::NONE;
-    let (frequency, ratio) = (c.arm.natural_frequency, c.arm.damping_ratio);
+    clutch(&mut c).flywheel.inertia = 1e3;
+    housing(&mut c).arm.disturbance = Disturbance::NONE;
+    let arm = housing(&mut c).arm;
+    let (frequency, ratio) = (arm.natural_frequency, arm.damping_ratio);
     let run = run(c, 0.2, 1e-7);
     let damped = frequency * (1.0 - ratio * ratio).sqrt();
     let decay = ratio * frequency;
@@ -60,8 +61,8 @@ fn the_disturbance_turns_with_the_shaft_and_grows_with_its_square() {
             BearingConstants::Rolling(rolls()),
             Program::coast_down(speed, Some(5.0)),
         );
-        c.flywheel.inertia = 1e3;
-        let arm = c.arm;
+        clutch(&mut c).flywheel.inertia = 1e3;
+        let arm = housing(&mut c).arm;
         let run = run(c, 1.0, 1e-6);
         // e^-31 after 0.8 s: what is left is forced
         let swing = (run.record.rows())
@@ -108,7 +109,7 @@ fn a_run_out_is_there_at_rest_and_an_unbalance_is_not() {
         BearingConstants::Rolling(rolls()),
         Program::ramp_and_hold(SPEED, 50.0, 5.0),
     );
-    c.arm.disturbance = disturbance;
+    housing(&mut c).arm.disturbance = disturbance;
     let run = run(c, 0.1, 1e-6);
     let first = run.record.rows().next().expect("rows");
     // settled before the start
@@ -122,18 +123,18 @@ fn the_thermocouple_follows_the_bearing() {
         Program::coast_down(SPEED, Some(5.0)),
     );
     let mut c = c;
-    c.flywheel.inertia = 1e4;
+    clutch(&mut c).flywheel.inertia = 1e4;
     let run = run(c.clone(), 20.0, 1e-6);
     let first = run.record.rows().next().expect("rows");
     let power = first.probe[model::system::rig::layout::BEARING_HEAT];
     // P/G (1 - e^(-t G/C)), and behind it by the lag
     let (fast, slow) = (
-        1.0 / c.heat.thermocouple_lag,
-        c.heat.conductance / c.heat.capacity,
+        1.0 / housing(&mut c).heat.thermocouple_lag,
+        housing(&mut c).heat.conductance / housing(&mut c).heat.capacity,
     );
     for row in run.record.rows() {
         let t = row.time;
-        let final_rise = power / c.heat.conductance;
+        let final_rise = power / housing(&mut c).heat.conductance;
         let rise = final_rise * (1.0 - (-slow * t).exp());
         let reading = final_rise
             * (1.0 + (slow * (-fast * t).exp() - fast * (-slow * t).exp()) / (fast - slow));

@@ -1,21 +1,19 @@
 //! Spin-ups with the balls computed one by one.
 
-use super::rig::{Run, free_bearing, greased_bearing, machine, rolling, run};
+use super::rig::{BEARING, Run, free_bearing, greased_bearing, machine, rolling, run};
 use crate::machines::{separations, vec2};
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
-use model::system::spin_up::layout::{
-    BEARING, CAGE_SLIP, DETAIL, INNER, INNER_MOMENT, OUTER_MOMENT,
-};
-use model::system::spin_up::{Drive, SlidingRotor, SpinUpConstants, SpinUpMachine};
+use model::system::rig::layout::{CAGE_SLIP, DETAIL, INNER, INNER_MOMENT, OUTER_MOMENT};
+use model::system::rig::{Drive, Keep, Record, RigConstants, RigMachine, SlidingRotor};
 use model::table::Table;
 use physics::traction::{TanhTraction, Traction};
 
-fn planar_machine(bearing: PlanarConstants, drive: Drive) -> SpinUpConstants {
+fn planar_machine(bearing: PlanarConstants, drive: Drive) -> RigConstants {
     machine(BearingConstants::Planar(bearing), drive, 1000.0)
 }
 
 /// A race stepped to 1000 rad/s while the balls are at rest.
-fn skidding() -> SpinUpConstants {
+fn skidding() -> RigConstants {
     planar_machine(greased_bearing(), Drive::step(1000.0))
 }
 
@@ -31,7 +29,7 @@ fn rotor(friction: f64) -> Drive {
 }
 
 fn ends_rolling(run: &Run) -> bool {
-    let (_, probe) = run.machine.inspect(1.0, &run.end);
+    let (_, probe) = run.machine.inspect_at(1.0, &run.end);
     probe[CAGE_SLIP].abs() < 0.01
 }
 
@@ -39,7 +37,7 @@ fn ends_rolling(run: &Run) -> bool {
 fn after_a_step_the_exact_energy_form_is_the_true_loss_and_the_printed_one_is_not() {
     let run = run(skidding(), 0.03, 1e-5);
     assert!(ends_rolling(&run));
-    assert_eq!(run.record.inner_race_time_to_95_percent(), Some(0.0));
+    assert_eq!(run.record.time_to_95_percent(), Some(0.0));
     let cage = run.record.cage_time_to_95_percent();
     assert!(
         cage.is_some_and(|time| (1e-3..0.02).contains(&time)),
@@ -84,7 +82,7 @@ fn moments_differ_by_what_balls_and_cage_gain(bearing: PlanarConstants) {
     };
     // t_I - t_O = dL/dt at instants, dL/dt by the rates of the states
     for row in run.record.rows().step_by(7) {
-        let (rate, probe) = run.machine.inspect(row.time, row.state);
+        let (rate, probe) = run.machine.inspect_at(row.time, row.state);
         let layout = run.machine.layout();
         let by_rates = rate[layout.work(2)] / row.state[INNER.spin()];
         let by_moments = probe[INNER_MOMENT] - probe[OUTER_MOMENT];
@@ -142,11 +140,11 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         let mut c = planar_machine(bearing, Drive::ramp(1e5, sign * 1000.0));
         c.race.centre_held = false;
         c.load = Table::constant(150.0);
-        let machine = SpinUpMachine::new(c).expect("can be built");
+        let machine = RigMachine::new(c).expect("can be built");
         let start = machine.start();
         // equal steps: step control looks at components
         let settings = crate::machines::equal_steps(4e-3, 5e-7);
-        let mut record = model::system::spin_up::record::Record::new(&machine, 4e-3, 1e-3, false);
+        let mut record = Record::new(&machine, &Keep::peaks(4e-3));
         let end = super::rig::observe(&machine, &start, &settings, &mut record).state;
         let layout = machine.layout().clone();
         [
@@ -184,7 +182,7 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
         c.load = Table::constant(80.0);
         run(c, 0.04, 1e-5)
             .record
-            .inner_race_time_to_95_percent()
+            .time_to_95_percent()
             .expect("comes to speed")
     };
     let (balls, rolls) = (
@@ -206,9 +204,9 @@ fn a_bearing_starts_in_balance_under_its_load() {
         c.race.centre_held = false;
         c.race.load_direction = vec2(0.6, -0.8);
         c.load = Table::constant(load);
-        let machine = SpinUpMachine::new(c).expect("can be built");
+        let machine = RigMachine::new(c).expect("can be built");
         let state = machine.start();
-        let (rate, probe) = machine.inspect(0.0, &state);
+        let (rate, probe) = machine.inspect_at(0.0, &state);
         let force = 20.4e-3 * rate[INNER.velocity()[0]].hypot(rate[INNER.velocity()[1]]);
         // balls shared between contacts along the azimuth instead of the true normals: displacement over radius
         assert!(force < 2e-3 * load + 1e-9, "{interference} {load}: {force}");

@@ -1,11 +1,11 @@
 //! Two steady states at one speed and load: a traction law with a pronounced peak remembers how the bearing came there.
 
-use super::rig::{greased_bearing, machine, observe};
+use super::rig::{BEARING, greased_bearing, machine, observe};
 use crate::machines::settings;
 use model::bearing::BearingConstants;
-use model::system::spin_up::layout::{BEARING, CAGE_SLIP, INNER};
-use model::system::spin_up::record::Record;
-use model::system::spin_up::{Drive, SpinUpMachine};
+use model::system::rig::layout::{CAGE_SLIP, INNER};
+use model::system::rig::record::{Keep, Record};
+use model::system::rig::{Drive, RigMachine};
 use model::table::Table;
 use physics::traction::{FourParameterTraction, TanhTraction, Traction};
 
@@ -20,16 +20,16 @@ fn cage_slips(traction: Traction<f64>, rolling: bool) -> [f64; 2] {
     let mut c = machine(BearingConstants::Planar(bearing), Drive::step(SPEED), SPEED);
     c.race.centre_held = false;
     c.load = Table::constant(LOAD);
-    let machine = SpinUpMachine::new(c).expect("can be built");
+    let machine = RigMachine::new(c).expect("can be built");
     let mut state = machine.start();
     state[INNER.spin()] = SPEED;
     if rolling {
         start_rolling.roll(&mut state[BEARING..], SPEED);
     }
     [0.06, 0.02].map(|time| {
-        let mut record = Record::new(&machine, time, time, false);
+        let mut record = Record::new(&machine, &Keep::peaks(time));
         state = observe(&machine, &state, &settings(time, 1e-5), &mut record).state;
-        let (_, probe) = machine.inspect(time, &state);
+        let (_, probe) = machine.inspect_at(time, &state);
         probe[CAGE_SLIP]
     })
 }

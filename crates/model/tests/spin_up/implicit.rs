@@ -1,12 +1,11 @@
 //! Linearly implicit steps of a spin-up: no part's stiffness is missing from their tangents, and it is the same spin-up.
 
-use super::rig::{Run, greased_bearing, machine, observe_by, run_by};
+use super::rig::{BEARING, Run, greased_bearing, machine, observe_by, run_by};
 use crate::machines::missing::{Looked, missing};
 use crate::machines::settings;
 use model::bearing::BearingConstants;
 use model::bearing::tangents::Known;
-use model::system::spin_up::layout::BEARING;
-use model::system::spin_up::{Drive, SlidingRotor, SpinUp, SpinUpConstants, SpinUpMachine};
+use model::system::rig::{Drive, Rig, RigConstants, RigMachine, SlidingRotor};
 use model::table::Table;
 use solve::{Flow, Machine, Observer, Step, Steps};
 
@@ -14,7 +13,7 @@ use solve::{Flow, Machine, Observer, Step, Steps};
 const SCREENING: f64 = 2e-3;
 
 /// A race that moves under a load, its balls with an oversize against their gap.
-fn loaded(drive: Drive, oversize: f64) -> SpinUpConstants {
+fn loaded(drive: Drive, oversize: f64) -> RigConstants {
     let mut bearing = greased_bearing();
     bearing.ball.outer_track -= oversize;
     let mut constants = machine(BearingConstants::Planar(bearing), drive, 1000.0);
@@ -42,8 +41,8 @@ struct States {
     kept: Vec<(f64, Vec<f64>)>,
 }
 
-impl Observer<SpinUpMachine> for States {
-    fn step(&mut self, step: &mut Step<SpinUpMachine>) -> Flow {
+impl Observer<RigMachine> for States {
+    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
         self.seen += 1;
         if self.seen.is_multiple_of(20) {
             self.kept
@@ -54,7 +53,7 @@ impl Observer<SpinUpMachine> for States {
 }
 
 /// 0.1 m/s of a centre or of a surface; positions by what that makes of them in a step.
-fn unit(machine: &SpinUpMachine, channel: usize, g: f64) -> f64 {
+fn unit(machine: &RigMachine, channel: usize, g: f64) -> f64 {
     let name = machine.channel_name(channel);
     let BearingConstants::Planar(bearing) = &machine.constants.bearing else {
         panic!("it has balls");
@@ -82,14 +81,14 @@ fn tangents_of_a_spin_up_miss_no_stiffness() {
     ];
     for (name, drive, oversize) in cases {
         let given = matches!(drive, Drive::Speed(_));
-        let machine = SpinUpMachine::new(loaded(drive, oversize)).expect("it can be built");
+        let machine = RigMachine::new(loaded(drive, oversize)).expect("it can be built");
         assert_eq!(machine.tangents(), Known::All);
         let mut states = States::default();
         let (start, settings) = (machine.start(), settings(0.08, SCREENING));
         observe_by(Steps::Implicit, &machine, &start, &settings, &mut states);
         assert!(states.kept.len() > 10, "{name}: {}", states.kept.len());
         let looked = |(length, state): &(f64, Vec<f64>)| {
-            missing::<SpinUp<f64>>(&Looked {
+            missing::<Rig<f64>>(&Looked {
                 machine: &machine,
                 active: machine.layout().ledger(),
                 length: *length,

@@ -1,11 +1,11 @@
 //! The slow state of the lubricant: what it does to the moments of a bearing that turns, in both fidelities.
 
-use super::rig::{Run, greased_bearing, machine, palmgren, rolling, run};
+use super::rig::{BEARING, Run, greased_bearing, machine, palmgren, rolling, run};
 use crate::machines::lubricant;
 use model::bearing::{BearingConstants, LubricantAt, LubricantConstants, SteadyMoment};
+use model::system::rig::layout::{INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT};
+use model::system::rig::{Drive, Refusal, RigConstants, RigMachine};
 use model::system::sampling::Row;
-use model::system::spin_up::layout::{BEARING, INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT};
-use model::system::spin_up::{Drive, Refusal, SpinUpConstants, SpinUpMachine};
 use model::table::Table;
 use physics::friction::MomentParts;
 use physics::lubricant_state::turning_share;
@@ -24,7 +24,7 @@ fn grease_alone() -> LubricantConstants {
     }
 }
 
-fn rolls(lubricant: Option<LubricantConstants>, drive: Drive) -> SpinUpConstants {
+fn rolls(lubricant: Option<LubricantConstants>, drive: Drive) -> RigConstants {
     let mut bearing = rolling();
     bearing.moment = SteadyMoment::Palmgren(palmgren());
     bearing.lubricant = lubricant;
@@ -33,7 +33,7 @@ fn rolls(lubricant: Option<LubricantConstants>, drive: Drive) -> SpinUpConstants
     c
 }
 
-fn ball_by_ball(lubricant: Option<LubricantConstants>) -> SpinUpConstants {
+fn ball_by_ball(lubricant: Option<LubricantConstants>) -> RigConstants {
     let mut bearing = greased_bearing();
     bearing.lubricant = lubricant;
     let drive = Drive::ramp(7200.0, SPEED);
@@ -203,7 +203,7 @@ fn turning_the_other_way_is_the_same_bearing() {
         c.target_speed = speed;
         let run = run(c, 0.2, 1e-5);
         let at = lubricant_of(&run, &run.end);
-        (at, run.machine.inspect(0.2, &run.end).1[OUTER_MOMENT])
+        (at, run.machine.inspect_at(0.2, &run.end).1[OUTER_MOMENT])
     };
     let ((ahead, moment), (back, opposite)) = (end(SPEED), end(-SPEED));
     assert_eq!((ahead, moment), (back, -opposite));
@@ -228,7 +228,7 @@ fn its_states_stand_behind_the_others_with_names() {
                 "lubricant.film_temperature_rise"
             ]
         );
-        let machine = SpinUpMachine::new(constants).expect("can be built");
+        let machine = RigMachine::new(constants).expect("can be built");
         assert_eq!(machine.layout().ledger(), BEARING + others + 3);
     }
 }
@@ -241,7 +241,7 @@ fn a_state_without_meaning_is_refused() {
     negative.films.as_mut().expect("they warm").conductance = -1.0;
     for wrong in [outside, negative] {
         let constants = rolls(Some(wrong), Drive::ramp(7200.0, SPEED));
-        let refused = SpinUpMachine::new(constants).err();
+        let refused = RigMachine::new(constants).err();
         assert_eq!(refused, Some(Refusal::LubricantState));
         assert!(refused.is_some_and(|why| why.to_string().contains("lubricant")));
     }

@@ -3,10 +3,10 @@
 use super::rig::{observe, race};
 use crate::machines::{settings, vec2};
 use model::bearing::{BearingConstants, PlanarConstants};
-use model::system::spin_up::capacity::traction_capacity;
-use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM};
-use model::system::spin_up::record::Record;
-use model::system::spin_up::{Drive, InnerRace, SpinUpConstants, SpinUpMachine};
+use model::system::rig::capacity::traction_capacity;
+use model::system::rig::layout::{INNER, INNER_LOAD_SUM};
+use model::system::rig::record::{Keep, Record};
+use model::system::rig::{Drive, InnerRace, RigConstants, RigMachine};
 use model::table::Table;
 
 /// Means over the late cage turns of a plateau.
@@ -36,7 +36,8 @@ pub fn plateaus(bearing: &PlanarConstants, load: f64, speeds: &[f64]) -> Vec<Pla
     let mut list = Vec::new();
     for &speed in speeds {
         let ramp = f64::abs(speed - from) / ACCELERATION;
-        let constants = SpinUpConstants {
+        let constants = RigConstants {
+            housing: None,
             race: InnerRace {
                 centre_held: false,
                 load_direction: vec2(0.0, -1.0),
@@ -49,12 +50,12 @@ pub fn plateaus(bearing: &PlanarConstants, load: f64, speeds: &[f64]) -> Vec<Pla
         };
         let turn = 2.0 * std::f64::consts::PI / (constants.bearing.rolling_cage_ratio() * speed);
         let end = ramp + TURNS * turn.abs();
-        let machine = SpinUpMachine::new(constants).expect("the machine can be built");
+        let machine = RigMachine::new(constants).expect("the machine can be built");
         let start = state.take().unwrap_or_else(|| machine.start());
-        let mut record = Record::new(&machine, end, end, false);
+        let mut record = Record::new(&machine, &Keep::peaks(end));
         let ending = observe(&machine, &start, &settings(end, 1e-4), &mut record);
         let means = record.late_means(speed).expect("turns at the speed");
-        let (_, probe) = machine.inspect(ending.time, &ending.state);
+        let (_, probe) = machine.inspect_at(ending.time, &ending.state);
         let capacity = traction_capacity(
             &bearing.traction,
             &machine.constants.bearing,

@@ -2,13 +2,17 @@
 
 use crate::machines::{planar_bearing, rolling_bearing, settings, vec2};
 use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
-use model::system::spin_up::record::Record;
-use model::system::spin_up::simulate::simulate;
-use model::system::spin_up::{Drive, InnerRace, SpinUpConstants, SpinUpMachine};
+use model::system::rig::record::{Keep, Record};
+use model::system::rig::simulate::{Run as Simulation, simulate_on};
+use model::system::rig::{Drive, InnerRace, RigConstants, RigMachine};
 use model::table::Table;
+use number::Level;
 use physics::palmgren::Palmgren;
 use solve::{Ending, Observer, Settings, Steps, Stop};
 use std::sync::atomic::AtomicBool;
+
+/// First channel of the bearing.
+pub const BEARING: usize = 8;
 
 /// Grease of 100 mm²/s in a 6005 of 6.55 kN: the bearing of `rolling.json`.
 pub fn palmgren() -> Palmgren<f64> {
@@ -64,12 +68,13 @@ pub fn shared(law: SteadyMoment<f64>) -> SharedMoment {
 }
 
 /// A concentric machine without load.
-pub fn machine(bearing: BearingConstants, drive: Drive, speed: f64) -> SpinUpConstants {
-    SpinUpConstants {
+pub fn machine(bearing: BearingConstants, drive: Drive, speed: f64) -> RigConstants {
+    RigConstants {
         race: race(),
         bearing,
         drive,
         load: Table::constant(0.0),
+        housing: None,
         target_speed: speed,
     }
 }
@@ -81,10 +86,10 @@ pub fn rolling() -> model::bearing::RollingConstants {
 
 /// Runs a machine under an observer; it must finish.
 pub fn observe(
-    machine: &SpinUpMachine,
+    machine: &RigMachine,
     start: &[f64],
     settings: &Settings,
-    observer: &mut dyn Observer<SpinUpMachine>,
+    observer: &mut dyn Observer<RigMachine>,
 ) -> Ending {
     observe_by(Steps::Explicit, machine, start, settings, observer)
 }
@@ -92,28 +97,36 @@ pub fn observe(
 /// The same by explicit or linearly implicit steps.
 pub fn observe_by(
     steps: Steps,
-    machine: &SpinUpMachine,
+    machine: &RigMachine,
     start: &[f64],
     settings: &Settings,
-    observer: &mut dyn Observer<SpinUpMachine>,
+    observer: &mut dyn Observer<RigMachine>,
 ) -> Ending {
     let never = AtomicBool::new(false);
-    let ending = simulate(machine, start, settings, steps, observer, &never);
+    let run = Simulation {
+        machine,
+        start: start.to_vec(),
+        settings,
+        steps,
+        observer,
+        interrupt: &never,
+    };
+    let ending = simulate_on(Level::detect(), run);
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));
     ending
 }
 
 /// Runs a machine from its start: (start, end, record).
-pub fn run(constants: SpinUpConstants, end: f64, tolerance: f64) -> Run {
+pub fn run(constants: RigConstants, end: f64, tolerance: f64) -> Run {
     run_by(Steps::Explicit, constants, end, tolerance)
 }
 
 /// The same by explicit or linearly implicit steps.
-pub fn run_by(steps: Steps, constants: SpinUpConstants, end: f64, tolerance: f64) -> Run {
-    let machine = SpinUpMachine::new(constants).expect("the machine can be built");
+pub fn run_by(steps: Steps, constants: RigConstants, end: f64, tolerance: f64) -> Run {
+    let machine = RigMachine::new(constants).expect("the machine can be built");
     let start = machine.start();
-    let mut record = Record::new(&machine, end, end / 100.0, true);
+    let mut record = Record::new(&machine, &Keep::rows(end, end / 100.0));
     let settings = settings(end, tolerance);
     let ending = observe_by(steps, &machine, &start, &settings, &mut record);
     record.finish(&machine, ending.time, &ending.state);
@@ -128,7 +141,7 @@ pub fn run_by(steps: Steps, constants: SpinUpConstants, end: f64, tolerance: f64
 
 /// A finished run.
 pub struct Run {
-    pub machine: SpinUpMachine,
+    pub machine: RigMachine,
     pub start: Vec<f64>,
     pub end: Vec<f64>,
     pub record: Record,

@@ -3,10 +3,10 @@
 use super::rig::{Run, machine, palmgren, rolling, run};
 use crate::machines::vec2;
 use model::bearing::{AccelerationLoss, BearingConstants, RollingConstants, SteadyMoment};
-use model::system::spin_up::layout::{
+use model::system::rig::layout::{
     ACCELERATION, DRIVE_MOMENT, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR,
 };
-use model::system::spin_up::{Drive, SlidingRotor, SpinUpConstants};
+use model::system::rig::{Drive, RigConstants, SlidingRotor};
 use model::table::Table;
 
 /// A rotor so fast that its friction is saturated to the last bit: tanh of thousands is 1.
@@ -21,7 +21,7 @@ fn saturated(friction: f64) -> Drive {
     })
 }
 
-fn rolling_machine(bearing: RollingConstants, drive: Drive, load: f64) -> SpinUpConstants {
+fn rolling_machine(bearing: RollingConstants, drive: Drive, load: f64) -> RigConstants {
     let mut constants = machine(BearingConstants::Rolling(bearing), drive, 1000.0);
     constants.load = Table::constant(load);
     constants
@@ -149,7 +149,7 @@ fn moments_on_both_races_are_those_of_14_and_15() {
         ));
         assert!(near(row.probe[ACCELERATION], rate));
         // in the pockets: F times the sliding speed r(ω_b + ω_c)
-        let (change, _) = run.machine.inspect(row.time, row.state);
+        let (change, _) = run.machine.inspect_at(row.time, row.state);
         let sliding = set.inner_track_radius
             * set.ball_ratio
             * (set.ball_spin(omega) + set.cage_speed(omega));
@@ -311,7 +311,7 @@ fn spin_up_times_are_those_of_the_reference() {
         let mut c = rolling_machine(bearing, saturated(value("mu")), value("W"));
         // the record finds 95 % of the target
         c.target_speed = value("Om_end") / 0.95;
-        let time = run(c, 0.1, 1e-10).record.inner_race_time_to_95_percent();
+        let time = run(c, 0.1, 1e-10).record.time_to_95_percent();
         match (time, field(part, "t")) {
             // the reference's own tolerance
             (Some(time), Some(reference)) => {

@@ -16,6 +16,5 @@ pub(crate) mod skid;
 pub mod steady;
 pub(crate) mod traction;
 pub(crate) mod warm;
-pub(crate) mod warming;
 pub mod warning_table;
 pub mod warnings;

@@ -3,9 +3,9 @@
 use crate::bearing::contacts::ball_contacts;
 use crate::bearing::traction::traction;
 use model::bearing::BearingConstants;
-use model::system::spin_up::capacity::{LEAST_CAPACITY, traction_capacity};
-use model::system::spin_up::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
-use model::system::spin_up::{Drive, InnerRace, Refusal, SpinUpConstants, SpinUpMachine};
+use model::system::rig::capacity::{LEAST_CAPACITY, traction_capacity};
+use model::system::rig::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
+use model::system::rig::{Drive, InnerRace, Refusal, RigConstants, RigMachine};
 use model::table::Table;
 use problem::{Code, Problem};
 use scenario::{Bearing, Moment, problem_at};
@@ -55,17 +55,18 @@ pub(crate) fn steady(
         BearingConstants::Planar(_) => Drive::step(speed),
         BearingConstants::Rolling(_) => Drive::Torque(Table::constant(0.0)),
     };
-    let machine = SpinUpMachine::new(SpinUpConstants {
+    let machine = RigMachine::new(RigConstants {
         race: *race,
         bearing: constants.clone().at_the_law(),
         drive,
         load: Table::constant(load),
+        housing: None,
         target_speed: speed,
     })
     .map_err(refused)?;
     let mut state = machine.start();
     state[INNER.spin()] = speed;
-    let (_, probe) = machine.inspect(0.0, &state);
+    let (_, probe) = machine.inspect_at(0.0, &state);
     let moment = probe[STEADY_MOMENT];
     let traction = traction(bearing, &ball_contacts(bearing)?)?;
     let capacity = traction_capacity(&traction, constants, speed, probe[INNER_LOAD_SUM]);
@@ -86,6 +87,7 @@ pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
         Refusal::StepOfRollingBalls => "drive.acceleration",
         Refusal::MomentShare => "bearing.moment",
         Refusal::LubricantState => "bearing.lubricant_state",
+        _ => "rig",
     };
     let allowed = "a machine that can be computed is needed";
     problem_at(Code::Impossible, key, refusal.to_string(), allowed)

@@ -16,7 +16,7 @@ use model::magnets::MagnetsConstants;
 use model::mount::Mount;
 use model::rotor::RotorConstants;
 use model::system::machine::MachineConstants;
-use model::system::spin_up::InnerRace;
+use model::system::rig::InnerRace;
 use number::Vec2;
 use problem::Problem;
 use scenario::several::path_of;

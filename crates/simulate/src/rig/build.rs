@@ -1,14 +1,14 @@
 //! From a test on a rig to the constants of the model.
 
 use crate::bearing;
-use crate::bearing::pressure::PressureFactors;
-use crate::bearing::steady::{SteadyFinding, SteadyPoint};
+use crate::bearing::steady::SteadyPoint;
+use crate::rig::run::Built;
 use model::bearing_heat::WarmBearing;
 use model::system::rig::{
-    Action, Arm, Disturbance, Drag, Engagement, Flywheel, HeatNode, Housing, Motor, Program,
-    RigConstants, RigMachine, Shaft, engagement_ramp,
+    Action, Arm, ClutchDrive, Disturbance, Drag, Drive, Engagement, Flywheel, HeatNode, Housing,
+    InnerRace, Motor, Program, RigConstants, RigMachine, engagement_ramp,
 };
-use model::system::spin_up::InnerRace;
+use model::table::Table;
 use number::Vec2;
 use problem::{Code, Problem};
 use scenario::{Engagement as EngagementChoice, Rig, RigProgram, problem_at};
@@ -17,21 +17,6 @@ use thermal::bearing_network::OUTER_RACE;
 
 /// Speed at which the drag of the shaft's bearings reaches 76 % of its constant part, rad/s: small against any test.
 const FADING: f64 = 0.5;
-
-/// A rig ready to be simulated.
-#[derive(Clone, Debug)]
-pub struct Built {
-    /// The machine.
-    pub machine: RigMachine,
-    /// Rate of the clutch's torque, N m/s: as given, or found; none where it does not engage in the test.
-    pub torque_rate: Option<f64>,
-    /// Hertz pressure in the contacts of a ball.
-    pub pressure_factors: PressureFactors,
-    /// The network of its temperatures, where that is followed.
-    pub warm: Option<Box<WarmBearing>>,
-    /// What traction can carry at the speed of the test; none where the bearing has no steady moment.
-    pub steady: Option<SteadyFinding>,
-}
 
 /// Builds the machine of a test. The weight of the balls is left out: it is a thousandth of any load.
 pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
@@ -60,7 +45,7 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
     let [capacity, conductance] =
         (given.or(warm.as_deref().map(outer_race))).unwrap_or([f64::NAN; 2]);
     let arm = &rig.arm;
-    let mut constants = RigConstants {
+    let clutch = |rate: f64| ClutchDrive {
         flywheel: Flywheel {
             inertia: rig.flywheel.inertia,
             belt_drag: drag(0.0, rig.flywheel.viscous_drag),
@@ -69,18 +54,13 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
             gain: rig.motor.gain,
             torque_limit: rig.motor.torque_limit,
         },
-        shaft: Shaft {
-            inertia: rig.shaft.inertia + rig.bearing.inner_race_inertia,
-            support_drag: drag(rig.shaft.drag_torque, rig.shaft.viscous_drag),
-        },
-        housing: Housing {
-            mass: rig.load.hanging_mass.unwrap_or(0.0),
-            load: rig.load.radial_load,
-            load_direction: down,
-            gravity: Vec2::zero(),
-            centre_held,
-        },
-        bearing,
+        support_drag: drag(rig.shaft.drag_torque, rig.shaft.viscous_drag),
+        program: program(rig, rate),
+    };
+    let housing = Housing {
+        mass: rig.load.hanging_mass.unwrap_or(0.0),
+        gravity: Vec2::zero(),
+        centre_held,
         arm: Arm {
             natural_frequency: 2.0 * PI * arm.natural_frequency,
             damping_ratio: arm.damping_ratio,
@@ -96,12 +76,22 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
             conductance,
             thermocouple_lag: rig.temperature.lag,
         },
-        program: program(rig, 1.0),
+    };
+    let mut constants = RigConstants {
+        race: InnerRace {
+            inertia: rig.shaft.inertia + rig.bearing.inner_race_inertia,
+            centre_held: true,
+            ..race
+        },
+        bearing,
+        drive: Drive::Clutch(Box::new(clutch(1.0))),
+        load: Table::constant(rig.load.radial_load),
+        housing: Some(housing),
         target_speed: rig.speed,
     };
     let torque_rate = torque_rate(rig, &constants)?;
     if let Some(rate) = torque_rate {
-        constants.program = program(rig, rate);
+        constants.drive = Drive::Clutch(Box::new(clutch(rate)));
     }
     let machine = RigMachine::new(constants).map_err(refused)?;
     Ok(Built {

@@ -3,6 +3,7 @@
 //! | page | subject |
 //! |---|---|
 //! | [`build`] | scenario → constants of the model |
+//! | [`run`](mod@run) | a run of a bearing on a rig, of a spin-up or of a test; `warming`: how warm it becomes |
 //! | `chain` | from what happened to what the logger writes |
 //! | `raw_file` | the raw file, and the file that says what its channels are |
 //! | `thermocouple` | its reading of an outer race whose temperature a network gives |
@@ -11,28 +12,46 @@
 pub mod build;
 mod chain;
 mod columns;
-mod context;
 mod quantities;
 mod raw_file;
+pub mod run;
 mod thermocouple;
+pub(crate) mod warming;
 pub mod warnings;
 
 use crate::bearing::warm::Followed;
-use crate::bearing::warming::{Warming, Watched};
-use crate::ending::{settings, stop};
-use crate::rig::context::Context;
-use crate::stepping;
-use build::Built;
+use crate::ending::DESIGN;
+use crate::stepping::Stepping;
 use chain::{Happened, Sampled};
+use model::system::rig::Record;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
-use model::system::rig::record::Keep;
-use model::system::rig::{Record, RigMachine, simulate};
 use outcome::options::Options;
-use outcome::{Column, Outcome, Picture, Quantity, Work};
+use outcome::{Column, Outcome, Quantity};
+use run::{Built, Given, RigRun};
 use scenario::{Rig, RigProgram, Scenario};
+use solve::Steps;
 use std::iter;
+use std::ops::Deref;
 use thermal::bearing_network::OUTER_RACE;
 use thermocouple::Bead;
+use warming::Warming;
+
+/// A test and its run.
+pub(crate) struct Context<'a> {
+    rig: &'a Rig,
+    run: RigRun<'a>,
+    /// What the thermocouple reads of an outer race whose temperature a network follows.
+    bead: Option<Bead>,
+    /// Values that the converter could not hold, with the channel's name.
+    clipped: Vec<(&'static str, usize)>,
+}
+
+impl<'a> Deref for Context<'a> {
+    type Target = RigRun<'a>;
+    fn deref(&self) -> &RigRun<'a> {
+        &self.run
+    }
+}
 
 /// The columns of its history, without values.
 pub fn columns(rig: &Rig, built: &Built) -> Vec<Column> {
@@ -46,64 +65,39 @@ pub fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
 
 /// Runs a test.
 pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
-    let machine = &built.machine;
-    let taps = chain::taps(rig);
-    let end = rig.run.duration;
-    let keep = Keep {
-        end,
-        interval: Some(rig.run.output_interval),
-        taps: &taps,
+    let given = Given {
+        bearing: &rig.bearing,
+        warm: rig.warm.as_deref(),
+        run: &rig.run,
     };
-    let (given, part) = (rig.warm.as_deref(), built.warm.as_deref());
-    let warming = Warming::of(given, &rig.bearing, part);
-    let mut watched = Watched::new(Record::new(machine, &keep), warming, end, options);
-    let settings = settings(&rig.run);
-    let ending = simulate(machine, &settings, &mut watched, options.interrupt);
-    let (mut record, warming, at_end) = watched.finish(machine, &ending);
-    record.finish(&at_end, ending.time, &ending.state);
-    let bead = warming.as_ref().map(|warming| bead(rig, warming));
-    let happened = happened(rig, &record, bead.as_ref());
+    let stepping = Stepping {
+        steps: Steps::Explicit,
+        tolerance: DESIGN,
+    };
+    let run = RigRun::of(built, given, stepping, &chain::taps(rig), options);
+    let bead = run.warming.as_ref().map(|warming| bead(rig, warming));
+    let happened = happened(rig, &run.record, bead.as_ref());
     let raw = chain::raw(rig, &happened);
+    let clipped = raw.iter().filter(|channel| channel.clipped > 0);
     let context = Context {
         rig,
-        built,
-        start: &machine.start(),
-        record: &record,
-        ending: &ending,
-        warming: warming.as_ref(),
-        bead: bead.as_ref(),
-        clipped: raw
-            .iter()
-            .filter(|channel| channel.clipped > 0)
+        bead,
+        clipped: clipped
             .map(|channel| (channel.name, channel.clipped))
             .collect(),
+        run,
     };
     let title = (scenario.title.clone()).unwrap_or_else(|| "Test on a rig".to_string());
     let quantities = quantities::name(rig, built, Some(&context));
-    let rolling_cage_ratio = machine.constants.bearing.rolling_cage_ratio();
+    let cage_ratio = built.machine.constants.bearing.rolling_cage_ratio();
     Outcome {
         system: "rig",
         history: columns::history(rig, built, Some(&context)),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,
-        stop: stop(&ending),
-        work: Work {
-            steps: ending.work.accepted,
-            rejected: ending.work.rejected,
-            rate_calls: ending.work.rate_calls,
-            method: Some(stepping::EXPLICIT),
-            ..Work::default()
-        },
-        pictures: vec![Picture {
-            bearing: String::new(),
-            clearance: None,
-            pressure_limit: Some(rig.bearing.hertz_pressure_limit),
-            rolling_cage_ratio,
-            balls: rig.bearing.ball_count,
-        }],
-        files: raw_file::files(rig, &title, raw, rolling_cage_ratio, rested(rig, &happened)),
+        files: raw_file::files(rig, &title, raw, cage_ratio, rested(rig, &happened)),
         title,
-        ..Outcome::default()
+        ..context.outcome(given)
     }
 }
 
@@ -128,7 +122,7 @@ fn rested(rig: &Rig, happened: &Happened) -> Option<f64> {
 const STANDING: f64 = 1e-3;
 
 /// The thermocouple on an outer race of a network.
-fn bead(rig: &Rig, warming: &Warming<RigMachine>) -> Bead {
+fn bead(rig: &Rig, warming: &Warming) -> Bead {
     let Followed { heated, warmth, .. } = warming.followed();
     let course = (warmth.course.iter()).map(|(time, nodes)| (*time, nodes[OUTER_RACE]));
     Bead::new(

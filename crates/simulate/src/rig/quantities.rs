@@ -2,12 +2,12 @@
 
 use crate::bearing::quantities::{BearingSetup, ball_loads, races_and_lubricant};
 use crate::bearing::warm::Heated;
-use crate::bearing::warming::Warming;
-use crate::rig::build::Built;
-use crate::rig::context::Context;
+use crate::rig::Context;
+use crate::rig::run::Built;
+use crate::rig::warming::Warming;
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use model::system::rig::layout::{
-    CAGE_SLIP, CAGE_SPEED, CLUTCH_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
+    CAGE_SLIP, CAGE_SPEED, DRIVE_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };
 use outcome::Quantity;
 use outcome::list::results;
@@ -23,13 +23,13 @@ pub(crate) fn name(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Quant
     let mut list = List::default();
     motion(&mut list, rig, run);
     let heated = Heated::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
-    Warming::name(&mut list, heated, run.and_then(|run| run.warming));
+    Warming::name(&mut list, heated, run.and_then(|run| run.warming.as_ref()));
     let bearing = BearingSetup {
         given: &rig.bearing,
         constants: &built.machine.constants.bearing,
         factors: &built.pressure_factors,
     };
-    let balls = run.map(Context::bearing);
+    let balls = run.map(|run| run.bearing());
     ball_loads(&mut list, &bearing, balls.as_ref());
     races_and_lubricant(&mut list, &bearing, balls.as_ref());
     energies(&mut list, rig, run);
@@ -49,15 +49,15 @@ results! {
             _ => run.record.acceleration.value,
         };
         "peak_deceleration": number "rad/s^2", PEAK_DECELERATION, "largest deceleration of the shaft, below 0" => 0.0 - run.record.deceleration.value;
-        "shaft_time_to_50_percent": instant "s", RISE, "time to half of rig.speed" => run.record.shaft_time_to_50_percent().ok_or_else(|| never(50.0));
-        "shaft_time_to_95_percent": instant "s", RISE, "time to 95 % of rig.speed" => run.record.shaft_time_to_95_percent().ok_or_else(|| never(95.0));
+        "shaft_time_to_50_percent": instant "s", RISE, "time to half of rig.speed" => run.record.time_to_50_percent().ok_or_else(|| never(50.0));
+        "shaft_time_to_95_percent": instant "s", RISE, "time to 95 % of rig.speed" => run.record.time_to_95_percent().ok_or_else(|| never(95.0));
         "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
             run.record.cage_time_to_95_percent().ok_or_else(|| never(95.0))
         };
         "shaft_final_speed": number "rad/s" headline, SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT.spin()];
         "flywheel_final_speed": number "rad/s", SPEED, "speed of the flywheel at the end" => run.ending.state[FLYWHEEL.spin()];
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
-        "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.record.clutch_torque.value;
+        "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.record.drive_moment.value;
         "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
         "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.record.outer_moment.value;
         "inner_race_moment_at_end": number "N m", AT_END, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
@@ -65,7 +65,7 @@ results! {
         "law_moment_at_end": number "N m", AT_END, "moment of the friction law at the end" => run.probe(STEADY_MOMENT);
         "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" in tile "Cage slip at the end [%]" => run.late_slip();
         "peak_temperature_rise": number "K" headline, TEMPERATURE, "largest rise of the outer race" => {
-            let of_network = run.warming.map(|warming| warming.followed());
+            let of_network = run.warming.as_ref().map(|warming| warming.followed());
             of_network.map_or(run.record.temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
         };
     }
@@ -74,14 +74,14 @@ results! {
             safety_under(run.rig.load.radial_load, &rig.bearing)
         };
         "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
-        "clutch_heat": number "J", ENERGY, "friction heat of the clutch" => run.heat(CLUTCH_HEAT);
-        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" => (0..CLUTCH_HEAT).map(|kind| run.heat(kind)).sum::<f64>();
+        "clutch_heat": number "J", ENERGY, "friction heat of the clutch" => run.heat(DRIVE_HEAT);
+        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" => (0..DRIVE_HEAT).map(|kind| run.heat(kind)).sum::<f64>();
         "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in tile "Energy residual" in bound "AB1006" => {
             let balance = run.whole_balance();
             relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
         };
         "angular_momentum_residual": number "N m s" headline, MOMENTUM, "residual of the angular momentum of balls and cage" in tile "Angular momentum residual" in bound "1e-8" => {
-            run.built.machine.bearing_momentum_residual(run.start, &run.ending.state)
+            run.built.machine.bearing_momentum_residual(&run.start, &run.ending.state)
         };
         "clipped_channels": text "" headline, CLIPPED, "channels with values beyond the converter" => run.clipped_channels().as_str();
     }
@@ -106,15 +106,6 @@ fn engages_at(rig: &Rig) -> Result<f64, String> {
 }
 
 impl Context<'_> {
-    /// A probe at the end.
-    fn probe(&self, index: usize) -> f64 {
-        let machine = self.machine_at_end();
-        (machine.inspect(&self.record.mode, self.ending.time, &self.ending.state)).1[index]
-    }
-    /// A heat of the ledger at the end, J.
-    fn heat(&self, kind: usize) -> f64 {
-        self.ending.state[self.built.machine.layout().heat(kind)]
-    }
     /// Cage slip over the last turn of the cage, or at the last instant where there was none.
     fn late_slip(&self) -> Result<f64, String> {
         let turns = self.ending.state[SHAFT.spin()].abs() > 0.05 * self.rig.speed;

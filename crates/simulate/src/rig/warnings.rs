@@ -3,8 +3,8 @@
 use crate::assumptions::speed_rating;
 use crate::bearing::warm;
 use crate::bearing::warnings as shared;
+use crate::rig::Context;
 use crate::rig::chain::{self, taps};
-use crate::rig::context::Context;
 use model::system::rig::layout::SHAFT;
 use outcome::{Quantity, Warning};
 use scenario::{Rig, Scenario};
@@ -40,7 +40,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         .map(|row| row.state[SHAFT.spin()].abs());
     let speed = speeds.fold(0.0, f64::max);
     list.extend(shared::skids(context.built.steady.as_ref()));
-    if let Some(warming) = context.warming {
+    if let Some(warming) = &context.warming {
         let judged = warm::judged(&warming.followed());
         list.extend(judged.into_iter().map(|(_, warning)| warning));
     }

@@ -2,27 +2,13 @@
 
 use crate::bearing;
 use crate::bearing::loss::table;
-use crate::bearing::pressure::PressureFactors;
-use crate::bearing::steady::{SteadyFinding, SteadyPoint, refused};
-use model::bearing_heat::WarmBearing;
-use model::system::spin_up::{Drive, InnerRace, SlidingRotor, SpinUpConstants, SpinUpMachine};
+use crate::bearing::steady::{SteadyPoint, refused};
+use crate::rig::run::Built;
+use model::system::rig::{Drive, InnerRace, RigConstants, RigMachine, SlidingRotor};
 use model::table::Table;
 use number::Vec2;
 use problem::Problem;
 use scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
-
-/// A spin-up ready to be simulated.
-#[derive(Clone, Debug)]
-pub struct Built {
-    /// The machine.
-    pub machine: SpinUpMachine,
-    /// Hertz pressure in the contacts of a ball.
-    pub pressure_factors: PressureFactors,
-    /// What traction can carry at the target speed under the last load; none where the bearing has no steady moment.
-    pub steady: Option<SteadyFinding>,
-    /// The network of its heat; none where temperatures are not followed.
-    pub warm: Option<Box<WarmBearing>>,
-}
 
 /// Builds the machine of a spin-up. The weight of the balls is left out: it is a thousandth of any load.
 pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
@@ -43,16 +29,18 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
         load: spin_up.radial_load.at(spin_up.run.duration),
     };
     let steady = bearing::steady::steady(&bearing, &spin_up.bearing, &race, at)?;
-    let machine = SpinUpMachine::new(SpinUpConstants {
+    let machine = RigMachine::new(RigConstants {
         race,
         bearing,
         drive: drive(&spin_up.drive),
         load: course(&spin_up.radial_load),
+        housing: None,
         target_speed,
     })
     .map_err(refused)?;
     Ok(Built {
         machine,
+        torque_rate: None,
         pressure_factors: contacts.pressure_factors(),
         steady,
         warm: bearing::networks::built(spin_up.warm.as_deref(), &spin_up.bearing)?,

@@ -2,24 +2,24 @@
 
 use crate::bearing::quantities::{BearingSetup, balls};
 use crate::bearing::warm::Heated;
-use crate::bearing::warming::Warming;
-use crate::spin_up::build::Built;
-use crate::spin_up::context::Context;
+use crate::rig::run::Built;
+use crate::rig::warming::Warming;
+use crate::spin_up::Context;
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use catalogue::geometry::digits;
 use model::system::outer_race::OuterRaceEnergy;
-use model::system::spin_up::layout::{
+use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };
-use model::system::spin_up::record::LateMeans;
+use model::system::rig::record::LateMeans;
 use outcome::list::results;
 use outcome::list::{List, origins, relative};
 use outcome::{Quantity, Value};
 use scenario::{Drive, Fidelity, SpinUp};
 
 const EQUATIONS: &str =
-    "equations of motion, crates/model/src/system/spin_up/rate.rs and crates/model/src/bearing/";
-const LEDGER: &str = "energy ledger, crates/model/src/system/spin_up/ledger.rs";
+    "equations of motion, crates/model/src/system/rig/rate.rs and crates/model/src/bearing/";
+const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
 
 /// Cage slip from which balls are said to skid.
 const SKIDDING: f64 = 0.02;
@@ -37,11 +37,11 @@ pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Ve
         constants: &built.machine.constants.bearing,
         factors: &built.pressure_factors,
     };
-    balls(&mut list, &bearing, run.map(Context::bearing).as_ref());
+    balls(&mut list, &bearing, run.map(|run| run.bearing()).as_ref());
     load(&mut list, spin_up, run);
     let warm = spin_up.warm.as_deref();
     let heated = Heated::of(warm, &spin_up.bearing, built.warm.as_deref());
-    Warming::name(&mut list, heated, run.and_then(|run| run.warming));
+    Warming::name(&mut list, heated, run.and_then(|run| run.warming.as_ref()));
     energies(&mut list, spin_up, run);
     list.ended_at(run.map(|run| run.ending.time))
 }
@@ -49,13 +49,13 @@ pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Ve
 results! {
     fn motion(spin_up: &SpinUp, run: &Context) {
         "inner_race_time_to_50_percent": instant "s", RISE, "time to half of the full speed" in instants "race 50 %" => {
-            run.reached(run.record.inner_race_time_to_50_percent(), "half of the full speed", 0.5 * spin_up.target_speed())
+            run.reached(run.record.time_to_50_percent(), "half of the full speed", 0.5 * spin_up.target_speed())
         };
         "inner_race_time_to_95_percent": instant "s" headline, RISE, "time to 95 % of the full speed" in instants "race 95 %" in tile "Inner race at 95 % speed" => {
-            run.reached(run.record.inner_race_time_to_95_percent(), "95 % of the full speed", 0.95 * spin_up.target_speed())
+            run.reached(run.record.time_to_95_percent(), "95 % of the full speed", 0.95 * spin_up.target_speed())
         };
         "cage_time_to_95_percent_of_rolling": instant "s" headline, RISE, "time of the cage to 95 % of its rolling speed" in instants "cage 95 % of rolling" in note "Inner race at 95 % speed: the cage at 95 % of rolling at" => {
-            let rolling = spin_up.target_speed() * run.machine().constants.bearing.rolling_cage_ratio();
+            let rolling = spin_up.target_speed() * run.built.machine.constants.bearing.rolling_cage_ratio();
             run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed", 0.95 * rolling)
         };
         "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => run.ending.state[INNER.spin()];
@@ -108,7 +108,7 @@ results! {
             relative(balance.energy_residual(), balance.heat().max(balance.work_size()))
         };
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that at full speed" => {
-            let constants = &run.machine().constants;
+            let constants = &run.built.machine.constants;
             let inertia = constants.race.inertia + constants.bearing.set().inner_inertia();
             relative(run.whole_balance().angular_momentum_residual(), inertia * constants.target_speed.abs())
         };
@@ -124,10 +124,6 @@ impl Context<'_> {
         };
         time.ok_or_else(never)
     }
-    /// A probe at the end.
-    fn probe(&self, index: usize) -> f64 {
-        (self.machine().inspect(self.ending.time, &self.ending.state)).1[index]
-    }
     /// What exists where the bearing has a friction law.
     fn by_law<T>(&self, value: T) -> Result<T, String> {
         let steady = self.built.steady.as_ref().map(|_| value);
@@ -140,7 +136,7 @@ impl Context<'_> {
         }
         let speed = self.ending.state[INNER.spin()];
         self.record.late_means(speed).ok_or_else(|| {
-            let ratio = self.machine().constants.bearing.rolling_cage_ratio();
+            let ratio = self.built.machine.constants.bearing.rolling_cage_ratio();
             let turn = 2.0 * std::f64::consts::PI / (ratio * self.spin_up.target_speed()).abs();
             format!(
                 "the race was at its final speed for less than a turn of the cage ({:.4} ms at full speed)",
@@ -186,7 +182,7 @@ impl Context<'_> {
     }
     /// What the bearing dissipated by (21) and its other forms, J.
     fn energy(&self) -> OuterRaceEnergy {
-        (self.machine()).outer_race_energy(self.start, &self.ending.state)
+        (self.built.machine).outer_race_energy(&self.start, &self.ending.state)
     }
     /// A bound of the path term, J, or why it does not hold.
     fn if_rolling(&self, bound: fn(&OuterRaceEnergy) -> f64) -> Result<f64, String> {
@@ -239,7 +235,7 @@ origins! {
         source EQUATIONS,
         valid "free of the ripple of passing balls; a steady moment once t_I and t_O agree";
     CAPACITY: law "μ_max R ΣQ_i / M at full speed under the last load",
-        source "crates/model/src/system/spin_up/capacity.rs",
+        source "crates/model/src/system/rig/capacity.rs",
         valid "above 1.2 the balls roll in a steady run and t_I = t_O = M within 2 %; below they must skid";
     SLIP: law "S = 1 - 2(1+s)ω_c/Ω, at the last instant, or as the mean over the later half of the cage turns at the final speed",
         source "Harris 2001, section 8: kinematics of a rolling ball, crates/physics/src/kinematics.rs",
@@ -254,10 +250,10 @@ origins! {
         source "the source paper, (21) as printed",
         valid "nowhere: its integral must not bear the factor 1+2s; shown for comparison";
     CORRECTED: law "D = ∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
-        source "the source paper, (21), corrected; crates/model/src/system/spin_up/ledger.rs",
+        source "the source paper, (21), corrected; crates/model/src/system/rig/ledger.rs",
         valid "from rest, balls that roll all the way; wrong by up to half of L0 Ω0 where they skid";
     EXACT: law "D = ∫(t_O + t_g)Ω dt + ∫Ω dL - Δ(KE + U)",
-        source "balance of energy and angular momentum of balls and cage, crates/model/src/system/spin_up/ledger.rs",
+        source "balance of energy and angular momentum of balls and cage, crates/model/src/system/rig/ledger.rs",
         valid "any skidding; needs the speed of the cage, or the path term as an uncertainty";
     PATH: law "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race, \
           ½ (1+s)(N m_b + m_c) R² Ω0² where they spin with the race and orbit last",

@@ -3,9 +3,9 @@
 use crate::assumptions::speed_rating;
 use crate::bearing::warm;
 use crate::bearing::warnings as shared;
-use crate::spin_up::context::{Context, asked};
 use crate::spin_up::quantities::rolling_start_to_end;
-use model::system::spin_up::layout::{APPLIED_LOAD, INNER};
+use crate::spin_up::{Context, asked};
+use model::system::rig::layout::{APPLIED_LOAD, INNER};
 use outcome::{Quantity, Warning};
 use physics::palmgren::FADING_SPEED;
 use scenario::{Bearing, Moment, Scenario};
@@ -51,7 +51,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
     let load = largest(&|row| row.probe[APPLIED_LOAD]);
     list.extend(creeps(bearing, speed));
     list.extend(shared::skids(context.built.steady.as_ref()));
-    if let Some(followed) = context.warming.map(|warming| warming.followed()) {
+    if let Some(followed) = context.warming.as_ref().map(|warming| warming.followed()) {
         list.extend(
             warm::judged(&followed)
                 .into_iter()

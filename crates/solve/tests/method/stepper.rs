@@ -64,7 +64,9 @@ impl StickSlip {
 
 impl Machine for StickSlip {
     type Mode = Contact<f64>;
-    const STARTS_AFRESH: bool = true;
+    fn starts_afresh(&self) -> bool {
+        true
+    }
     fn dimension(&self) -> usize {
         2
     }

@@ -17,53 +17,52 @@
 //!
 //! Assumes: one coefficient of friction at rest and in motion. Does not model: warming and fading of the lining.
 
-use super::layout::{CLUTCH_CAPACITY, CLUTCH_HEAT, CLUTCH_TORQUE, FLYWHEEL, SHAFT};
+use super::layout::{CLUTCH_CAPACITY, DRIVE_HEAT, DRIVE_MOMENT, Layout};
 use super::machine::RigMachine;
 use super::mode::{Clutch, Mode};
 
 /// Speed by which the flywheel is ahead of the shaft, rad/s.
-pub fn slip_speed(state: &[f64]) -> f64 {
-    state[FLYWHEEL.spin()] - state[SHAFT.spin()]
-}
-
-/// What is left before the clutch changes: of the slip, rad/s, or of the capacity, N m.
-pub(super) fn reserve(mode: &Mode, (state, probe): (&[f64], &[f64])) -> f64 {
-    match mode.clutch {
-        Clutch::Open => f64::INFINITY,
-        Clutch::Slipping { direction } => slip_speed(state) * direction,
-        Clutch::Locked => probe[CLUTCH_CAPACITY] - probe[CLUTCH_TORQUE].abs(),
-    }
+fn slip_speed(layout: &Layout, state: &[f64]) -> f64 {
+    state[layout.driver.spin()] - state[layout.race.spin()]
 }
 
 impl RigMachine {
+    /// What is left before the clutch changes: of the slip, rad/s, or of the capacity, N m.
+    pub(super) fn reserve(&self, mode: &Mode<f64>, (state, probe): (&[f64], &[f64])) -> f64 {
+        match mode.clutch.state {
+            Clutch::Open => f64::INFINITY,
+            Clutch::Slipping { direction } => slip_speed(self.layout(), state) * direction,
+            Clutch::Locked => probe[CLUTCH_CAPACITY] - probe[DRIVE_MOMENT].abs(),
+        }
+    }
     /// What becomes of the clutch where nothing is left.
-    pub(super) fn change_clutch(&self, time: f64, mode: &mut Mode, state: &mut [f64]) {
-        match mode.clutch {
+    pub(super) fn change_clutch(&self, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
+        match mode.clutch.state {
             Clutch::Open => {}
             Clutch::Slipping { .. } => {
                 self.even_out(state);
-                mode.clutch = self.engaged(mode, time, state);
+                mode.clutch.state = self.engaged(mode, time, state);
             }
             Clutch::Locked => {
-                let torque = self.inspect(mode, time, state).1[CLUTCH_TORQUE];
-                mode.clutch = Clutch::Slipping {
+                let torque = self.inspect(mode, time, state).1[DRIVE_MOMENT];
+                mode.clutch.state = Clutch::Slipping {
                     direction: torque.signum(),
                 };
             }
         }
     }
     /// What an engaged clutch does in a state at an instant.
-    pub(super) fn engaged(&self, mode: &Mode, time: f64, state: &[f64]) -> Clutch {
-        let slip = slip_speed(state);
+    pub(super) fn engaged(&self, mode: &Mode<f64>, time: f64, state: &[f64]) -> Clutch {
+        let slip = slip_speed(self.layout(), state);
         if slip != 0.0 {
             return Clutch::Slipping {
                 direction: slip.signum(),
             };
         }
         let mut locked = *mode;
-        locked.clutch = Clutch::Locked;
-        let torque = self.inspect(&locked, time, state).1[CLUTCH_TORQUE];
-        if torque.abs() <= mode.capacity.at(time) {
+        locked.clutch.state = Clutch::Locked;
+        let torque = self.inspect(&locked, time, state).1[DRIVE_MOMENT];
+        if torque.abs() <= mode.clutch.capacity.at(time) {
             Clutch::Locked
         } else {
             Clutch::Slipping {
@@ -74,15 +73,16 @@ impl RigMachine {
     /// Gives flywheel and shaft one speed; their angular momentum stays, the energy of what they differed by is heat of
     /// the clutch.
     fn even_out(&self, state: &mut [f64]) {
-        let slip = slip_speed(state);
-        let flywheel = self.constants.flywheel.inertia;
+        let layout = self.layout();
+        let (race, driver) = (layout.race.spin(), layout.driver.spin());
+        let slip = slip_speed(layout, state);
+        let flywheel = self.constants.drive.driver_inertia();
         // balls that roll turn with the shaft; others keep their own motion
-        let shaft = self.constants.shaft.inertia + self.rolling_inertia();
-        let shared =
-            (flywheel * state[FLYWHEEL.spin()] + shaft * state[SHAFT.spin()]) / (flywheel + shaft);
-        state[FLYWHEEL.spin()] = shared;
-        state[SHAFT.spin()] = shared;
+        let shaft = self.constants.race.inertia + self.rolling_inertia();
+        let shared = (flywheel * state[driver] + shaft * state[race]) / (flywheel + shaft);
+        state[driver] = shared;
+        state[race] = shared;
         let reduced = flywheel * shaft / (flywheel + shaft);
-        state[self.layout.heat(CLUTCH_HEAT)] += 0.5 * reduced * slip * slip;
+        state[layout.heat(DRIVE_HEAT)] += 0.5 * reduced * slip * slip;
     }
 }

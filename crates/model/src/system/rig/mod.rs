@@ -1,40 +1,42 @@
-//! The rig of the source paper (its Figs 5 and 6): a flywheel spins up a test bearing through a clutch, and an arm feels
-//! what the outer race receives.
+//! A bearing on a rig: its inner race is brought to speed, and its outer race stands or hangs in a housing.
 //!
 //! ```text
-//!     motor, belt        clutch                    outer race: housing under dead weight W, its spin held by the arm
-//!          │               ││                        ║        arm: second order, reads t_O and some vibration
-//!     flywheel ω_f ────────┤├──────── shaft Ω ───────╫──      inner race on the shaft, in the middle
-//!          │ belt drag     ││ T        │ support     ║
-//!                                      │ drag
-//!   I_f ω̇_f = motor - belt - T                  motor = clamp(gain (ω_set(t) - ω_f), ± limit)
-//!   I_s Ω̇   = T - support - t_I                 T: open 0; slipping ± T_c(t); locked: whatever keeps ω_f = Ω
-//!   ÿ + 2ζω_n ẏ + ω_n² (y - t_O - d) = 0         d = a (|Ω|/Ω_ref)^p cos(φ + ψ)
-//!   C Ṫ = heats of the bearing - C_f Θ̇ - G T     τ Ṫ_m = T - T_m           rises above the surroundings; films keep C_f Θ̇
+//!   drive: one of four                                     outer race: one of two
+//!   - a rotor that slides in the bore under the load       - it stands, the ground takes t_O; the radial load W(t)
+//!   - a torque over time                    inner race ──    presses on the inner race
+//!   - a speed over time                       Ω  bearing   - it hangs in a housing under dead weight W, its spin held
+//!   - a flywheel behind a clutch                             by an arm that feels t_O and some vibration
 //! ```
+//! The first three with an outer race that stands are the spin-up of the source paper, its (18) and (19); the flywheel with the housing is
+//! its rig, Figs 5 and 6.
+//!
 //! | page | subject |
 //! |---|---|
 //! | [`layout`] | where everything stands in the state, and its names |
-//! | [`rate`] | the equations of motion |
+//! | [`rate`] | the equations of motion; those of [`drive`] and [`housing`] on their own pages |
 //! | [`clutch`] | open, slipping, locked: what follows what |
-//! | [`program`] | what is done to the rig, and when |
-//! | [`machine`], [`mode`] | the rig as the solver runs it; what holds between two switchings, and how far the program has come |
+//! | [`program`] | what is done to a rig with a clutch, and when |
+//! | [`machine`], [`mode`] | the rig as the solver runs it; what holds between two landings |
 //! | [`simulate`](mod@simulate) | a run |
 //! | [`ramp`] | the engagement that gives a wanted acceleration |
 //! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
 //! | [`record`] | what is watched and kept of a run; [`taps`]: what a converter samples |
+//! | [`tangents`] | what is stiff, for linearly implicit steps |
+//! | [`capacity`] | whether traction can turn the balls against the steady moment |
 //!
-//! The housing moves in the plane under its weight, or is held in the middle: the concentric rig of the paper's
-//! equations. Then the load reaches the law of the steady moment, not the balls.
+//! The race that the load presses moves in the plane, or is held in the middle: the concentric rig of the paper's equations.
+//! Then the load reaches the law of the steady moment and the sliding rotor, not the balls.
 //!
-//! Assumes: shaft and clutch rigid, the shaft's centre at rest; the outer race does not turn. That is a good assumption:
-//! an arm of ω_n = 150 1/s on a housing of 2e-3 kg m² has a stiffness of 45 N m/rad, so that 25 N mm turn it by 0.6 mrad,
-//! and a moment that comes within 0.1 s turns it with some 0.006 rad/s, beside 150 rad/s of the shaft; the inertia of the
-//! housing is part of the arm's ω_n.
-//! Does not model: torsion of the shaft, whirl of the overhung end, slip of the belt, warming of clutch and motor.
+//! Assumes: the outer race does not turn; a sliding rotor follows the race where it translates, and what carries the load takes the
+//! reaction of its friction; shaft and clutch are rigid.
+//! Does not model: the rotor's own vibration (see [`machine`](super::machine)), torsion of the shaft, whirl of the overhung end,
+//! slip of the belt, warming of clutch and motor.
 
+pub mod capacity;
 pub mod clutch;
 pub mod constants;
+pub mod drive;
+pub mod housing;
 pub mod layout;
 pub mod ledger;
 pub mod machine;
@@ -45,16 +47,17 @@ pub mod rate;
 pub mod record;
 pub mod refusal;
 pub mod simulate;
+pub mod tangents;
 pub mod taps;
 
-pub use constants::{
-    Arm, Disturbance, Drag, Flywheel, HeatNode, Housing, Motor, RigConstants, Shaft,
-};
+pub use constants::{InnerRace, RigConstants};
+pub use drive::{ClutchDrive, Drag, Drive, Flywheel, Motor, SlidingRotor};
+pub use housing::{Arm, Disturbance, HeatNode, Housing};
 pub use machine::{Rig, RigMachine};
 pub use mode::{Clutch, ClutchEvent, Mode};
 pub use program::{Action, Engagement, Program, Start};
 pub use ramp::{RampError, engagement_ramp};
-pub use record::Record;
-pub use refusal::RigRefusal;
+pub use record::{Keep, Record};
+pub use refusal::Refusal;
 pub use simulate::simulate;
 pub use taps::{Tap, Taps};

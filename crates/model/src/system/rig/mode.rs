@@ -1,19 +1,29 @@
 //! What holds between two instants at which something is switched, and how far a program has come.
 
-use super::layout::FLYWHEEL;
 use super::machine::RigMachine;
 use super::program::{Action, Program};
 use crate::table::Piece;
 
-/// Discrete facts, what holds between two instants at which something is switched, and what is due next.
+/// What holds between two landings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode {
+pub struct Mode<R> {
+    /// Radial load, N.
+    pub load: Piece<R>,
+    /// Torque, N m, or speed, rad/s, that is given; zero where neither is.
+    pub drive: Piece<R>,
+    /// Motor and clutch.
+    pub clutch: ClutchMode,
+}
+
+/// Discrete facts of motor and clutch, what holds between two instants at which something is switched, and what is due next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClutchMode {
     /// Speed the motor is set to, rad/s over s; none while it is off.
     pub motor: Option<Piece<f64>>,
     /// Capacity T_c of the clutch, N m over s.
     pub capacity: Piece<f64>,
     /// What the clutch does.
-    pub clutch: Clutch,
+    pub state: Clutch,
     next_action: usize,
     /// When the set speed has arrived, and where.
     arrival: Option<(f64, f64)>,
@@ -46,13 +56,13 @@ pub struct ClutchEvent {
     pub speed: f64,
 }
 
-impl Mode {
+impl ClutchMode {
     /// Before anything is done: motor off, clutch open.
     pub(super) fn idle() -> Self {
-        Mode {
+        ClutchMode {
             motor: None,
             capacity: flat(0.0, 0.0),
-            clutch: Clutch::Open,
+            state: Clutch::Open,
             next_action: 0,
             arrival: None,
             full: None,
@@ -70,22 +80,21 @@ impl Mode {
         .flatten()
         .fold(f64::INFINITY, f64::min)
     }
-    /// Does what is due at an instant.
-    pub(super) fn advance(&mut self, machine: &RigMachine, time: f64, state: &[f64]) {
-        let mut engaged = self.clutch != Clutch::Open;
+    /// Does what is due at an instant, where the flywheel has a speed, rad/s; whether the clutch is engaged from then on.
+    fn advance(&mut self, program: &Program, time: f64, flywheel: f64) -> bool {
+        let mut engaged = self.state != Clutch::Open;
         if let Some((_, speed)) = self.arrival.take_if(|(at, _)| *at <= time) {
             self.motor = Some(flat(time, speed));
         }
         if let Some((_, largest)) = self.full.take_if(|(at, _)| *at <= time) {
             self.capacity = flat(time, largest);
         }
-        let actions = &machine.constants.program.actions;
+        let actions = &program.actions;
         while let Some((_, action)) = actions.get(self.next_action).filter(|next| next.0 <= time) {
             self.next_action += 1;
             match *action {
                 Action::MotorTo { speed, rate } => {
-                    let from = state[FLYWHEEL.spin()];
-                    let (set, arrival) = rise(time, from, speed, rate);
+                    let (set, arrival) = rise(time, flywheel, speed, rate);
                     self.motor = Some(set);
                     self.arrival = arrival;
                 }
@@ -104,11 +113,25 @@ impl Mode {
                 }
             }
         }
+        engaged
+    }
+}
+
+impl Mode<f64> {
+    /// Does what the program of a clutch has due at an instant.
+    pub(super) fn advance(
+        &mut self,
+        machine: &RigMachine,
+        program: &Program,
+        time: f64,
+        state: &[f64],
+    ) {
+        let flywheel = state[machine.layout().driver.spin()];
+        let engaged = self.clutch.advance(program, time, flywheel);
         // last, since what locking takes depends on all of it
-        self.clutch = if engaged {
-            machine.engaged(self, time, state)
-        } else {
-            Clutch::Open
+        self.clutch.state = match engaged {
+            true => machine.engaged(self, time, state),
+            false => Clutch::Open,
         };
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! Any other program is a list of actions.
 
-use super::refusal::RigRefusal;
+use super::refusal::Refusal;
 
 /// A start and a list of actions in the order of their times.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,14 +160,14 @@ impl Program {
     }
 
     /// Refuses what has no meaning.
-    pub fn check(&self) -> Result<(), RigRefusal> {
+    pub fn check(&self) -> Result<(), Refusal> {
         if !(self.start.shaft_speed.is_finite() && self.start.flywheel_speed.is_finite()) {
-            return Err(RigRefusal::Negative("size of a speed at the start"));
+            return Err(Refusal::Negative("size of a speed at the start"));
         }
         let mut last = 0.0;
         for (index, (time, action)) in self.actions.iter().enumerate() {
             if !(time.is_finite() && *time >= last) {
-                return Err(RigRefusal::Order(index));
+                return Err(Refusal::Order(index));
             }
             last = *time;
             let sound = match action {
@@ -176,7 +176,7 @@ impl Program {
                 Action::MotorOff | Action::Disengage => true,
             };
             if !sound {
-                return Err(RigRefusal::Action(index));
+                return Err(Refusal::Action(index));
             }
         }
         Ok(())

@@ -10,9 +10,9 @@
 use super::mode::Clutch;
 use super::record::{Keep, Record};
 use super::simulate::simulate;
-use super::{Action, Mode, RigConstants, RigMachine, RigRefusal};
+use super::{Action, Drive, Mode, Refusal, RigConstants, RigMachine};
 use crate::bearing::{BearingConstants, RollingConstants};
-use solve::{Flow, Observer, Settings, Step, Stop};
+use solve::{Flow, Observer, Settings, Step, Steps, Stop};
 use std::fmt;
 use std::sync::atomic::AtomicBool;
 
@@ -24,7 +24,7 @@ pub enum RampError {
     /// Acceleration or speed are not positive.
     NotPositive,
     /// The rig cannot be built.
-    Refused(RigRefusal),
+    Refused(Refusal),
     /// The clutch never locked, however quickly it engaged.
     NeverLocks,
     /// With the wanted acceleration the shaft does not come to the flywheel's speed before the test ends or the clutch is released.
@@ -89,17 +89,21 @@ pub fn engagement_ramp(
     if !(sound(acceleration) && sound(speed)) {
         return Err(RampError::NotPositive);
     }
-    let engaged_at = (constants.program.actions.iter())
+    let Drive::Clutch(clutch) = &constants.drive else {
+        return Err(RampError::NoEngagement);
+    };
+    let actions = &clutch.program.actions;
+    let engaged_at = (actions.iter())
         .find_map(|(time, action)| matches!(action, Action::Engage(_)).then_some(*time))
         .ok_or(RampError::NoEngagement)?;
     let mut rig = constants.clone();
     if let BearingConstants::Planar(bearing) = &rig.bearing {
         rig.bearing = BearingConstants::Rolling(RollingConstants::of(bearing));
     }
-    let inertia = rig.shaft.inertia + rig.bearing.set().inner_inertia();
+    let inertia = rig.race.inertia + rig.bearing.set().inner_inertia();
     let duration = 2.0 * speed / acceleration;
     // released again, it never locks later
-    let released = (rig.program.actions.iter())
+    let released = (actions.iter())
         .filter(|(time, action)| *time > engaged_at && matches!(action, Action::Disengage))
         .map(|(time, _)| *time);
     let end = released.fold(engaged_at + 10.0 * duration + 10.0, f64::min);
@@ -184,18 +188,15 @@ impl Seen {
 /// Largest acceleration of the shaft up to the locking, rad/s²; none where the clutch does not lock.
 fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f64>, RampError> {
     let mut rig = rig.clone();
-    for (_, action) in &mut rig.program.actions {
-        if let Action::Engage(by) = action {
-            by.rate = rate;
+    if let Drive::Clutch(clutch) = &mut rig.drive {
+        for (_, action) in &mut clutch.program.actions {
+            if let Action::Engage(by) = action {
+                by.rate = rate;
+            }
         }
     }
     let machine = RigMachine::new(rig).map_err(RampError::Refused)?;
-    let keep = Keep {
-        end,
-        interval: None,
-        taps: &[],
-    };
-    let mut first = UntilLocked(Record::new(&machine, &keep));
+    let mut first = UntilLocked(Record::new(&machine, &Keep::peaks(end)));
     let settings = Settings {
         start: 0.0,
         end,
@@ -204,7 +205,8 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f
         largest_step: 1e-2,
         step_limit: 1_000_000,
     };
-    let ending = simulate(&machine, &settings, &mut first, &AtomicBool::new(false));
+    let never = AtomicBool::new(false);
+    let ending = simulate(&machine, &settings, Steps::Explicit, &mut first, &never);
     let locked = matches!(ending.stop, Stop::Halted(_));
     Ok(locked.then_some(first.0.acceleration.value))
 }
@@ -216,9 +218,15 @@ impl Observer<RigMachine> for UntilLocked {
     fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
         self.0.step(step)
     }
-    fn switched(&mut self, machine: &RigMachine, mode: &Mode, time: f64, state: &[f64]) -> Flow {
+    fn switched(
+        &mut self,
+        machine: &RigMachine,
+        mode: &Mode<f64>,
+        time: f64,
+        state: &[f64],
+    ) -> Flow {
         self.0.switched(machine, mode, time, state);
-        match mode.clutch {
+        match mode.clutch.state {
             Clutch::Locked => Flow::Halt("the clutch has locked"),
             Clutch::Open | Clutch::Slipping { .. } => Flow::Continue,
         }

@@ -1,26 +1,26 @@
 //! What is watched and kept of a rig's run.
 //!
 //! Rises through a level are found on dense output; largest values are those at the ends of the steps, and the ends of what
-//! the clutch does are such ends. Means are taken over cage turns at the target speed. Rows are sampled at equal intervals
+//! a clutch does are such ends. Means are taken over cage turns at the target speed. Rows are sampled at equal intervals
 //! and at the end. Everything is allocated before the run but the changes of the clutch.
 
 use super::layout::{
-    ACCELERATION, BEARING, CAGE_SLIP, CLUTCH_TORQUE, INNER_MOMENT, LARGEST_INNER_LOAD,
-    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
+    ACCELERATION, CAGE_SLIP, DRIVE_MOMENT, INNER_MOMENT, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, OUTER_MOMENT, STEADY_MOMENT,
     TEMPERATURE,
 };
-use super::mode::ClutchEvent;
-use super::rate::race_motion;
+use super::machine::RigMachine;
+use super::mode::{Clutch, ClutchEvent, Mode};
 use super::taps::{Tap, Taps};
-use super::{Clutch, Mode, RigMachine};
 use crate::bearing::BearingConstants;
-use crate::system::cage_turns::{CageTurns, LateMeans};
+use crate::system::cage_turns::CageTurns;
+pub use crate::system::cage_turns::LateMeans;
 use crate::system::race_record::RaceRecord;
 use crate::system::sampling::{Peak, Rise, Row, Rows};
 use solve::{Flow, Machine, Observer, Step};
 
 /// What is kept of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Keep<'a> {
     /// End of the run, s.
     pub end: f64,
@@ -30,34 +30,54 @@ pub struct Keep<'a> {
     pub taps: &'a [Tap],
 }
 
+impl Keep<'_> {
+    /// Rows of a run until an end, s, at an interval, s.
+    pub fn rows(end: f64, interval: f64) -> Self {
+        Keep {
+            end,
+            interval: Some(interval),
+            taps: &[],
+        }
+    }
+    /// The largest values of a run until an end, s.
+    pub fn peaks(end: f64) -> Self {
+        Keep {
+            interval: None,
+            ..Keep::rows(end, end)
+        }
+    }
+}
+
 /// Everything kept of one rig.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Largest acceleration of the shaft in the direction of the target speed, rad/s².
+    /// Largest acceleration of the inner race in the direction of the target speed, rad/s².
     pub acceleration: Peak,
-    /// Largest acceleration of the shaft against that direction, rad/s²; its size.
+    /// Largest acceleration of the inner race against that direction, rad/s²; its size.
     pub deceleration: Peak,
-    /// Largest size of the moment t_I that resists the shaft in the bearing, N m.
+    /// Largest size of the moment t_I that resists the inner race, N m.
     pub inner_moment: Peak,
     /// Largest size of the moment t_O on the outer race, N m.
     pub outer_moment: Peak,
-    /// Largest size of the torque of the clutch, N m.
-    pub clutch_torque: Peak,
+    /// Largest size of the moment of the drive, of a clutch its torque, N m.
+    pub drive_moment: Peak,
     /// Largest ball load at the inner race, N.
     pub largest_inner_load: Peak,
     /// Largest ball load at the outer race, N.
     pub largest_outer_load: Peak,
     /// Largest force between a ball and its pocket, or between two balls without a cage, N.
     pub largest_pocket_force: Peak,
+    /// Largest force between cage and land, N.
+    pub largest_land_force: Peak,
     /// Largest rise of the bearing's temperature, K.
     pub temperature: Peak,
     /// What the clutch did, in order; the first entry is how it started.
     pub clutch: Vec<ClutchEvent>,
     /// The mode that the run has come to.
-    pub mode: Mode,
+    pub mode: Mode<f64>,
     /// What the converter sampled.
     pub taps: Taps,
-    /// Of the shaft through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
+    /// Of the inner race through 50 % and 95 % of the target speed, of the cage through 95 % of its rolling speed then.
     rises: [Rise; 3],
     turns: CageTurns,
     /// What the races have seen of their balls.
@@ -76,41 +96,46 @@ impl Record {
         let c = &machine.constants;
         let speed = c.target_speed;
         let rolling = c.bearing.rolling_cage_ratio() * speed;
+        let layout = machine.layout();
+        let race = layout.race.spin();
         let cage = match &c.bearing {
-            // where balls roll the cage follows the shaft
-            BearingConstants::Rolling(_) => Rise::through(SHAFT.spin(), 0.95 * speed),
-            BearingConstants::Planar(_) => Rise::through(BEARING + 1, 0.95 * rolling),
+            // where balls roll the cage follows the race
+            BearingConstants::Rolling(_) => Rise::through(race, 0.95 * speed),
+            BearingConstants::Planar(_) => {
+                Rise::through(layout.bearing().start + 1, 0.95 * rolling)
+            }
         };
         let mode = machine.start_mode();
         let mut clutch = Vec::with_capacity(CHANGES);
         clutch.push(ClutchEvent {
             time: 0.0,
-            clutch: mode.clutch,
-            speed: c.program.start.shaft_speed,
+            clutch: mode.clutch.state,
+            speed: c.start_speed(),
         });
         Record {
             acceleration: Peak::NONE,
             deceleration: Peak::NONE,
             inner_moment: Peak::NONE,
             outer_moment: Peak::NONE,
-            clutch_torque: Peak::NONE,
+            drive_moment: Peak::NONE,
             largest_inner_load: Peak::NONE,
             largest_outer_load: Peak::NONE,
             largest_pocket_force: Peak::NONE,
+            largest_land_force: Peak::NONE,
             temperature: Peak::NONE,
             clutch,
             mode,
             taps: Taps::new(keep.taps, keep.end),
             rises: [
-                Rise::through(SHAFT.spin(), 0.5 * speed),
-                Rise::through(SHAFT.spin(), 0.95 * speed),
+                Rise::through(race, 0.5 * speed),
+                Rise::through(race, 0.95 * speed),
                 cage,
             ],
             turns: CageTurns::until(
                 keep.end,
                 rolling,
                 [INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT, CAGE_SLIP],
-                SHAFT.spin(),
+                race,
             ),
             races: RaceRecord::new(machine.constants.bearing.balls(), speed),
             rows: Rows::new(
@@ -132,7 +157,7 @@ impl Record {
             .filter(|event| event.clutch == Clutch::Locked)
             .map(|event| event.time)
     }
-    /// Means over the last cage turns at a speed of the shaft, rad/s; see [`CageTurns::late_means`].
+    /// Means over the last cage turns at a speed of the inner race, rad/s; see [`CageTurns::late_means`].
     pub fn late_means(&self, speed: f64) -> Option<LateMeans> {
         self.turns.late_means(speed)
     }
@@ -140,12 +165,12 @@ impl Record {
     pub fn last_cage_slip(&self) -> Option<f64> {
         self.turns.last_cage_slip()
     }
-    /// First instant the shaft reaches half the target speed, s.
-    pub fn shaft_time_to_50_percent(&self) -> Option<f64> {
+    /// First instant the inner race reaches half the target speed, s.
+    pub fn time_to_50_percent(&self) -> Option<f64> {
         self.rises[0].time
     }
-    /// First instant the shaft reaches 95 % of the target speed, s.
-    pub fn shaft_time_to_95_percent(&self) -> Option<f64> {
+    /// First instant the inner race reaches 95 % of the target speed, s.
+    pub fn time_to_95_percent(&self) -> Option<f64> {
         self.rises[1].time
     }
     /// First instant the cage reaches 95 % of its rolling speed at the target speed, s.
@@ -162,7 +187,7 @@ impl Record {
     }
     /// Adds the last state of a run as a row, where it is not one already.
     pub fn finish(&mut self, machine: &RigMachine, time: f64, state: &[f64]) {
-        let (_, probe) = machine.inspect(&self.mode, time, state);
+        let probe = machine.last_probes(&self.mode, time, state);
         self.rows.finish(&Row {
             time,
             state,
@@ -184,16 +209,19 @@ impl Observer<RigMachine> for Record {
         for (peak, probe) in [
             (&mut self.inner_moment, INNER_MOMENT),
             (&mut self.outer_moment, OUTER_MOMENT),
-            (&mut self.clutch_torque, CLUTCH_TORQUE),
+            (&mut self.drive_moment, DRIVE_MOMENT),
             (&mut self.largest_inner_load, LARGEST_INNER_LOAD),
             (&mut self.largest_outer_load, LARGEST_OUTER_LOAD),
             (&mut self.largest_pocket_force, LARGEST_POCKET_FORCE),
+            (&mut self.largest_land_force, LAND_FORCE),
         ] {
             peak.raise(step.start_probe(probe).abs(), step.start);
             peak.raise(step.end_probe(probe).abs(), step.end);
         }
-        self.temperature
-            .raise(step.end_state(TEMPERATURE), step.end);
+        if step.machine.layout().housing {
+            self.temperature
+                .raise(step.end_state(TEMPERATURE), step.end);
+        }
         for rise in &mut self.rises {
             rise.watch(step);
         }
@@ -204,17 +232,17 @@ impl Observer<RigMachine> for Record {
             machine.layout().bearing(),
             [LARGEST_INNER_LOAD, LARGEST_SKIDS],
         );
-        self.races.watch(step, bearing, race_motion);
+        (self.races).watch(step, bearing, |state| machine.layout().motion(state));
         self.taps.sample(step);
         self.rows.sample(step, |rig, state| rig.content(state));
         Flow::Continue
     }
-    fn switched(&mut self, _: &RigMachine, mode: &Mode, time: f64, state: &[f64]) -> Flow {
-        if mode.clutch != self.mode.clutch {
+    fn switched(&mut self, rig: &RigMachine, mode: &Mode<f64>, time: f64, state: &[f64]) -> Flow {
+        if mode.clutch.state != self.mode.clutch.state {
             self.clutch.push(ClutchEvent {
                 time,
-                clutch: mode.clutch,
-                speed: state[SHAFT.spin()],
+                clutch: mode.clutch.state,
+                speed: state[rig.layout().race.spin()],
             });
         }
         self.mode = *mode;

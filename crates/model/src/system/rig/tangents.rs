@@ -1,4 +1,4 @@
-//! What is stiff in a spin-up, for linearly implicit steps: balls, and the rotor that slides in the bore.
+//! What is stiff in a rig without clutch and housing, for linearly implicit steps: balls, and the rotor that slides in the bore.
 //!
 //! ```text
 //!   (G - A) u = R        positions follow their velocities: u_q = (R_q + u_v)/G
@@ -9,9 +9,10 @@
 //! ```
 //! Left out: how the friction of the rotor pushes the race aside, the loss of accelerated balls where it is given.
 
+use super::drive::DriveOver;
 use super::layout::{INNER, ROTOR};
-use super::rate::race_motion;
-use super::{DriveKind, Mode, SpinUp, SpinUpMachine};
+use super::machine::{Rig, RigMachine};
+use super::mode::Mode;
 use crate::bearing::tangents::{BallTangents, Known, KnownRates, ROWS};
 use crate::bearing::{self, Planar};
 use crate::body::pair;
@@ -35,41 +36,44 @@ pub struct Room<R: Real> {
     inverse_g: R,
 }
 
-impl SpinUpMachine {
+impl RigMachine {
     /// How much of what is stiff here linearly implicit steps know.
     pub fn tangents(&self) -> Known {
         self.constants.bearing.tangents()
     }
 }
 
-impl<R: Real> SpinUp<R> {
+impl<R: Real> Rig<R> {
     #[inline(always)]
     fn planar(&self) -> &Planar<R> {
-        match self.bearing.planar() {
-            Some(bearing) => bearing,
-            None => panic!("balls that roll take explicit steps"),
+        match (&self.drive, &self.housing, self.bearing.planar()) {
+            (DriveOver::Clutch(_), ..) | (_, Some(_), _) => {
+                panic!("a clutch and a housing take explicit steps")
+            }
+            (_, None, Some(bearing)) => bearing,
+            (_, None, None) => panic!("balls that roll take explicit steps"),
         }
     }
     /// Arm of the sliding rotor, inertia of the rotor, whether its spin is held.
     #[inline(always)]
     fn rotor_row(&self) -> (R, R, bool) {
         match &self.drive {
-            DriveKind::SlidingRotor(rotor) => {
+            DriveOver::SlidingRotor(rotor) => {
                 (rotor.bore_radius, rotor.polar_inertia, rotor.spin_held)
             }
-            DriveKind::Torque | DriveKind::Speed => (R::one(), R::one(), true),
+            _ => (R::one(), R::one(), true),
         }
     }
     /// Rows that do not answer: their speeds are given.
     #[inline(always)]
     fn held(&self) -> [bool; BORDER] {
         let centre = self.race.centre_held;
-        let speed = matches!(self.drive, DriveKind::Speed);
+        let speed = matches!(self.drive, DriveOver::Speed);
         [self.rotor_row().2, centre, centre, speed, true, true, false]
     }
 }
 
-impl<R: Real> Tangents<R> for SpinUp<R> {
+impl<R: Real> Tangents<R> for Rig<R> {
     type Room = Room<R>;
 
     fn room(&self) -> Room<R> {
@@ -89,10 +93,10 @@ impl<R: Real> Tangents<R> for SpinUp<R> {
 
     #[inline(always)]
     fn take(&self, mode: &Mode<R>, time: R, state: &[R], room: &mut Room<R>) {
-        let motion = race_motion(state);
+        let motion = self.layout.motion(state);
         let own = &state[self.layout.bearing()];
         self.planar().tangents(&motion, own, &mut room.balls);
-        if let DriveKind::SlidingRotor(rotor) = &self.drive {
+        if let DriveOver::SlidingRotor(rotor) = &self.drive {
             let slip = rotor.bore_radius * (state[ROTOR.spin()] - motion.inner.spin);
             let saturation = (slip * rotor.inverse_reference_speed).tanh();
             let slope =

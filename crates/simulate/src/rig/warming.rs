@@ -1,95 +1,30 @@
-//! How warm the one bearing of a run becomes, and what of it follows: of a spin-up, and of a test on a rig.
+//! How warm the bearing of a rig becomes, and what of it follows.
 
 use crate::bearing::feedback::{FollowedBearing, Renewals, State};
 use crate::bearing::warm::{self, Followed, Heated};
 use model::bearing::{self, BearingConstants};
 use model::bearing_heat::{Seen, WarmBearing, Warmth};
 use model::heats::HEATS;
-use model::system::energy::Content;
-use model::system::rig::RigMachine;
-use model::system::rig::layout::SHAFT;
-use model::system::spin_up::SpinUpMachine;
-use model::system::spin_up::layout::INNER;
+use model::system::rig::layout::DRIVE_HEAT;
+use model::system::rig::{Drive, Mode, Record, RigMachine};
 use number::Vec2;
 use outcome::list::List;
 use outcome::options::Options;
 use scenario::{Bearing, Warm};
-use solve::{Ending, Flow, Machine, Observer, Step};
-
-/// A machine with one bearing whose temperatures are followed.
-pub(crate) trait Warms: Machine + Clone {
-    /// Heats of the bearing in a state, J, in the order of [`bearing::HEATS`]: their first channel.
-    fn first_heat(&self) -> usize;
-    /// Friction of rotor and race in a state, J; none where nothing rubs on the race.
-    fn rubbing(&self) -> Option<usize>;
-    /// Channel of the spin of the inner race, rad/s.
-    fn spin(&self) -> usize;
-    /// The bearing, and where its own states begin.
-    fn bearing(&self) -> (&BearingConstants, usize);
-    /// The machine with another bearing; why there is none.
-    fn with(&self, bearing: BearingConstants) -> Result<Self, String>;
-    /// What it holds in a state.
-    fn held(&self, state: &[f64]) -> Content;
-}
-
-impl Warms for SpinUpMachine {
-    fn first_heat(&self) -> usize {
-        self.layout().flows().start
-    }
-    fn rubbing(&self) -> Option<usize> {
-        Some(self.first_heat() + bearing::HEATS.len())
-    }
-    fn spin(&self) -> usize {
-        INNER.spin()
-    }
-    fn bearing(&self) -> (&BearingConstants, usize) {
-        (&self.constants.bearing, self.layout().bearing().start)
-    }
-    fn with(&self, bearing: BearingConstants) -> Result<Self, String> {
-        let mut constants = self.constants.clone();
-        constants.bearing = bearing;
-        SpinUpMachine::new(constants).map_err(|why| why.to_string())
-    }
-    fn held(&self, state: &[f64]) -> Content {
-        self.content(state)
-    }
-}
-
-impl Warms for RigMachine {
-    fn first_heat(&self) -> usize {
-        self.layout().flows().start
-    }
-    fn rubbing(&self) -> Option<usize> {
-        None
-    }
-    fn spin(&self) -> usize {
-        SHAFT.spin()
-    }
-    fn bearing(&self) -> (&BearingConstants, usize) {
-        (&self.constants.bearing, self.layout().bearing().start)
-    }
-    fn with(&self, bearing: BearingConstants) -> Result<Self, String> {
-        let mut constants = self.constants.clone();
-        constants.bearing = bearing;
-        RigMachine::new(constants).map_err(|why| why.to_string())
-    }
-    fn held(&self, state: &[f64]) -> Content {
-        self.content(state)
-    }
-}
+use solve::{Ending, Flow, Observer, Step};
 
 /// The network of a bearing while it runs.
-pub(crate) struct Warming<'a, M> {
+pub(crate) struct Warming<'a> {
     heated: Heated<'a>,
     warmth: Warmth,
     followed: Option<FollowedBearing>,
     state: Option<State>,
     /// The machines that it has been.
-    pub renewals: Renewals<M>,
+    pub renewals: Renewals<RigMachine>,
     broken: Option<(f64, String)>,
 }
 
-impl<'a, M: Warms> Warming<'a, M> {
+impl<'a> Warming<'a> {
     /// None where its temperatures are not followed.
     pub fn of(
         given: Option<&'a Warm>,
@@ -108,7 +43,7 @@ impl<'a, M: Warms> Warming<'a, M> {
     }
 
     /// Takes note of the end of a step; whether the machine is to go on with other constants.
-    pub fn step(&mut self, machine: &M, time: f64, state: &dyn Fn(usize) -> f64) -> bool {
+    pub fn step(&mut self, machine: &RigMachine, time: f64, state: &dyn Fn(usize) -> f64) -> bool {
         if !self.warmth.is_due(time) {
             return false;
         }
@@ -121,19 +56,21 @@ impl<'a, M: Warms> Warming<'a, M> {
     }
 
     /// Lets the network take the heat until a time.
-    pub fn take(&mut self, machine: &M, time: f64, state: &dyn Fn(usize) -> f64) {
-        let first = machine.first_heat();
+    pub fn take(&mut self, machine: &RigMachine, time: f64, state: &dyn Fn(usize) -> f64) {
+        let layout = machine.layout();
         let mut heats = [0.0; HEATS];
         for (k, heat) in heats[..bearing::HEATS.len()].iter_mut().enumerate() {
-            *heat = state(first + k);
+            *heat = state(layout.heat(k));
         }
-        // the last of both is the friction of rotor and race
-        heats[HEATS - 1] = machine.rubbing().map_or(0.0, state);
-        let (bearing, own_states) = machine.bearing();
+        if let Drive::SlidingRotor(_) = machine.constants.drive {
+            // the last of both is the friction of rotor and race
+            heats[HEATS - 1] = state(layout.heat(DRIVE_HEAT));
+        }
+        let (bearing, own_states) = (&machine.constants.bearing, layout.bearing().start);
         let seen = Seen {
             time,
             heats,
-            spin: state(machine.spin()),
+            spin: state(layout.race.spin()),
             drag_factor: bearing.drag_factor(&|own| state(own_states + own)),
             films: bearing.in_films(&|own| state(own_states + own)),
             taken: None,
@@ -143,7 +80,12 @@ impl<'a, M: Warms> Warming<'a, M> {
     }
 
     /// The machine at these temperatures; none where no law holds there.
-    pub fn renewed(&mut self, machine: &M, time: f64, state: &[f64]) -> Option<Box<M>> {
+    pub fn renewed(
+        &mut self,
+        machine: &RigMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<RigMachine>> {
         let followed = self.followed.as_ref()?;
         let new = followed
             .renewed(
@@ -151,11 +93,11 @@ impl<'a, M: Warms> Warming<'a, M> {
                 (&self.warmth.temperatures, self.warmth.spin()),
                 time,
             )
-            .and_then(|bearing| machine.with(bearing));
+            .and_then(|bearing| with(machine, bearing));
         match new {
             Ok(new) => {
                 let new = Box::new(new);
-                let done = new.held(state).energy() - machine.held(state).energy();
+                let done = new.content(state).energy() - machine.content(state).energy();
                 self.renewals.renew(new.clone(), time, done);
                 Some(new)
             }
@@ -187,20 +129,27 @@ impl<'a, M: Warms> Warming<'a, M> {
     }
 }
 
+/// The machine with another bearing; why there is none.
+fn with(machine: &RigMachine, bearing: BearingConstants) -> Result<RigMachine, String> {
+    let mut constants = machine.constants.clone();
+    constants.bearing = bearing;
+    RigMachine::new(constants).map_err(|why| why.to_string())
+}
+
 /// A record with what follows the temperatures of its bearing, and the progress of its run.
-pub(crate) struct Watched<'a, M, K> {
-    record: K,
-    warming: Option<Warming<'a, M>>,
+pub(crate) struct Watched<'a> {
+    record: Record,
+    warming: Option<Warming<'a>>,
     progress: &'a (dyn Fn(f64) + Sync),
     reported: u64,
     end: f64,
 }
 
-impl<'a, M: Warms, K: Observer<M>> Watched<'a, M, K> {
+impl<'a> Watched<'a> {
     /// Before a run until `end`, s.
     pub fn new(
-        record: K,
-        warming: Option<Warming<'a, M>>,
+        record: Record,
+        warming: Option<Warming<'a>>,
         end: f64,
         options: &Options<'a>,
     ) -> Self {
@@ -213,7 +162,11 @@ impl<'a, M: Warms, K: Observer<M>> Watched<'a, M, K> {
         }
     }
     /// Its parts after a run, and the machine as it is then.
-    pub fn finish(mut self, machine: &M, ending: &Ending) -> (K, Option<Warming<'a, M>>, M) {
+    pub fn finish(
+        mut self,
+        machine: &RigMachine,
+        ending: &Ending,
+    ) -> (Record, Option<Warming<'a>>, RigMachine) {
         if let Some(warming) = &mut self.warming {
             warming.take(machine, ending.time, &|channel| ending.state[channel]);
         }
@@ -224,8 +177,8 @@ impl<'a, M: Warms, K: Observer<M>> Watched<'a, M, K> {
     }
 }
 
-impl<M: Warms, K: Observer<M>> Observer<M> for Watched<'_, M, K> {
-    fn step(&mut self, step: &mut Step<M>) -> Flow {
+impl Observer<RigMachine> for Watched<'_> {
+    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.reported {
             (self.progress)(thousandths as f64 * 1e-3);
@@ -240,10 +193,21 @@ impl<M: Warms, K: Observer<M>> Observer<M> for Watched<'_, M, K> {
             flow => flow,
         }
     }
-    fn renewed(&mut self, machine: &M, time: f64, state: &[f64]) -> Option<Box<M>> {
+    fn renewed(
+        &mut self,
+        machine: &RigMachine,
+        time: f64,
+        state: &[f64],
+    ) -> Option<Box<RigMachine>> {
         self.warming.as_mut()?.renewed(machine, time, state)
     }
-    fn switched(&mut self, machine: &M, mode: &M::Mode, time: f64, state: &[f64]) -> Flow {
+    fn switched(
+        &mut self,
+        machine: &RigMachine,
+        mode: &Mode<f64>,
+        time: f64,
+        state: &[f64],
+    ) -> Flow {
         self.record.switched(machine, mode, time, state)
     }
 }
