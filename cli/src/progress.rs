@@ -1,7 +1,7 @@
 //! How far a run is: a bar on a terminal, a few lines in a log, nothing when quiet; and what takes long before it begins.
 
 use crate::console;
-use auxbear::scenario::{Scenario, SystemName};
+use auxbear::scenario::Scenario;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -22,16 +22,7 @@ pub struct Busy(#[allow(dead_code)] Sender<()>); // its end is what is heard
 impl Busy {
     /// Reports the building of the machine that a scenario describes.
     pub fn building(scenario: &Scenario) -> Busy {
-        let what = match scenario.system.name() {
-            SystemName::Signals | SystemName::Identify => "reading the measurement files",
-            SystemName::Rig => "searching the engagement that gives the wanted acceleration",
-            SystemName::Rotor => "reducing the rotor",
-            SystemName::Drop
-            | SystemName::SpinUp
-            | SystemName::Torque
-            | SystemName::Machine
-            | SystemName::CoastDown => "building the machine",
-        };
+        let what = scenario.system.name().preparation();
         let (held, dropped) = channel::<()>();
         thread::spawn(move || {
             let (begin, mut wait) = (Instant::now(), PATIENCE);

@@ -16,7 +16,7 @@ mod table;
 use draft::Draft;
 use problem::{Code, Problem};
 use rotor::{Analysis, C64};
-use scenario::{BuiltIn, Scenario, System};
+use scenario::{BuiltIn, Scenario};
 use simulate::rotor::RotorModel;
 use std::io::Read;
 use std::path::Path;
@@ -77,7 +77,7 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
         problem
     };
     let scenario = Scenario::parse(&toml, &name, &[], &BuiltIn).map_err(of_text)?;
-    let System::Rotor(written) = &scenario.system else {
+    let Some(written) = scenario.rotor() else {
         return Err(unknown(&name, "a rotor that cannot be written"));
     };
     let lost = |_| unknown(&name, "a rotor without mass somewhere");

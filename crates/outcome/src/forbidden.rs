@@ -4,7 +4,7 @@ use crate::limits::is_of;
 use crate::{Judged, Outcome, Quantity, Scope, Value, Verdict, Warning};
 use problem::warning::{Declared, Evaluation};
 use problem::{Code, Problem, did_you_mean};
-use scenario::{Forbidden, Limit, Scenario, System};
+use scenario::{Forbidden, Limit, Scenario};
 
 /// Refuses a code that no warning has.
 pub(super) fn check(
@@ -74,7 +74,7 @@ pub(super) fn values(
     forbids: &Forbidden,
 ) -> (Vec<Option<f64>>, String) {
     let all = outcome.work.members.max(1);
-    let in_run_out = matches!(&scenario.system, System::Drop(drop) if drop.run_out.is_some());
+    let in_run_out = (scenario.drop()).is_some_and(|drop| drop.run_out.is_some());
     let mut kinds = declared.iter();
     let unseen = kinds.find(|kind| {
         forbids.meets(kind.code, kind.severity)

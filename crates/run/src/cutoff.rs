@@ -4,7 +4,7 @@ use outcome::list::results;
 use outcome::list::{List, origins};
 use outcome::options::Options;
 use outcome::{Outcome, Quantity};
-use scenario::{Scenario, System};
+use scenario::Scenario;
 use simulate::drop::{Shaft, each};
 
 /// What is compared: the impact that high modes feel most, and where the rotor goes.
@@ -37,9 +37,9 @@ pub(super) fn changes(
     };
     let scenarios = [with(shaft.cutoff), with(2.0 * shaft.cutoff)];
     let drops = scenarios.iter().map(|scenario| match scenario {
-        Ok(scenario) => match &scenario.system {
-            System::Drop(drop) => each::one(scenario, drop),
-            _ => unreachable!("a cutoff makes no other system of a drop"),
+        Ok(scenario) => match scenario.drop() {
+            Some(drop) => each::one(scenario, drop),
+            None => unreachable!("a cutoff makes no other system of a drop"),
         },
         Err(problem) => Err(problem.clone()),
     });

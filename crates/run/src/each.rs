@@ -5,7 +5,7 @@ use outcome::options::{Options, in_pool};
 use outcome::{Outcome, Stop};
 use problem::Problem;
 use rayon::prelude::*;
-use scenario::{Scenario, System};
+use scenario::Scenario;
 use simulate::drop::each::{self, One};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -78,7 +78,7 @@ fn staged<'a>(
         Ok(scenario) => scenario,
         Err(problem) => return Err(not_built(problem)),
     };
-    if let System::Drop(drop) = &scenario.system {
+    if let Some(drop) = scenario.drop() {
         return each::one(scenario, drop).map_err(|problem| not_built(&scenario.locate(problem)));
     }
     let unwatched = Options {

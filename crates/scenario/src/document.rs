@@ -388,8 +388,8 @@ impl Document {
                 ),
             )
         };
-        let for_analysis = self.system == SystemName::Machine
-            && path.first().is_some_and(|first| *first == table::ANALYSIS);
+        let for_analysis =
+            self.system.bends() && path.first().is_some_and(|first| *first == table::ANALYSIS);
         if let Some(section) = section {
             if !section.systems.contains(&self.system) && !for_analysis {
                 return Err(Box::new(elsewhere("section", section.systems)));

@@ -231,6 +231,22 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// The drop of a rotor, rigid or flexible, where it is one.
+    pub fn drop(&self) -> Option<&Drop> {
+        match &self.system {
+            System::Drop(drop) => Some(drop),
+            _ => None,
+        }
+    }
+
+    /// The analysis of a rotor, where it is one.
+    pub fn rotor(&self) -> Option<&RotorAnalysis> {
+        match &self.system {
+            System::Rotor(rotor) => Some(rotor),
+            _ => None,
+        }
+    }
+
     /// Reads a file. An override is `path=value`, as after `--set`.
     pub fn read(
         path: &Path,

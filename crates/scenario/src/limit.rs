@@ -15,7 +15,6 @@
 use crate::document::Document;
 use crate::locate::UNNAMED;
 use crate::several::LIMIT;
-use crate::system::SystemName;
 use problem::key::{Key, Kind, quoted};
 use problem::raw::{Raw, Written};
 use problem::read::unreadable;
@@ -338,18 +337,5 @@ fn amount(raw: &Raw) -> Result<(f64, Dimension, String), Refused> {
     match value.is_finite() {
         true => Ok((value, dimension, text)),
         false => Err((Code::OutOfRange, raw.text(), None)),
-    }
-}
-
-/// A limit of a system's own results, for its starting file: result, bound.
-pub fn example(system: SystemName) -> (&'static str, &'static str) {
-    match system {
-        SystemName::Drop | SystemName::Machine => ("peak_contact_force", "most = \"5 kN\""),
-        SystemName::SpinUp | SystemName::Rig => ("peak_outer_race_moment", "most = \"0.5 N m\""),
-        SystemName::CoastDown => ("peak_inner_race_temperature", "most = \"120 degC\""),
-        SystemName::Torque => ("friction_moment", "most = \"50 N mm\""),
-        SystemName::Signals => ("peak_speed", "most = \"3000 rpm\""),
-        SystemName::Rotor => ("first_critical_speed", "least = \"9000 rpm\""),
-        SystemName::Identify => ("explanation_fit_probability", "least = 0.05"),
     }
 }

@@ -44,10 +44,7 @@ pub fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
             .strip_prefix(pattern)
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
     };
-    let own = match system {
-        SystemName::Machine => MACHINE,
-        _ => &[],
-    };
+    let own = if system.bends() { MACHINE } else { &[] };
     own.iter()
         .chain(TABLE)
         .find(|absent| absent.paths.split_whitespace().any(&asks))

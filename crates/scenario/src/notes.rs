@@ -5,7 +5,7 @@ use crate::bearing::kind::BearingType;
 use crate::bearing::lubricant::{LubricantWarning, drawn_on};
 use crate::drop::axial_share;
 use crate::heat::Network;
-use crate::system::SystemName;
+use crate::system::COAST_DOWN;
 use crate::table;
 use crate::values::Values;
 use catalogue::designation::{self, Designation};
@@ -104,8 +104,7 @@ impl Values {
             return None;
         };
         let oil = Viscosity::through((one[0], one[1]), (other[0], other[1])).ok()?;
-        let followed = self.chosen("heat.network") == Some(Network::On)
-            || self.system() == SystemName::CoastDown;
+        let followed = self.chosen("heat.network") == Some(Network::On) || self.is_in(COAST_DOWN);
         (!followed && oil.beyond(temperature) > 0.0).then(|| {
             let how = drawn_on(&oil, temperature);
             let key = self.shown(TEMPERATURE);

@@ -5,7 +5,6 @@ use crate::document::{Document, Given};
 use crate::key::{Condition, Key, Kind, Otherwise, Presence, conditions, quoted};
 use crate::resolved::{Resolved, ResolvedValue};
 use crate::several::{self, AUXILIARY_BEARING};
-use crate::system::SystemName;
 use crate::table;
 use crate::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
 use problem::provenance::Provenance;
@@ -122,7 +121,7 @@ impl Values {
     /// Whether a machine names no auxiliary bearing, in a table or by the node of the only one.
     fn lacks_bearings(&self, missing: &[Problem]) -> bool {
         let node = |problem: &Problem| problem.key.as_deref() == Some("contact.node");
-        self.system == SystemName::Machine && missing.iter().any(node)
+        self.system.bends() && missing.iter().any(node)
     }
 
     /// What a machine without auxiliary bearings needs first, with all keys that are missing.

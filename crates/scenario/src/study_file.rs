@@ -24,7 +24,7 @@
 //! ```
 
 use crate::study_inputs::{StudyInput, inputs_of};
-use crate::{Accuracy, BuiltIn, Distribution, Limit, Scenario, System};
+use crate::{Accuracy, BuiltIn, Distribution, Limit, Scenario};
 use problem::key::{Key, Kind, Range, quoted};
 use problem::raw::{Raw, Sections, Written};
 use problem::table::Table;
@@ -164,7 +164,8 @@ impl StudyFile {
         let mut limits = scenario.limits_of(file, sections.all("limit").to_vec())?;
         limits.extend(scenario.limits.iter().cloned());
         let confirm = question.count("confirm").unwrap_or(0);
-        let at_screening = matches!(&scenario.system, System::Drop(drop) if drop.run.accuracy == Accuracy::Screening);
+        let at_screening =
+            (scenario.drop()).is_some_and(|drop| drop.run.accuracy == Accuracy::Screening);
         if confirm > 0 && (!at_screening || limits.is_empty()) {
             let found = "nothing to confirm";
             let allowed = "a limit, and members at screening accuracy (set = [\"run.accuracy=screening\"]), are needed: those nearest to a limit are run again at design accuracy";
@@ -280,22 +281,17 @@ impl StudyFile {
 
 /// Why a scenario is no single run; a study takes what repeats it upon itself.
 fn single(scenario: &Scenario) -> Result<(), String> {
-    match &scenario.system {
-        System::Drop(drop) if drop.repeat.count > 1 => {
+    match (&scenario.system, scenario.drop()) {
+        (_, Some(drop)) if drop.repeat.count > 1 => {
             Err(format!("one with repeat.count = {}", drop.repeat.count))
         }
         _ if !scenario.vary.is_empty() => {
             Err("one that varies values itself, by [vary] or [repeat]".to_string())
         }
-        System::Drop(_)
-        | System::SpinUp(_)
-        | System::Rig(_)
-        | System::Torque(_)
-        | System::Rotor(_)
-        | System::CoastDown(_) => Ok(()),
-        System::Signals(_) | System::Identify(_) => {
+        (system, _) if system.name().reads_measurements() => {
             Err("the analysis of a measurement".to_string())
         }
+        _ => Ok(()),
     }
 }
 

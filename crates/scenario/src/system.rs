@@ -37,6 +37,24 @@ pub enum SystemName {
     CoastDown,
 }
 
+/// Of each system, in the order of [`SystemName::ALL`]: the first sentence of its starting file; a limit of its own results for that file,
+/// result and bound; what takes so long before it runs.
+#[rustfmt::skip]
+const ABOUT: [[&str; 4]; SystemName::ALL.len()] = [
+    ["A levitated rotor drops onto its auxiliary bearing.", "peak_contact_force", "most = \"5 kN\"", BUILDING],
+    ["The inner race of a bearing is brought to speed.", "peak_outer_race_moment", "most = \"0.5 N m\"", BUILDING],
+    ["The torque of a bearing over speed, load and acceleration.", "friction_moment", "most = \"50 N mm\"", BUILDING],
+    ["Speed, torque and cage speed from a measurement.", "peak_speed", "most = \"3000 rpm\"", READING],
+    ["A test on a rig, and the raw file of its logger.", "peak_outer_race_moment", "most = \"0.5 N m\"", SEARCHING],
+    ["What measured tests show of a bearing.", "explanation_fit_probability", "least = 0.05", READING],
+    ["Modes, critical speeds and response to unbalance of a flexible rotor.", "first_critical_speed", "least = \"9000 rpm\"", "reducing the rotor"],
+    ["A flexible rotor drops onto its auxiliary bearings.", "peak_contact_force", "most = \"5 kN\"", BUILDING],
+    ["A rotor runs out on its auxiliary bearings, which warm.", "peak_inner_race_temperature", "most = \"120 degC\"", BUILDING],
+];
+const BUILDING: &str = "building the machine";
+const READING: &str = "reading the measurement files";
+const SEARCHING: &str = "searching the engagement that gives the wanted acceleration";
+
 impl SystemName {
     /// All systems.
     pub const ALL: &'static [SystemName] = &[
@@ -66,6 +84,32 @@ impl SystemName {
         all.into_iter().find(|system| system.word() == word)
     }
 
+    /// The first sentence of its starting file.
+    pub fn about(self) -> &'static str {
+        ABOUT[self as usize][0]
+    }
+
+    /// A limit of its own results, for its starting file: result, bound.
+    pub fn limit_example(self) -> (&'static str, &'static str) {
+        let [_, result, bound, _] = ABOUT[self as usize];
+        (result, bound)
+    }
+
+    /// What takes so long before it runs.
+    pub fn preparation(self) -> &'static str {
+        ABOUT[self as usize][3]
+    }
+
+    /// Whether a rotor that bends falls.
+    pub fn bends(self) -> bool {
+        MACHINE.contains(&self)
+    }
+
+    /// Whether it reads measurements.
+    pub fn reads_measurements(self) -> bool {
+        MEASURED.contains(&self)
+    }
+
     /// Whether a levitated rotor falls.
     pub fn falls(self) -> bool {
         FALLING.contains(&self)
@@ -85,6 +129,45 @@ impl SystemName {
         words.join(" or ")
     }
 }
+
+/// A rigid rotor that falls.
+pub const DROP: &[SystemName] = &[SystemName::Drop];
+/// A flexible rotor that falls.
+pub const MACHINE: &[SystemName] = &[SystemName::Machine];
+/// A spin-up.
+pub const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];
+/// The torque of a bearing.
+pub const TORQUE: &[SystemName] = &[SystemName::Torque];
+/// A measurement.
+pub const SIGNALS: &[SystemName] = &[SystemName::Signals];
+/// A test on a rig.
+pub const RIG: &[SystemName] = &[SystemName::Rig];
+/// What tests tell of a bearing.
+pub const IDENTIFY: &[SystemName] = &[SystemName::Identify];
+/// The analysis of a flexible rotor.
+pub const ROTOR: &[SystemName] = &[SystemName::Rotor];
+/// A rotor that runs out.
+pub const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
+
+/// Systems that read measurements.
+pub const MEASURED: &[SystemName] = &[SystemName::Signals, SystemName::Identify];
+/// Systems with a rotor.
+pub const WITH_ROTOR: &[SystemName] = &[
+    SystemName::Drop,
+    SystemName::Rotor,
+    SystemName::Machine,
+    SystemName::CoastDown,
+];
+/// Systems whose rotor is a mass with an inertia.
+pub const RIGID: &[SystemName] = &[SystemName::Drop, SystemName::CoastDown];
+/// Systems in which gas brakes the rotor.
+pub const IN_GAS: &[SystemName] = &[SystemName::Machine, SystemName::CoastDown];
+/// Systems with magnetic bearings.
+pub const LEVITATED: &[SystemName] = &[SystemName::Drop, SystemName::Rotor, SystemName::Machine];
+/// Systems whose bearing is tested alone.
+pub const TESTED: &[SystemName] = &[SystemName::SpinUp, SystemName::Torque, SystemName::Rig];
+/// Systems whose inner race sits on a shaft of the rig.
+pub const ON_RIG: &[SystemName] = &[SystemName::SpinUp, SystemName::Rig];
 
 /// Systems in which something moves.
 pub const MOVING: &[SystemName] = &[

@@ -1,10 +1,9 @@
 //! The commented starting file, written from the table of keys.
 
 use crate::key::{Condition, Key, Otherwise, Presence, quoted};
-use crate::limit;
 use crate::rotor::keys::PARTS;
 use crate::several::{AUXILIARY_BEARING, LIMIT};
-use crate::system::SystemName;
+use crate::system::{RIG, SystemName};
 use crate::table;
 
 /// What differs most from machine to machine and stands on no drawing: left as it is it counts as assumed.
@@ -28,19 +27,7 @@ pub fn template(kind: &str) -> Option<String> {
         return Some(STUDY_TEMPLATE.to_string());
     }
     let system = SystemName::of(kind)?;
-    let about = match system {
-        SystemName::Drop => "A levitated rotor drops onto its auxiliary bearing.",
-        SystemName::SpinUp => "The inner race of a bearing is brought to speed.",
-        SystemName::Signals => "Speed, torque and cage speed from a measurement.",
-        SystemName::Rig => "A test on a rig, and the raw file of its logger.",
-        SystemName::Identify => "What measured tests show of a bearing.",
-        SystemName::Rotor => {
-            "Modes, critical speeds and response to unbalance of a flexible rotor."
-        }
-        SystemName::Machine => "A flexible rotor drops onto its auxiliary bearings.",
-        SystemName::CoastDown => "A rotor runs out on its auxiliary bearings, which warm.",
-        SystemName::Torque => "The torque of a bearing over speed, load and acceleration.",
-    };
+    let about = system.about();
     let mut out = String::new();
     comment(
         &mut out,
@@ -69,7 +56,7 @@ pub fn template(kind: &str) -> Option<String> {
     if system.has_shaft() {
         describe_parts(&mut out, system);
     }
-    if system == SystemName::Machine {
+    if system.bends() {
         describe_bearings(&mut out);
     }
     limit_example(&mut out, system);
@@ -121,7 +108,7 @@ fn limit_example(out: &mut String, system: SystemName) {
         out,
         "Limits that the results must hold, as many as you like, each with a verdict: name of a result, most or least.",
     );
-    let (quantity, bound) = limit::example(system);
+    let (quantity, bound) = system.limit_example();
     out.push_str(&format!(
         "# [[{LIMIT}]]\n# quantity = \"{quantity}\"\n# {bound}\n"
     ));
@@ -149,9 +136,9 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
     let example = match key.path {
         "system" => system.word(),
         // Without preload and law the balls of a light test hardly touch: it would show nothing.
-        "bearing.operating_diametral_clearance" if system == SystemName::Rig => "-4 um",
+        "bearing.operating_diametral_clearance" if RIG.contains(&system) => "-4 um",
         // fits the shaft of the example
-        "bearing.name" if system == SystemName::Machine => "6008",
+        "bearing.name" if system.bends() => "6008",
         _ => key.example,
     };
     let holds = key.when.iter().all(|condition| holds(condition, system));

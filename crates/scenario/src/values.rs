@@ -109,6 +109,11 @@ impl Values {
         self.system
     }
 
+    /// Whether the system of the file is one of these.
+    pub(crate) fn is_in(&self, systems: &[SystemName]) -> bool {
+        systems.contains(&self.system)
+    }
+
     pub(crate) fn put(&mut self, path: &'static str, known: Known) {
         self.known.insert(path, known);
     }

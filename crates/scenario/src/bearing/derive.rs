@@ -5,7 +5,7 @@ use crate::bearing::lubricant::Lubricant;
 use crate::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
 use crate::heat::Network;
 use crate::key::quoted;
-use crate::system::{FALLING, SystemName};
+use crate::system::{COAST_DOWN, FALLING, TORQUE};
 use crate::table;
 use crate::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
 use physics::hertz::{BallRace, PointContact, Race};
@@ -84,12 +84,10 @@ impl Values {
         self.balls()?;
         self.clearance_by_fits()?;
         self.land_diameter()?;
-        if self.system() == SystemName::Torque {
+        if self.is_in(TORQUE) {
             self.torque()?;
         }
-        if self.system() == SystemName::CoastDown
-            || self.chosen("heat.network") == Some(Network::On)
-        {
+        if self.is_in(COAST_DOWN) || self.chosen("heat.network") == Some(Network::On) {
             self.warm()?;
         }
         if let Some(preload) = self.number(PRELOAD)

@@ -6,7 +6,7 @@ use crate::bearing::moment::Lubricated;
 use crate::bearing::moment::MomentLaw;
 use crate::bearing::moment::OilKind;
 use crate::key::{Condition, Key, Kind, Range, Section};
-use crate::system::SystemName;
+use crate::system::{SystemName, TESTED};
 use problem::words::Words;
 
 #[rustfmt::skip]
@@ -15,7 +15,7 @@ pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "bearing.acceleration_loss",
         doc: "Friction F of the balls in their pockets while the race accelerates, as a sum over the balls: it resists both races, with the sign of the rotation, whatever the sign of the acceleration.",
-        systems: &[SystemName::SpinUp, SystemName::Torque, SystemName::Rig],
+        systems: TESTED,
     },
 ];
 

@@ -1,10 +1,7 @@
 //! The part of the table of keys that describes a run-out: how long it lasts.
 
 use crate::key::{Condition, Fallback, Key, Kind, Presence, Range, Section};
-use crate::system::{RUNNING_OUT, SystemName};
-
-/// The systems of this page.
-const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
+use crate::system::{COAST_DOWN, RUNNING_OUT};
 
 const UNTIL_STANDSTILL: &[Condition] = &[Condition {
     path: "run.until",

@@ -2,35 +2,21 @@
 
 use crate::drop::kinds::{SpinKind, UnbalanceAngle};
 use crate::key::{Condition, Fallback, Key, Kind, LANDING_FRICTION, Otherwise, Range, Section};
-use crate::system::{FALLING, SHAFT, SystemName};
+use crate::system::{DROP, FALLING, IN_GAS, LEVITATED, MACHINE, RIGID, SHAFT, WITH_ROTOR};
 use problem::words::Words;
-
-/// Systems whose rotor does not bend.
-const DROP: &[SystemName] = &[SystemName::Drop];
-/// Systems whose rotor is a mass with an inertia.
-const RIGID: &[SystemName] = &[SystemName::Drop, SystemName::CoastDown];
-/// Systems in which gas brakes the rotor.
-const IN_GAS: &[SystemName] = &[SystemName::Machine, SystemName::CoastDown];
-/// Systems whose rotor bends.
-const MACHINE: &[SystemName] = &[SystemName::Machine];
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[
     Section {
         path: "rotor",
         doc: "The rotor. Angles and speeds count counter-clockwise, x points right and y up.",
-        systems: &[
-            SystemName::Drop,
-            SystemName::Rotor,
-            SystemName::Machine,
-            SystemName::CoastDown,
-        ],
+        systems: WITH_ROTOR,
     },
     Section::new("gravity", "Weight of the rotor.", FALLING),
     Section {
         path: "levitation",
         doc: "The magnetic bearing. Of a drop, at one plane while it is on: a linear spring and damper that also carries the weight, switched off at time 0. Of a flexible rotor: its magnets, sensors and controllers.",
-        systems: &[SystemName::Drop, SystemName::Rotor, SystemName::Machine],
+        systems: LEVITATED,
     },
     Section::new("contact", "Contact of the rotor with the bore of the inner race.", FALLING),
     Section::new("contact.surface", "Metal below the landing surfaces of rotor and inner race. Where contact.width is given, a run tells how hot they become; its motion follows nothing of it.", FALLING),

@@ -3,7 +3,7 @@
 use crate::bearing::fits::{Fits, HOUSING_FIT};
 use crate::heat::{Atmosphere, HOUSING_SIZE};
 use crate::spin_up::DriveKind;
-use crate::system::SystemName;
+use crate::system::{COAST_DOWN, ON_RIG};
 use crate::values::{Value, Values};
 use physics::air::{GRAVITY, SEA_LEVEL};
 use physics::heat_conduction::STEEL_HEAT;
@@ -37,7 +37,7 @@ impl Values {
         let planes = self.number("rotor.planes").unwrap_or(1.0);
         if let Some(mass) = self.number("rotor.mass") {
             let share = mass / planes;
-            if self.system() == SystemName::CoastDown {
+            if self.is_in(COAST_DOWN) {
                 let load = "mass / planes times 9.80665 m/s²";
                 self.fill("coast_down.radial_load", share * GRAVITY, load)?;
             }
@@ -69,10 +69,10 @@ impl Values {
             ring * STEEL_HEAT.specific_heat,
             how,
         )?;
-        if matches!(self.system(), SystemName::SpinUp | SystemName::Rig) {
+        if self.is_in(ON_RIG) {
             self.shaft_of_a_rig([bore, width])?;
         }
-        if self.system() == SystemName::CoastDown {
+        if self.is_in(COAST_DOWN) {
             let how = "1 % of bore_diameter; assumed";
             self.fill("heat.radial_air_clearance", AIR_CLEARANCE * bore, how)?;
         }

@@ -2,7 +2,7 @@
 
 use crate::heat::{Atmosphere, CageMaterial, Feedback, Network, RotorBodies};
 use crate::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
-use crate::system::{FALLING, SystemName, WARMING, WITH_NETWORK};
+use crate::system::{COAST_DOWN, FALLING, WARMING, WITH_NETWORK};
 use problem::words::Words;
 
 #[rustfmt::skip]
@@ -80,7 +80,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("heat.rotor_contact", Kind::Quantity("W/K"), "0.15 W/K", "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft, which follows bearing.fits.shaft_interference, temperatures and speed where they are given.")
         .not_negative().optional("that of two rough ground surfaces of steel along the width of the bearing, rolling on each other with heat.radial_air_clearance").when(FOLLOWED),
     Key::new("heat.radial_air_clearance", Kind::Quantity("m"), "0.25 mm", "Radial clearance of the rotor in the inner race: the race turns slower than the rotor that rolls in it, by 2 radial_air_clearance/bore_diameter, and the line that they touch along is wider the smaller it is.")
-        .positive().derived("1 % of heat.bore_diameter, assumed").only(&[SystemName::CoastDown]).when(FOLLOWED),
+        .positive().derived("1 % of heat.bore_diameter, assumed").only(COAST_DOWN).when(FOLLOWED),
     Key::new("heat.outer_seat", Kind::Quantity("W/K"), "6 W/K", "Conductance from outer race to housing. A loose ring in vacuum has a hundredth of a pressed one; O-rings and wire mesh have what their maker says.")
         .not_negative().derived("where bearing.fits.housing_interference and what it presses are given that of ground steel under its pressure, which follows the temperatures down to the gap of a loose ring; else under 1 MPa, 3.6 kW/(m² K) of the ring's outside: assumed").when(FOLLOWED),
     Key::new("heat.surroundings", Kind::Quantity("W/K"), "0.87 W/K", "Conductance from the housing to its surroundings.")

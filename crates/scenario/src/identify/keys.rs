@@ -2,11 +2,8 @@
 
 use crate::identify::Rolling;
 use crate::key::{Key, Kind, Range, Section};
-use crate::system::SystemName;
+use crate::system::IDENTIFY;
 use problem::words::Words;
-
-/// The systems of this page.
-const IDENTIFY: &[SystemName] = &[SystemName::Identify];
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[

@@ -7,11 +7,8 @@ use crate::rig::MotorAfter;
 use crate::rig::ProgramKind;
 use crate::rig::RawFormat;
 use crate::signals::PickupOutput;
-use crate::system::SystemName;
+use crate::system::RIG;
 use problem::words::Words;
-
-/// The systems of this page.
-const RIG: &[SystemName] = &[SystemName::Rig];
 
 /// Where no network follows the temperatures.
 const ONE_NODE: &[Condition] = &[Condition {

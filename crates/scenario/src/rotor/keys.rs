@@ -1,10 +1,7 @@
 //! The keys of a flexible rotor: what is asked of it, and its parts, arrays of tables `[[rotor.section]]`, `[[levitation.magnet]]` and so on.
 
 use crate::key::{Key, Kind, Range, Section};
-use crate::system::SystemName;
-
-/// The systems of this page.
-const ROTOR: &[SystemName] = &[SystemName::Rotor];
+use crate::system::ROTOR;
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[Section::new("analysis", "What is computed of the rotor: speeds, modes, margins.", ROTOR)];

@@ -6,11 +6,8 @@ use crate::signals::CageOutput;
 use crate::signals::Disturbance;
 use crate::signals::PickupFlank;
 use crate::signals::SpeedOutput;
-use crate::system::SystemName;
+use crate::system::SIGNALS;
 use problem::words::Words;
-
-/// The systems of this page.
-const SIGNALS: &[SystemName] = &[SystemName::Signals];
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[

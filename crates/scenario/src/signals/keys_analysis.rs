@@ -2,11 +2,8 @@
 
 use crate::key::{Condition, Key, Kind, Range, Section};
 use crate::signals::analysis::InertiaFrom;
-use crate::system::SystemName;
+use crate::system::SIGNALS;
 use problem::words::Words;
-
-/// The systems of this page.
-const SIGNALS: &[SystemName] = &[SystemName::Signals];
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[

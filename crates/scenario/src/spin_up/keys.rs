@@ -3,11 +3,8 @@
 use crate::key::{Condition, Fallback, Key, Kind, LANDING_FRICTION, Presence, Section};
 use crate::spin_up::DriveKind;
 use crate::spin_up::RotorSpin;
-use crate::system::SystemName;
+use crate::system::SPIN_UP;
 use problem::words::Words;
-
-/// The systems of this page.
-const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];
 
 /// What a spin-up does without keys that it shares with a drop.
 pub const PRESENCES: &[(&str, Presence)] = &[

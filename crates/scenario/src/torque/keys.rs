@@ -1,10 +1,7 @@
 //! The part of the table of keys that describes where the torque of a bearing is computed.
 
 use crate::key::{Fallback, Key, Kind, Presence, Range, Section};
-use crate::system::SystemName;
-
-/// The systems of this page.
-const TORQUE: &[SystemName] = &[SystemName::Torque];
+use crate::system::TORQUE;
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[Section::new("torque", "Where the moments are computed. Nothing moves: at each speed, load and acceleration the balls roll. The first load and the running temperature are those of every table that varies something else.", TORQUE)];

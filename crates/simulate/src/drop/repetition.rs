@@ -15,7 +15,7 @@ use outcome::options::{Options, in_pool};
 use outcome::{Members, Outcome, Quantity, Spread, Stop, Value, Work};
 use problem::{Place, Problem};
 use rayon::prelude::*;
-use scenario::{Scenario, System};
+use scenario::Scenario;
 use statistics::random::Random;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -79,7 +79,7 @@ fn draw(scenario: &Scenario, drop: &Drop, k: usize) -> Drawn {
 fn member(scenario: &Scenario, drawn: &Drawn, k: usize) -> Result<Arc<Other>, Box<Problem>> {
     let blame = |problem: Box<Problem>| member_problem(k, drawn, *problem);
     let member = scenario.with(drawn).map_err(blame)?;
-    let System::Drop(of) = &member.system else {
+    let Some(of) = member.drop() else {
         unreachable!("no value that is varied changes the system");
     };
     let built = build::drop(of).map_err(blame)?;

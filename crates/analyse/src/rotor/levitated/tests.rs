@@ -4,7 +4,7 @@ use super::super::asked::Asked;
 use super::*;
 use outcome::Value;
 use problem::Code;
-use scenario::{BuiltIn, Scenario, System};
+use scenario::{BuiltIn, Scenario};
 
 const SMALL: &str = r#"
 format = "auxbear.scenario/1"
@@ -63,7 +63,7 @@ fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
         text = text.replace(from, to);
     }
     let scenario = Scenario::parse(&text, "small.toml", &[], &BuiltIn)?;
-    let System::Rotor(analysis) = &scenario.system else {
+    let Some(analysis) = scenario.rotor() else {
         panic!("a rotor");
     };
     let asked = Asked::of(analysis)?;
@@ -107,7 +107,7 @@ fn the_scenario_that_ships_has_the_sensitivity_of_the_reference() {
     let text = &text.replace("gap = \"0.5 mm\"\n", "");
     let scenario = Scenario::parse(text, "rotor_levitated.toml", &[], &BuiltIn);
     let scenario = scenario.unwrap_or_else(|problem| panic!("{problem}"));
-    let System::Rotor(analysis) = &scenario.system else {
+    let Some(analysis) = scenario.rotor() else {
         panic!("a rotor");
     };
     let asked = Asked::of(analysis).unwrap_or_else(|problem| panic!("{problem}"));
@@ -285,7 +285,7 @@ fn a_part_that_would_not_act_is_named_with_its_line() {
 #[test]
 fn diagrams_have_the_magnets_in_them() {
     let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
-    let System::Rotor(analysis) = &scenario.system else {
+    let Some(analysis) = scenario.rotor() else {
         panic!("a rotor");
     };
     let asked = Asked::of(analysis).unwrap();
@@ -305,7 +305,7 @@ fn diagrams_have_the_magnets_in_them() {
 #[test]
 fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
     let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
-    let System::Rotor(analysis) = &scenario.system else {
+    let Some(analysis) = scenario.rotor() else {
         panic!("a rotor");
     };
     let mut list = List::default();
@@ -324,7 +324,7 @@ fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
 #[test]
 fn an_interrupted_analysis_is_left_at_once() {
     let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
-    let System::Rotor(analysis) = &scenario.system else {
+    let Some(analysis) = scenario.rotor() else {
         panic!("a rotor");
     };
     let asked = std::sync::Arc::new(Asked::of(analysis).unwrap());
