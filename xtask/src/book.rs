@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 
 const FOLDER: &str = "book/src/";
 const SUMMARY: &str = "book/src/SUMMARY.md";
+/// Folder of the cases that ship.
+pub const CASES: &str = "crates/validate/cases/";
 const VALIDATION: &str = "book/src/validation.md";
 
 /// Compares the book with the repository.
@@ -23,12 +25,9 @@ pub fn check(repository: &Repository) -> Outcome {
         findings.extend(places(page, text, repository));
     }
     findings.extend(unlisted(text(SUMMARY), &pages));
-    for case in repository.below("validation/", ".toml") {
-        let name = case
-            .trim_start_matches("validation/")
-            .trim_end_matches(".toml");
-        // files in folders are those of the reference, which the program does not ship
-        if !name.contains('/') && !text(VALIDATION).contains(&format!("## {name}\n")) {
+    for case in repository.below(CASES, ".toml") {
+        let name = case.trim_start_matches(CASES).trim_end_matches(".toml");
+        if !text(VALIDATION).contains(&format!("## {name}\n")) {
             findings.push(format!(
                 "{VALIDATION}: {case} has no section; cargo xtask docs writes the page"
             ));

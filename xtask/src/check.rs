@@ -35,7 +35,8 @@ const FAST: [Guard; 9] = [
     ("format", toolchain::format),
 ];
 
-const SLOW: [Guard; 5] = [
+const SLOW: [Guard; 6] = [
+    ("packages", toolchain::packages),
     ("lints", toolchain::lints),
     ("documentation pages", toolchain::pages),
     ("scenarios", scenarios::check),

@@ -1,6 +1,7 @@
 //! `cargo xtask docs`: writes the page of the book that shows what the program was compared with.
 
 use crate::bench::build;
+use crate::book::CASES;
 use crate::repository::Repository;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -36,7 +37,7 @@ fn write_page(program: Option<&str>) -> Result<(), String> {
     let report: Value =
         serde_json::from_str(&text).map_err(|error| format!("auxbear validate --json: {error}"))?;
     let mut sources = BTreeMap::new();
-    for file in repository.below("validation/", ".toml") {
+    for file in repository.below(CASES, ".toml") {
         let name = Path::new(file).file_stem().unwrap_or_default();
         let text = repository.text(file).unwrap_or_default();
         let case: toml::Table =
@@ -65,7 +66,7 @@ fn page(report: &Value, sources: &BTreeMap<String, toml::Table>) -> String {
         out,
         "What the program was compared with: published and closed-form results, each with its source and a tolerance that the source supports. \
          {} of {} comparisons in {} cases pass. A deviation is a share of the reference, or absolute where the reference is 0.\n\n\
-         The case files stand in `validation/`. `auxbear validate` runs them; `auxbear validate --cases DIR` adds your own.\n",
+         The case files stand in `crates/validate/cases/`. `auxbear validate` runs them; `auxbear validate --cases DIR` adds your own.\n",
         count("pass"),
         rows.len(),
         cases.len()

@@ -58,6 +58,21 @@ pub fn pages(repository: &Repository) -> Outcome {
     )
 }
 
+/// Every crate that is published can be packed: its manifest says what a registry asks for, and nothing lies outside its folder.
+pub fn packages(repository: &Repository) -> Outcome {
+    quiet(cargo(repository).args([
+        "package",
+        "--quiet",
+        "--workspace",
+        "--exclude",
+        "auxbear-python",
+        "--exclude",
+        "xtask",
+        "--no-verify",
+        "--allow-dirty",
+    ]))
+}
+
 /// The examples inside the documentation compile and run.
 pub fn examples(repository: &Repository) -> Outcome {
     quiet(cargo(repository).args([

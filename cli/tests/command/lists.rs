@@ -96,7 +96,7 @@ fn validation_prints_rows_and_fails_with_a_failing_case() {
     }
     let case = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../validation/palmgren_low_speed.toml"
+        "/../crates/validate/cases/palmgren_low_speed.toml"
     );
     let wrong = fs::read_to_string(case)
         .unwrap()

@@ -5,7 +5,7 @@ use auxbear::run::warnings::declared;
 use std::collections::{BTreeMap, BTreeSet};
 
 const LIST: &str = include_str!("data/warning_codes.txt");
-const BOOK: &str = include_str!("../../../book/src/codes.md");
+const BOOK: &str = include_str!("../../problem/src/codes.md");
 
 /// A new kind of warning is a row of its home's table and a line here; a number that was given up stays here as retired.
 #[test]

@@ -3,7 +3,7 @@
 use super::{Code, Problem, did_you_mean};
 
 /// The book's page of codes: the one text of their meaning and remedy.
-const PAGE: &str = include_str!("../../../book/src/codes.md");
+const PAGE: &str = include_str!("codes.md");
 
 /// The section of a code, such as `AB1007`, as plain text; letters in any case.
 pub fn explain(code: &str) -> Result<String, Box<Problem>> {

@@ -1,6 +1,6 @@
 //! Validation: published and reference results against this program.
 //!
-//! The cases that ship stand in `validation/` and are part of the program; a folder of the user's own is read in
+//! The cases that ship stand in `cases/` and are part of the program; a folder of the user's own is read in
 //! addition. Three things are understood there: case files of the format `auxbear.case/1` ([`case`]), the files of the
 //! reference implementation ([`mod@reference`]), and nothing else: any other file is "not run".
 //!

@@ -1,8 +1,8 @@
-//! The cases of `validation/`, part of the program.
+//! The cases of `cases/`, part of the program.
 
 macro_rules! cases {
     ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../../validation/", $name, ".toml")))),*]
+        &[$(($name, include_str!(concat!("../cases/", $name, ".toml")))),*]
     };
 }
 
@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn every_file_of_the_folder_is_shipped() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
         let mut files: Vec<_> = std::fs::read_dir(folder)
             .unwrap()
             .map(|entry| entry.unwrap().path())
