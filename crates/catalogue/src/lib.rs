@@ -34,6 +34,7 @@
 //! Masses and inertias are those of the bare ring: a sleeve on it belongs to the inner race and is the user's to add.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 mod bearing;
 mod check;

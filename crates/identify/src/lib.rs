@@ -20,6 +20,7 @@
 //! It knows no files and no scenario: arrays in SI in, values with deviations out. What is refused is refused with a sentence.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 mod algebra;
 pub mod coasting;

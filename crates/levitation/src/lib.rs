@@ -15,6 +15,7 @@
 //! What it does not model: saturation and hysteresis of iron, eddy currents, coupling between the axes of a magnet, noise of sensors.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 mod checks;
 mod closed_loop;

@@ -16,6 +16,7 @@
 //! sentence. Nothing here knows a bearing or a rotor. SI inside where a quantity is computed; values of a file stay in the file's unit.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod cage_speed;
 pub mod converter;

@@ -8,6 +8,7 @@
 //! n points from a race centre to a ball or rotor centre, t is n turned by +90°.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod auxiliary_bearing;
 pub mod bearing;

@@ -48,6 +48,8 @@
 //!
 //! Every method is tested on every level of the machine against `f64`, bit by bit. Miri has not been run on it.
 
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
+
 mod constants;
 mod dual;
 pub mod elementary;

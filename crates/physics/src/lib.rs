@@ -43,6 +43,7 @@
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod air;
 pub mod angular_contact;

@@ -20,6 +20,7 @@
 //! supports that hold the slope of a node.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 mod assembly;
 mod basis;

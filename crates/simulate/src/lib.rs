@@ -13,6 +13,7 @@
 //! | `ending` | settings of the integration, and how a run ended |
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod assumptions;
 pub mod bearing;

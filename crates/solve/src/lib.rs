@@ -20,6 +20,7 @@
 //! Nothing in the loop allocates.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod attempt;
 pub mod bogacki_shampine;

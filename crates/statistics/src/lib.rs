@@ -9,6 +9,7 @@
 //! same members, and a design that grows by whole blocks keeps those it had. Nothing here knows what is run.
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod correlation;
 pub mod design;

@@ -18,6 +18,7 @@
 //! | [`rubbing_contact`] | two layers that rub: friction power shared so that both sides of the patch are equally hot |
 
 #![forbid(unsafe_code)]
+#![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod bearing_network;
 pub mod clearance;
