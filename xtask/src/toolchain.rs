@@ -58,7 +58,7 @@ pub fn pages(repository: &Repository) -> Outcome {
     )
 }
 
-/// Every crate that is published can be packed: its manifest says what a registry asks for, and nothing lies outside its folder.
+/// Every crate that is published can be packed: its manifest says what a registry asks for.
 pub fn packages(repository: &Repository) -> Outcome {
     quiet(cargo(repository).args([
         "package",

@@ -4,6 +4,7 @@ use crate::machines::{planar_bearing, settings, vec2};
 use model::bearing::{
     BearingConstants, PlanarConstants, RollingConstants, SharedMoment, SteadyMoment,
 };
+use model::system::rig::simulate::Run;
 use model::system::rig::{
     Arm, ClutchDrive, Disturbance, Drag, Drive, Flywheel, HeatNode, Housing, InnerRace, Keep,
     Motor, Program, Record, RigConstants, RigMachine, Tap, simulate,
@@ -178,7 +179,14 @@ pub fn run_with(constants: RigConstants, end: f64, tolerance: f64, taps: &[Tap])
     let mut record = Record::new(&machine, &keep);
     let never = AtomicBool::new(false);
     let settings = settings(end, tolerance);
-    let ending = simulate(&machine, &settings, Steps::Explicit, &mut record, &never);
+    let ending = simulate(Run {
+        machine: &machine,
+        start: machine.start(),
+        settings: &settings,
+        steps: Steps::Explicit,
+        observer: &mut record,
+        interrupt: &never,
+    });
     record.finish(&machine, ending.time, &ending.state);
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));

@@ -3,6 +3,7 @@
 mod balances;
 mod bench;
 mod clutch;
+mod combinations;
 mod limits;
 mod programs;
 mod sensors;

@@ -127,7 +127,7 @@ origins! {
         source "Hunt and Crossley 1975, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
         valid "stiffness and damping as given; pocket impacts are often chaotic: repeat the run";
     CAGE_FRICTION: law "time integral of friction force times sliding speed in pockets, at the land, or between balls",
-        source "energy ledger, crates/model/src/system/machine/ledger.rs and spin_up/ledger.rs",
+        source "energy ledger, crates/model/src/system/machine/ledger.rs and rig/ledger.rs",
         valid "dry friction with the coefficients given";
     BALL_LOAD: law "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
           over balls and races at the steps; in drops also, near the record, on dense output between them",

@@ -87,7 +87,12 @@ pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
         Refusal::StepOfRollingBalls => "drive.acceleration",
         Refusal::MomentShare => "bearing.moment",
         Refusal::LubricantState => "bearing.lubricant_state",
-        _ => "rig",
+        Refusal::Direction => "drive.load_direction",
+        Refusal::NotPositive(_)
+        | Refusal::Negative(_)
+        | Refusal::LoadChanges
+        | Refusal::Order(_)
+        | Refusal::Action(_) => "rig",
     };
     let allowed = "a machine that can be computed is needed";
     problem_at(Code::Impossible, key, refusal.to_string(), allowed)

@@ -3,7 +3,7 @@
 //! | page | subject |
 //! |---|---|
 //! | [`build`] | scenario → constants of the model |
-//! | [`run`](mod@run) | a run of a bearing on a rig, of a spin-up or of a test; `warming`: how warm it becomes |
+//! | [`run`](mod@run) | a run of a bearing on a rig, of a spin-up or of a test; `warming`: its temperatures |
 //! | `chain` | from what happened to what the logger writes |
 //! | `raw_file` | the raw file, and the file that says what its channels are |
 //! | `thermocouple` | its reading of an outer race whose temperature a network gives |
@@ -27,7 +27,7 @@ use model::system::rig::Record;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use outcome::options::Options;
 use outcome::{Column, Outcome, Quantity};
-use run::{Built, Given, RigRun};
+use run::{Built, RigRun, RunInput};
 use scenario::{Rig, RigProgram, Scenario};
 use solve::Steps;
 use std::iter;
@@ -65,7 +65,7 @@ pub fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
 
 /// Runs a test.
 pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
-    let given = Given {
+    let given = RunInput {
         bearing: &rig.bearing,
         warm: rig.warm.as_deref(),
         run: &rig.run,

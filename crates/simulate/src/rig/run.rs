@@ -8,9 +8,11 @@ use crate::rig::warming::{Warming, Watched};
 use crate::stepping::Stepping;
 use model::bearing_heat::WarmBearing;
 use model::system::energy::{Balance, Content};
+use model::system::outer_race::OuterRaceEnergy;
 use model::system::rig::layout::{
     DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
 };
+use model::system::rig::simulate::Run as Simulation;
 use model::system::rig::{Keep, Record, RigMachine, Tap, simulate};
 use model::system::sampling::Peak;
 use outcome::options::Options;
@@ -35,7 +37,7 @@ pub struct Built {
 
 /// What a file gives of the bearing and of the run.
 #[derive(Clone, Copy)]
-pub(crate) struct Given<'a> {
+pub(crate) struct RunInput<'a> {
     pub bearing: &'a Bearing,
     pub warm: Option<&'a Warm>,
     pub run: &'a Run,
@@ -58,7 +60,7 @@ impl<'a> RigRun<'a> {
     /// Runs a rig.
     pub fn of(
         built: &'a Built,
-        given: Given<'a>,
+        given: RunInput<'a>,
         stepping: Stepping,
         taps: &[Tap],
         options: &Options<'a>,
@@ -73,13 +75,20 @@ impl<'a> RigRun<'a> {
         let record = Record::new(machine, &keep);
         let warming = Warming::of(given.warm, given.bearing, built.warm.as_deref());
         let mut watched = Watched::new(record, warming, settings.end, options);
-        let (steps, interrupt) = (stepping.steps, options.interrupt);
-        let ending = simulate(machine, &settings, steps, &mut watched, interrupt);
+        let start = machine.start();
+        let ending = simulate(Simulation {
+            machine,
+            start: start.clone(),
+            settings: &settings,
+            steps: stepping.steps,
+            observer: &mut watched,
+            interrupt: options.interrupt,
+        });
         let (mut record, warming, at_end) = watched.finish(machine, &ending);
         record.finish(&at_end, ending.time, &ending.state);
         RigRun {
             built,
-            start: machine.start(),
+            start,
             record,
             ending,
             warming,
@@ -104,6 +113,16 @@ impl<'a> RigRun<'a> {
         let end = &self.ending.state;
         self.balance(f64::INFINITY, self.at_end.content(end), end)
     }
+    /// What the bearing dissipated, J, true and by the forms of (21). Where rings closed on loaded balls, what is stored counts by the
+    /// bearing as it was at either end, and the work of the rings is not heat.
+    pub fn outer_race_energy(&self) -> OuterRaceEnergy {
+        let (before, now) = (&self.built.machine, &self.at_end);
+        let mut forms = now.outer_race_energy(&self.start, &self.ending.state);
+        let stored = |machine: &RigMachine| machine.bearing_content(&self.start).sum();
+        let work = |warming: &Warming| warming.renewals.work_until(f64::INFINITY);
+        forms.exact += stored(before) - stored(now) + self.warming.as_ref().map_or(0.0, work);
+        forms
+    }
     /// A probe at the end.
     pub fn probe(&self, index: usize) -> f64 {
         let (time, state) = (self.ending.time, &self.ending.state);
@@ -126,7 +145,7 @@ impl<'a> RigRun<'a> {
         }
     }
     /// How it ended, what it took, and the picture of its bearing.
-    pub fn outcome(&self, given: Given) -> Outcome {
+    pub fn outcome(&self, given: RunInput) -> Outcome {
         Outcome {
             stop: stop(&self.ending),
             work: Work {

@@ -1,4 +1,4 @@
-//! How warm the bearing of a rig becomes, and what of it follows.
+//! Temperatures of the bearing of a rig during a run, and the machine that follows them.
 
 use crate::bearing::feedback::{FollowedBearing, Renewals, State};
 use crate::bearing::warm::{self, Followed, Heated};

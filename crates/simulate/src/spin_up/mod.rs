@@ -5,7 +5,7 @@ mod columns;
 mod quantities;
 pub mod warnings;
 
-use crate::rig::run::{Built, Given, RigRun};
+use crate::rig::run::{Built, RigRun, RunInput};
 use crate::stepping::Asked;
 use outcome::options::Options;
 use outcome::{Column, Outcome, Quantity};
@@ -53,7 +53,7 @@ fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
 
 /// Runs a spin-up.
 pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Options) -> Outcome {
-    let given = Given {
+    let given = RunInput {
         bearing: &spin_up.bearing,
         warm: spin_up.warm.as_deref(),
         run: &spin_up.run,

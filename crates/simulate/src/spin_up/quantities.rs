@@ -93,11 +93,11 @@ results! {
         "rotor_race_friction_energy": number "J", ENERGY, "friction heat of rotor and inner race" => run.bearing().heat("rotor_race_friction");
         "ball_slip_energy": number "J", ENERGY, "sliding heat of the balls at both races" => run.bearing().ball_slip();
         "dissipated_energy": number "J", ENERGY, "heat of all losses" => run.whole_balance().heat();
-        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" in outer_race_energy "true: sum of all heats in the bearing" => run.energy().dissipated;
-        "outer_race_energy_printed": number "J" headline, PRINTED, "dissipation by the outer race's moment, as printed" in outer_race_energy "(21) as printed: (1 + 2s) ∫ t_O Ω dt + ½ J Ω₀²" => run.energy().printed;
-        "outer_race_energy_corrected": number "J" headline, CORRECTED, "dissipation by the outer race's moment, corrected" in outer_race_energy "(21) corrected, for balls that roll: ∫ t_O Ω dt + ½ J Ω₀²" => run.energy().corrected;
-        "outer_race_energy_exact": number "J" headline, EXACT, "dissipation by the outer race's moment, exact" in outer_race_energy "exact: ∫ t_O Ω dt + ∫ Ω dL − Δ(KE + U)" => run.energy().exact;
-        "path_term": number "J", PATH, "path term of balls and cage" in path_terms "this run: ∫ Ω dL" => run.energy().path;
+        "bearing_dissipated_energy": number "J" headline, ENERGY, "heat of the losses in the bearing" in outer_race_energy "true: sum of all heats in the bearing" => run.outer_race_energy().dissipated;
+        "outer_race_energy_printed": number "J" headline, PRINTED, "dissipation by the outer race's moment, as printed" in outer_race_energy "(21) as printed: (1 + 2s) ∫ t_O Ω dt + ½ J Ω₀²" => run.outer_race_energy().printed;
+        "outer_race_energy_corrected": number "J" headline, CORRECTED, "dissipation by the outer race's moment, corrected" in outer_race_energy "(21) corrected, for balls that roll: ∫ t_O Ω dt + ½ J Ω₀²" => run.outer_race_energy().corrected;
+        "outer_race_energy_exact": number "J" headline, EXACT, "dissipation by the outer race's moment, exact" in outer_race_energy "exact: ∫ t_O Ω dt + ∫ Ω dL − Δ(KE + U)" => run.outer_race_energy().exact;
+        "path_term": number "J", PATH, "path term of balls and cage" in path_terms "this run: ∫ Ω dL" => run.outer_race_energy().path;
         "path_term_if_rolling": number "J", PATH, "path term if the balls roll all the way" in path_terms "balls that roll all the way: ½ L₀ Ω₀" => run.if_rolling(|forms| forms.least_path);
         "path_term_if_spun_up_after": number "J", PATH, "path term if the balls are spun up after the race" in path_terms "balls spun up after the race: L₀ Ω₀" => {
             run.if_rolling(|forms| forms.path_behind_the_race)
@@ -180,13 +180,9 @@ impl Context<'_> {
             "no".into()
         }
     }
-    /// What the bearing dissipated by (21) and its other forms, J.
-    fn energy(&self) -> OuterRaceEnergy {
-        (self.built.machine).outer_race_energy(&self.start, &self.ending.state)
-    }
     /// A bound of the path term, J, or why it does not hold.
     fn if_rolling(&self, bound: fn(&OuterRaceEnergy) -> f64) -> Result<f64, String> {
-        rolling_start_to_end(self).map(|()| bound(&self.energy()))
+        rolling_start_to_end(self).map(|()| bound(&self.outer_race_energy()))
     }
 }
 

@@ -44,7 +44,8 @@ constants! {
 impl RigConstants {
     /// Refuses what has no meaning.
     pub fn check(&self) -> Result<(), Refusal> {
-        if self.load.smallest() < 0.0 {
+        let is_load = |point: &(f64, f64)| point.1.is_finite() && point.1 >= 0.0;
+        if !self.load.points().iter().all(is_load) {
             return Err(Refusal::NegativeLoad);
         }
         let given_speed = matches!(self.drive, Drive::Speed(_));

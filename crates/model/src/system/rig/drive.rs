@@ -188,7 +188,7 @@ impl<R: Real> DriveOver<R> {
     }
 }
 
-/// An instant as the drive sees it.
+/// Time, load, speeds and inertia that the drive acts on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instant<R> {
     /// s.
@@ -203,7 +203,7 @@ pub(super) struct Instant<R> {
     pub inertia: R,
 }
 
-/// What turns, and what that costs.
+/// Accelerations, torques, powers and heats of race and drive at an instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turning<R> {
     /// The bearing, with the loss of accelerated balls.
@@ -231,15 +231,6 @@ pub(super) struct Turning<R> {
 }
 
 impl<R: Real> DriveOver<R> {
-    /// Number of heats beside those of the bearing.
-    #[inline(always)]
-    pub fn heats(&self) -> usize {
-        match self {
-            DriveOver::Clutch(_) => 3,
-            _ => 1,
-        }
-    }
-
     /// What turns at an instant: race, driver, and balls where they have no states.
     #[inline(always)]
     pub fn turn(

@@ -1,7 +1,7 @@
 //! Where everything stands in the state of a rig.
 //!
 //! ```text
-//!   race       φ, Ω of the inner race; before them x y, ẋ ẏ where its centre may move
+//!   race       φ, Ω of the inner race; before them x y, ẋ ẏ where no housing carries the outer one
 //!   driver     φ, ω of the sliding rotor or of the flywheel; at rest where a torque or a speed is given
 //!   arm        reading y, its rate                            } where a housing
 //!   heat       rise of the bearing's temperature T, of the    } carries the
@@ -48,8 +48,6 @@ pub const CAGE_ANGLE: usize = 12;
 
 /// Index of the heat of the drive among all: of the sliding rotor, or of the clutch.
 pub const DRIVE_HEAT: usize = bearing::HEATS.len();
-/// Index of the heat of belt and flywheel bearings among all.
-pub const BELT_HEAT: usize = DRIVE_HEAT + 1;
 /// Index of the heat of the support bearings among all.
 pub const SUPPORT_HEAT: usize = DRIVE_HEAT + 2;
 
@@ -138,9 +136,10 @@ impl Layout {
         let mut channels = layout::Layout::default();
         let housing = constants.housing.is_some();
         let clutch = matches!(constants.drive, Drive::Clutch(_));
+        let driver = if clutch { "flywheel" } else { "rotor" };
         let [race, driver] = if housing {
             let race = channels.body("", "shaft", BodyAt::turning);
-            let driver = channels.body("", "flywheel", BodyAt::turning);
+            let driver = channels.body("", driver, BodyAt::turning);
             let readings = [
                 "arm.reading",
                 "arm.reading_rate",
@@ -148,31 +147,26 @@ impl Layout {
                 "thermocouple.temperature_rise",
             ];
             channels.block("", readings.map(String::from));
-            channels.body("", "housing", BodyAt::moving);
+            let body = channels.body("", "housing", BodyAt::moving);
+            debug_assert_eq!([race, driver, body], [SHAFT, FLYWHEEL, HOUSING]);
             [race, driver]
         } else {
             let race = channels.body("", "bearing.inner_race", BodyAt::free);
-            [race, channels.body("", "rotor", BodyAt::turning)]
+            let driver = channels.body("", driver, BodyAt::turning);
+            debug_assert_eq!([race, driver], [INNER, ROTOR]);
+            [race, driver]
         };
         let bearing = channels.bearing("", &constants.bearing);
         channels.heats_of("", bearing::HEATS);
-        let (heats, sources): (&[_], &[_]) = match clutch {
-            true => (
-                &["clutch", "belt", "support_bearings"],
-                &["motor", "weight", "inner_race_growth"],
-            ),
-            false => (
-                &["rotor_race_friction"],
-                &[
-                    "radial_load",
-                    "rotor_torque",
-                    "inner_race_torque",
-                    "inner_race_growth",
-                ],
-            ),
-        };
-        channels.heats_of("", heats.iter().copied());
-        channels.sources_of("", sources.iter().copied());
+        let load = if housing { "weight" } else { "radial_load" };
+        if clutch {
+            channels.heats_of("", ["clutch", "belt", "support_bearings"]);
+            channels.sources_of("", ["motor", load]);
+        } else {
+            channels.heats_of("", ["rotor_race_friction"]);
+            channels.sources_of("", [load, "rotor_torque", "inner_race_torque"]);
+        }
+        channels.sources_of("", ["inner_race_growth"]);
         channels.impulses_of("", ["impulse"]);
         if housing {
             channels.impulses_of("", ["bearing_impulse"]);

@@ -4,7 +4,7 @@
 //! with a housing twice:
 //!
 //! ```text
-//!   rig             torques from the ground - t_O + c_i × (W + m g) or c_o × W + weights of balls
+//!   rig             torques from the ground - t_O + c_i × (W d + S t + m g) or c_o × W d + weights of balls
 //!   balls and cage  t_I - t_O - t_g + weights + c_i × F_i + c_o × F_o
 //! ```
 //! The arm takes t_O as a pure couple. The temperatures count apart: C ΔT + C_f ΔΘ = heats of the bearing - ∫G T dt.

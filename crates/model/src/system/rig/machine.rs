@@ -42,7 +42,7 @@ pub struct Rig<R: Real> {
 /// A housing over `R`.
 #[derive(Clone, Debug)]
 pub(super) struct OuterRace<R> {
-    pub given: Housing,
+    pub constants: Housing,
     /// The bearing, for what its films keep.
     pub bearing: BearingConstants,
     /// Weight of cage or rolling balls, which moves with the outer race, N.
@@ -154,7 +154,7 @@ impl<R: Real> Rig<R> {
             let with_it = first.bearing.mass_with_outer_race();
             let weight = housing.gravity * with_it;
             OuterRace {
-                given: *housing,
+                constants: *housing,
                 bearing: first.bearing.clone(),
                 weight: Vec2::new(R::splat(weight.x), R::splat(weight.y)),
                 inverse_mass: R::splat(1.0 / (housing.mass + with_it)),

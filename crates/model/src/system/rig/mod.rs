@@ -5,7 +5,7 @@
 //!   - a rotor that slides in the bore under the load       - it stands, the ground takes t_O; the radial load W(t)
 //!   - a torque over time                    inner race ──    presses on the inner race
 //!   - a speed over time                       Ω  bearing   - it hangs in a housing under dead weight W, its spin held
-//!   - a flywheel behind a clutch                             by an arm that feels t_O and some vibration
+//!   - a flywheel behind a clutch                             by an arm that reads t_O and some vibration
 //! ```
 //! The first three with an outer race that stands are the spin-up of the source paper, its (18) and (19); the flywheel with the housing is
 //! its rig, Figs 5 and 6.
@@ -14,7 +14,7 @@
 //! |---|---|
 //! | [`layout`] | where everything stands in the state, and its names |
 //! | [`rate`] | the equations of motion; those of [`drive`] and [`housing`] on their own pages |
-//! | [`clutch`] | open, slipping, locked: what follows what |
+//! | [`clutch`] | open, slipping, locked, and the changes between them |
 //! | [`program`] | what is done to a rig with a clutch, and when |
 //! | [`machine`], [`mode`] | the rig as the solver runs it; what holds between two landings |
 //! | [`simulate`](mod@simulate) | a run |

@@ -9,7 +9,7 @@
 
 use super::mode::Clutch;
 use super::record::{Keep, Record};
-use super::simulate::simulate;
+use super::simulate::{Run, simulate};
 use super::{Action, Drive, Mode, Refusal, RigConstants, RigMachine};
 use crate::bearing::{BearingConstants, RollingConstants};
 use solve::{Flow, Observer, Settings, Step, Steps, Stop};
@@ -206,7 +206,14 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f
         step_limit: 1_000_000,
     };
     let never = AtomicBool::new(false);
-    let ending = simulate(&machine, &settings, Steps::Explicit, &mut first, &never);
+    let ending = simulate(Run {
+        machine: &machine,
+        start: machine.start(),
+        settings: &settings,
+        steps: Steps::Explicit,
+        observer: &mut first,
+        interrupt: &never,
+    });
     let locked = matches!(ending.stop, Stop::Halted(_));
     Ok(locked.then_some(first.0.acceleration.value))
 }

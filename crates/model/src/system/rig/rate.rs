@@ -117,8 +117,9 @@ impl<R: Real> Rig<R> {
         let mut heats = bearing.heat.kinds();
         heats[POCKET_FRICTION] += bearing.loss_heat(speed, acceleration);
         rate[layout.heat(0)..layout.heat(DRIVE_HEAT)].copy_from_slice(&heats);
-        let of_drive = self.drive.heats();
-        rate[layout.heat(DRIVE_HEAT)..layout.source(0)].copy_from_slice(&turning.heats[..of_drive]);
+        let of_drive = &mut rate[layout.heat(DRIVE_HEAT)..layout.source(0)];
+        let count = of_drive.len();
+        of_drive.copy_from_slice(&turning.heats[..count]);
         let growth = bearing.growth_impulse * acceleration;
         let sources = &mut rate[layout.source(0)..layout.angular_impulse()];
         match &self.drive {
@@ -220,7 +221,7 @@ impl<R: Real> Rig<R> {
         bearing_heat: R,
         (state, rate): (&[R], &mut [R]),
     ) -> R {
-        let (arm, heat) = (&housing.given.arm, &housing.given.heat);
+        let (arm, heat) = (&housing.constants.arm, &housing.constants.heat);
         let race = self.layout.race;
         let (angle, speed) = (state[race.angle()].lane(0), state[race.spin()].lane(0));
         let disturbance = R::splat(arm.disturbance.moment(angle, speed));

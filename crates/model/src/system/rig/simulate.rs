@@ -2,25 +2,11 @@
 
 use super::machine::{Rig, RigMachine};
 use number::{Level, Real, Task};
-use solve::{Ending, Observer, Settings, Steps};
+use solve::{Ending, Observer, Scheme, Settings, Steps};
 use std::sync::atomic::AtomicBool;
 
-/// Runs a rig from its start, with the steps of that kind; the settings start at 0.
-pub fn simulate(
-    machine: &RigMachine,
-    settings: &Settings,
-    steps: Steps,
-    observer: &mut dyn Observer<RigMachine>,
-    interrupt: &AtomicBool,
-) -> Ending {
-    let run = Run {
-        machine,
-        start: machine.start(),
-        settings,
-        steps,
-        observer,
-        interrupt,
-    };
+/// Runs a rig on the widest vector unit there is.
+pub fn simulate(run: Run<'_, '_>) -> Ending {
     simulate_on(Level::detect(), run)
 }
 
@@ -32,9 +18,9 @@ pub struct Run<'a, 'o> {
     pub start: Vec<f64>,
     /// Of the integration.
     pub settings: &'a Settings,
-    /// Explicit, or linearly implicit: without a clutch.
+    /// Explicit; linearly implicit where [`RigMachine::tangents`] knows what is stiff, else that panics.
     pub steps: Steps,
-    /// Who watches it.
+    /// Its observer.
     pub observer: &'a mut (dyn Observer<RigMachine> + 'o),
     /// Stops it when true.
     pub interrupt: &'a AtomicBool,
@@ -46,8 +32,8 @@ pub struct Run<'a, 'o> {
 /// # Panics
 /// When this machine does not have the level.
 pub fn simulate_on(level: Level, run: Run<'_, '_>) -> Ending {
-    match run.steps {
-        Steps::Implicit => {
+    match run.steps.scheme() {
+        None => {
             let mut endings = solve::run_implicit::<f64, Rig<f64>, _>(
                 &[run.machine],
                 &[run.start],
@@ -58,21 +44,24 @@ pub fn simulate_on(level: Level, run: Run<'_, '_>) -> Ending {
             // one machine, one ending
             endings.remove(0)
         }
-        Steps::Explicit | Steps::Extended => level.run_one(run),
+        Some(scheme) => level.run_one(Explicit(scheme, run)),
     }
 }
 
-impl Task for Run<'_, '_> {
+/// Explicit steps of a scheme.
+struct Explicit<'a, 'o>(&'static Scheme, Run<'a, 'o>);
+
+impl Task for Explicit<'_, '_> {
     type Output = Ending;
     fn run<R: Real>(self) -> Ending {
-        let scheme = self.steps.scheme().unwrap_or(&solve::BOGACKI_SHAMPINE);
+        let Explicit(scheme, run) = self;
         let mut endings = solve::run::<R, Rig<R>, _>(
             scheme,
-            &[self.machine],
-            &[self.start],
-            &mut [self.observer],
-            self.settings,
-            self.interrupt,
+            &[run.machine],
+            &[run.start],
+            &mut [run.observer],
+            run.settings,
+            run.interrupt,
         );
         endings.remove(0)
     }

@@ -9,7 +9,7 @@
 //! ```
 //! Left out: how the friction of the rotor pushes the race aside, the loss of accelerated balls where it is given.
 
-use super::drive::DriveOver;
+use super::drive::{Drive, DriveOver};
 use super::layout::{INNER, ROTOR};
 use super::machine::{Rig, RigMachine};
 use super::mode::Mode;
@@ -37,9 +37,12 @@ pub struct Room<R: Real> {
 }
 
 impl RigMachine {
-    /// How much of what is stiff here linearly implicit steps know.
+    /// How much of what is stiff here linearly implicit steps know: nothing with a clutch or a housing.
     pub fn tangents(&self) -> Known {
-        self.constants.bearing.tangents()
+        match (&self.constants.drive, &self.constants.housing) {
+            (Drive::Clutch(_), _) | (_, Some(_)) => Known::Nothing,
+            (_, None) => self.constants.bearing.tangents(),
+        }
     }
 }
 
