@@ -192,7 +192,7 @@ fn mutated_catalogues_are_read() {
 
 #[test]
 fn mutated_cases_are_read() {
-    let seeds: Vec<String> = (files("validation", "toml").into_iter())
+    let seeds: Vec<String> = (files("crates/validate/cases", "toml").into_iter())
         .map(|(_, text)| String::from_utf8(text).expect("cases are UTF-8"))
         .collect();
     // the shape of a file of the reference implementation
