@@ -63,7 +63,7 @@ fn energy_and_momentum_close_with_every_drive_with_and_without_a_housing() {
                         assert!(own.abs() < 1e-9, "{case}: {own}");
                     }
                     let speed = run.end()[run.machine.layout().race.spin()];
-                    assert!(speed > 0.5 * SPEED, "{case}: {speed}");
+                    assert!(speed > 10.0, "{case}: {speed}");
                     let names: Vec<String> = (0..run.machine.layout().ledger())
                         .map(|channel| run.machine.layout().channel_name(channel))
                         .collect();
