@@ -1,6 +1,6 @@
 //! What presses and closes a bearing that coasts down: centrifugal force of its balls, growth of its inner ring, forces of a whirl, gas.
 
-use crate::run_out::{list, number};
+use crate::coast_down::{list, number};
 use auxbear::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};

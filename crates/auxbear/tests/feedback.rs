@@ -98,14 +98,14 @@ fn ball_by_ball_and_slow_time_brake_alike_where_rings_press_on_the_balls() {
         };
         values[0]
     };
-    let moment = first("run_out.over_time.speed_dependent.moment")
-        + first("run_out.over_time.load_dependent.moment");
+    let moment = first("coast_down.over_time.speed_dependent.moment")
+        + first("coast_down.over_time.load_dependent.moment");
     // one of two bearings
-    let law = 0.5 * moment * first("run_out.over_time.rotor.speed");
+    let law = 0.5 * moment * first("coast_down.over_time.rotor.speed");
     assert!((power / law - 1.0).abs() < 0.01, "{power} {law}");
     // and say alike how a disturbance of the temperatures would grow
     let growth = *column(&outcome, "heat.growth_rate").last().unwrap();
-    let after = first("run_out.over_time.heat.growth_rate");
+    let after = first("coast_down.over_time.heat.growth_rate");
     assert!((growth / after - 1.0).abs() < 0.03, "{growth} {after}");
 }
 

@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 const SPIN_UP: &str = include_str!("../../../scenarios/spin_up_warming.toml");
 const RIG: &str = include_str!("../../../scenarios/rig_test_3_warming.toml");
 const COAST_DOWN: &str = include_str!("../../../scenarios/coast_down_closing.toml");
-const RUN_OUT: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
+const UNTIL_STANDSTILL: &str = include_str!("../../../scenarios/drop_until_standstill.toml");
 const DROP: &str = include_str!("../../../scenarios/drop_whirl_closing.toml");
 
 fn ran(text: &str, sets: &[&str]) -> Outcome {
@@ -131,12 +131,12 @@ fn drops_and_rigs_tell_it_too_and_lanes_the_same() {
 
 /// What a rotor that bounces makes until it rolls is taken too: the way through the windows is held as the drop was.
 #[test]
-fn what_is_taken_goes_on_from_the_drop_through_the_windows_of_its_run_out() {
-    let out = ran(RUN_OUT, &["heat.lubricant_limit=30 degC"]);
-    let powers = list(&out, "run_out.lubricant_powers_to_take");
-    let times = list(&out, "run_out.held_times");
-    let limit = number(&out, "run_out.lubricant_limit_time");
-    let start = number(&out, "run_out.start_time");
+fn what_is_taken_goes_on_from_the_drop_through_the_windows_of_its_coast_down() {
+    let out = ran(UNTIL_STANDSTILL, &["heat.lubricant_limit=30 degC"]);
+    let powers = list(&out, "coast_down.lubricant_powers_to_take");
+    let times = list(&out, "coast_down.held_times");
+    let limit = number(&out, "coast_down.lubricant_limit_time");
+    let start = number(&out, "coast_down.start_time");
     assert!(times[0] < start, "{} before {start}: windows", times[0]);
     // once there, the oil is held all the way to where the rotor rolls
     let mut bouncing = times
@@ -149,13 +149,13 @@ fn what_is_taken_goes_on_from_the_drop_through_the_windows_of_its_run_out() {
     let taken: f64 = (1..until)
         .map(|k| powers[k] * (times[k] - times[k - 1]))
         .sum();
-    let all = number(&out, "run_out.lubricant_energy_to_take");
+    let all = number(&out, "coast_down.lubricant_energy_to_take");
     assert!(taken > 0.2 * all, "{taken} of {all}");
 }
 
 /// Where the heat of a friction moment goes follows its parts, also under a preload that the weight knows nothing of.
 #[test]
-fn heat_of_preloaded_balls_goes_to_balls_and_races_as_laws_of_a_run_out_say() {
+fn heat_of_preloaded_balls_goes_to_balls_and_races_as_laws_of_a_coast_down_say() {
     let [both, clearance] = [
         "bearing.moment.f0=2",
         "bearing.operating_diametral_clearance=-20 um",

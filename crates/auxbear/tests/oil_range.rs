@@ -51,8 +51,8 @@ fn an_oil_beyond_its_data_is_drawn_on_and_told_once() {
         other => panic!("{name}: {other:?}"),
     };
     let (times, oil) = (
-        of("run_out.over_time.time"),
-        of("run_out.over_time.lubricant.temperature"),
+        of("coast_down.over_time.time"),
+        of("coast_down.over_time.lubricant.temperature"),
     );
     let first = oil.iter().position(|kelvin| *kelvin > 313.15).unwrap();
     assert!(

@@ -32,6 +32,7 @@ mod growth;
 use crate::bearing;
 use crate::bearing::lubricant_state::FILM_KINDS;
 use crate::heats::{HEATS, OWN_HEATS};
+use crate::surface_heat::SurfaceHeat;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::palmgren::Palmgren;
 use physics::viscosity::ICE_POINT;
@@ -409,6 +410,23 @@ impl Warmth {
             taken: [0.0; 2],
             slid: 0.0,
             impulse: 0.0,
+        }
+    }
+
+    /// Of a run that carries on with temperatures of the nodes, °C, from a time, s, and heats of the ledger until then, J; its surfaces are as hot as they were.
+    pub fn carried_on(
+        part: &WarmBearing,
+        temperatures: &[f64],
+        (time, heats): (f64, [f64; HEATS]),
+        surfaces: Option<&SurfaceHeat>,
+    ) -> Self {
+        Warmth {
+            temperatures: temperatures.to_vec(),
+            until: time,
+            heats,
+            taken: surfaces.map_or([0.0; 2], SurfaceHeat::taken),
+            slid: surfaces.map_or(0.0, |heat| heat.slid.impulse),
+            ..Warmth::new(part, false)
         }
     }
 

@@ -150,6 +150,19 @@ impl SurfaceHeat {
         self.states.map(|state| state.energy + state.given)
     }
 
+    /// Carries on after a leap of the run in time, s: layers, tracks and touch are as they were before it.
+    pub fn leap(&mut self, time: f64) {
+        self.known.0 += time;
+        for instant in self
+            .touched
+            .iter_mut()
+            .chain(self.seen.as_mut().map(|seen| &mut seen.0))
+        {
+            *instant += time;
+        }
+        self.stays = None;
+    }
+
     /// Takes a step; true when its heat is due, which needs the motions at its end.
     pub(crate) fn watch(&mut self, surfaces: &Surfaces, bore: f64, seen: &Seen) -> bool {
         let [start, end] = seen.times;

@@ -74,7 +74,7 @@ pub(super) fn values(
     forbids: &Forbidden,
 ) -> (Vec<Option<f64>>, String) {
     let all = outcome.work.members.max(1);
-    let in_run_out = (scenario.drop()).is_some_and(|drop| drop.run_out.is_some());
+    let in_coast_down = (scenario.drop()).is_some_and(|drop| drop.coast_down.is_some());
     let mut kinds = declared.iter();
     let unseen = kinds.find(|kind| {
         forbids.meets(kind.code, kind.severity)
@@ -82,7 +82,7 @@ pub(super) fn values(
                 Evaluation::File => !scenario.vary.is_empty(),
                 Evaluation::Each => false,
                 Evaluation::Unperturbed => true,
-                Evaluation::RunOut => in_run_out,
+                Evaluation::CoastDown => in_coast_down,
             }
     });
     // members that have one of them for certain, and those that may

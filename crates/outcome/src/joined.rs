@@ -26,7 +26,7 @@ impl Joined {
         self.members += 1;
         let mut place = 0;
         for warning in warnings {
-            let in_each = matches!(warning.evaluation, Evaluation::Each | Evaluation::RunOut);
+            let in_each = matches!(warning.evaluation, Evaluation::Each | Evaluation::CoastDown);
             if member > 0 && !in_each {
                 continue;
             }

@@ -50,6 +50,7 @@ pub struct Outcome {
 impl Outcome {
     /// The result of a name, such as `drive_end.peak_contact_force`.
     pub fn quantity(&self, name: &str) -> Option<&Quantity> {
+        let name = scenario::present_name(name);
         self.quantities.iter().find(|known| known.name == name)
     }
 

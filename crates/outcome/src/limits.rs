@@ -20,7 +20,7 @@ use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
 use problem::{Code, Problem, did_you_mean, question};
 use scenario::notes::NO_QUALIFICATION;
-use scenario::{Limit, Scenario, Side, UNBALANCE_ANGLE};
+use scenario::{Limit, Scenario, Side, UNBALANCE_ANGLE, present_name};
 use statistics::share::{
     CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
     shows_reached,
@@ -114,6 +114,7 @@ pub fn fits(pattern: &str, known: &Quantity) -> bool {
 
 /// Whether a name or pattern stands for this name of a result or column.
 pub fn stands_for(pattern: &str, name: &str) -> bool {
+    let pattern = &present_name(pattern)[..];
     is_name(pattern, name) || pattern.strip_prefix("*.") == Some(name)
 }
 

@@ -17,7 +17,7 @@
 //! them. Kinds of fields: an SI unit (a number), `text` (a name or word that is a value), `words` (a piece of the sentence alone). A
 //! number `time` in s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code
 //! names the kind, for code that joins or leaves out warnings of it. A word
-//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `run_out`. `by "RESULT"` behind that names the result
+//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `coast_down`. `by "RESULT"` behind that names the result
 //! that it comes from.
 
 use std::fmt;
@@ -85,7 +85,7 @@ pub enum Evaluation {
     /// In the unperturbed one alone.
     Unperturbed,
     /// In each, but in the run-out of the unperturbed one alone.
-    RunOut,
+    CoastDown,
 }
 
 /// A value of a warning.
@@ -217,7 +217,7 @@ macro_rules! warnings {
     (@evaluation) => { $crate::warning::Evaluation::File };
     (@evaluation each) => { $crate::warning::Evaluation::Each };
     (@evaluation unperturbed) => { $crate::warning::Evaluation::Unperturbed };
-    (@evaluation run_out) => { $crate::warning::Evaluation::RunOut };
+    (@evaluation coast_down) => { $crate::warning::Evaluation::CoastDown };
     (@declared $variant:ident $code:literal $severity:ident [$($evaluation:ident)?] [$($by:literal)?]) => {
         $crate::warning::Declared {
             name: stringify!($variant),

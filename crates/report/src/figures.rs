@@ -7,6 +7,7 @@ use std::path::Path;
 
 /// A summary with the figures of its results; as it is where it has them, or where its scenario cannot be built any more.
 pub(super) fn with_figures(summary: String, scenario: &Path) -> String {
+    let summary = with_present_names(summary);
     if summary.contains("\"shown\":") {
         return summary;
     }
@@ -28,4 +29,14 @@ pub(super) fn with_figures(summary: String, scenario: &Path) -> String {
         }
     }
     quantities + AFTER + rest
+}
+
+/// The same whose results have the names of now: those of a coast-down began with `run_out.` once.
+fn with_present_names(summary: String) -> String {
+    match summary.contains("run_out.") {
+        true => summary
+            .replace("\"run_out.", "\"coast_down.")
+            .replace(".run_out.", ".coast_down."),
+        false => summary,
+    }
 }

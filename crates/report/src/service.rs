@@ -65,7 +65,7 @@ const FATIGUE: &str = "rolling fatigue, of L10";
 /// Figures of the results that use a bearing up: of those that add up, and those of which the worst counts.
 const FIGURES: [(&str, bool); 2] = [("added_up", true), ("worst", false)];
 /// What begins the names of the results of a run-out.
-const RUN_OUT: &str = "run_out.";
+const COAST_DOWN: &str = "coast_down.";
 
 /// 90 % of a normal distribution lie within so many deviations.
 const BAND: f64 = 1.645;
@@ -179,7 +179,7 @@ fn mode(runs: &[Run], bearing: &str, (what, adds, unit): Kind) -> Mode {
     let mut variance = 0.0;
     for run in runs {
         let (mut part, mut known) = (0.0, 0);
-        for start in ["", RUN_OUT] {
+        for start in ["", COAST_DOWN] {
             match run.last(bearing, start, &what) {
                 Ok(Some(found)) => {
                     part = match adds {
@@ -231,7 +231,7 @@ fn together(runs: &[Run], bearing: &str) -> Result<f64, String> {
     let mut rings = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for run in runs {
         let mut known = false;
-        for part in ["", RUN_OUT] {
+        for part in ["", COAST_DOWN] {
             for (side, ring) in ["inner", "outer"].into_iter().zip(&mut rings) {
                 let name = format!("{part}{side}_life_share_by_point");
                 let points = run.list(bearing, &name);
@@ -290,7 +290,7 @@ impl Run<'_> {
     fn kinds(&self, bearing: &str) -> Vec<Kind> {
         let mut kinds: Vec<Kind> = Vec::new();
         for (name, kind, _) in self.used_up(bearing) {
-            if !name.starts_with(RUN_OUT) && !kinds.contains(&kind) {
+            if !name.starts_with(COAST_DOWN) && !kinds.contains(&kind) {
                 kinds.push(kind);
             }
         }
@@ -310,7 +310,7 @@ impl Run<'_> {
         let mut why = None;
         let all = self.used_up(bearing).into_iter().rev();
         for (name, _, found) in all.filter(|(name, kind, _)| {
-            kind.0 == what && name.starts_with(RUN_OUT) != start.is_empty()
+            kind.0 == what && name.starts_with(COAST_DOWN) != start.is_empty()
         }) {
             let spread = &found["spread"];
             let alone = found["value"].as_f64();

@@ -64,7 +64,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
             identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
         }
         System::CoastDown(of) => {
-            coast_down::build::run_out(of).map(|built| Built::CoastDown(of, Box::new(built)))
+            coast_down::build::alone(of).map(|built| Built::CoastDown(of, Box::new(built)))
         }
         System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Arc::new(asked))),
         System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),

@@ -52,7 +52,7 @@ pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
-pub use coast_down::{CoastDown, RunOut};
+pub use coast_down::{CoastDown, CoastDownEnd};
 pub use drop::axial_share;
 pub use drop::{
     AuxiliaryBearing, BearingPlace, Body, Contact, Drop, Gravity, Levitation, Mount, Repeat,
@@ -62,7 +62,7 @@ pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
-pub use limit::{Forbidden, Limit, Side};
+pub use limit::{Forbidden, Limit, Side, present_name};
 pub use locate::{UNNAMED, problem_at};
 pub use problem::provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};

@@ -120,6 +120,15 @@ const SYNONYMS: [(&[&str], &str); 2] = [
     (&["min", "minimum", "at_least"], "least"),
 ];
 
+/// The name that a result or column has now, of one that it had before: `run_out.stop_time` is `coast_down.stop_time`.
+pub fn present_name(name: &str) -> String {
+    let parts = name.split('.').map(|part| match part {
+        "run_out" => "coast_down",
+        part => part,
+    });
+    parts.collect::<Vec<_>>().join(".")
+}
+
 impl Limit {
     /// The same of another result.
     pub fn of(&self, quantity: &str) -> Limit {
@@ -172,9 +181,9 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
             limits.push(limit);
             continue;
         }
-        let quantity = table.text("quantity").unwrap_or_default().trim();
+        let quantity = &present_name(table.text("quantity").unwrap_or_default().trim());
         let changes = table.place == Place::Set;
-        let own = |limit: &&mut Limit| changes && limit.quantity == quantity;
+        let own = |limit: &&mut Limit| changes && limit.quantity == *quantity;
         let side = [Side::Most, Side::Least]
             .into_iter()
             .find(|side| table.raw(side.word()).is_some());

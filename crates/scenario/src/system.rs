@@ -180,7 +180,7 @@ pub const MOVING: &[SystemName] = &[
 /// Systems in which a levitated rotor falls.
 pub const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machine];
 /// Systems that run out, by themselves or after a drop.
-pub const RUNNING_OUT: &[SystemName] =
+pub const COASTING_DOWN: &[SystemName] =
     &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
 
 /// Systems whose bearings may warm in time, where that is wanted.

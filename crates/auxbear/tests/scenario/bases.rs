@@ -69,7 +69,7 @@ pub fn base(system: SystemName, path: &str) -> String {
         SystemName::Rig => rig(path),
         SystemName::Rotor => return format!("{}{}", rotor(), unbalanced(path)),
         SystemName::Machine => format!("{MACHINE}{}", unbalanced(path)),
-        SystemName::CoastDown => run_out(path),
+        SystemName::CoastDown => coast_down(path),
         SystemName::Identify => {
             "[identify]\ncoast_down = [\"a.toml\"]\nradial_load = \"60 N\"\n".to_string()
         }
@@ -86,7 +86,7 @@ pub fn base(system: SystemName, path: &str) -> String {
 }
 
 /// A run-out in which the key has a meaning; what is about the moment stands there already.
-fn run_out(path: &str) -> String {
+fn coast_down(path: &str) -> String {
     // a speed that is tried is a small one, and a vacuum needs a way out for the heat
     let beside = match path {
         "rotor.speed" => "[coast_down]\nstop_speed = \"1e-9 rad/s\"\n",

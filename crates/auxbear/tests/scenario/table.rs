@@ -346,7 +346,7 @@ const MOUNT: [(&str, &[&str]); 6] = [
 
 /// The choices that the system has.
 /// What a run-out after a drop needs.
-const RUN_OUT: &[&str] = &[
+const COAST_DOWN: &[&str] = &[
     "heat.network=on",
     "run.until=standstill",
     "bearing.moment.law=palmgren",
@@ -365,8 +365,8 @@ fn choices_of(system: SystemName, path: &str) -> Vec<String> {
     let of_contact = path == "contact.friction_over_temperature";
     let of_network = path.starts_with("heat.") && path != "heat.network" || of_contact;
     let warms: &[&str] = match runs_out {
-        true => RUN_OUT,
-        false if of_network => &RUN_OUT[..1],
+        true => COAST_DOWN,
+        false if of_network => &COAST_DOWN[..1],
         false => &[],
     };
     let warms = (warms.iter()).filter(|_| system != SystemName::CoastDown);

@@ -116,29 +116,29 @@ function runOutLine(run) {
 
 // The run-out that followed a drop, as a run of its own with its own times; null where there is none.
 function runOutOf(run) {
-  const own = Object.entries(run.quantities).filter(([name]) => name.startsWith(RUN_OUT));
-  const quantities = Object.fromEntries(own.map(([name, quantity]) => [name.slice(RUN_OUT.length), quantity]));
+  const own = Object.entries(run.quantities).filter(([name]) => name.startsWith(COAST_DOWN));
+  const quantities = Object.fromEntries(own.map(([name, quantity]) => [name.slice(COAST_DOWN.length), quantity]));
   const course = "over_time.";
   const lists = Object.entries(quantities).filter(([name, { value }]) => name.startsWith(course) && Array.isArray(value) && value.length);
   const columns = new Map(lists.map(([name, { value, unit }]) => [name.slice(course.length), { name: name.slice(course.length), unit, values: value }]));
   return columns.has("time") ? { ...run, quantities, columns, time: columns.get("time").values } : null;
 }
 
-function asksForRunOut(run) {
-  return Object.keys(run.quantities).some((name) => name.startsWith(RUN_OUT));
+function asksForCoastDown(run) {
+  return Object.keys(run.quantities).some((name) => name.startsWith(COAST_DOWN));
 }
 
 function runOutFigures(run, runs) {
   const slow = runOutOf(run);
   const way = element("p", {}, run.prefix ? run.letter + ": " : null, (run.summary.stop || {}).text || "");
   if (!slow) {
-    const absent = Object.entries(run.quantities).find(([name, { why }]) => name.startsWith(RUN_OUT) && why);
+    const absent = Object.entries(run.quantities).find(([name, { why }]) => name.startsWith(COAST_DOWN) && why);
     return [notInThisRun(absent ? absent[1].why : "there is no run-out", run)];
   }
   return [way, ...temperatureFigures(slow, runs), ...closingFigures(slow, runs), ...heatFigures(slow, runs)];
 }
 
-function runOutSection(runs) {
+function coastDownSection(runs) {
   const lead = element("p", { class: "lead" }, "In slow time until it stands: by laws while the rotor rolls in its bearings, between windows ball by ball where it does not. Times count from the release.");
   return section("run-out", "Run-out until standstill", lead, runs.map((run) => runOutFigures(run, runs)));
 }
@@ -156,7 +156,7 @@ function warmingSection(runs) {
   return section("warming", "Temperatures during the run", runs.map(figures));
 }
 
-const WARM_SECTIONS = (runs) => [[82, warmingSection, runs.filter((run) => nodesOf(run).length)], [83, runOutSection, runs.filter(asksForRunOut)]];
+const WARM_SECTIONS = (runs) => [[82, warmingSection, runs.filter((run) => nodesOf(run).length)], [83, coastDownSection, runs.filter(asksForCoastDown)]];
 
 register("coast_down", {
   line: runOutLine,

@@ -42,7 +42,7 @@ function worstOf(quantity, measure) {
 function tilesOf(run, figure = "tile", more = {}) {
   const all = Object.values(run.quantities);
   if (figure === "tile" && all.length && !all.some(({ shown }) => shown)) return tile("Results", "–", ["of an older version, whose scenario cannot be read any more: see Quantities"]);
-  const own = ({ name }) => figure !== "tile" || !name.startsWith(RUN_OUT);
+  const own = ({ name }) => figure !== "tile" || !name.startsWith(COAST_DOWN);
   const notes = shownIn(run, "note").map(({ words, quantity }) => ({ of: words.split(": ")[0], words: words.slice(words.indexOf(": ") + 2), quantity }));
   return shownIn(run, figure).filter(own).map(({ name, words: title, quantity }) => resultTile(run, { title, name, quantity, notes: notes.filter(({ of }) => of === title), more: more[title], untouched: figure === "tile" && systemOf(run).touches && !run.contacts.length }));
 }

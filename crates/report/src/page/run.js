@@ -96,7 +96,7 @@ function wholesOf(runs) {
 }
 
 // What begins the names of the results of a run-out.
-const RUN_OUT = "run_out.";
+const COAST_DOWN = "coast_down.";
 
 // Results that a figure shows, in the order of their table: name, result, the words that the figure has for it, and its number.
 function shownIn(run, figure) {
@@ -162,7 +162,7 @@ function countedFrom(run) {
 // words would cover each other: the headlines alone, the others are in the table.
 function instantsOf(runs, colour = SERIES_COLOURS.quiet) {
   const colourOf = (run, words) => (runs.length > 1 ? run.colour : SERIES_COLOURS[words.split(" ")[0]] || (/^release|limit$/.test(words) ? SERIES_COLOURS.limit : colour));
-  const own = ({ name, quantity, value }) => value !== null && !name.startsWith(RUN_OUT) && (runs.length <= 2 || quantity.shown.headline);
+  const own = ({ name, quantity, value }) => value !== null && !name.startsWith(COAST_DOWN) && (runs.length <= 2 || quantity.shown.headline);
   return runs.flatMap((run) =>
     [["instants", 0], ["instants_after_release", releaseOf(run)]]
       .flatMap(([figure, from]) => shownIn(run, figure).filter(own).map(({ words, value }) => ({ instant: value + from, words: run.prefix + words, colour: colourOf(run, words) })))

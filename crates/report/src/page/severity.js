@@ -5,7 +5,7 @@
 function indexRows(run) {
   const kinds = new Map();
   for (const { name, words, quantity } of shownIn(run, "worst")) {
-    const kind = name.startsWith(RUN_OUT) ? `${words}, coasting down` : words;
+    const kind = name.startsWith(COAST_DOWN) ? `${words}, coasting down` : words;
     if (isNumber(quantity.value) || !kinds.has(kind)) kinds.set(kind, { name, words: kind, quantity });
   }
   const value = ({ quantity }) => (isNumber(quantity.value) ? quantity.value : -1);
@@ -60,12 +60,12 @@ function severitySection(runs) {
 const MANY_REPETITIONS = 1000;
 // The rows of a run: where 1 % fail after very many repetitions, one that says so. What counts repetitions is no share.
 function lifeRows(run) {
-  const known = shownIn(run, "life").map((entry) => ({ ...entry, words: entry.name.startsWith(RUN_OUT) ? `${entry.words}, coasting down` : entry.words }));
+  const known = shownIn(run, "life").map((entry) => ({ ...entry, words: entry.name.startsWith(COAST_DOWN) ? `${entry.words}, coasting down` : entry.words }));
   const isCount = ({ words }) => words.includes(" until ");
   const first = known.filter(isCount).map(({ value }) => value).find(isNumber);
   if (!(first > MANY_REPETITIONS)) return known;
   const shares = known.filter((entry) => !isCount(entry));
-  const share = shares.filter(({ name, value }) => value !== null && !name.startsWith(RUN_OUT)).at(-1);
+  const share = shares.filter(({ name, value }) => value !== null && !name.startsWith(COAST_DOWN)).at(-1);
   return [...shares, { words: "Repetitions until bearings fail", said: `fatigue is not decisive (life share ${numberText(share && share.value, 2)})` }];
 }
 

@@ -110,6 +110,12 @@ impl Study {
         })?;
         file.limits = limits::named(&file.limits, &known);
         file.scenario.limits = limits::named(&file.scenario.limits, &known);
+        for (name, _) in &mut file.results {
+            *name = scenario::present_name(name);
+        }
+        if let Some((name, ..)) = &mut file.rank {
+            *name = scenario::present_name(name);
+        }
         let each = |(name, place): &(String, Place)| -> Vec<(String, Place)> {
             let among = known.iter().filter(|known| limits::fits(name, known));
             let own: Vec<_> = among.map(|known| (known.name.clone(), *place)).collect();

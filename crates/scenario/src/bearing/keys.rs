@@ -9,7 +9,7 @@ use crate::bearing::kind::Modelled;
 use crate::bearing::separation::SeparationKind;
 use crate::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::system::{
-    FALLING, FREE_RACE, MOVING, RACE_MASS, RUNNING_OUT, WITH_BALLS as LOADED, WITH_CAGE,
+    COASTING_DOWN, FALLING, FREE_RACE, MOVING, RACE_MASS, WITH_BALLS as LOADED, WITH_CAGE,
     WITH_MOMENT,
 };
 use problem::words::Words;
@@ -85,7 +85,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("bearing.static_load_rating", Kind::Quantity("N"), "6.55 kN", "Static load rating C0.")
         .positive().optional("no static safety, and no friction law that needs it").only(WITH_MOMENT),
     Key::new("bearing.dynamic_load_rating", Kind::Quantity("N"), "11.9 kN", "Dynamic load rating C.")
-        .positive().optional("no life is given").only(RUNNING_OUT),
+        .positive().optional("no life is given").only(COASTING_DOWN),
     Key::new("bearing.limiting_speed", Kind::Quantity("rad/s"), "28000 rpm", "Limiting speed in continuous running. A run that exceeds it warns.")
         .positive().optional("no warning about the speed can be given").only(WITH_MOMENT),
     Key::new("bearing.inner_race_mass", Kind::Quantity("kg"), "20.4 g", "Mass of the inner race with its sleeve.").positive().catalogued().only(RACE_MASS),

@@ -8,7 +8,7 @@ problem::warnings! {
     pub enum LubricantWarning {
         Drawn { key: words, how: words } "AB2313" [DRAWN_ON] Uncertain ("{key}: the viscosity of the lubricant is extrapolated: {how}.");
         DrawnOf { lubricant: text, how: words } "AB2313" Uncertain ("The viscosity of {lubricant} is extrapolated: {how}.");
-        DrawnSince { time: "s", since: words, how: words, temperature: "K", at: words } "AB2313" Uncertain, run_out
+        DrawnSince { time: "s", since: words, how: words, temperature: "K", at: words } "AB2313" Uncertain, coast_down
             ("The viscosity of the lubricant is extrapolated {since}: {how}{at}.");
     }
 }

@@ -1,7 +1,7 @@
 //! The part of the table of keys that describes a run-out: how long it lasts.
 
 use crate::key::{Condition, Fallback, Key, Kind, Presence, Range, Section};
-use crate::system::{COAST_DOWN, RUNNING_OUT};
+use crate::system::{COAST_DOWN, COASTING_DOWN};
 
 const UNTIL_STANDSTILL: &[Condition] = &[Condition {
     path: "run.until",
@@ -10,7 +10,7 @@ const UNTIL_STANDSTILL: &[Condition] = &[Condition {
 }];
 
 #[rustfmt::skip]
-pub(crate) const SECTIONS: &[Section] = &[Section::new("coast_down", "The run-out: the rotor rolls on its auxiliary bearings, which brake it until it stands. Nothing whirls or bounces.", RUNNING_OUT)];
+pub(crate) const SECTIONS: &[Section] = &[Section::new("coast_down", "The run-out: the rotor rolls on its auxiliary bearings, which brake it until it stands. Nothing whirls or bounces.", COASTING_DOWN)];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
@@ -20,8 +20,8 @@ pub(crate) const KEYS: &[Key] = &[
         .positive().when(UNTIL_STANDSTILL).default("1 rad/s", "what is left there stops within seconds"),
     Key::new("coast_down.longest", Kind::Quantity("s"), "10 h", "Time after which the run is ended, standing or not.")
         .positive().when(UNTIL_STANDSTILL).default("1000 h", "a rotor that coasts for six weeks has other worries"),
-    Key::new("coast_down.tolerance", Kind::Coefficient, "1e-3", "Allowed error of a step, in time over the run-out and in temperature over 50 K.")
-        .within(Range::FromTo(1e-8, 0.1)).when(UNTIL_STANDSTILL).default("5e-4", "stop time within 0.05 %, temperatures within 0.1 K"),
+    Key::new("coast_down.tolerance", Kind::Coefficient, "1e-3", "Allowed error of a step, in time over the coast-down and in temperature over 50 K. After a drop it decides how long the motion is followed ball by ball, and how far the steps between such intervals go.")
+        .within(Range::FromTo(1e-8, 0.1)).when(UNTIL_STANDSTILL).default("2e-3", "stop time within 0.2 %, temperatures within 0.3 K: less than what a motion that bounces leaves to chance"),
 ];
 
 /// What this system does without a key that others have too.
@@ -45,6 +45,13 @@ pub const PRESENCES: &[(&str, Presence)] = &[
         Presence::Default(Fallback::assumption("25 degC", "room temperature")),
     ),
     ("bearing.moment.viscosity_points", Presence::Required),
+    (
+        "coast_down.tolerance",
+        Presence::Default(Fallback::convention(
+            "5e-4",
+            "stop time within 0.05 %, temperatures within 0.1 K",
+        )),
+    ),
     (
         "bearing.moment.viscosity",
         Presence::Derived("viscosity_points at temperature"),

@@ -24,12 +24,12 @@ pub struct CoastDown {
     /// Drag of the gas over the square of the speed, N m s².
     pub windage: f64,
     /// How it ends.
-    pub end: RunOut,
+    pub end: CoastDownEnd,
 }
 
 /// How long a rotor runs out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RunOut {
+pub struct CoastDownEnd {
     /// Speed at which it ends, rad/s.
     pub stop_speed: f64,
     /// Time at which it ends at the latest, s.
@@ -38,10 +38,10 @@ pub struct RunOut {
     pub tolerance: f64,
 }
 
-impl RunOut {
-    pub(crate) fn from_values(values: &Values) -> RunOut {
+impl CoastDownEnd {
+    pub(crate) fn from_values(values: &Values) -> CoastDownEnd {
         let coast = values.section("coast_down");
-        RunOut {
+        CoastDownEnd {
             stop_speed: coast.number("stop_speed"),
             longest: coast.number("longest"),
             tolerance: coast.number("tolerance"),
@@ -60,7 +60,7 @@ impl CoastDown {
             speed: rotor.number("speed"),
             planes: rotor.count("planes") as u32,
             windage: rotor.number("windage"),
-            end: RunOut::from_values(values),
+            end: CoastDownEnd::from_values(values),
         }
     }
 }

@@ -79,7 +79,7 @@ impl Context<'_> {
                 "contact.width is needed beside it: without a landing surface nothing is worn";
             return refuse("contact.surface.wear_coefficient", needed);
         }
-        let Some(end) = &drop.run_out else {
+        let Some(end) = &drop.coast_down else {
             return Ok(());
         };
         if drop.rotor.spin == Spin::Held {
@@ -96,7 +96,7 @@ impl Context<'_> {
         }
         let bearing = part.bearing.as_ref();
         if bearing.is_some_and(|bearing| bearing.lubricant_state.is_some()) {
-            let needed = "no [bearing.lubricant_state] is needed beside run.until = \"standstill\": its grease does not age in slow time";
+            let needed = "no [bearing.lubricant_state] is needed beside run.until = \"standstill\": its grease does not age in quasi-steady steps";
             return refuse("bearing.lubricant_state.kind", needed);
         }
         match &part.warm {
@@ -123,7 +123,7 @@ impl Context<'_> {
             let needed = "a last row at the size of rotor.speed or above is needed: beyond it the torque is not known";
             return self.refuse_value(Code::Conflict, OVER_SPEED, needed);
         }
-        if drop.run_out.is_none() {
+        if drop.coast_down.is_none() {
             return Ok(());
         }
         let drive = match &drop.body {

@@ -10,7 +10,7 @@ mod shaft;
 
 use crate::bearing::kind::Modelled;
 use crate::bearing::{Bearing, bearing};
-use crate::coast_down::RunOut;
+use crate::coast_down::CoastDownEnd;
 use crate::document::Document;
 use crate::heat::{Network, RotorBodies, Warm};
 use crate::run::{Run, Until};
@@ -39,7 +39,7 @@ pub struct Drop {
     /// The simulation.
     pub run: Run,
     /// How the rotor runs out after it, where the run goes on until it stands.
-    pub run_out: Option<RunOut>,
+    pub coast_down: Option<CoastDownEnd>,
     /// Repeated runs.
     pub repeat: Repeat,
 }
@@ -276,7 +276,8 @@ impl Drop {
                 true => Body::Flexible(Box::new(Shaft::of(document, all)?)),
                 false => Body::Rigid(body(&values.section("rotor"))),
             },
-            run_out: (until == Some(Until::Standstill)).then(|| RunOut::from_values(values)),
+            coast_down: (until == Some(Until::Standstill))
+                .then(|| CoastDownEnd::from_values(values)),
             gravity: Gravity {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),

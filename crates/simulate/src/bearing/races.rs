@@ -173,7 +173,7 @@ const PLACES: usize = 360;
 
 /// The drops that a bearing survives where each goes on until the rotor stands: what the run-out takes adds up with what the drop has
 /// taken, point by point.
-pub(crate) fn count_run_out(drop: &mut [Quantity], bearing: &str, run_out: &[Quantity]) {
+pub(crate) fn count_coast_down(drop: &mut [Quantity], bearing: &str, coast_down: &[Quantity]) {
     let points = |list: &[Quantity], name: &str| -> Option<Vec<f64>> {
         let found = list.iter().find(|quantity| quantity.name == name)?;
         match &found.value {
@@ -184,7 +184,7 @@ pub(crate) fn count_run_out(drop: &mut [Quantity], bearing: &str, run_out: &[Qua
     let ring = |side: &str| {
         let name = format!("{side}_{LIFE_BY_POINT}");
         let taken = points(drop, &of_part(bearing, &name))?;
-        let then = points(run_out, &of_part(bearing, &format!("run_out.{name}")));
+        let then = points(coast_down, &of_part(bearing, &format!("coast_down.{name}")));
         let mut sum = vec![0.0; PLACES];
         add_points(&mut sum, &taken, 1.0);
         Some(then.map(|then| {

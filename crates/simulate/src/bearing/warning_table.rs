@@ -8,7 +8,7 @@ problem::warnings! {
     pub enum BearingWarning {
         Pressure { pressure: "Pa", limit: "Pa" } "AB1002" Invalid, each
             ("The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: {DENTS}.", pressure * 1e-6, limit * 1e-6);
-        PressureInRunOut { load: "N", pressure: "Pa", limit: "Pa" } "AB1002" Invalid, run_out
+        PressureInCoastDown { load: "N", pressure: "Pa", limit: "Pa" } "AB1002" Invalid, coast_down
             ("While it runs out a ball presses with up to {load:.0} N, {:.0} MPa, beyond the limit of {:.0} MPa: {DENTS}.", 1e-6 * pressure, 1e-6 * limit);
         Residual { residual: "1" } "AB1006" Invalid, each
             ("The energy ledger misses {residual:.1e} of what was turned over: a smaller run.tolerance closes it.");
@@ -41,7 +41,7 @@ problem::warnings! {
             ("A double row is computed as a single row of ball_count balls: loads, pressures and friction of balls that share two rows are not those of this run.");
         HotSkid { race: text, rise: "K", time: "s", load: "N", slip: "m/s" } "AB2303" Invalid, each
             ("Where a ball skids on the {race} race, their surfaces flash up by {rise:.0} K ({:.4} ms: {load:.0} N, slip {slip:.1} m/s): steel is tempered and may smear there, a lubricant is burnt, and the traction of this run no longer holds.", 1e3 * time);
-        WideLine { half_width: "m", bore: "m", clearance: "m" } "AB2336" Invalid, run_out
+        WideLine { half_width: "m", bore: "m", clearance: "m" } "AB2336" Invalid, coast_down
             ("The contact of rotor and race is beyond the law of its width: half-width {:.2} mm is {:.1} % of the bore's radius (10 % at most), the radial clearance {:.2} % of it (0.1 % at least). Temperatures of the patch and the conductance between rotor and race that follow from it are extrapolated.", 1e3 * half_width, 100.0 * half_width / bore, 100.0 * clearance / bore);
     }
 }
@@ -55,16 +55,16 @@ problem::warnings! {
     pub enum HeatWarning {
         TooHot { node: text, peak: "K", time: "s", above: "K", taken: words } "AB2310" Destroys, each by "peak_inner_race_temperature"
             ("Too hot: {} at {:.0} °C after {time:.2} s, {above:.0} K above its limit, and warmer still where the heat comes in. Hardness, cage and lubricant may change there; this run does not follow that.{taken}", node.replace('_', " "), peak - ICE_POINT);
-        TooHotInRunOut { node: text, limit: "K", time: "s", when: words, others: words, peak: "K", hottest: words, taken: words } "AB2310" Destroys, run_out by "peak_inner_race_temperature"
+        TooHotInCoastDown { node: text, limit: "K", time: "s", when: words, others: words, peak: "K", hottest: words, taken: words } "AB2310" Destroys, coast_down by "peak_inner_race_temperature"
             ("Too hot: {node} above {:.0} °C after {when}{others}, up to {:.0} °C{hottest}. Hardness, size, cage and lubricant may change there; this run does not follow that.{taken}", limit - ICE_POINT, peak - ICE_POINT);
         RunsAway { time: "s", when: words, by: words, each: words, rate: "1/s", each_largest: words, at_largest: words, largest_rate: "1/s",
-            inner: "m", balls: "m", outer: "m" } "AB2311" [RUNS_AWAY] Destroys, run_out by "peak_inner_race_temperature" (
+            inner: "m", balls: "m", outer: "m" } "AB2311" [RUNS_AWAY] Destroys, coast_down by "peak_inner_race_temperature" (
             "{when} its balls are preloaded {by} and every kelvin makes more heat than it takes away; a disturbance grows {E:.1} times each {each} then ({rate:.2e} 1/s), and each {each_largest} at the largest rate, at {at_largest} ({largest_rate:.2e} 1/s). To its clearance the inner ring had added {:+.1} µm, the balls {:+.1} µm, the outer ring {:+.1} µm as this began. More clearance, better cooling of the inner race, or hybrid balls keep it open.",
             1e6 * inner, 1e6 * balls, 1e6 * outer
         );
         Closes { time: "s", closed: "m" } "AB2312" [CLOSES] Invalid, each
             ("The clearance closes after {time:.3} s: rings that warm unequally press on the balls, by {:.1} µm at most. The difference of the rings' temperatures is known within a factor of two; so is the clearance that is needed.", 1e6 * closed);
-        ClosesInRunOut { time: "s", clearance: "m", when: words, load: "N" } "AB2312" Invalid, run_out
+        ClosesInCoastDown { time: "s", clearance: "m", when: words, load: "N" } "AB2312" Invalid, coast_down
             ("The clearance {when}: rings that warm unequally load the balls with up to {load:.0} N. The difference of the rings' temperatures is known within a factor of two; so is the clearance that is needed.");
         FollowsNoMore { time: "s", why: words } "AB2320" Uncertain, each
             ("From {time:.3} s on nothing of the bearing follows its temperatures, since no law holds there: {why}.");
@@ -72,7 +72,7 @@ problem::warnings! {
             ("The contact angle follows the temperatures, and the preload does not: it is that of springs. A rigid one rises as the inner ring warms.");
         FrictionStaysAlike "AB2320" Uncertain, each
             ("No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their viscosities, are not given, or its law knows no viscosity.");
-        LooseRing { time: "s", when: words, seat: text } "AB2321" Uncertain, run_out
+        LooseRing { time: "s", when: words, seat: text } "AB2321" Uncertain, coast_down
             ("After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from there on, and it may creep, which this run does not follow.");
     }
 }

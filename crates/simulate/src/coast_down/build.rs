@@ -13,7 +13,7 @@ use physics::viscosity::Viscosity;
 use problem::{Code, Problem};
 pub(crate) use scenario::heat::ICE_POINT;
 use scenario::heat::{SHOULDER, STEEL_EXPANSION};
-use scenario::{CoastDown, Feedback, Moment, RunOut, Warm, problem_at};
+use scenario::{CoastDown, CoastDownEnd, Feedback, Moment, Warm, problem_at};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use thermal::bearing_network::{
@@ -78,7 +78,7 @@ pub struct Built {
     /// When its brake begins, s.
     pub brake_start: f64,
     /// How it ends.
-    pub end: RunOut,
+    pub end: CoastDownEnd,
     /// Kinetic energy of what turns at its beginning, J.
     pub energy: f64,
     /// Temperatures at its beginning, °C.
@@ -95,6 +95,8 @@ pub(crate) struct Motion {
     pub between: Between,
     /// Of the balls of each bearing, at both.
     pub balls: [Vec<Option<Arc<BallsSeen>>>; 2],
+    /// Whether a step is a prediction, which is repeated: how disturbances grow is not asked.
+    pub predicts: bool,
 }
 
 impl Motion {
@@ -238,7 +240,7 @@ impl Built {
 }
 
 /// Builds a run-out by itself.
-pub fn run_out(run: &CoastDown) -> Result<Built, Box<Problem>> {
+pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
     let mut part = part(&run.bearing, String::new(), run.planes)?;
     let heat = &part.warm.heat;
     let clearance = heat.radial_air_clearance.unwrap_or(0.0);

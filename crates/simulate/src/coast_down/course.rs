@@ -216,7 +216,17 @@ fn network(built: &Built, at: (f64, &[f64]), held: &[bool]) -> Result<Network, N
 /// What all bearings do at a speed of the rotor, rad/s, and at temperatures of their nodes, °C.
 fn operating<T>(
     built: &Built,
+    at: (f64, &[f64]),
+    act: impl FnOnce(&[(&BearingNetwork, Operation<'_>)]) -> T,
+) -> T {
+    lying(built, at, &|bearing| landing(built, at.0, bearing), act)
+}
+
+/// The same with a rotor that lies in them in a given way.
+fn lying<T>(
+    built: &Built,
     (speed, temperatures): (f64, &[f64]),
+    landing: &dyn Fn(usize) -> Landing,
     act: impl FnOnce(&[(&BearingNetwork, Operation<'_>)]) -> T,
 ) -> T {
     let each = || {
@@ -227,7 +237,7 @@ fn operating<T>(
     let loads: Vec<Vec<f64>> = each()
         .map(|(k, (part, temperatures))| {
             let at = race(built, speed, k);
-            let force = landing(built, speed, k).force;
+            let force = landing(k).force;
             part.zone
                 .loads_under(force, clearance(part, at, temperatures))
         })
@@ -238,7 +248,7 @@ fn operating<T>(
             let kelvin = temperatures[LUBRICANT] + ICE_POINT;
             Operation {
                 speed: race(built, speed, k),
-                landing: landing(built, speed, k),
+                landing: landing(k),
                 loads,
                 viscosity: part.viscosity.held(kelvin),
                 temperatures,
@@ -287,12 +297,17 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         .iter()
         .zip(state.temperatures.chunks(NODES.len()));
     let bearings = each.enumerate().map(of_part).collect();
+    // as ball by ball: at the speed of this instant, and under the weight
+    let rests = |bearing: usize| Landing::rolls(built.parts[bearing].zone.load);
     let passes = |moved: &[f64]| {
-        operating(built, (state.speed, moved), |all| {
+        lying(built, (state.speed, moved), &rests, |all| {
             relaxing(all, &state.temperatures)
         })
     };
-    let growth = match network(built, (state.speed, &state.temperatures), &[]) {
+    let predicts = built.motion.as_ref().is_some_and(|motion| motion.predicts);
+    let now = (state.speed, &state.temperatures[..]);
+    let growth = match lying(built, now, &rests, |all| together(all, &[])) {
+        Ok(_) if predicts => 0.0,
         Ok(network) => SteadySpeed {
             network,
             losses,

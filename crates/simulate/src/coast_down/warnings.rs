@@ -19,13 +19,13 @@ use thermal::passage::Passage;
 problem::warnings! {
     /// Of a run-out.
     pub enum CoastDownWarning {
-        Overspeed { limit: "rad/s", how_long: words } "AB2314" Invalid, run_out
+        Overspeed { limit: "rad/s", how_long: words } "AB2314" Invalid, coast_down
             ("The speed stays above the limiting speed of the bearing, {limit:.0} rad/s, for {how_long}: friction and heat are extrapolated there.");
-        TurnsOn { time: "s", speed: "rad/s" } "AB2315" Uncertain, run_out
+        TurnsOn { time: "s", speed: "rad/s" } "AB2315" Uncertain, coast_down
             ("After {} the rotor still turns with {speed:.1} rad/s: every result is one of this time, not of the standstill.", words(time));
         OnlyRolling "AB2316" Uncertain
             ("The rotor rolls without whirl from the start: a whirl, lost contact, or the passing of a resonance makes more heat in seconds than rolling in minutes, and only a drop shows it. Conductances that were not given are right within a factor of two, and the rises of temperature with them.");
-        NoWindage { pressure: "Pa" } "AB2335" Uncertain, run_out
+        NoWindage { pressure: "Pa" } "AB2335" Uncertain, coast_down
             ("Gas of {:.3} bar cools the bearings and does not brake the rotor: rotor.windage is 0. The coast-down comes out too long by what the gas brakes, and turns, heat and life of the bearings with it. Give rotor.windage, or heat.atmosphere = \"vacuum\" where there is none.", 1e-5 * pressure);
     }
 }
@@ -222,7 +222,7 @@ fn limits(ran: &Ran) -> Option<Warning> {
             .fold(0.0, f64::max);
         to_take("all bearings", most, held.taken.iter().sum())
     });
-    let warning = HeatWarning::TooHotInRunOut {
+    let warning = HeatWarning::TooHotInCoastDown {
         node: words_of(node),
         limit: limit + ICE_POINT,
         time: at,
@@ -260,7 +260,7 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
         false if at == first.time => "closes from the start".to_string(),
         false => format!("closes after {}, to {:.1} µm", words(at), 1e6 * least),
     };
-    let warning = HeatWarning::ClosesInRunOut {
+    let warning = HeatWarning::ClosesInCoastDown {
         time: at,
         clearance: least,
         when,
@@ -277,7 +277,7 @@ fn dents(ran: &Ran, k: usize) -> Option<Warning> {
         .max_by(|a, b| a.largest_pressure.total_cmp(&b.largest_pressure))?;
     let (pressure, load) = (hardest.largest_pressure, hardest.largest_ball_load());
     let limit = part.pressure_limit;
-    let warning = BearingWarning::PressureInRunOut {
+    let warning = BearingWarning::PressureInCoastDown {
         load,
         pressure,
         limit,

@@ -5,7 +5,7 @@ use crate::drop::context::{Context, Setup};
 use crate::drop::ensemble::{self, Finished, Member, Plan};
 use crate::drop::feedback::Following;
 use crate::drop::method::stepping;
-use crate::drop::{self, run_out};
+use crate::drop::{self, multirate};
 use crate::ending::settings_at;
 use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
@@ -119,6 +119,9 @@ pub fn run(all: &[One], options: &Options) -> Vec<Outcome> {
     list.into_iter().map(|(_, made)| made).collect()
 }
 
+/// Part of the progress of a drop that goes on until the standstill.
+const DROP_SHARE: f64 = 0.1;
+
 /// Drops that share lanes.
 fn together(
     all: &[One],
@@ -126,6 +129,9 @@ fn together(
     options: &Options,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<Outcome> {
+    let coasts = all[group[0]].built.drop.coast_down.is_some();
+    let part = if coasts { DROP_SHARE } else { 1.0 };
+    let of_drop = |fraction: f64| progress(part * fraction);
     let members: Vec<Member> = group.iter().map(|k| all[*k].member.clone()).collect();
     let One {
         built, stepping, ..
@@ -134,12 +140,20 @@ fn together(
         settings: settings_at(&built.drop.run, stepping.tolerance),
         steps: stepping.steps,
         interval: built.drop.run.output_interval,
-        until_rolling: built.drop.run_out.is_some(),
+        until_rolling: built.drop.coast_down.is_some(),
         interrupt: options.interrupt,
-        progress,
+        progress: &of_drop,
     };
     let finished = ensemble::run(&members, &plan);
-    let named = |(k, finished): (&usize, &Finished)| {
+    let done = Mutex::new(vec![0.0; group.len()]);
+    let named = |(place, (k, finished)): (usize, (&usize, &Finished))| {
+        let of_coast_down = |fraction: f64| {
+            if let Ok(mut done) = done.lock() {
+                done[place] = fraction;
+                let mean = done.iter().sum::<f64>() / done.len() as f64;
+                progress(DROP_SHARE + (1.0 - DROP_SHARE) * mean);
+            }
+        };
         let one = &all[*k];
         let context = Context {
             setup: Setup {
@@ -149,8 +163,9 @@ fn together(
             finished,
             members: one.members,
         };
-        let after = run_out::after(&context, options.interrupt);
+        let after = multirate::results::after(&context, options.interrupt, &of_coast_down);
         drop::outcome(one, &context, after.as_ref())
     };
-    group.par_iter().zip(&finished).map(named).collect()
+    let each = group.par_iter().zip(&finished).enumerate();
+    each.map(named).collect()
 }

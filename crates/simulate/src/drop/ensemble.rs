@@ -67,21 +67,6 @@ pub struct Plan<'a> {
     pub progress: &'a (dyn Fn(f64) + Sync),
 }
 
-/// Runs one member alone.
-pub(crate) fn one(member: &Member, plan: &Plan) -> Finished {
-    let done = AtomicU64::new(0);
-    let report = Report {
-        done: &done,
-        members: 1,
-        progress: plan.progress,
-    };
-    let mut found = side_by_side(std::slice::from_ref(member), plan, &report);
-    match found.pop() {
-        Some(finished) => finished,
-        None => unreachable!("each member has an ending"),
-    }
-}
-
 /// Runs members that lanes may share, those of one layout and the same laws, on the threads of the pool in which this is called; the
 /// results stand in their order.
 pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {

@@ -106,12 +106,12 @@ impl Friction {
     }
 }
 
-/// Coefficient of friction of rotor and race at temperatures of the nodes of their bearing, °C: that of the hotter body, without what the
-/// patch that rubs is hotter still.
-pub(super) fn friction(part: &AuxiliaryBearing, temperatures: &[f64]) -> f64 {
+/// Coefficient of friction of rotor and race at temperatures of the nodes of their bearing, °C, and at the rise of their patch above the start, K,
+/// where that is known: at the hotter body's else.
+pub(super) fn friction(part: &AuxiliaryBearing, temperatures: &[f64], patch: Option<f64>) -> f64 {
     Friction::of(part).map_or(part.contact.friction_coefficient, |friction| {
         let hotter = temperatures[ROTOR].max(temperatures[INNER_RACE]);
-        friction.at(hotter + ICE_POINT - friction.start)
+        friction.at(patch.unwrap_or(hotter + ICE_POINT - friction.start))
     })
 }
 

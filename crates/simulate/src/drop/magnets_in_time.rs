@@ -41,7 +41,7 @@ pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>>
         let allowed = "it is used only with [[levitation.magnet]]";
         return Err(problem_at(Code::UnusedKey, key, found, allowed));
     }
-    let found = match (&shaft.model.levitation, &drop.run_out) {
+    let found = match (&shaft.model.levitation, &drop.coast_down) {
         _ if shaft.power_lost <= 0.0 => return Ok(()),
         (None, _) => "no magnets, whose power could be lost",
         (_, Some(_)) => "run.until = \"standstill\"",

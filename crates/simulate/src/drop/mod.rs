@@ -7,29 +7,22 @@ pub(crate) mod context;
 pub mod each;
 pub mod ensemble;
 mod feedback;
-mod glide;
 mod layers;
 pub(crate) mod magnets;
 mod magnets_in_time;
 pub(crate) mod method;
 mod mount;
 mod mount_results;
+mod multirate;
 pub(crate) mod orders;
 pub(crate) mod quantities;
 pub mod repetition;
-mod returns;
-pub(crate) mod run_out;
-mod run_out_warnings;
 pub mod shaft;
 pub mod shaft_results;
-mod slow_time;
 pub(crate) mod surfaces;
 mod torque;
 pub mod warning_table;
 pub(crate) mod warnings;
-mod went;
-mod window;
-mod windows;
 
 pub use body::{Drop, Shaft};
 
@@ -37,7 +30,7 @@ use crate::bearing::races::without_count;
 use crate::drop::build::Built;
 use crate::drop::context::{Context, Setup};
 use crate::drop::each::One;
-use crate::drop::run_out::After;
+use crate::drop::multirate::results::{self as coast_down, After};
 use model::system::machine::RotorMachine;
 use outcome::{Column, Contact, Members, Outcome, Picture, Quantity, Work};
 
@@ -53,8 +46,8 @@ pub fn results(built: &Built) -> Vec<Quantity> {
     let machine = &RotorMachine::new(built.constants.clone());
     let setup = Setup { built, machine };
     let mut list = quantities::name(setup, None);
-    if built.drop.run_out.is_some() {
-        list.extend(run_out::results(setup));
+    if built.drop.coast_down.is_some() {
+        list.extend(coast_down::results(setup));
     }
     list.extend(orders::named(setup.parts(), None));
     list
@@ -64,7 +57,7 @@ pub fn results(built: &Built) -> Vec<Quantity> {
 pub(crate) fn outcome(one: &One, context: &Context, after: Option<&After>) -> Outcome {
     let drop = &one.built.drop;
     let stop = after.map_or_else(|| magnets::stop(context), |after| after.stop.clone());
-    let mut quantities = run_out::quantities(context, after);
+    let mut quantities = coast_down::quantities(context, after);
     if !stop.complete() {
         without_count(&mut quantities);
     }

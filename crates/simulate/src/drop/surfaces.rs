@@ -40,11 +40,11 @@ results! {
         "sliding_distance": number "m", DISTANCE, "distance slid by rotor and race", unless no_width(given) => rubbed(run, |heat| heat.distance);
         "wear_depth": number "m", WEAR, "mean depth worn off" in added_up "wear depth", unless {
             not_given("contact.surface.wear_coefficient", given.contact.wear_coefficient).or(no_width(given))
-        } => wear_depth(&given.contact, run);
+        } => worn(&given.contact, run);
     }
 }
 
-fn no_width(given: &AuxiliaryBearing) -> Option<String> {
+pub(super) fn no_width(given: &AuxiliaryBearing) -> Option<String> {
     not_given("contact.width", given.contact.width)
 }
 
@@ -57,14 +57,19 @@ fn rubbed(record: &BearingRecord, value: fn(&SurfaceHeat) -> f64) -> Result<f64,
     touched(heat.map(value))
 }
 
-/// Mean depth worn off, m.
-fn wear_depth(contact: &Contact, record: &BearingRecord) -> Result<f64, String> {
-    let rubbed = rubbed(record, |heat| heat.rubbed)?;
+/// Mean depth worn off by ∫N|u| dt, N m: m.
+pub(super) fn wear_depth(contact: &Contact, rubbed: f64) -> f64 {
     let [coefficient, width] =
         [contact.wear_coefficient, contact.width].map(|of| of.unwrap_or(f64::NAN));
+    wear_volume(coefficient, 1.0, rubbed) / (PI * contact.bore_diameter * width)
+}
+
+/// Mean depth worn off, m.
+fn worn(contact: &Contact, record: &BearingRecord) -> Result<f64, String> {
+    let rubbed = rubbed(record, |heat| heat.rubbed)?;
     match contact.friction_coefficient > 0.0 {
         // ∫N|u| dt: the distance slid under 1 N
-        true => Ok(wear_volume(coefficient, 1.0, rubbed) / (PI * contact.bore_diameter * width)),
+        true => Ok(wear_depth(contact, rubbed)),
         false => Err("without friction the ledger does not tell the sliding".to_string()),
     }
 }

@@ -21,8 +21,8 @@ problem::warnings! {
             ("{contacts} contacts: the first impacts, spin-up times and energies are reproducible, the late ones are chaotic. Repeat the run to see the spread: --repeat 16 samples the unbalance angle too, unless repeat.unbalance_angle = \"as given\".");
         BackwardWhirl { turns: "1" } "AB1014" Destroys, each by "whirl_turns"
             ("Backward whirl: the rotor runs {turns:.0} turns round the bore against its spin. Contact forces of this kind destroy bearings and shafts.");
-        BackwardWhirlInRunOut { time: "s", when: words } "AB1014" Destroys, run_out by "whirl_turns"
-            ("Backward whirl while the rotor runs out: {when} it runs round the bore against its spin in the windows that follow it. Contact forces of this kind destroy bearings and shafts.");
+        BackwardWhirlInCoastDown { time: "s", when: words } "AB1014" Destroys, coast_down by "whirl_turns"
+            ("Backward whirl during the coast-down, {when}: the rotor runs round the bore against its spin. Contact forces of this kind destroy bearings and shafts.");
         StaticLoad { load: "N", factor: "1", rating: "N" } "AB1029" Invalid
             ("The static radial load of {load:.0} N is {factor:.1} times the static load rating of {rating:.0} N: permanent dents must be expected, and the laws of contact and friction are outside their range.");
         OneMotion { bearings: "" } "AB1090" Invalid
@@ -35,24 +35,24 @@ problem::warnings! {
             ("Without cooling the inner race warms by {rise:.0} K: clearance, lubricant, friction and hardness change with that, and this run does not follow them.");
         HotContact { rise: "K", time: "s" } "AB2301" Destroys, each by "contact_temperature_rise"
             ("Where rotor and race rub, the patch warms by {rise:.0} K ({:.2} ms): steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.", 1e3 * time);
-        HotContactInRunOut { part: text, on: words, time: "s", rise: "K" } "AB2301" Destroys, run_out
-            ("While it runs out, after {time:.1} s, the patch where rotor and race rub{on} is {rise:.0} K warmer than at the start, or more: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.");
+        HotContactInCoastDown { part: text, on: words, time: "s", rise: "K" } "AB2301" Destroys, coast_down
+            ("During the coast-down, after {time:.1} s, the patch where rotor and race rub{on} is {rise:.0} K warmer than at the start: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.");
         HotSpot { stay: "s" } "AB2302" Invalid, each
             ("One place of the rotor stays in the contact for {:.0} ms: a hot spot, which bends the shaft and adds to its unbalance. This run spreads its heat over the rotor's track and bends nothing.", 1e3 * stay);
-        ForwardWhirlInRunOut { time: "s", when: words } "AB2302" Invalid, run_out
-            ("Forward whirl while the rotor runs out: {when} unbalance throws it round the bore with its spin in the windows that follow it. One place of it stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.");
-        RollingDoesNotLast { time: "s", speed: "rad/s", last_time: "s", last_speed: "rad/s", force: "N" } "AB2317" Uncertain, run_out
-            ("Rolling does not last: unbalance lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, and it presses with up to {force:.3e} N. Windows ball by ball follow it there, each as long as it likes at its speed: a rotor that passes quickly is lifted less.");
-        SlidesInRunOut { time: "s", duration: "s", when: words, slowest: words, rubs: words, shared: words, end: "s" } "AB2318" Uncertain, run_out
-            ("{when} the rotor slides on its races in the windows that follow it{slowest}: friction makes {rubs}. It is in run_out.load_dependent_heat{shared}. sliding_distance and wear are those of the first {end:.3} s alone.");
-        WindowsScatter { deviation: "1", windows: "" } "AB2319" Uncertain, run_out
-            ("While the rotor does not roll, the mean power of a window is known within {:.0} % (standard error of {windows} windows, the worst): the run-out is as uncertain there.", 100.0 * deviation);
-        HardestInRunOut { part: text, on: words, time: "s", speed: "rad/s", force: "N", before: "N", end: "s", load_share: "1" } "AB2323" Invalid, run_out
-            ("While it runs out, at {time:.1} s and {speed:.0} rad/s, the rotor presses{on} with {force:.3e} N, and with {before:.3e} N at most in the first {end:.3} s. A ball takes {:.0} % of the load that dents a race there; pressures, sliding, cage forces and wear of this run are those of the first alone.", 100.0 * load_share);
-        EndsBeforeLanding { time: "s" } "AB2324" Invalid, run_out
+        ForwardWhirlInCoastDown { time: "s", when: words } "AB2302" Invalid, coast_down
+            ("Forward whirl during the coast-down, {when}: unbalance throws the rotor round the bore with its spin. One place of it stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.");
+        RollingDoesNotLast { time: "s", speed: "rad/s", last_time: "s", last_speed: "rad/s", force: "N" } "AB2317" Uncertain, coast_down
+            ("Rolling does not last: unbalance lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, with contact forces up to {force:.3e} N. Whether such a motion is thrown into a whirl is chance: repeat the run (--repeat 8).");
+        SlidesInCoastDown { time: "s", duration: "s", when: words, slowest: words, rubs: words, shared: words } "AB2318" Uncertain, coast_down
+            ("{when} the rotor slides on its races{slowest}: friction makes {rubs}. It is in coast_down.load_dependent_heat{shared}.");
+        WindowsScatter { deviation: "1", windows: "" } "AB2319" Uncertain, coast_down
+            ("Mean power loss uncertain by {:.0} % (1 sigma, the worst of {windows} ball-by-ball intervals). Coast-down time and heat have at least this uncertainty there.", 100.0 * deviation);
+        HardestInCoastDown { part: text, on: words, time: "s", speed: "rad/s", force: "N", before: "N", end: "s", load_share: "1" } "AB2323" Invalid, coast_down
+            ("The contact force{on} reaches {force:.3e} N during the coast-down ({time:.1} s, {speed:.0} rad/s); the first {end:.3} s had {before:.3e} N. A ball takes {:.0} % of the load that dents a race there; cage forces of this run are those of the first {end:.3} s alone.", 100.0 * load_share);
+        EndsBeforeLanding { time: "s" } "AB2324" Invalid, coast_down
             ("run.duration ends after {time:.4} s, before the rotor has landed on every bearing: its impacts are in none of these results. Give run.duration more.");
-        EndsBeforeSpinUp { time: "s", late: "s" } "AB2324" Invalid, run_out
-            ("run.duration ends after {time:.4} s, while inner races still come to their speed: up to {late:.2} s more at the speed of that instant. Heat, sliding and life of these are in none of these results. Give run.duration that much more.");
+        EndsBeforeSpinUp { time: "s", late: "s" } "AB2324" Invalid, coast_down
+            ("run.duration ends after {time:.4} s, while inner races still come to their speed: for {late:.2} s more. Temperatures, heat and wear of that time are among the results of the coast-down. Give run.duration that much more for forces and slip of every instant.");
         Bushing { friction: "1" } "AB2330" Uncertain, each
             ("The rotor rubs on a bushing with a friction coefficient of {friction}: no race comes to speed and ends that, so friction drives backward whirl for as long as the rotor turns. Whether a blow starts it depends on friction, damping and the release: vary them (--repeat). What warming and wear do to friction and clearance is not followed.");
         LayerIsWarm { since: "s", through: "s" } "AB2331" Uncertain, each

@@ -1,25 +1,25 @@
-//! A run-out that goes back from laws to motion, and on by laws.
+//! Coast-downs of rotors that do not go on rolling.
 
-use crate::run_out::{SHIPPED, adds_up_by_bodies, list, number, parsed};
+use crate::coast_down::{SHIPPED, adds_up_by_bodies, list, number, parsed};
 use auxbear::outcome::{Outcome, Value, Warning};
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 
-/// A run-out that goes back from laws to windows: how many rows each return has, all of it heat, nothing lost or made at a change.
+/// A coast-down of a rotor that rolls no longer for a while: how many rows each such stretch has, all of it heat.
 fn goes_back(found: &Outcome, reason: &str) -> Vec<usize> {
     assert!(
         found.stop.complete() && found.stop.text.contains(reason),
         "{}",
         found.stop.text
     );
-    adds_up_by_bodies(found, "run_out.");
-    let course = |name: &str| list(found, &format!("run_out.over_time.{name}"));
+    adds_up_by_bodies(found, "coast_down.");
+    let course = |name: &str| list(found, &format!("coast_down.over_time.{name}"));
     let (times, speeds) = (course("time"), course("rotor.speed"));
     assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
     assert!(speeds.windows(2).all(|pair| pair[1] < pair[0]));
-    let energy = number(found, "run_out.rotor_energy");
+    let energy = number(found, "coast_down.rotor_energy");
     let heats: f64 = ["speed_dependent", "load_dependent", "windage"]
-        .map(|loss| number(found, &format!("run_out.{loss}_heat")))
+        .map(|loss| number(found, &format!("coast_down.{loss}_heat")))
         .iter()
         .sum();
     let left = energy * (speeds[speeds.len() - 1] / speeds[0]).powi(2);
@@ -27,7 +27,7 @@ fn goes_back(found: &Outcome, reason: &str) -> Vec<usize> {
         ((heats + left) / energy - 1.0).abs() < 1e-9,
         "{heats} {left} {energy}"
     );
-    assert!(number(found, "run_out.relative_heat_residual") < 1e-9);
+    assert!(number(found, "coast_down.relative_heat_residual") < 1e-9);
     // what a ball carries and how a disturbance grows is known throughout
     assert!(
         course("heat.growth_rate")
@@ -37,32 +37,21 @@ fn goes_back(found: &Outcome, reason: &str) -> Vec<usize> {
     let loads = course("bearing.largest_ball_load");
     assert!(loads.iter().all(|load| *load > 0.0));
     let most = loads.iter().copied().fold(0.0, f64::max);
-    assert_eq!(most, number(found, "run_out.peak_ball_load"));
+    assert_eq!(most, number(found, "coast_down.peak_ball_load"));
     let (begin, end) = (
-        list(found, "run_out.return_times"),
-        list(found, "run_out.return_end_times"),
+        list(found, "coast_down.return_times"),
+        list(found, "coast_down.return_end_times"),
     );
-    let changes = list(found, "run_out.return_changes_of_model");
-    let each = begin
-        .iter()
-        .zip(end)
-        .zip(changes)
-        .map(|((begin, end), change)| {
-            let lost =
-                energy * (1.0 - (speeds[times.partition_point(|t| t < end)] / speeds[0]).powi(2));
-            assert!(
-                *change != 0.0 && change.abs() < 1e-3 * lost,
-                "{change} {lost}"
-            );
-            let inside = times.partition_point(|t| t < begin)..times.partition_point(|t| t < end);
-            inside.len()
-        });
+    let each = begin.iter().zip(end).map(|(begin, end)| {
+        let inside = times.partition_point(|t| t < begin)..times.partition_point(|t| t < end);
+        inside.len()
+    });
     each.collect()
 }
 
 /// Speed of a run-out at an instant, rad/s.
 fn speed_at(found: &Outcome, time: f64) -> f64 {
-    let course = |name: &str| list(found, &format!("run_out.over_time.{name}"));
+    let course = |name: &str| list(found, &format!("coast_down.over_time.{name}"));
     let (times, speeds) = (course("time"), course("rotor.speed"));
     let next = times.partition_point(|t| *t < time);
     let share = (time - times[next - 1]) / (times[next] - times[next - 1]);
@@ -71,7 +60,7 @@ fn speed_at(found: &Outcome, time: f64) -> f64 {
 
 /// Friction that falls as the bearing warms: a rotor that rolls slides on its race after a while.
 #[test]
-fn where_friction_no_longer_carries_the_bearing_the_run_out_is_followed_ball_by_ball() {
+fn where_friction_no_longer_turns_the_bearing_the_rotor_slides() {
     let never = AtomicBool::new(false);
     let with =
         |sets: &[&str]| run(&parsed(SHIPPED, sets).unwrap(), &Options::unwatched(&never)).unwrap();
@@ -80,8 +69,8 @@ fn where_friction_no_longer_carries_the_bearing_the_run_out_is_followed_ball_by_
     let calm = "rotor.unbalance_eccentricity=0.5 um";
     let falls = "contact.friction_over_temperature=[[\"20 degC\", 0.15], [\"25.5 degC\", 0.15], [\"28 degC\", 0.02], [\"200 degC\", 0.02]]";
     let found = with(&[calm, falls, contact]);
-    assert!(goes_back(&found, "less than laws say")[0] > 4);
-    let at = |name: &str| list(&found, &format!("run_out.{name}"))[0];
+    assert!(goes_back(&found, "% of what laws of rolling give")[0] > 4);
+    let at = |name: &str| list(&found, &format!("coast_down.{name}"))[0];
     let (begin, end) = (at("return_times"), at("return_end_times"));
     let slides = found.warnings.iter().find(|w| w.code == "AB2318").unwrap();
     let when = format!("Between {begin:.1} s and {end:.1} s");
@@ -90,8 +79,8 @@ fn where_friction_no_longer_carries_the_bearing_the_run_out_is_followed_ball_by_
     // μ W r of both bearings, by hand: asked for in vain where it slides, and not by the laws behind it
     let carried = 0.02 * 8.0 * 9.80665 * (12.5e-3 - 0.25e-3);
     let moments = ["speed_dependent", "load_dependent"]
-        .map(|kind| list(&found, &format!("run_out.over_time.{kind}.moment")));
-    let times = list(&found, "run_out.over_time.time");
+        .map(|kind| list(&found, &format!("coast_down.over_time.{kind}.moment")));
+    let times = list(&found, "coast_down.over_time.time");
     let moment = |row: usize| moments[0][row] + moments[1][row];
     let behind = times.partition_point(|t| *t < end);
     assert!((behind + 1..times.len()).all(|row| moment(row) <= carried));
@@ -103,7 +92,7 @@ fn where_friction_no_longer_carries_the_bearing_the_run_out_is_followed_ball_by_
         assert!((0.9..1.05).contains(&ratio), "{} {ratio}", times[row]);
     }
     // what friction carries easily stays with the laws
-    assert!(list(&with(&[calm]), "run_out.return_times").is_empty());
+    assert!(list(&with(&[calm]), "coast_down.return_times").is_empty());
 }
 
 #[test]
@@ -123,19 +112,19 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
         "rotor.speed=4000 rpm",
         "coast_down.stop_speed=240 rad/s",
     ]);
-    let told = "it was followed in 3 windows ball by ball again, because it pressed with";
+    let told = "it did not roll: contact force up to";
     assert!(found.stop.text.contains(told), "{}", found.stop.text);
-    assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
+    assert!(number(&found, "coast_down.relative_heat_residual") < 1e-9);
     assert!(found.warnings.iter().any(|w| w.code == "AB2317"));
     // 8 kg with 0.5 kg on 2 · 5e5 N/m: √(k/(m/2 + m_m)) = 333 rad/s, less the farther it swings; laws before it
-    let speed = list(&found, "run_out.return_speeds")[0];
+    let speed = list(&found, "coast_down.return_speeds")[0];
     assert!(
         (0.8..1.0).contains(&(speed / (5e5f64 / 4.5).sqrt())),
         "{speed}"
     );
-    assert!(number(&found, "run_out.start_speed") > 1.2 * speed);
+    assert!(number(&found, "coast_down.start_speed") > 1.2 * speed);
     // ball by ball it leaves its race from 276 to 243 rad/s, with up to 214 N, and has 243.8 rad/s after 80 s
-    let force = number(&found, "run_out.peak_contact_force");
+    let force = number(&found, "coast_down.peak_contact_force");
     assert!((180.0..250.0).contains(&force), "{force}");
     let speed = speed_at(&found, 80.0);
     assert!((speed / 243.8 - 1.0).abs() < 3e-3, "{speed}");
@@ -149,7 +138,7 @@ fn a_resonance_that_lifts_the_rotor_is_passed_ball_by_ball() {
     ]);
     assert_eq!(lost.stop.reason, "left the model");
     // its course goes on to where it ends
-    let times = list(&lost, "run_out.over_time.time");
+    let times = list(&lost, "coast_down.over_time.time");
     assert_eq!(*times.last().unwrap(), lost.stop.time);
     assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
     assert!(
@@ -186,7 +175,7 @@ fn a_bearing_that_runs_away_while_the_rotor_bounces_seizes_on_its_friction() {
     assert_eq!(found.stop.reason, "left the model");
     let away = found.warnings.iter().find(|w| w.code == "AB2311").unwrap();
     assert!(away.text.contains("runs away: from 2"), "{}", away.text);
-    let course = |name: &str| list(&found, &format!("run_out.over_time.{name}"));
+    let course = |name: &str| list(&found, &format!("coast_down.over_time.{name}"));
     let at = |name: &str, time: f64| {
         let after = course("time").partition_point(|t| *t < time);
         course(name)[after]
@@ -194,8 +183,8 @@ fn a_bearing_that_runs_away_while_the_rotor_bounces_seizes_on_its_friction() {
     let dents = |w: &&Warning| w.code == "AB1002" && w.text.contains("While it runs out");
     assert!(found.warnings.iter().find(dents).is_some());
     // the patch that rubs is hotter than the bodies, and no hotter than ball by ball, 598 K
-    let race = number(&found, "run_out.peak_inner_race_temperature") - 298.15;
-    let patch = number(&found, "run_out.contact_temperature_rise");
+    let race = number(&found, "coast_down.peak_inner_race_temperature") - 298.15;
+    let patch = number(&found, "coast_down.contact_temperature_rise");
     assert!(race + 20.0 < patch && patch < 598.0, "{race} {patch}");
     // 84 and 109 W ball by ball
     let [early, late] = [20.0, 30.0].map(|time| at("heat.power", time));
@@ -235,12 +224,12 @@ fn a_drop_that_ends_before_its_spin_up_says_so_and_rolls_all_the_same() {
         let found = with(duration);
         assert!(early(&found).unwrap().contains(says));
         for name in ["stop_time", "peak_inner_race_temperature"] {
-            let name = format!("run_out.{name}");
+            let name = format!("coast_down.{name}");
             let ratio = number(&found, &name) / number(&whole, &name);
             assert!((ratio - 1.0).abs() < 2e-3, "{duration} {name} {ratio}");
         }
         // nothing on the way slides for a race that had not come up
-        assert!(list(&found, "run_out.return_times").is_empty());
+        assert!(list(&found, "coast_down.return_times").is_empty());
     }
 }
 
@@ -262,11 +251,11 @@ fn an_unbalance_that_swings_the_rotor_in_its_bore_is_followed_ball_by_ball() {
     )
     .unwrap();
     assert!(found.stop.complete(), "{}", found.stop.text);
-    adds_up_by_bodies(&found, "run_out.");
+    adds_up_by_bodies(&found, "coast_down.");
     // it swings with √(g/c0) = 198 rad/s, less the farther, from a higher speed on
-    let begin = list(&found, "run_out.return_speeds")[0];
+    let begin = list(&found, "coast_down.return_speeds")[0];
     assert!((170.0..310.0).contains(&begin), "{begin}");
-    let force = number(&found, "run_out.peak_contact_force");
+    let force = number(&found, "coast_down.peak_contact_force");
     assert!((1.9..4.0).contains(&(force / (10.0 * 9.80665))), "{force}");
     assert!(found.warnings.iter().any(|w| w.code == "AB2317"));
     // 158.6 rad/s after 100 s ball by ball
@@ -285,11 +274,11 @@ fn a_swing_of_half_the_speed_is_found_and_followed() {
     )
     .unwrap();
     assert!(found.stop.complete(), "{}", found.stop.text);
-    let begin = list(&found, "run_out.return_speeds")[0];
+    let begin = list(&found, "coast_down.return_speeds")[0];
     let swing = (9.80665f64 / 0.25e-3).sqrt();
     assert!((1.5..2.0).contains(&(begin / swing)), "{begin}");
     // ball by ball 107 N, and 281.0 rad/s after 60 s
-    let force = number(&found, "run_out.peak_contact_force");
+    let force = number(&found, "coast_down.peak_contact_force");
     assert!((95.0..120.0).contains(&force), "{force}");
     let speed = speed_at(&found, 60.0);
     assert!((speed / 281.0 - 1.0).abs() < 2e-3, "{speed}");
@@ -310,14 +299,14 @@ fn a_race_that_stands_uses_no_life() {
         &Options::unwatched(&never),
     )
     .unwrap();
-    let share = number(&found, "run_out.life_share") + number(&found, "life_share");
+    let share = number(&found, "coast_down.life_share") + number(&found, "life_share");
     // it creeps by chance
     assert!((0.5..2.0).contains(&(share / 8.1e-9)), "{share}");
 }
 
-/// A rotor that whirls rolls on its race too, but not under its weight: windows follow it, and the heat of its whirl, until its bearing seizes.
+/// A rotor that whirls rolls on its race too, but not under its weight: it is followed, with the heat of its whirl, until its bearing seizes.
 #[test]
-fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {
+fn a_rotor_that_whirls_is_followed_until_its_bearing_seizes() {
     let never = AtomicBool::new(false);
     let text = include_str!("../../../scenarios/drop_whirl_seizing.toml");
     let found = run(&parsed(text, &[]).unwrap(), &Options::unwatched(&never)).unwrap();
@@ -332,7 +321,7 @@ fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {
         each.filter(|w| w.code == code)
             .any(|w| w.text.contains(text))
     };
-    assert!(says("AB1014", "runs out: from 2.0 s"));
+    assert!(says("AB1014", "coast-down, from 2.0 s"));
     assert!(says("AB2311", "runs away: from "));
     // nobody counts on a second drop
     let count = found
@@ -341,9 +330,9 @@ fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {
         .find(|q| q.name == "drops_until_one_percent_fail");
     assert!(matches!(count.unwrap().value, Value::None { .. }));
     // held at its limits it brakes less, and is followed to the same speed, no farther
-    let held = *list(&found, "run_out.held_times").last().unwrap();
+    let held = *list(&found, "coast_down.held_times").last().unwrap();
     assert!(held > found.stop.time && held < 60.0, "{held}");
-    let course = |name: &str| list(&found, &format!("run_out.over_time.{name}"));
+    let course = |name: &str| list(&found, &format!("coast_down.over_time.{name}"));
     let at = |node: &str, time: f64| {
         let (times, values) = (course("time"), course(&format!("{node}.temperature")));
         let after = times.partition_point(|t| *t < time);
@@ -352,16 +341,16 @@ fn a_rotor_that_whirls_is_followed_in_windows_until_its_bearing_seizes() {
     };
     // the same file ball by ball for 28 s
     for (time, by_balls) in [
-        (5.0, [39.5, 54.8, 71.8]),
-        (10.0, [54.0, 74.9, 79.5]),
-        (20.0, [87.8, 121.0, 96.2]),
-        (25.0, [118.8, 177.0, 115.7]),
-        (27.0, [141.8, 224.0, 131.8]),
+        (5.0, [39.6, 54.8, 71.8]),
+        (10.0, [54.2, 75.0, 79.5]),
+        (20.0, [88.8, 122.1, 96.6]),
+        (25.0, [122.0, 182.1, 117.4]),
+        (27.0, [147.8, 235.2, 135.4]),
     ] {
         for (node, expected) in ["inner_race", "balls", "lubricant"].iter().zip(by_balls) {
             let found = at(node, time);
             assert!(
-                (found - expected).abs() < 1.0 + 0.05 * (expected - 25.0),
+                (found - expected).abs() < 0.5 + 0.01 * (expected - 25.0),
                 "{node} {time} {found}"
             );
         }

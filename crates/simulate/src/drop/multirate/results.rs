@@ -1,20 +1,19 @@
-//! What follows a drop until the rotor stands: a run-out in slow time, from where it rolls in its bearings.
+//! The results of a drop that goes on until the rotor stands.
 //!
 //! The spin that the run-out starts with is all the kinetic energy there is at the change, over the square of the speed: nothing is
 //! lost or made by it.
 
-use crate::bearing::races::count_run_out;
+use crate::bearing::races::count_coast_down;
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::coast_down::build::{Built, Part, Start, part};
 use crate::coast_down::passages::limits;
 use crate::coast_down::ran::{Ran, ran};
-use crate::coast_down::{self, history, quantities as of_run_out};
+use crate::coast_down::{self, history, quantities as of_coast_down};
 use crate::drop::context::{Context, Setup};
-use crate::drop::returns::{self, Return, Returned};
-use crate::drop::went::{Change, Went, way};
-use crate::drop::window::Last;
-use crate::drop::windows::{self, Bounced};
-use crate::drop::{quantities, run_out_warnings};
+use crate::drop::multirate::series::{Place, SeenBearing, Stretch};
+use crate::drop::multirate::{self, IntervalSeries, warnings};
+use crate::drop::quantities;
+use crate::drop::surfaces::{no_width, wear_depth};
 use crate::ending;
 use model::system::layout::of_part;
 use model::system::machine::record::ROLLS;
@@ -22,13 +21,16 @@ use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Quantity, Stop, Value, Warning};
 use problem::warning::Declared;
-use scenario::RunOut;
+use scenario::{AuxiliaryBearing, CoastDownEnd};
 use std::sync::atomic::AtomicBool;
 use thermal::held::Held;
 use thermal::warm_machine::RotorDrag;
 
+/// A bearing as its file gives it.
+type Given<'a> = &'a AuxiliaryBearing;
+
 /// Before the names of the results of a run-out.
-const RUN_OUT: &str = "run_out";
+const COAST_DOWN: &str = "coast_down";
 /// Before those of its course.
 const OVER_TIME: &str = "over_time";
 
@@ -45,8 +47,12 @@ pub(crate) struct After {
 }
 
 /// Follows a drop until the rotor stands; none where that is not asked.
-pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> {
-    let end = context.setup.drop().run_out.as_ref()?;
+pub(crate) fn after(
+    context: &Context,
+    interrupt: &AtomicBool,
+    progress: &dyn Fn(f64),
+) -> Option<After> {
+    let end = context.setup.drop().coast_down.as_ref()?;
     let ending = &context.finished.ending;
     let stop = ending::stop(ending);
     let rolls = ending.stop == solve::Stop::Halted(ROLLS);
@@ -55,48 +61,55 @@ pub(crate) fn after(context: &Context, interrupt: &AtomicBool) -> Option<After> 
         Ok(built) => built,
         Err(why) => return Some(After::none(Vec::new(), broken(stop, why))),
     };
-    let mut motion = Last::of(context);
-    let bounced = match goes_on {
-        true => windows::follow(context, (&mut built, &mut motion), rolls, interrupt),
-        false => Bounced::default(),
+    let series = match goes_on {
+        true => multirate::follow(context, &mut built, interrupt, progress),
+        false => IntervalSeries::default(),
     };
-    // what a run-out finds has its names, also where there is none
-    let at_once = AtomicBool::new(true);
-    let first = Change::at(&built, &bounced);
-    let found = match goes_on {
-        true => returns::follow(context, (&mut built, &mut motion), interrupt),
-        false => Ok(Returned::default()),
-    };
-    let found = found.and_then(|returned| {
-        let interrupt = if goes_on { interrupt } else { &at_once };
-        Ok((ran(&built, interrupt)?, returned))
-    });
-    let (found, returned) = match found {
+    // what a coast-down finds has its names, also where there is none
+    let at_once = AtomicBool::new(!goes_on);
+    let found = match ran(&built, if goes_on { interrupt } else { &at_once }) {
         Ok(found) => found,
         Err(problem) => return Some(After::none(Vec::new(), broken(stop, problem.found))),
     };
-    let went = Went {
-        rolled: rolls,
-        bounced,
-        first,
-        returned,
+    let went = Followed {
+        series: &series,
+        context,
     };
     let quantities = named(context.setup, &built.parts, Some((&found, &went)));
     if !goes_on {
         let why = "the drop before it did not end as planned";
         return Some(After::none(without_values(quantities, why), stop));
     }
-    let list = run_out_warnings::of(context, &found, &went);
+    let list = warnings::of(context, &found, &series);
     let ended = coast_down::stop(&found.free);
     Some(After {
         quantities,
         warnings: list,
         stop: Stop {
-            text: format!("{} {}", way(context, &built.parts, &went), ended.text),
+            text: format!("{} {}", words(context, &built, &series), ended.text),
             ..ended
         },
-        steps: found.free.state.steps as u64 + went.steps(),
+        steps: found.free.state.steps as u64 + series.steps,
     })
+}
+
+/// How it was followed, in words.
+fn words(context: &Context, built: &Built, series: &IntervalSeries) -> String {
+    let first = format!(
+        "After {:.4} s of the drop {} ball-by-ball intervals followed, with quasi-steady steps between them.",
+        context.finished.ending.time, series.intervals
+    );
+    let rolls = match series.rolled {
+        Some(place) => format!(
+            "The rotor rolled from {:.4} s and {:.1} rad/s on.",
+            place.time, place.speed
+        ),
+        None => "It never rolled.".to_string(),
+    };
+    let again = series.stretches.iter().filter(|stretch| !stretch.first);
+    let mut list = vec![first, rolls];
+    list.extend(again.map(|stretch| stretch.words(built, &built.parts)));
+    list.join(" ")
 }
 
 /// Every result of a drop with those of what came after.
@@ -104,7 +117,7 @@ pub(crate) fn quantities(context: &Context, after: Option<&After>) -> Vec<Quanti
     let mut list = quantities::name(context.setup, Some(context));
     if let Some(after) = after {
         for name in context.setup.parts() {
-            count_run_out(&mut list, name, &after.quantities);
+            count_coast_down(&mut list, name, &after.quantities);
         }
         list.extend(after.quantities.iter().cloned());
     }
@@ -172,7 +185,7 @@ fn parts(setup: Setup) -> Result<Vec<Part>, String> {
 }
 
 /// The machine of the run-out, from the state in which the drop ended.
-fn built(context: &Context, end: &RunOut, goes_on: bool) -> Result<Built, String> {
+fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, String> {
     let (drop, machine) = (context.setup.drop(), context.setup.machine);
     let ending = &context.finished.ending;
     let rotor = &machine.constants.rotor;
@@ -235,7 +248,7 @@ pub(crate) fn results(setup: Setup) -> Vec<Quantity> {
 }
 
 /// The results under their names: those of the run-out, and its course over time.
-fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Went)>) -> Vec<Quantity> {
+fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Followed)>) -> Vec<Quantity> {
     let mut list = List::default();
     let went = run.map(|(_, went)| went);
     change(&mut list, &(), went);
@@ -243,11 +256,9 @@ fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Went)>) -> Vec<Quanti
         list.of_part(&part.name, |list| peaks(list, &k, went));
     }
     for (k, part) in parts.iter().enumerate() {
-        list.of_part(&part.name, |list| {
-            patch(list, &(k, setup.given(k).contact.width), went)
-        });
+        list.of_part(&part.name, |list| patch(list, &(k, setup.given(k)), went));
     }
-    of_run_out::name(&mut list, parts, run.map(|(found, _)| found));
+    of_coast_down::name(&mut list, parts, run.map(|(found, _)| found));
     back(&mut list, &(), went);
     // those of a bearing keep its name before everything else
     let under = |name: &str, word: &str| {
@@ -270,81 +281,97 @@ fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Went)>) -> Vec<Quanti
         );
     }
     for quantity in &mut list.quantities {
-        quantity.name = under(&quantity.name, RUN_OUT);
+        quantity.name = under(&quantity.name, COAST_DOWN);
     }
     list.quantities
 }
 
-impl Went {
-    /// What exists where the rotor came to roll.
-    fn rolled(&self, value: f64) -> Result<f64, String> {
-        match self.first.never {
-            false => Ok(value),
-            true => Err("the rotor never lost only what laws of rolling say".to_string()),
-        }
-    }
-    /// A value of each return.
-    fn returns(&self, of: fn(&Return) -> f64) -> Vec<f64> {
-        self.returned.list.iter().map(of).collect()
-    }
+/// A coast-down that was followed.
+struct Followed<'a> {
+    series: &'a IntervalSeries,
+    context: &'a Context<'a>,
 }
 
-/// What exists where windows followed the motion.
-fn windowed(value: Option<f64>) -> Result<f64, String> {
-    value.ok_or_else(|| "no windows ball by ball".to_string())
+impl Followed<'_> {
+    /// What exists where the rotor came to roll.
+    fn rolled(&self, of: fn(&Place) -> f64) -> Result<f64, String> {
+        let never = || "the rotor never rolled".to_string();
+        self.series.rolled.as_ref().map(of).ok_or_else(never)
+    }
+    /// A value of each stretch after the first.
+    fn again(&self, of: fn(&Stretch) -> f64) -> Vec<f64> {
+        let again = self.series.stretches.iter();
+        again.filter(|stretch| !stretch.first).map(of).collect()
+    }
+    /// What intervals have seen of a bearing.
+    fn seen(&self, k: usize, of: impl Fn(&SeenBearing) -> f64) -> Result<f64, String> {
+        let none = || "no ball-by-ball interval".to_string();
+        self.series.bearings.get(k).map(of).ok_or_else(none)
+    }
+    /// Mean depth worn off, m.
+    fn wear(&self, k: usize) -> Result<f64, String> {
+        let contact = &self.context.setup.given(k).contact;
+        self.seen(k, |seen| wear_depth(contact, seen.rubbed.work))
+    }
 }
 
 results! {
-    fn change(setup: &(), run: &Went) {
-        "start_time": instant "s" headline, CHANGE, "instant from which on the rotor rolls" in note "Stands after: rolls from" => run.rolled(run.first.time);
-        "start_speed": number "rad/s", CHANGE, "speed of the rotor at this instant" => run.rolled(run.first.speed);
-        "windows": number "", WINDOWS, "number of windows ball by ball" => run.scatter().len() as f64;
-        "window_scatter": number "1", WINDOWS, "largest standard error of a window's power over it" => run.scatter().into_iter().fold(0.0, f64::max);
-        "change_of_model": number "J", CHANGE, "kinetic energy after the change less that before" => run.first.energy;
+    fn change(setup: &(), run: &Followed) {
+        "start_time": instant "s" headline, CHANGE, "instant from which on the rotor rolls" in note "Stands after: rolls from" => run.rolled(|place| place.time);
+        "start_speed": number "rad/s", CHANGE, "speed of the rotor at this instant" => run.rolled(|place| place.speed);
+        "windows": number "", INTERVALS, "number of ball-by-ball intervals" => run.series.intervals as f64;
+        "window_scatter": number "1", INTERVALS, "largest standard error of a mean power over it" => run.series.error;
     }
-    fn peaks(k: &usize, run: &Went) {
-        "peak_contact_force": number "N", PEAK, "largest contact force in the windows" => windowed(run.peak(*k).map(|[force, ..]| force));
+    fn peaks(k: &usize, run: &Followed) {
+        "peak_contact_force": number "N", PEAK, "largest contact force in the intervals" => run.seen(*k, |seen| seen.force.value);
+        "largest_rotor_displacement": number "m", PEAK, "largest displacement of the rotor in the intervals" => run.seen(*k, |seen| seen.rotor_displacement);
+        "largest_mount_displacement": number "m", PEAK, "largest displacement of the mount in the intervals" => run.seen(*k, |seen| seen.mount_displacement);
     }
-    fn patch(of: &(usize, Option<f64>), run: &Went) {
-        "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch in the windows", unless not_given("contact.width", of.1) => {
-            windowed(run.hottest(of.0).map(|[rise, _]| rise))
+    fn patch(of: &(usize, Given), run: &Followed) {
+        "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch in the intervals", unless no_width(of.1) => run.seen(of.0, |seen| seen.rise.value);
+        "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless no_width(of.1) => {
+            run.seen(of.0, |seen| seen.rise.value / STEEL_CHANGES)
         };
-        "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless not_given("contact.width", of.1) => {
-            windowed(run.hottest(of.0).map(|[rise, _]| rise / STEEL_CHANGES))
-        };
+        "sliding_distance": number "m", SLIDING, "distance slid by rotor and race", unless no_width(of.1) => run.seen(of.0, |seen| seen.rubbed.distance);
+        "wear_depth": number "m", WEAR, "mean depth worn off" in added_up "wear depth", unless {
+            not_given("contact.surface.wear_coefficient", of.1.contact.wear_coefficient).or(no_width(of.1))
+        } => run.wear(of.0);
     }
-    /// Where the run-out went back from laws to windows.
-    fn back(setup: &(), run: &Went) {
-        "return_times": list "s", RETURNS, "begins of the returns to windows" => run.returns(|again| again.from[0]);
-        "return_speeds": list "rad/s", RETURNS, "speed of the rotor at these instants" => run.returns(|again| again.from[1]);
-        "return_end_times": list "s", RETURNS, "ends of the returns" in note "Stands after: rolls again from" => run.returns(|again| again.to[0]);
-        "return_changes_of_model": list "J", RETURNS, "kinetic energy after each return less that before" => run.returns(|again| again.change);
+    /// Where the rotor rolled no longer.
+    fn back(setup: &(), run: &Followed) {
+        "return_times": list "s", RETURNS, "begins of the stretches in which it rolls no longer" => run.again(|stretch| stretch.from.time);
+        "return_speeds": list "rad/s", RETURNS, "speed of the rotor at these instants" => run.again(|stretch| stretch.from.speed);
+        "return_end_times": list "s", RETURNS, "ends of these stretches" in note "Stands after: rolls again from" => run.again(|stretch| stretch.to.time);
     }
 }
 
 origins! {
-    CHANGE: law "windows ball by ball lose what laws of rolling say within 2 % and press with less than 1.5 of the load at rest: two, or one after the rotor has pressed on every inner race, rotor and race, and cage, \
-          within 1 % of rolling, for 20 turns of every cage; kinetic energy, temperatures and speed go on as they are",
-        source "crates/model/src/system/machine/bearing_record.rs; book/src/theory/heat.md",
-        valid "what the change loses or makes is run_out.change_of_model, kinetic energy after it less that before: nothing, but for what bounced in the last window";
-    WINDOWS: law "while the rotor does not roll: mean heats over 80 turns at held speed, 5 to 19 % slower from window to window; the largest standard error \
-          of a window's power over it",
-        source "crates/simulate/src/drop/windows.rs; book/src/theory/heat.md",
-        valid "what happens at a speed has forgotten how it came there";
-    PEAK: law "the largest contact force of the windows' batches, each 10 turns or 0.2 s",
-        source "crates/simulate/src/drop/windows.rs",
-        valid "a sample: windows are 5 to 19 % of speed apart, and a rotor that passes quickly is lifted less; what comes by laws has the load at rest";
-    PATCH: law "the largest rise of the patch of rotor and race in a batch of a window, over surfaces as warm as the hotter body when it begins, above the start",
-        source "crates/model/src/surface_heat.rs; crates/simulate/src/drop/window.rs",
-        valid "as contact_temperature_rise, and a lower bound: the surfaces of a batch have 10 turns or 0.2 s to warm";
-    PATCH_INDEX: law "run_out.contact_temperature_rise over 500 K",
+    CHANGE: law "an interval in which the bearings take what laws of rolling say within 3 % and the contact force is below 1.5 of the load at rest",
+        source "crates/simulate/src/drop/multirate/leap.rs; book/src/theory/heat.md",
+        valid "within the leap before it: no more than 22 % of speed";
+    INTERVALS: law "batches of a turn, or of the pendulum motion √(g/c0) where that is slower; standard error from the batches, their correlation and their drift, \
+          the largest by which a leap was taken",
+        source "crates/simulate/src/drop/multirate/batch.rs; book/src/theory/heat.md",
+        valid "what a motion does at a speed depends on speed, temperatures and the branch it is on";
+    PEAK: law "the largest of all intervals and of the way to them",
+        source "crates/simulate/src/drop/multirate/interval.rs",
+        valid "a sample: intervals are up to 22 % of speed apart, the way to them has one batch each 4 %";
+    PATCH: law "the largest rise of the patch of rotor and race above the start in the intervals, with surface layers that carry on from one to the next",
+        source "crates/model/src/surface_heat.rs; crates/simulate/src/drop/multirate/interval.rs",
+        valid "as contact_temperature_rise; a sample";
+    PATCH_INDEX: law "coast_down.contact_temperature_rise over 500 K",
         source "tempering and transformation of bearing steel, rounded down",
         valid "1: the surface of steel changes; other materials and coatings have limits of their own";
-    RETURNS: law "back from laws to windows ball by ball where the motion, followed ball by ball each 1.5 % of speed on the way of the laws, loses 3 % more or less than they \
-          say or presses with 1.9 of the load at rest; until two windows agree with the laws",
-        source "crates/simulate/src/drop/returns.rs; crates/simulate/src/drop/glide.rs; book/src/theory/heat.md",
-        valid "as run_out.windows; changes: ½IΩ² of the laws that go on less kinetic energy of the motion, which bounces";
-    COURSE: law "the run-out over run_out.over_time.time",
+    SLIDING: law "∫|u| dt, the mean sliding speeds of the intervals along straight lines between them",
+        source "crates/simulate/src/drop/multirate/macro_step.rs",
+        valid "until the last interval: a rotor that rolls to its standstill slides no more";
+    WEAR: law "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient, as of the sliding distance",
+        source "crates/simulate/src/drop/multirate/macro_step.rs",
+        valid "as wear_depth of the drop";
+    RETURNS: law "intervals, after one in which it rolled, that lose 3 % more or less than laws say or press with 1.5 of the load at rest",
+        source "crates/simulate/src/drop/multirate/series.rs; book/src/theory/heat.md",
+        valid "as coast_down.windows";
+    COURSE: law "the run-out over coast_down.over_time.time",
         source "crates/thermal/src/coast_down.rs",
-        valid "as run_out.stop_time";
+        valid "as coast_down.stop_time";
 }

@@ -157,11 +157,11 @@ fn a_layer_with_its_core_and_a_mount_of_its_own_take_the_same_heat() {
     assert_eq!(number(&more, "heat_made_in_housing"), 0.0);
     // a run-out goes on with them
     let through = ran(&bodies);
-    assert!(number(&through, "run_out.relative_heat_residual") < 1e-9);
+    assert!(number(&through, "coast_down.relative_heat_residual") < 1e-9);
     assert!(
-        peak(&through, "rotor_core") <= number(&through, "run_out.peak_rotor_core_temperature")
+        peak(&through, "rotor_core") <= number(&through, "coast_down.peak_rotor_core_temperature")
     );
-    adds_up_by_bodies(&through, "run_out.");
+    adds_up_by_bodies(&through, "coast_down.");
     let bare = SHIPPED.replacen("width = \"12 mm\"", "", 1);
     for (text, wrong, words) in [
         (
@@ -184,18 +184,18 @@ fn a_layer_with_its_core_and_a_mount_of_its_own_take_the_same_heat() {
 }
 
 #[test]
-fn slow_time_goes_on_as_ball_by_ball_would() {
+fn quasi_steady_steps_go_on_as_ball_by_ball_would() {
     // without feedback both have one moment: the rotor loses as much in the seconds that follow
     let slow = ran(&["heat.feedback=none"]);
     let motion = ran(&["heat.feedback=none", "run.until=duration"]);
     let (start, first) = (
-        number(&slow, "run_out.start_time"),
-        number(&slow, "run_out.start_speed"),
+        number(&slow, "coast_down.start_time"),
+        number(&slow, "coast_down.start_speed"),
     );
     assert!((0.3..2.0).contains(&start), "{start}");
     let (times, speeds) = (
-        list(&slow, "run_out.over_time.time"),
-        list(&slow, "run_out.over_time.rotor.speed"),
+        list(&slow, "coast_down.over_time.time"),
+        list(&slow, "coast_down.over_time.rotor.speed"),
     );
     let next = times.partition_point(|time| *time < 3.0);
     let share = (3.0 - times[next - 1]) / (times[next] - times[next - 1]);
@@ -203,34 +203,33 @@ fn slow_time_goes_on_as_ball_by_ball_would() {
     let lost = first - number(&motion, "rotor_final_speed");
     assert!(((first - at) / lost - 1.0).abs() < 0.01, "{at} {lost}");
     // what turned is heat at the end, to the last joule
-    let heats = number(&slow, "run_out.speed_dependent_heat")
-        + number(&slow, "run_out.load_dependent_heat")
-        + number(&slow, "run_out.windage_heat");
-    let left = number(&slow, "run_out.rotor_energy") * (1.0 / (first * first));
-    assert!(((heats + left) / number(&slow, "run_out.rotor_energy") - 1.0).abs() < 1e-9);
-    assert!(number(&slow, "run_out.relative_heat_residual") < 1e-9);
-    // what turned before the change turns after it: by the rows of both sides of it
+    let heats = number(&slow, "coast_down.speed_dependent_heat")
+        + number(&slow, "coast_down.load_dependent_heat")
+        + number(&slow, "coast_down.windage_heat");
+    let left = number(&slow, "coast_down.rotor_energy") * (1.0 / (first * first));
+    assert!(((heats + left) / number(&slow, "coast_down.rotor_energy") - 1.0).abs() < 1e-9);
+    assert!(number(&slow, "coast_down.relative_heat_residual") < 1e-9);
+    // what turned at the end of the drop turns at the beginning of the coast-down: by the rows of both
     let kinetic = slow.history.iter().find(|c| c.name == "energy.kinetic");
     let before = *kinetic.unwrap().values.last().unwrap();
-    let after = 0.5 * number(&slow, "run_out.rotor_energy");
+    let after = 0.5 * number(&slow, "coast_down.rotor_energy");
     let lost = number(&slow, "dissipated_energy");
     let jump = before - after;
     assert!(
         jump.abs() < 1e-9 * after && jump.abs() < 1e-3 * lost,
         "{jump} {lost}"
     );
-    assert_eq!(number(&slow, "run_out.change_of_model"), 0.0);
-    adds_up_by_bodies(&slow, "run_out.");
+    adds_up_by_bodies(&slow, "coast_down.");
     // warmth thins the oil: it runs longer
     let warm = ran(&[]);
     assert!(warm.stop.complete() && slow.stop.complete());
-    assert!(number(&warm, "run_out.stop_time") > 1.1 * number(&slow, "run_out.stop_time"));
+    assert!(number(&warm, "coast_down.stop_time") > 1.1 * number(&slow, "coast_down.stop_time"));
     let codes: Vec<&str> = warm.warnings.iter().map(|warning| warning.code).collect();
     // so calm a rotor rolls all the way down, at its natural frequency too, and that was looked at
     assert!(!codes.contains(&"AB2317"), "{codes:?}");
     assert!(!codes.contains(&"AB2316"), "{codes:?}");
-    assert!(list(&warm, "run_out.return_times").is_empty());
-    let ratio = number(&warm, "run_out.peak_contact_force") / (4.0 * 9.80665);
+    assert!(list(&warm, "coast_down.return_times").is_empty());
+    let ratio = number(&warm, "coast_down.peak_contact_force") / (4.0 * 9.80665);
     assert!((1.0..1.5).contains(&ratio), "{ratio}");
 }
 
@@ -240,8 +239,8 @@ fn the_life_with_lubricant_is_shorter_where_the_oil_is_thin_and_dirty() {
         let sets = [&["bearing.dynamic_load_rating=11.9 kN"], sets].concat();
         let found = ran(&sets);
         (
-            number(&found, "run_out.life_share"),
-            number(&found, "run_out.life_share_with_lubricant"),
+            number(&found, "coast_down.life_share"),
+            number(&found, "coast_down.life_share_with_lubricant"),
         )
     };
     let (plain, dirty) = share(&["heat.contamination=0"]);
@@ -253,44 +252,36 @@ fn the_life_with_lubricant_is_shorter_where_the_oil_is_thin_and_dirty() {
 }
 
 #[test]
-fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
+fn a_rotor_that_bounces_is_followed_until_it_rolls() {
     let bounces = ["rotor.unbalance_eccentricity=5 um", "run.duration=0.5 s"];
     let found = ran(&bounces);
     assert!(found.stop.complete(), "{}", found.stop.text);
     assert!(
-        found.stop.text.contains("windows ball by ball"),
+        found.stop.text.contains("ball-by-ball intervals"),
         "{}",
         found.stop.text
     );
-    assert!(number(&found, "run_out.windows") > 3.0);
-    assert!(number(&found, "run_out.window_scatter") < 0.05);
-    adds_up_by_bodies(&found, "run_out.");
-    // the ledger closes over windows, slow time and the run-out by laws
-    let energy = number(&found, "run_out.rotor_energy");
-    let speed = list(&found, "run_out.over_time.rotor.speed")[0];
-    let heats = number(&found, "run_out.speed_dependent_heat")
-        + number(&found, "run_out.load_dependent_heat")
-        + number(&found, "run_out.windage_heat");
+    assert!(number(&found, "coast_down.windows") > 3.0);
+    assert!(number(&found, "coast_down.window_scatter") < 0.05);
+    adds_up_by_bodies(&found, "coast_down.");
+    // the ledger closes over all steps
+    let energy = number(&found, "coast_down.rotor_energy");
+    let speed = list(&found, "coast_down.over_time.rotor.speed")[0];
+    let heats = number(&found, "coast_down.speed_dependent_heat")
+        + number(&found, "coast_down.load_dependent_heat")
+        + number(&found, "coast_down.windage_heat");
     let left = energy / (speed * speed);
     assert!(
         ((heats + left) / energy - 1.0).abs() < 1e-9,
         "{heats} {energy}"
     );
-    assert!(number(&found, "run_out.relative_heat_residual") < 1e-9);
-    // what bounced when the laws took over is booked, and little beside what was lost until then
-    let change = number(&found, "run_out.change_of_model");
-    let start = number(&found, "run_out.start_speed");
-    let lost = 2.0 * number(&found, "dissipated_energy") + energy * (1.0 - (start / speed).powi(2));
-    assert!(
-        change != 0.0 && change.abs() < 1e-3 * lost,
-        "{change} {lost}"
-    );
-    let times = list(&found, "run_out.over_time.time");
+    assert!(number(&found, "coast_down.relative_heat_residual") < 1e-9);
+    let times = list(&found, "coast_down.over_time.time");
     assert!(times.windows(2).all(|pair| pair[1] > pair[0]));
     // what bounces loses more than what rolls, and no jump in the moment is left where the laws take over
-    let other = list(&found, "run_out.over_time.load_dependent.moment");
-    let steady = list(&found, "run_out.over_time.speed_dependent.moment");
-    let start = times.partition_point(|time| *time < number(&found, "run_out.start_time"));
+    let other = list(&found, "coast_down.over_time.load_dependent.moment");
+    let steady = list(&found, "coast_down.over_time.speed_dependent.moment");
+    let start = times.partition_point(|time| *time < number(&found, "coast_down.start_time"));
     assert!(
         other[0] > 5.0 * other[start],
         "{} {}",
@@ -300,17 +291,16 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     let change = steady[start] / steady[start - 1] - 1.0;
     assert!(change.abs() < 0.05, "{change}");
     // the loads of balls that bounce, of both their inner and their outer race, and their life: nothing is left out
-    let loads = list(&found, "run_out.over_time.bearing.largest_ball_load");
-    // in the last windows it rolls
-    let lifted = 2 * start / 3;
-    assert!(
-        loads[..lifted]
-            .iter()
-            .all(|load| *load > 1.5 * loads[start])
-    );
-    let index = number(&found, "run_out.indentation_index");
+    let loads = list(&found, "coast_down.over_time.bearing.largest_ball_load");
+    // beside those of a rotor that lies under its weight, much later
+    let calm = times.partition_point(|time| *time < 2.0 * number(&found, "coast_down.start_time"));
+    // as long as e Ω² is above half of gravity
+    let speeds = list(&found, "coast_down.over_time.rotor.speed");
+    let lifted = speeds.partition_point(|speed| 5e-6 * speed * speed > 0.5 * 9.80665);
+    assert!(lifted > 5 && loads[..lifted].iter().all(|load| *load > 1.5 * loads[calm]));
+    let index = number(&found, "coast_down.indentation_index");
     let of_drop = number(&found, "indentation_index");
-    let largest = number(&found, "run_out.peak_ball_load");
+    let largest = number(&found, "coast_down.peak_ball_load");
     let ratio = largest / number(&found, "peak_ball_load");
     assert!(
         (index / of_drop / ratio - 1.0).abs() < 0.15,
@@ -319,7 +309,7 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     let mut rings = Vec::new();
     for side in ["inner", "outer"] {
         let points = |part: &str| list(&found, &format!("{part}{side}_life_share_by_point"));
-        let (drop, then) = (points(""), points("run_out."));
+        let (drop, then) = (points(""), points("coast_down."));
         let at = |list: &[f64], k: usize| list[k * list.len() / 360];
         let powers = (0..360).map(|k| (at(drop, k) + at(then, k)).powf(10.0 / 9.0));
         rings.push(powers.sum::<f64>() / 360.0);
@@ -327,10 +317,10 @@ fn a_rotor_that_bounces_goes_on_in_windows_until_it_rolls() {
     let share = (rings[0] + rings[1]).powf(0.9);
     let ten = number(&found, "drops_until_ten_percent_fail");
     assert!((share * ten - 1.0).abs() < 1e-9, "{share} {ten}");
-    assert!(ten < number(&found, "run_out.runs_until_ten_percent_fail"));
+    assert!(ten < number(&found, "coast_down.runs_until_ten_percent_fail"));
     // nothing depends on threads or company
     let again = ran(&bounces);
-    let bits = |outcome: &Outcome| number(outcome, "run_out.stop_time").to_bits();
+    let bits = |outcome: &Outcome| number(outcome, "coast_down.stop_time").to_bits();
     assert_eq!(bits(&again), bits(&found));
 }
 
@@ -353,10 +343,10 @@ fn a_housing_that_grows_away_from_its_ring_conducts_less_and_is_told_in_the_run_
     let (steel, aluminium) = (housing("11.5e-6 1/K"), housing("23e-6 1/K"));
     let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2321");
     assert!(told(&aluminium) && !told(&steel));
-    let seat = |outcome| list(outcome, "run_out.outer_seat_conductances").to_vec();
+    let seat = |outcome| list(outcome, "coast_down.outer_seat_conductances").to_vec();
     // its gap alone is left: less than at any time of the housing that grows with it
     assert!(seat(&aluminium)[0] < 0.9 * seat(&steel)[0]);
-    assert!(number(&aluminium, "run_out.relative_heat_residual") < 1e-9);
+    assert!(number(&aluminium, "coast_down.relative_heat_residual") < 1e-9);
 }
 
 /// A ring a little loose in vacuum: where it expands into its seat it conducts ten times as much, and settles there. Held for a whole step
@@ -375,9 +365,9 @@ fn a_ring_that_warms_into_its_seat_settles_there() {
     let never = AtomicBool::new(false);
     let scenario = parsed(&unmounted, &sets).unwrap();
     let found = run(&scenario, &Options::unwatched(&never)).unwrap();
-    let seat = list(&found, "run_out.outer_seat_conductances");
+    let seat = list(&found, "coast_down.outer_seat_conductances");
     assert!(seat[0] < 0.2 && seat[1] > 3.0 * seat[0], "{seat:?}");
-    let race = list(&found, "run_out.over_time.outer_race.temperature");
+    let race = list(&found, "coast_down.over_time.outer_race.temperature");
     let warm = race.iter().position(|now| *now > 311.0).unwrap();
     let jumps = race[warm..].windows(2).map(|two| (two[1] - two[0]).abs());
     let largest = jumps.fold(0.0, f64::max);
@@ -404,7 +394,7 @@ fn what_cannot_run_out_is_refused() {
                 "bearing.lubricant_state.recovery_time=6000 s",
             ],
             "AB0109",
-            "does not age in slow time",
+            "does not age",
         ),
         (
             &["coast_down.stop_speed=20000 rpm"],
@@ -513,19 +503,19 @@ fn a_heavy_rotor_that_bounces_warms_its_bearings_as_laws_do() {
         "run.duration=2 s",
     ];
     let found = ran(&[&sets[..], &["rotor.unbalance_eccentricity=5 um"]].concat());
-    assert!(number(&found, "run_out.windows") > 1.0);
+    assert!(number(&found, "coast_down.windows") > 1.0);
     let laws = ran(&[&sets[..], &["rotor.unbalance_eccentricity=0.1 um"]].concat());
-    assert_eq!(number(&laws, "run_out.windows"), 0.0);
+    assert!(list(&laws, "coast_down.return_times").is_empty());
     for (name, apart) in [
         // the patch of one that bounces slides by a tenth, and conducts by that: it cools the race
         ("peak_inner_race_temperature", 4.0),
         ("peak_balls_temperature", 4.0),
         ("smallest_clearance", 1e-6),
     ] {
-        let [ours, theirs] = [&found, &laws].map(|run| number(run, &format!("run_out.{name}")));
+        let [ours, theirs] = [&found, &laws].map(|run| number(run, &format!("coast_down.{name}")));
         assert!((ours - theirs).abs() < apart, "{name} {ours} {theirs}");
     }
-    let ratio = number(&found, "run_out.life_share") / number(&laws, "run_out.life_share");
+    let ratio = number(&found, "coast_down.life_share") / number(&laws, "coast_down.life_share");
     // 3 K cooler it is less preloaded
     assert!((0.55..1.3).contains(&ratio), "{ratio}");
 }

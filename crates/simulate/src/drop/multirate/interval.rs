@@ -1,0 +1,442 @@
+//! A ball-by-ball interval of a coast-down: the machine at its present speed and temperatures, in the motion that it has.
+//!
+//! ```text
+//!   conditioned     oil, clearance, air clearance, friction and brake as they are at this instant
+//!   batch           the odd number of whole turns nearest to half a period of the pendulum motion √(g/c0) in the air clearance
+//!   interval        BATCHES of them
+//! ```
+//! Nothing holds the spin: an interval is a piece of the real motion. Surface layers of rotor and race carry on from interval to interval. A motion that
+//! repeats with every turn comes back to its place after a batch, one of half the speed or of the pendulum is on the other side then: the distance
+//! between both places shows how a motion beside the unbalance's grows or decays, from any size.
+//! Steps are those of screening accuracy, whose means lie within 1e-4 of those of design accuracy.
+//!
+//! Source: derived; book/src/theory/heat.md.
+
+use crate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::coast_down::rows::BallsSeen;
+use crate::drop::context::Context;
+use crate::drop::feedback::{Following, Now, Warmed};
+use crate::drop::method;
+use crate::drop::multirate::batch::{Batch, Bearing, Interval};
+use crate::ending::settings_at;
+use model::auxiliary_bearing::HEATS;
+use model::bearing_heat::{Warmth, steady_moment};
+use model::schedule::Schedule;
+use model::surface_heat::SurfaceHeat;
+use model::system::machine::RotorMachine;
+use model::system::machine::record::{BearingRecord, Record};
+use model::system::machine::simulate::{Runs, Steps, simulate};
+use model::system::sampling::Peak;
+use scenario::Accuracy;
+use solve::{Observer, Settings};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use thermal::bearing_network::{INNER_RACE, LUBRICANT, Landing, NODES, ROTOR};
+
+/// Batches of an interval. After a leap two of them settle; two halves of three tell a trend from scatter, and eight in a row growth.
+pub(super) const BATCHES: usize = 8;
+pub(super) const SETTLING: usize = 2;
+
+/// Why an interval could not be followed.
+pub(super) type Failure = &'static str;
+
+/// The motion of a machine that coasts down, ball by ball.
+#[derive(Clone)]
+pub(super) struct Motion<'a> {
+    context: &'a Context<'a>,
+    interrupt: &'a AtomicBool,
+    following: Option<Arc<Following>>,
+    machine: Arc<RotorMachine>,
+    settings: Settings,
+    steps: Steps,
+    state: Vec<f64>,
+    surfaces: Vec<Option<Box<SurfaceHeat>>>,
+    time: f64,
+    /// Steps taken.
+    pub taken: u64,
+}
+
+impl<'a> Motion<'a> {
+    /// That in which the drop ended.
+    pub fn after_drop(context: &'a Context<'a>, interrupt: &'a AtomicBool) -> Self {
+        let ending = &context.finished.ending;
+        let records = &context.finished.record.bearings;
+        let mut coarse = context.setup.built.clone();
+        coarse.drop.given.run.accuracy = Accuracy::Screening;
+        let stepping = method::stepping(&coarse, context.setup.machine.tangents());
+        Motion {
+            context,
+            interrupt,
+            following: Following::of(context.setup.drop()).map(Arc::new),
+            machine: Arc::new(context.setup.machine.clone()),
+            settings: settings_at(&coarse.drop.run, stepping.tolerance),
+            steps: stepping.steps,
+            state: ending.state.clone(),
+            surfaces: records.iter().map(|record| record.heat.clone()).collect(),
+            time: ending.time,
+            taken: 0,
+        }
+    }
+
+    /// Size of the rotor's spin, rad/s.
+    pub fn speed(&self) -> f64 {
+        self.state[self.machine.layout().rotor.spin()].abs()
+    }
+
+    /// Time of a batch at a speed, rad/s: s.
+    fn span(&self, speed: f64) -> f64 {
+        let half_a_period = PI / self.pendulum();
+        let turns = speed * half_a_period / TAU;
+        TAU / speed * (2.0 * (0.5 * (turns - 1.0)).round().max(0.0) + 1.0)
+    }
+
+    /// Frequency of the rotor that swings like a pendulum in the widest air clearance, rad/s.
+    pub fn pendulum(&self) -> f64 {
+        let bearings = self.context.setup.machine.constants.bearings.iter();
+        let widest = bearings.map(|own| own.contact.radial_clearance);
+        let gravity = self.context.setup.drop().gravity.acceleration;
+        (gravity / widest.fold(0.0, f64::max)).sqrt()
+    }
+
+    /// One interval at the speed and the temperatures that the coast-down has reached; of what so many batches settle, no largest value is kept.
+    pub fn interval(&mut self, built: &Built, settling: usize) -> Result<Interval, Failure> {
+        let mut record = self.condition(built);
+        self.turn_at(built.start.speed);
+        let span = self.span(built.start.speed);
+        let mut batches = Vec::new();
+        for batch in 0..BATCHES {
+            // a clearance that has moved at once strikes
+            if batch == settling {
+                forget(&mut record);
+            }
+            batches.push(self.batch(built, &mut record, span)?);
+        }
+        Ok(self.ended(batches, record))
+    }
+
+    /// Comes down to a speed as it is, in so many equal jumps of its logarithm of a batch each: what was found there. Ends early where a force passes
+    /// these limits, N.
+    pub fn sweep(
+        &mut self,
+        built: &Built,
+        (jumps, to): (usize, f64),
+        limits: &[f64],
+    ) -> Result<Interval, Failure> {
+        let from = self.speed();
+        let mut record = self.record(built);
+        let ratio = (to / from).powf(1.0 / jumps as f64);
+        let mut batches = Vec::new();
+        for jump in 1..=jumps {
+            let speed = from * ratio.powi(jump as i32);
+            self.turn_at(speed);
+            let batch = self.batch(built, &mut record, self.span(speed))?;
+            let mut forces = batch.bearings.iter().zip(limits);
+            let harder = forces.any(|(bearing, limit)| bearing.peak_force > *limit);
+            batches.push(batch);
+            if harder {
+                break;
+            }
+        }
+        Ok(self.ended(batches, record))
+    }
+
+    /// The machine at the speed and the temperatures of a coast-down, and a record of what follows.
+    fn condition(&mut self, built: &Built) -> Record {
+        let start = &built.start;
+        let mut constants = match self.warm(built) {
+            Some(machine) => machine.constants.clone(),
+            None => self.machine.constants.clone(),
+        };
+        constants.speed = start.speed * constants.speed.signum();
+        // what has happened holds from the start
+        let schedule = &constants.schedule;
+        let later = schedule.instants().iter().enumerate();
+        let later = later.map(|(k, time)| match *time > start.time {
+            true => (*time, schedule.event(k)),
+            false => (0.0, schedule.event(k)),
+        });
+        let before = schedule.at_the_start().map(|event| (0.0, event));
+        constants.schedule = Schedule::of(before.chain(later));
+        let leap = start.time - self.time;
+        for heat in self.surfaces.iter_mut().flatten() {
+            heat.leap(leap);
+        }
+        self.time = start.time;
+        self.machine = Arc::new(RotorMachine::new(constants));
+        self.record(built)
+    }
+
+    /// A record of what follows, with surfaces as hot as they are.
+    fn record(&mut self, built: &Built) -> Record {
+        let machine = &self.machine;
+        let mut record = Record::new(machine, f64::INFINITY, f64::INFINITY, false);
+        let layout = machine.layout();
+        for (k, own) in record.bearings.iter_mut().enumerate() {
+            let mut surfaces = self.surfaces[k].take();
+            if let Some(heat) = &mut surfaces {
+                heat.contact = Peak::NONE;
+            }
+            own.warmth = (machine.constants.bearings[k].warm.as_ref()).map(|warm| {
+                let at = layout.bearings[k];
+                let heats = std::array::from_fn(|kind| self.state[layout.heat(at.heat + kind)]);
+                let nodes = &built.start.temperatures[k * NODES.len()..][..NODES.len()];
+                let now = (self.time, heats);
+                Box::new(Warmth::carried_on(warm, nodes, now, surfaces.as_deref()))
+            });
+            own.heat = surfaces;
+        }
+        record
+    }
+
+    /// The machine with oil, clearances and friction as warm as the coast-down has made them; none where nothing of it follows, or no law holds there.
+    fn warm(&self, built: &Built) -> Option<Box<RotorMachine>> {
+        let machine = self.context.setup.machine;
+        let following = self.following.as_ref()?;
+        let start = &built.start;
+        let now = |k: usize| {
+            let nodes = &start.temperatures[k * NODES.len()..][..NODES.len()];
+            let part = &built.parts[k];
+            let hotter = nodes[ROTOR].max(nodes[INNER_RACE]) + ICE_POINT;
+            let bodies = hotter - part.warm.heat.start_temperature;
+            Some(Now {
+                nodes,
+                spin: part.losses.ratio * start.speed,
+                contact: self.surfaces[k].as_ref().map_or(bodies, |heat| heat.rise),
+                friction: machine.constants.bearings[k].contact.friction,
+            })
+        };
+        let mut warmed = Warmed::default();
+        following.renewed(&mut warmed, machine, (start.time, &self.state), &now)
+    }
+
+    /// All that turns changes its speed by one factor: a rotor that jumped in its races would slip there.
+    fn turn_at(&mut self, speed: f64) {
+        let factor = speed / self.speed();
+        let layout = self.machine.layout();
+        self.state[layout.rotor.spin()] *= factor;
+        for (at, part) in layout.bearings.iter().zip(&self.machine.constants.bearings) {
+            self.state[at.inner.spin()] *= factor;
+            (part.bearing).change_speeds(&mut self.state[at.own()], factor);
+        }
+    }
+
+    /// The motion goes on for a time, s.
+    fn batch(&mut self, built: &Built, record: &mut Record, span: f64) -> Result<Batch, Failure> {
+        let before = self.state.clone();
+        let marks: Vec<Mark> = record.bearings.iter().map(Mark::of).collect();
+        for own in &mut record.bearings {
+            own.contacts.clear();
+        }
+        let machine = self.machine.clone();
+        let runs = Runs {
+            machines: &[&*machine],
+            starts: std::slice::from_ref(&before),
+            settings: Settings {
+                start: self.time,
+                end: self.time + span,
+                ..self.settings
+            },
+            steps: self.steps,
+            interrupt: self.interrupt,
+        };
+        let mut endings = simulate(runs, &mut [&mut *record as &mut dyn Observer<RotorMachine>]);
+        let Some(ending) = endings.pop() else {
+            unreachable!("each machine has an ending")
+        };
+        self.taken += ending.work.accepted;
+        match ending.stop {
+            solve::Stop::Finished => {}
+            solve::Stop::Interrupted => return Err("it was interrupted"),
+            solve::Stop::Halted(why) => return Err(why),
+            _ => return Err("a ball-by-ball interval did not end as planned"),
+        }
+        self.state = ending.state;
+        self.time = ending.time;
+        let spin = machine.layout().rotor.spin();
+        let speed = 0.5 * (before[spin] + self.state[spin]).abs();
+        let piece = Piece {
+            built,
+            motion: self,
+            before: &before,
+            span,
+            speed,
+        };
+        let bearings = (record.bearings.iter().zip(&marks).enumerate())
+            .map(|(k, (record, mark))| piece.bearing(k, record, mark))
+            .collect();
+        Ok(Batch {
+            span,
+            speed,
+            bearings,
+            rotor: piece.rotor(),
+        })
+    }
+
+    /// What batches and their record have found together.
+    fn ended(&mut self, batches: Vec<Batch>, mut record: Record) -> Interval {
+        self.surfaces = (record.bearings.iter_mut())
+            .map(|own| own.heat.take())
+            .collect();
+        Interval {
+            batches,
+            balls: (record.bearings.iter())
+                .map(|record| balls(record).map(Arc::new))
+                .collect(),
+            displacements: (record.bearings.iter())
+                .map(|own| {
+                    [&own.rotor_displacement, &own.mount_displacement].map(|peak| peak.value)
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Leaves out what a record found largest so far.
+fn forget(record: &mut Record) {
+    for own in &mut record.bearings {
+        for peak in [
+            &mut own.largest_inner_load,
+            &mut own.largest_outer_load,
+            &mut own.rotor_displacement,
+            &mut own.mount_displacement,
+        ] {
+            *peak = Peak::NONE;
+        }
+        if let Some(heat) = &mut own.heat {
+            heat.contact = Peak::NONE;
+        }
+    }
+}
+
+/// What a record counted when a batch began.
+struct Mark {
+    impulse: f64,
+    whirl_turns: f64,
+    distance: f64,
+    rubbed: f64,
+    slid: [f64; 3],
+}
+
+impl Mark {
+    fn of(record: &BearingRecord) -> Self {
+        let heat = record.heat.as_deref();
+        let slid = heat.map_or_else(Default::default, |heat| heat.slid);
+        Mark {
+            impulse: record.impulse,
+            whirl_turns: record.whirl_turns,
+            distance: heat.map_or(0.0, |heat| heat.distance),
+            rubbed: heat.map_or(0.0, |heat| heat.rubbed),
+            slid: [slid.impulse, slid.conducted, slid.uneven],
+        }
+    }
+}
+
+/// A batch of the motion, from a state to where it is now.
+struct Piece<'a> {
+    built: &'a Built,
+    motion: &'a Motion<'a>,
+    before: &'a [f64],
+    span: f64,
+    speed: f64,
+}
+
+impl Piece<'_> {
+    /// Mean power of a heat of the ledger, W.
+    fn power(&self, heat: usize) -> f64 {
+        let channel = self.motion.machine.layout().heat(heat);
+        (self.motion.state[channel] - self.before[channel]) / self.span
+    }
+
+    /// What the rotor itself loses, W.
+    fn rotor(&self) -> f64 {
+        let own = self.motion.machine.layout().of_rotor;
+        let losses = [own.damping, own.damping_rotating, own.seal_damping];
+        losses
+            .into_iter()
+            .flatten()
+            .map(|heat| self.power(heat))
+            .sum()
+    }
+
+    /// Distance of the places of the rotor's centre in a race at both ends, with those of its velocities over the frequency of the pendulum, m.
+    fn returns(&self, k: usize) -> f64 {
+        let machine = &self.motion.machine;
+        let place = |state: &[f64]| {
+            let centre = machine.node(k, state);
+            let race = machine.layout().bearings[k].motion(state).inner;
+            (
+                centre.position - race.position,
+                centre.velocity - race.velocity,
+            )
+        };
+        let (before, now) = (place(self.before), place(&self.motion.state));
+        let apart = (now.1 - before.1) * (1.0 / self.motion.pendulum());
+        ((now.0 - before.0).length_squared() + apart.length_squared()).sqrt()
+    }
+
+    fn bearing(&self, k: usize, record: &BearingRecord, mark: &Mark) -> Bearing {
+        let (motion, built) = (self.motion, self.built);
+        let at = motion.machine.layout().bearings[k];
+        let part: &Part = &built.parts[k];
+        let own = &motion.machine.constants.bearings[k];
+        let heats: [f64; HEATS] = std::array::from_fn(|kind| self.power(at.heat + kind));
+        let spin = 0.5 * (self.before[at.inner.spin()] + motion.state[at.inner.spin()]);
+        let drag_factor = own
+            .bearing
+            .drag_factor(&|state| motion.state[at.own().start + state]);
+        let now = Mark::of(record);
+        let [slid, conducted, uneven] =
+            [0, 1, 2].map(|kind: usize| (now.slid[kind] - mark.slid[kind]) / self.span);
+        let temperatures = &built.start.temperatures[k * NODES.len()..][..NODES.len()];
+        let nodes = own.warm.as_ref().map_or([0.0; NODES.len()], |warm| {
+            warm.over_nodes(&heats, spin, (temperatures[LUBRICANT], drag_factor), uneven)
+        });
+        let steady = steady_moment(&heats);
+        let force = (now.impulse - mark.impulse) / self.span;
+        let sign = motion.state[motion.machine.layout().rotor.spin()].signum();
+        let laws = part.losses.on_rotor(self.speed, temperatures);
+        // a patch between bodies whose conductance is given is followed at their mean: it may be as warm as the hotter one
+        let apart = match part.network.landing.is_given() {
+            true => 0.5 * (temperatures[ROTOR] - temperatures[INNER_RACE]).abs(),
+            false => 0.0,
+        };
+        Bearing {
+            steady,
+            other: heats.iter().sum::<f64>() - steady,
+            laws: laws.map(|moment| moment * self.speed / f64::from(built.sides)),
+            nodes,
+            friction: self.power(at.rotor_race_friction()),
+            sliding: (now.distance - mark.distance) / self.span,
+            rubbing: (now.rubbed - mark.rubbed) / self.span,
+            returns: self.returns(k),
+            whirl: sign * (now.whirl_turns - mark.whirl_turns),
+            peak_force: record.peak_contact_force().map_or(0.0, |peak| peak.value),
+            peak_rise: (record.heat.as_ref()).map_or(0.0, |heat| heat.contact.value + apart),
+            drag_factor,
+            spin: spin.abs() / (part.losses.ratio * self.speed),
+            landing: Landing {
+                force,
+                slides: match force > 0.0 {
+                    true => (slid / force).clamp(0.0, 1.0),
+                    false => 0.0,
+                },
+                conductance: match part.network.landing.is_given() {
+                    true => 0.0,
+                    false => conducted,
+                },
+            },
+        }
+    }
+}
+
+/// What an interval has seen of the balls of a bearing; none of a bushing, or where it did not turn.
+fn balls(record: &BearingRecord) -> Option<BallsSeen> {
+    let (races, turns) = (record.races.as_ref()?, record.turns);
+    let loads = [record.largest_inner_load, record.largest_outer_load];
+    (turns > 0.0).then(|| BallsSeen {
+        largest: loads.map(|peak| peak.value),
+        cubes: (races.races.each_ref())
+            .map(|race| race.sums.iter().map(|sum| sum / turns).collect()),
+    })
+}

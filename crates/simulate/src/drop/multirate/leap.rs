@@ -1,0 +1,196 @@
+//! How far a leap of a coast-down goes.
+
+use crate::coast_down::build::Built;
+use crate::drop::context::Context;
+use crate::drop::multirate::batch::Observation;
+use crate::drop::multirate::interval::Motion;
+use std::f64::consts::LN_2;
+
+/// Largest jump of the logarithm of the speed in the motion: a lightly damped resonance of a mount is a few percent wide, and so steps on it.
+pub(super) const JUMP: f64 = 0.04;
+/// Longest leap, ln of the speeds: loads and way of a sweep are not looked at more coarsely.
+const LONGEST: f64 = 0.223;
+/// From how far above a natural frequency to how far below it is passed in jumps: a motion that leaves its race softens, and drags its resonance down.
+const NEAR: [f64; 2] = [1.1, 0.7];
+/// Contact force over that before, or over the load at rest, from which on a motion is another one: at 2 a sinusoidal one leaves its race.
+const HARDER: f64 = 1.5;
+/// Power beside the laws, over theirs, of a rotor that rolls.
+const ROLLS: f64 = 0.03;
+/// Acceleration of unbalance over that of gravity below which it lifts no rotor, a hundredfold resonance included.
+const CALM: f64 = 0.01;
+/// Share of the moment which friction transmits that bearings may brake with where a rotor is left to the laws.
+pub(super) const TRANSMITS: f64 = 0.5;
+
+/// A natural frequency.
+pub(super) struct Mode {
+    /// rad/s.
+    frequency: f64,
+    /// Damping ratio.
+    damping: f64,
+    /// Rate at which unbalance makes it grow, over the square of the speed, s; 0 where it is forced.
+    grows: f64,
+}
+
+/// The natural frequencies that constants tell: of rotor and mount of each bearing, and of the pendulum in the air clearance.
+pub(super) fn modes(context: &Context, motion: &Motion) -> Vec<Mode> {
+    let pendulum = motion.pendulum();
+    let drop = context.setup.drop();
+    // the weight, changed by e Ω² once a turn, excites a motion of half the speed: λ = e Ω²/(4 g) √(g/c0)
+    let grows = eccentricity(context) * pendulum / (4.0 * drop.gravity.acceleration);
+    let mut list = vec![
+        Mode {
+            frequency: pendulum,
+            damping: 0.0,
+            grows: 0.0,
+        },
+        Mode {
+            frequency: 2.0 * pendulum,
+            damping: 0.0,
+            grows,
+        },
+    ];
+    for (k, own) in context.setup.machine.constants.bearings.iter().enumerate() {
+        let carried = drop.weight(k) / drop.gravity.acceleration / f64::from(drop.rotor.planes);
+        let mass = carried + own.outer_race_mass;
+        let mount = &own.mount;
+        list.push(Mode {
+            frequency: (mount.stiffness / mass).sqrt(),
+            damping: mount.damping / (2.0 * (mount.stiffness * mass).sqrt()),
+            grows: 0.0,
+        });
+    }
+    list
+}
+
+/// How natural frequencies let a rotor go on, ln of the speeds.
+#[derive(Clone, Copy)]
+pub(super) struct Pace {
+    /// The longest leap.
+    pub leap: f64,
+    /// The largest jump of its motion: a part of the width of a resonance, so that it stays on its branch.
+    pub jump: f64,
+    /// How long its motion is followed before a leap: as long as one that grows needs for a factor e, s.
+    pub dwell: f64,
+}
+
+/// The pace that natural frequencies allow from a speed, rad/s.
+pub(super) fn pace(modes: &[Mode], speed: f64) -> Pace {
+    let free = Pace {
+        leap: LONGEST,
+        jump: JUMP,
+        dwell: 0.0,
+    };
+    let [above, below] = NEAR;
+    modes.iter().fold(free, |pace, mode| {
+        let own = mode.damping.max(JUMP);
+        match speed / mode.frequency {
+            ratio if ratio > above => Pace {
+                leap: pace.leap.min((ratio / above).ln().max(own)),
+                ..pace
+            },
+            ratio if ratio > below => Pace {
+                leap: pace.leap.min(own),
+                jump: pace.jump.min(mode.width()),
+                dwell: match mode.grows > 0.0 {
+                    true => pace.dwell.max(1.0 / (mode.grows * speed * speed)),
+                    false => pace.dwell,
+                },
+            },
+            _ => pace,
+        }
+    })
+}
+
+impl Mode {
+    /// A quarter of the width of its resonance, by its damping where that is known.
+    fn width(&self) -> f64 {
+        match self.damping > 0.0 {
+            true => 0.5 * self.damping,
+            false => JUMP,
+        }
+    }
+}
+
+/// Largest eccentricity of the rotor in a bearing, m.
+fn eccentricity(context: &Context) -> f64 {
+    let constants = &context.setup.machine.constants;
+    let bearings = constants.bearings.iter();
+    let largest = bearings.map(|bearing| constants.rotor.most_eccentric(&bearing.node));
+    largest.fold(0.0, f64::max)
+}
+
+/// Speed below which unbalance lifts no rotor, rad/s.
+pub(super) fn calm(context: &Context) -> f64 {
+    (CALM * context.setup.drop().gravity.acceleration / eccentricity(context)).sqrt()
+}
+
+/// Loads at rest of the bearings, N; of one that carries hardly anything, and so never rests, that of the mean bearing.
+fn at_rest(built: &Built) -> impl Iterator<Item = f64> {
+    let loads = || built.parts.iter().map(|part| part.warm.radial_load);
+    let mean = loads().sum::<f64>() / built.parts.len() as f64;
+    loads().map(move |load| load.max(mean))
+}
+
+/// Contact forces of a motion from which on it is another one, N.
+pub(super) fn hardest(built: &Built, now: &Observation) -> Vec<f64> {
+    let bearings = now.mean.bearings.iter().zip(at_rest(built));
+    bearings
+        .map(|(own, load)| HARDER * own.peak_force.max(load))
+        .collect()
+}
+
+/// Whether a rotor rolls under its weight, and its bearings take what laws say.
+pub(super) fn rolls(built: &Built, now: &Observation) -> bool {
+    let rests = |(own, load): (&super::batch::Bearing, f64)| {
+        own.whirl.abs() < 1.0 && own.peak_force <= HARDER * load
+    };
+    let all = now.mean.bearings.iter().zip(at_rest(built)).all(rests);
+    all && (now.ratio() - 1.0).abs() < ROLLS
+}
+
+/// What an observation allows.
+pub(super) struct Limits {
+    /// Moment that brakes the rotor, N m.
+    pub moment: f64,
+    /// Time so far, and of the coast-down still to come at this moment, s.
+    time: f64,
+    rest: f64,
+    /// Relative error of the mean power.
+    pub error: f64,
+    /// Longest time, s.
+    longest: f64,
+}
+
+impl Limits {
+    pub fn of(built: &Built, now: &Observation) -> Self {
+        let start = &built.start;
+        let sides = f64::from(built.sides);
+        let braked = built.losses(start.time).rotor.moment(start.speed) + now.followed.rotor;
+        let bearings = now.mean.bearings.iter();
+        let own = bearings.map(|own| own.steady + own.other).sum::<f64>() * sides / start.speed;
+        let moment = own + braked;
+        let rest = built.inertia * start.speed / moment;
+        let error = now.relative_error(braked * start.speed / sides);
+        let uncertain = built.end.tolerance * (start.time + rest) / error;
+        Limits {
+            moment,
+            time: start.time,
+            rest,
+            error,
+            longest: uncertain.min(LN_2 / now.growth).min(JUMP / now.spins),
+        }
+    }
+    /// Time so far and still to come, s.
+    pub fn whole_time(&self) -> f64 {
+        self.time + self.rest
+    }
+    /// Time of a leap, s.
+    pub fn time(&self, length: f64) -> f64 {
+        self.rest * (1.0 - (-length).exp())
+    }
+    /// Length of the next leap, of those that its error and natural frequencies allow.
+    pub fn length(&self, allowed: f64) -> f64 {
+        let share = (self.longest / self.rest).min(0.5);
+        allowed.min(-(1.0 - share).ln())
+    }
+}

@@ -1,0 +1,341 @@
+//! A coast-down by multirate integration: short ball-by-ball intervals, and quasi-steady steps over the minutes or hours between them.
+//!
+//! The motion of a rotor in its bearings settles in tenths of a second, its speed Ω and its temperatures T change in seconds to hours. So they obey
+//!
+//! ```text
+//!   I Ω̇ = −M(Ω, T),   C Ṫ = Q(Ω, T) − G (T − T_ambient)
+//! ```
+//! with moments and heats that are means over the motion. Where the rotor rolls laws know them: M0, M1. Whatever it does, a ball-by-ball interval
+//! measures them, and what differs from the laws changes slowly with the speed. So the method is projective integration with means from
+//! the motion (heterogeneous multiscale method):
+//!
+//! ```text
+//!   1 interval      batches of the real motion at Ω_k, T_k (interval.rs): power over that of the laws, its error, its growth (batch.rs);
+//!                   speed, time and temperatures go on by it
+//!   2 step back     the quasi-steady step that led here again, with both of its ends known, along straight lines in the speed (macro_step.rs);
+//!                     e = max(|Δt_again − Δt|/(t + t_r), |T_again − T|/50 K),   t_r = I Ω/M
+//!                   where e > ε the leap is taken back and repeated with half its length
+//!   3 leap          the next step, in the logarithm of the speed
+//!                     h = min(0.9 √(ε/e) h_before, ln 1.25, what a natural frequency allows),   and in time
+//!                     σ Δt ≤ ε (t + t_r),   λ Δt ≤ ln 2,   |ṡ| Δt ≤ 4 %
+//!                   The motion comes down with it in jumps of 4 % of speed at most, and ends the leap where it presses harder than before.
+//!   4 or not        where Δt is less than the interval took, the motion itself goes on: 1 again, with more batches.
+//! ```
+//! ε is `coast_down.tolerance`: error of a step in time over the coast-down and in temperature over 50 K, as that of the quasi-steady
+//! integration by laws; s the speed of an inner race over that of rolling, σ the relative error of the mean power, λ the growth rate beyond chance of the contact force, or of the motion beside that of the unbalance. All tests of a motion that
+//! does not roll, of races that still spin up and of brakes too quick to leap are these: what is not stationary has a large σ or λ.
+//!
+//! Near a natural frequency (of rotor and mount as rigid body; the pendulum √(g/c0) in the air clearance and its double, where unbalance excites it at
+//! half the speed) a leap is no longer than a jump, or the damping ratio where that is more, and jumps are half of that ratio at most; where unbalance
+//! makes a motion grow, it is followed for as long as a factor e takes, λ = e Ω²/(4 g) √(g/c0). The last leap goes to the standstill by laws, what was
+//! found beside them fades: where unbalance lifts nothing (e Ω² < g/100), the rotor rolls, and half of what friction transmits suffices.
+//!
+//! Sources: C. W. Gear, I. G. Kevrekidis, Projective methods for stiff differential equations, SIAM J. Sci. Comput. 24 (2003) 1091; W. E, B. Engquist,
+//! The heterogeneous multiscale methods, Commun. Math. Sci. 1 (2003) 87. Derived: control of steps; book/src/theory/heat.md.
+//!
+//! Assumes: what a motion does at a speed depends on speed and temperatures, and on the branch it is on. Not modelled: motions that grow more slowly
+//! than their scatter shows in an interval; whether a chaotic motion is thrown onto another branch (forward whirl) is one sample.
+
+mod batch;
+mod interval;
+mod leap;
+mod macro_step;
+pub(super) mod results;
+mod series;
+pub(super) mod warnings;
+
+use crate::coast_down::build::{Built, Part};
+use crate::coast_down::ran::ran;
+use crate::coast_down::rows::{End, Row};
+use crate::drop::context::Context;
+use crate::drop::feedback::friction;
+use batch::{Batch, Observation};
+use interval::{BATCHES, Failure, Motion, SETTLING};
+use leap::{Limits, Mode};
+use macro_step::{Ahead, fading, step};
+pub(super) use series::IntervalSeries;
+use std::sync::atomic::{AtomicBool, Ordering};
+use thermal::bearing_network::NODES;
+
+/// Most batches that one estimate takes, in intervals: what was longer ago belongs to another speed.
+const LONGEST_ESTIMATE: usize = 4;
+/// Temperature that counts as an error of 1, K: as in the quasi-steady integration.
+const TEMPERATURE_SCALE: f64 = 50.0;
+
+/// A leap that is not closed yet.
+struct Leap<'a> {
+    /// The coast-down and the motion before it, and what was known then.
+    before: Built,
+    motion: Motion<'a>,
+    from: Observation,
+    batches: Vec<Batch>,
+    /// ln of both speeds over each other.
+    length: f64,
+    settling: usize,
+    /// Whether it went as far as it was to.
+    whole: bool,
+}
+
+/// A coast-down under way.
+struct Multirate<'a> {
+    context: &'a Context<'a>,
+    interrupt: &'a AtomicBool,
+    motion: Motion<'a>,
+    modes: Vec<Mode>,
+    /// Batches since the last leap, and how many of them are left out because they settled.
+    batches: Vec<Batch>,
+    settling: usize,
+    /// ln of the speeds of the next leap by its error.
+    length: f64,
+    series: IntervalSeries,
+}
+
+/// Why a coast-down is no longer followed.
+enum Leave {
+    End(End),
+    /// From here on it goes by laws.
+    Rolls,
+}
+
+/// How a leap was closed.
+enum Closed {
+    Accepted,
+    TakenBack,
+    Ends(End),
+}
+
+/// Follows a coast-down from the end of a drop; `built` starts where it goes on by laws afterwards, or where it ends.
+pub(super) fn follow(
+    context: &Context,
+    built: &mut Built,
+    interrupt: &AtomicBool,
+    progress: &dyn Fn(f64),
+) -> IntervalSeries {
+    let motion = Motion::after_drop(context, interrupt);
+    let mut this = Multirate {
+        context,
+        interrupt,
+        modes: leap::modes(context, &motion),
+        motion,
+        batches: Vec::new(),
+        settling: 0,
+        length: leap::JUMP,
+        series: IntervalSeries::default(),
+    };
+    let first = built.start.speed;
+    let mut open = None;
+    let leave = loop {
+        progress(1.0 - built.start.speed / first);
+        match this.cycle(built, &mut open) {
+            Ok(None) => {}
+            Ok(Some(leave)) => break leave,
+            Err(_) if interrupt.load(Ordering::Relaxed) => break Leave::End(End::Interrupted),
+            Err(why) => break Leave::End(End::Lost(why)),
+        }
+    };
+    if let Leave::End(end) = leave {
+        built.start.ended = (end != End::Stands).then_some(end);
+    }
+    this.series.ends(built);
+    this.series.steps = this.motion.taken;
+    this.series
+}
+
+impl<'a> Multirate<'a> {
+    /// One interval, and the leap behind it.
+    fn cycle(
+        &mut self,
+        built: &mut Built,
+        open: &mut Option<Leap<'a>>,
+    ) -> Result<Option<Leave>, Failure> {
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Ok(Some(Leave::End(End::Interrupted)));
+        }
+        if built.start.speed <= built.end.stop_speed {
+            return Ok(Some(Leave::End(End::Stands)));
+        }
+        if built.start.time >= built.end.longest {
+            return Ok(Some(Leave::End(End::Late)));
+        }
+        let settling = match self.batches.is_empty() {
+            true => self.settling,
+            false => 0,
+        };
+        let interval = self.motion.interval(built, settling)?;
+        let span: f64 = interval.batches.iter().map(|batch| batch.span).sum();
+        self.batches.extend(interval.batches.iter().cloned());
+        let count = self.batches.len();
+        let newest = |left_out: usize| {
+            let some = (count - left_out).min(LONGEST_ESTIMATE * BATCHES);
+            &self.batches[count - some..]
+        };
+        let settled: Vec<&Batch> = newest(self.settling).iter().collect();
+        let now = Observation::of(built, &settled, &interval.balls).growing(newest(self.settling));
+        if Limits::of(built, &now).moment <= 0.0 {
+            return Ok(Some(Leave::End(End::Lost("nothing brakes the rotor"))));
+        }
+        if let Some(leap) = open.take() {
+            match self.close(built, leap, &now)? {
+                Closed::TakenBack => return Ok(None),
+                Closed::Ends(end) => return Ok(Some(Leave::End(end))),
+                Closed::Accepted => {}
+            }
+        }
+        self.series.saw(built, &now, &interval, settling);
+        let mut mean = now.clone();
+        if self.batches.len() > BATCHES {
+            let own: Vec<&Batch> = interval.batches.iter().collect();
+            mean = Observation::of(built, &own, &interval.balls);
+        }
+        let reached = self.motion.speed();
+        if reached < built.start.speed {
+            let taken = step(
+                built,
+                &mean,
+                Ahead::Followed(&mean),
+                reached,
+                self.interrupt,
+            )?;
+            if let Some(end) = self.series.took(taken) {
+                return Ok(Some(Leave::End(end)));
+            }
+        }
+        if self.rolls_to_the_end(built, &now)? {
+            return Ok(Some(Leave::Rolls));
+        }
+        self.leap(built, &now, span, open)
+    }
+
+    /// The next leap, where it is longer than the interval.
+    fn leap(
+        &mut self,
+        built: &mut Built,
+        now: &Observation,
+        span: f64,
+        open: &mut Option<Leap<'a>>,
+    ) -> Result<Option<Leave>, Failure> {
+        let limits = Limits::of(built, now);
+        let pace = leap::pace(&self.modes, built.start.speed);
+        let length = limits.length(self.length.min(pace.leap));
+        let followed: f64 = self.batches.iter().map(|batch| batch.span).sum();
+        let dwell = pace.dwell.min(LONGEST_ESTIMATE as f64 * span);
+        if limits.time(length) <= span || followed < dwell {
+            return Ok(None);
+        }
+        let after = built.start.time - self.context.finished.ending.time;
+        self.series.leaps(limits.error, after);
+        let (before, motion) = (built.clone(), self.motion.clone());
+        let from = built.start.speed;
+        let to = from * (-length).exp();
+        let taken = step(built, now, Ahead::Unknown, to, self.interrupt)?;
+        if taken.end.is_some() {
+            *built = before;
+            let last = step(built, now, Ahead::Followed(now), to, self.interrupt)?;
+            return Ok(self.series.took(last).map(Leave::End));
+        }
+        let wanted = (from / built.start.speed).ln();
+        let jumps = (wanted / pace.jump).ceil().max(1.0) as usize;
+        let swept = self.motion.sweep(
+            &before,
+            (jumps, built.start.speed),
+            &leap::hardest(&before, now),
+        )?;
+        self.series.swept(built, &swept);
+        let reached = self.motion.speed();
+        let whole = swept.batches.len() == jumps;
+        if !whole {
+            *built = before.clone();
+            step(built, now, Ahead::Unknown, reached, self.interrupt)?;
+        }
+        *open = Some(Leap {
+            length: (from / built.start.speed).ln(),
+            before,
+            motion,
+            from: now.clone(),
+            batches: std::mem::take(&mut self.batches),
+            settling: self.settling,
+            whole,
+        });
+        self.settling = SETTLING;
+        Ok(None)
+    }
+
+    /// Closes a leap: its step again, with both ends known.
+    fn close(
+        &mut self,
+        built: &mut Built,
+        leap: Leap<'a>,
+        now: &Observation,
+    ) -> Result<Closed, Failure> {
+        let predicted = &built.start;
+        let mut again = leap.before.clone();
+        let ahead = Ahead::Followed(now);
+        let taken = step(
+            &mut again,
+            &leap.from,
+            ahead,
+            predicted.speed,
+            self.interrupt,
+        )?;
+        let nodes = again.start.temperatures.iter().zip(&predicted.temperatures);
+        let warmer = nodes.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let whole = Limits::of(&leap.before, &leap.from).whole_time();
+        let later = (again.start.time - predicted.time).abs() / whole;
+        let error = later.max(warmer / TEMPERATURE_SCALE);
+        let tolerance = built.end.tolerance;
+        let factor = (0.9 * (tolerance / error).sqrt()).clamp(0.5, 2.0);
+        if error > tolerance && leap.length > leap::JUMP {
+            let steps = self.motion.taken;
+            (*built, self.motion) = (leap.before, leap.motion);
+            self.motion.taken = steps;
+            (self.batches, self.settling) = (leap.batches, leap.settling);
+            self.length = factor.min(0.9) * leap.length;
+            return Ok(Closed::TakenBack);
+        }
+        if leap.whole {
+            // a leap that something else kept short says nothing against a longer one
+            let short = leap.length < 0.9 * self.length;
+            self.length = match short && factor > 1.0 {
+                true => self.length,
+                false => factor * leap.length,
+            };
+        }
+        *built = again;
+        Ok(match self.series.took(taken) {
+            Some(end) => Closed::Ends(end),
+            None => Closed::Accepted,
+        })
+    }
+
+    /// Whether laws describe the rest: the rotor rolls, unbalance lifts nothing, and friction transmits twice what the bearings brake with.
+    fn rolls_to_the_end(&self, built: &mut Built, now: &Observation) -> Result<bool, Failure> {
+        if built.start.speed >= leap::calm(self.context) || !leap::rolls(built, now) {
+            return Ok(false);
+        }
+        let mut rest = built.clone();
+        rest.motion = Some(fading(built, now));
+        let course = ran(&rest, self.interrupt).map_err(|_| "no network")?;
+        let rows = course.free.rows.iter().skip(built.start.rows.len());
+        let slips = |row: &Row| {
+            let mut parts = built.parts.iter().enumerate();
+            parts.any(|(k, part)| {
+                let moment = row.bearings[k].moment / f64::from(built.sides);
+                moment > leap::TRANSMITS * self.transmitted(k, part, row)
+            })
+        };
+        if rows.into_iter().any(slips) {
+            return Ok(false);
+        }
+        built.motion = rest.motion.take();
+        Ok(true)
+    }
+
+    /// Moment that friction of rotor and race transmits, N m.
+    fn transmitted(&self, k: usize, part: &Part, row: &Row) -> f64 {
+        let contact = &self.context.setup.machine.constants.bearings[k].contact;
+        let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
+        friction(self.context.setup.given(k), temperatures, None)
+            * part.warm.radial_load
+            * (contact.bore_radius - contact.radial_clearance)
+    }
+}
