@@ -155,7 +155,7 @@ fn a_layer_with_its_core_and_a_mount_of_its_own_take_the_same_heat() {
     let made = number(&more, "heat_made_in_mount");
     assert!(made > 0.0 && (kept("mount") / made - 1.0).abs() < 1e-9);
     assert_eq!(number(&more, "heat_made_in_housing"), 0.0);
-    // a run-out goes on with them
+    // a coast-down goes on with them
     let through = ran(&bodies);
     assert!(number(&through, "coast_down.relative_heat_residual") < 1e-9);
     assert!(

@@ -49,7 +49,7 @@ fn goes_back(found: &Outcome, reason: &str) -> Vec<usize> {
     each.collect()
 }
 
-/// Speed of a run-out at an instant, rad/s.
+/// Speed of a coast-down at an instant, rad/s.
 fn speed_at(found: &Outcome, time: f64) -> f64 {
     let course = |name: &str| list(found, &format!("coast_down.over_time.{name}"));
     let (times, speeds) = (course("time"), course("rotor.speed"));

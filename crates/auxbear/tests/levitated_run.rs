@@ -221,7 +221,7 @@ fn a_loss_without_magnets_or_before_standstill_is_refused() {
         "{error}"
     );
     let mut sets = vec!["levitation.power_lost_at=1 ms", "run.until=standstill"];
-    // laws that a run-out knows
+    // laws that a coast-down knows
     let laws = ["drive_end", "other_end"].map(|end| {
         let law = format!("auxiliary_bearing.{end}.bearing.moment");
         [

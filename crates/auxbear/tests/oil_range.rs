@@ -29,7 +29,7 @@ fn told<'a>(outcome: &'a Outcome, code: &str) -> Vec<&'a str> {
 
 #[test]
 fn an_oil_beyond_its_data_is_drawn_on_and_told_once() {
-    // sure from 20 to 40 °C: the oil leaves that in the run-out, and not before
+    // sure from 20 to 40 °C: the oil leaves that in the coast-down, and not before
     let near = "bearing.moment.viscosity_points=[[\"25 degC\", \"45 mm^2/s\"], [\"35 degC\", \"28 mm^2/s\"]]";
     assert!(told(&ran(&[near]), "AB2313").is_empty());
     let until = ["run.until=standstill", "run.duration=1 s", near];

@@ -371,7 +371,7 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// True where the whole run was computed: to its end or for as long as a run-out may last.
+    /// True where the whole run was computed: to its end or for as long as a coast-down may last.
     pub fn complete(&self) -> bool {
         ["finished", "still turning"].contains(&self.reason)
     }

@@ -84,7 +84,7 @@ pub enum Evaluation {
     Each,
     /// In the unperturbed one alone.
     Unperturbed,
-    /// In each, but in the run-out of the unperturbed one alone.
+    /// In each, but in the coast-down of the unperturbed one alone.
     CoastDown,
 }
 

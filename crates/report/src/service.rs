@@ -1,7 +1,7 @@
 //! A service: so many drops of this kind, so many of that, and what they do to the bearings together.
 //!
 //! ```text
-//!   fatigue    D = ‖Σ n_k (d_drop + d_run-out)‖           d the share of L10 at each point of both rings, ‖ ‖ the mean of
+//!   fatigue    D = ‖Σ n_k (d_drop + d_coast-down)‖           d the share of L10 at each point of both rings, ‖ ‖ the mean of
 //!                                                        powers 10/9 to the power 9/10
 //!   survival   0.9^(D^(10/9)) of each bearing, of which all have to survive
 //!   wear       Σ n_k depth_k
@@ -64,7 +64,7 @@ pub struct Service {
 const FATIGUE: &str = "rolling fatigue, of L10";
 /// Figures of the results that use a bearing up: of those that add up, and those of which the worst counts.
 const FIGURES: [(&str, bool); 2] = [("added_up", true), ("worst", false)];
-/// What begins the names of the results of a run-out.
+/// What begins the names of the results of a coast-down.
 const COAST_DOWN: &str = "coast_down.";
 
 /// 90 % of a normal distribution lie within so many deviations.
@@ -191,7 +191,7 @@ fn mode(runs: &[Run], bearing: &str, (what, adds, unit): Kind) -> Mode {
                     variance +=
                         run.count * square + (run.count * run.count) * square / found.members;
                 }
-                // a drop that does not go on until the rotor stands has no run-out
+                // a drop that does not go on until the rotor stands has no coast-down
                 Ok(None) => {}
                 Err(reason) => why = Some(reason),
             }
@@ -305,7 +305,7 @@ impl Run<'_> {
             .find_map(|input| input["value"].as_str()?.parse().ok());
         planes.unwrap_or(1)
     }
-    /// The last result of a kind that has a value, which knows most, of the drop or of its run-out; the reason where none has one.
+    /// The last result of a kind that has a value, which knows most, of the drop or of its coast-down; the reason where none has one.
     fn last(&self, bearing: &str, start: &str, what: &str) -> Result<Option<Found>, String> {
         let mut why = None;
         let all = self.used_up(bearing).into_iter().rev();

@@ -85,7 +85,7 @@ pub fn base(system: SystemName, path: &str) -> String {
     )
 }
 
-/// A run-out in which the key has a meaning; what is about the moment stands there already.
+/// A coast-down in which the key has a meaning; what is about the moment stands there already.
 fn coast_down(path: &str) -> String {
     // a speed that is tried is a small one, and a vacuum needs a way out for the heat
     let beside = match path {

@@ -1,4 +1,4 @@
-//! Run-outs with heat: balances, closed forms, symmetries, limits, runaway, and what is refused.
+//! Coast-downs with heat: balances, closed forms, symmetries, limits, runaway, and what is refused.
 
 use crate::outcomes::number;
 use auxbear::outcome::options::Options;

@@ -345,7 +345,7 @@ const MOUNT: [(&str, &[&str]); 6] = [
 ];
 
 /// The choices that the system has.
-/// What a run-out after a drop needs.
+/// What a coast-down after a drop needs.
 const COAST_DOWN: &[&str] = &[
     "heat.network=on",
     "run.until=standstill",
@@ -375,7 +375,7 @@ fn choices_of(system: SystemName, path: &str) -> Vec<String> {
         .chain(warms.map(|set| (*set).to_string()))
         .chain(beside.filter(|set| !set.starts_with(&own)))
         .filter(known)
-        // the viscosity of a run-out is that of two points
+        // the viscosity of a coast-down is that of two points
         .filter(|set| {
             system != SystemName::CoastDown || !set.starts_with("bearing.moment.viscosity")
         })
@@ -462,7 +462,7 @@ fn every_number_reaches_the_typed_scenario() {
             if BECOME_OTHERS.contains(&key.path) || key.path == "bearing.traction.oil_temperature" {
                 continue;
             }
-            // a run-out has one law of those that other systems are tried with
+            // a coast-down has one law of those that other systems are tried with
             if *system == SystemName::CoastDown && key.path.starts_with("bearing.moment.") {
                 continue;
             }
@@ -563,7 +563,7 @@ fn examples_and_defaults_are_right_values() {
                     "catalogue",
                     "bearing.lubricant_state.kind",
                 ];
-                // a run-out has one law, and its viscosity by two points
+                // a coast-down has one law, and its viscosity by two points
                 let law =
                     *system == SystemName::CoastDown && key.path.starts_with("bearing.moment.");
                 let needs_more = law

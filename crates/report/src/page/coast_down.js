@@ -1,8 +1,8 @@
-// The pictures of a run-out with heat: temperatures with their limits, clearance and ball loads, heat made, taken and stored.
+// The pictures of a coast-down with heat: temperatures with their limits, clearance and ball loads, heat made, taken and stored.
 
 const NODE_COLOURS = { rotor: "#1f5fa8", inner_race: "#c2571a", balls: "#8a4fae", cage: "#2f8f5b", lubricant: "#8a7410", outer_race: "#b0306a", housing: "#5d6b78", rotor_core: "#6d9bd1", mount: "#a8895c" };
 
-// Hours of a long run-out, minutes of a shorter one, else seconds.
+// Hours of a long coast-down, minutes of a shorter one, else seconds.
 function longTime(run) {
   const last = lastNumber(run.time);
   if (last >= 7200) return { factor: 1 / 3600, words: "time since the start [h]" };
@@ -89,7 +89,7 @@ function hottest(run) {
   return peaks.sort((one, other) => other.peak - one.peak)[0];
 }
 
-function runOutVerdict(run) {
+function coastDownVerdict(run) {
   const most = hottest(run);
   const passed = nodesOf(run).filter((node) => numberOf(run, `${node}_limit_time`) !== null);
   const clearance = numberOf(run, "smallest_clearance");
@@ -105,7 +105,7 @@ function runOutVerdict(run) {
   );
 }
 
-function runOutLine(run) {
+function coastDownLine(run) {
   const given = (path) => {
     const input = inputOf(run, path);
     return input && String(input.value) !== "not given" ? inputText(input.value).replace("^2", "²") : null;
@@ -114,8 +114,8 @@ function runOutLine(run) {
   return element("p", { class: "machine" }, facts.filter(Boolean).join(" · "));
 }
 
-// The run-out that followed a drop, as a run of its own with its own times; null where there is none.
-function runOutOf(run) {
+// The coast-down that followed a drop, as a run of its own with its own times; null where there is none.
+function coastDownOf(run) {
   const own = Object.entries(run.quantities).filter(([name]) => name.startsWith(COAST_DOWN));
   const quantities = Object.fromEntries(own.map(([name, quantity]) => [name.slice(COAST_DOWN.length), quantity]));
   const course = "over_time.";
@@ -128,19 +128,19 @@ function asksForCoastDown(run) {
   return Object.keys(run.quantities).some((name) => name.startsWith(COAST_DOWN));
 }
 
-function runOutFigures(run, runs) {
-  const slow = runOutOf(run);
+function coastDownFigures(run, runs) {
+  const slow = coastDownOf(run);
   const way = element("p", {}, run.prefix ? run.letter + ": " : null, (run.summary.stop || {}).text || "");
   if (!slow) {
     const absent = Object.entries(run.quantities).find(([name, { why }]) => name.startsWith(COAST_DOWN) && why);
-    return [notInThisRun(absent ? absent[1].why : "there is no run-out", run)];
+    return [notInThisRun(absent ? absent[1].why : "there is no coast-down", run)];
   }
   return [way, ...temperatureFigures(slow, runs), ...closingFigures(slow, runs), ...heatFigures(slow, runs)];
 }
 
 function coastDownSection(runs) {
   const lead = element("p", { class: "lead" }, "In slow time until it stands: by laws while the rotor rolls in its bearings, between windows ball by ball where it does not. Times count from the release.");
-  return section("run-out", "Run-out until standstill", lead, runs.map((run) => runOutFigures(run, runs)));
+  return section("coast-down", "Coast-down until standstill", lead, runs.map((run) => coastDownFigures(run, runs)));
 }
 
 // How warm the bodies of a bearing become while it is computed ball by ball or rolling.
@@ -159,8 +159,8 @@ function warmingSection(runs) {
 const WARM_SECTIONS = (runs) => [[82, warmingSection, runs.filter((run) => nodesOf(run).length)], [83, coastDownSection, runs.filter(asksForCoastDown)]];
 
 register("coast_down", {
-  line: runOutLine,
-  verdict: runOutVerdict,
+  line: coastDownLine,
+  verdict: coastDownVerdict,
   time: null,
   facts: false,
   sections: (runs) => [[20, temperatureSection, runs], [21, closingSection, runs], [22, warmthSection, runs], ...LIMIT_SECTIONS(runs)],

@@ -89,7 +89,7 @@ function stateTile(run) {
   const word = stop.reason === "finished" && complete ? "complete" : stop.reason;
   const time = isNumber(stop.time_s) && systemOf(run).facts ? engineeringText(stop.time_s, "s", 4) : "";
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
-  // how a run-out went stands with its pictures
+  // how a coast-down went stands with its pictures
   const last = reason.split(/(?<=\.) (?=[A-Z])/).at(-1);
   return tile("Run", complete ? word : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, word !== "complete"));
 }

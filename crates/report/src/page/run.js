@@ -95,7 +95,7 @@ function wholesOf(runs) {
   return machines.map(([first]) => (first.whole ? { ...first.whole, colour: first.colour, prefix: machines.length > 1 ? first.whole.prefix : "" } : first));
 }
 
-// What begins the names of the results of a run-out.
+// What begins the names of the results of a coast-down.
 const COAST_DOWN = "coast_down.";
 
 // Results that a figure shows, in the order of their table: name, result, the words that the figure has for it, and its number.

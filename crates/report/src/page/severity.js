@@ -1,4 +1,4 @@
-// Which margin of a run is smallest: indices that are 1 at their limit, of a drop until standstill those of its run-out too, distances along
+// Which margin of a run is smallest: indices that are 1 at their limit, of a drop until standstill those of its coast-down too, distances along
 // the shaft, severe warnings, limits of the file.
 
 // Of the results of one kind, which the table gives in the order of what they know, the last that has a value.
@@ -77,7 +77,7 @@ function lifeSection(runs) {
   const between = ({ spread }) => (spread ? `${numberText(spread.q05, 3)} to ${numberText(spread.q95, 3)} (${spread.members} runs)` : "–");
   const row = (run, { name, words, said, quantity }) => element("tr", {}, several ? element("td", {}, run.short) : null, element("td", { class: "name" }, words, said ? null : element("code", {}, name)), element("td", {}, said || known(quantity)), repeated ? element("td", {}, said ? "–" : between(quantity)) : null);
   const rows = runs.flatMap((run) => lifeRows(run).map((entry) => row(run, entry)));
-  const lead = element("p", { class: "lead" }, "Rolling fatigue rarely decides a drop: dents, cage, lubricant, wear, smearing and heat end auxiliary bearings first. 1, 10 and 50\u00a0% are the scatter of single bearings under equal drops (Weibull, slope 10/9)" + (repeated ? "; how drops differ stands apart from it" : "") + ". One bearing; a drop that goes on until standstill counts with its run-out. The factor of the lubricant is taken where it is known. An order, never a promise.");
+  const lead = element("p", { class: "lead" }, "Rolling fatigue rarely decides a drop: dents, cage, lubricant, wear, smearing and heat end auxiliary bearings first. 1, 10 and 50\u00a0% are the scatter of single bearings under equal drops (Weibull, slope 10/9)" + (repeated ? "; how drops differ stands apart from it" : "") + ". One bearing; a drop that goes on until standstill counts with its coast-down. The factor of the lubricant is taken where it is known. An order, never a promise.");
   return section("life", "Life by rolling fatigue", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
 }
 

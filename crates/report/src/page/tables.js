@@ -160,7 +160,7 @@ function hasValue({ value }) {
 const LIST_ON_PAPER = 3;
 
 function quantitySection(runs) {
-  // what a run-out does over time is in its pictures
+  // what a coast-down does over time is in its pictures
   const names = [...new Set(runs.flatMap((run) => Object.keys(run.quantities)))].filter((name) => !name.includes("over_time."));
   if (!names.length) return section("quantities", "Quantities", notInThisRun("the summary holds no quantities"));
   const repeated = runs.some((run) => names.some((name) => quantityOf(run, name).spread));

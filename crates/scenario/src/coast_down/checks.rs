@@ -1,4 +1,4 @@
-//! Checks of a run-out.
+//! Checks of a coast-down.
 
 use crate::bearing::fits::SHAFT_BORE;
 use crate::checks::{Check, Context};

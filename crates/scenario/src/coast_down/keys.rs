@@ -1,4 +1,4 @@
-//! The part of the table of keys that describes a run-out: how long it lasts.
+//! The part of the table of keys that describes a coast-down: how long it lasts.
 
 use crate::key::{Condition, Fallback, Key, Kind, Presence, Range, Section};
 use crate::system::{COAST_DOWN, COASTING_DOWN};
@@ -10,13 +10,13 @@ const UNTIL_STANDSTILL: &[Condition] = &[Condition {
 }];
 
 #[rustfmt::skip]
-pub(crate) const SECTIONS: &[Section] = &[Section::new("coast_down", "The run-out: the rotor rolls on its auxiliary bearings, which brake it until it stands. Nothing whirls or bounces.", COASTING_DOWN)];
+pub(crate) const SECTIONS: &[Section] = &[Section::new("coast_down", "The coast-down: the rotor rolls on its auxiliary bearings, which brake it until it stands. Nothing whirls or bounces.", COASTING_DOWN)];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
     Key::new("coast_down.radial_load", Kind::Quantity("N"), "39 N", "Radial force of the rotor on each bearing.")
         .positive().derived("weight of rotor.mass over rotor.planes, 9.80665 m/s²").only(COAST_DOWN),
-    Key::new("coast_down.stop_speed", Kind::Quantity("rad/s"), "1 rad/s", "Speed at which the run-out ends. Below about 1 rad/s the friction laws fade.")
+    Key::new("coast_down.stop_speed", Kind::Quantity("rad/s"), "1 rad/s", "Speed at which the coast-down ends. Below about 1 rad/s the friction laws fade.")
         .positive().when(UNTIL_STANDSTILL).default("1 rad/s", "what is left there stops within seconds"),
     Key::new("coast_down.longest", Kind::Quantity("s"), "10 h", "Time after which the run is ended, standing or not.")
         .positive().when(UNTIL_STANDSTILL).default("1000 h", "a rotor that coasts for six weeks has other worries"),

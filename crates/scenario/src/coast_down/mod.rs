@@ -6,7 +6,7 @@ pub mod keys;
 use crate::heat::Warm;
 use crate::values::Values;
 
-/// A run-out. All values are SI, temperatures in K.
+/// A coast-down. All values are SI, temperatures in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoastDown {
     /// The bearings, which are alike.

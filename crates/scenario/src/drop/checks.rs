@@ -43,7 +43,7 @@ impl Context<'_> {
         self.output(&drop.run, bearings.map(|bearing| bearing.ball_count).sum())
     }
 
-    /// What temperatures need, and what a run-out needs that follows the drop.
+    /// What temperatures need, and what a coast-down needs that follows the drop.
     fn warms(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
         let refuse = |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed);
         if let Some(warm) = &part.warm {
@@ -108,7 +108,7 @@ impl Context<'_> {
         }
     }
 
-    /// A share has something to be a share of; what drives or follows the time is none of the laws of a run-out.
+    /// A share has something to be a share of; what drives or follows the time is none of the laws of a coast-down.
     fn torques(&self, drop: &Drop) -> Check {
         const OVER_SPEED: &str = "rotor.torque_over_speed";
         const SHARE: &str = "rotor.torque_share_over_time";
