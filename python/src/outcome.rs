@@ -113,8 +113,7 @@ impl Outcome {
     }
 
     fn quantity<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Told<'py>>> {
-        let mut quantities = self.found.quantities.iter();
-        let found = quantities.find(|quantity| quantity.name == name);
+        let found = self.found.quantity(name);
         found.map(|quantity| told(py, quantity)).transpose()
     }
 

@@ -169,7 +169,7 @@ const HEAD: &[Key] = &[
 const RUN: &[Key] = &[
     Key::new("run.duration", Kind::Quantity("s"), "0.5 s", "Simulated time. Time 0 is the release of a rotor that drops, or the start of a drive.")
         .positive().default("0.5 s", "long enough for the first impacts and the spin-up of a small inner race"),
-    Key::new("run.until", Kind::Word(Until::WORDS), "standstill", "duration: the run ends at run.duration. standstill: once the rotor has rolled for 20 turns of every cage it runs out in slow time, on bearings that warm, until it stands.")
+    Key::new("run.until", Kind::Word(Until::WORDS), "standstill", "duration: the run ends at run.duration. standstill: once the rotor has rolled for 20 turns of every cage it coasts down on bearings that warm, until it stands.")
         .default("duration", "a drop decides itself in its first second").only(FALLING),
     Key::new("run.accuracy", Kind::Word(Accuracy::WORDS), "screening", "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.")
         .default("design", "numbers that a design may rest on").only(STEPPED),

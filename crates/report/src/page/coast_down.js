@@ -139,7 +139,7 @@ function coastDownFigures(run, runs) {
 }
 
 function coastDownSection(runs) {
-  const lead = element("p", { class: "lead" }, "In slow time until it stands: by laws while the rotor rolls in its bearings, between windows ball by ball where it does not. Times count from the release.");
+  const lead = element("p", { class: "lead" }, "Until it stands: ball-by-ball intervals of the motion, and quasi-steady steps between them. Times count from the release.");
   return section("coast-down", "Coast-down until standstill", lead, runs.map((run) => coastDownFigures(run, runs)));
 }
 

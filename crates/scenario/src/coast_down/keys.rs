@@ -21,7 +21,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("coast_down.longest", Kind::Quantity("s"), "10 h", "Time after which the run is ended, standing or not.")
         .positive().when(UNTIL_STANDSTILL).default("1000 h", "a rotor that coasts for six weeks has other worries"),
     Key::new("coast_down.tolerance", Kind::Coefficient, "1e-3", "Allowed error of a step, in time over the coast-down and in temperature over 50 K. After a drop it decides how long the motion is followed ball by ball, and how far the steps between such intervals go.")
-        .within(Range::FromTo(1e-8, 0.1)).when(UNTIL_STANDSTILL).default("2e-3", "stop time within 0.2 %, temperatures within 0.3 K: less than what a motion that bounces leaves to chance"),
+        .within(Range::FromTo(1e-8, 0.1)).when(UNTIL_STANDSTILL).default("2e-3", "of each step 0.2 % in time and 0.1 K: less than what a motion that bounces leaves to chance"),
 ];
 
 /// What this system does without a key that others have too.

@@ -263,9 +263,9 @@ origins! {
         source "book/src/theory/heat.md; crates/physics/src/life.rs",
         valid "as life_share; of repeated runs the mean of the members. Drops of one bearing add up point by point (auxbear service)";
     DROPS: law "(ln(1/S)/ln(1/0.9))^(9/10)/D of one bearing that 1, 10, 50 % do not outlive; D is life_share_with_lubricant where it is known, else \
-          life_share. A drop until standstill counts with its run-out, added at the points of both rings",
+          life_share. A drop until standstill counts with its coast-down, added at the points of both rings",
         source "Weibull, slope 10/9; book/src/theory/heat.md",
-        valid "rolling fatigue alone; of a run-out its windows count as they find the balls; an order, never a promise: single bearings scatter 50 to 1";
+        valid "rolling fatigue alone; of a coast-down its intervals count as they find the balls; an order, never a promise: single bearings scatter 50 to 1";
     LUBRICATED: law "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \
           warmest lubricant at the mean speed, C_u = C0/22",
         source "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",

@@ -130,8 +130,8 @@ origins! {
         valid "at steps; a measure of makers of landing sleeves, not a pressure of the contact";
     DISTANCE: law "∫|u| dt while rotor and race touch",
         source "crates/model/src/surface_heat.rs",
-        valid "of the drop ball by ball; windows of a run-out after it are reported by AB2318";
+        valid "of the drop ball by ball; a coast-down after it has coast_down.sliding_distance";
     WEAR: law "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient",
         source "Archard, by the friction heat over the coefficient of its instant; crates/physics/src/severity.rs",
-        valid "volume worn off both bodies together, spread evenly; k is uncertain by decades; of the drop ball by ball, not of a run-out after it";
+        valid "volume worn off both bodies together, spread evenly; k is uncertain by decades; of the drop ball by ball; a coast-down after it has coast_down.wear_depth";
 }

@@ -23,9 +23,9 @@ use model::auxiliary_bearing::HEATS;
 use model::bearing_heat::{Warmth, steady_moment};
 use model::schedule::Schedule;
 use model::surface_heat::SurfaceHeat;
-use model::system::machine::RotorMachine;
 use model::system::machine::record::{BearingRecord, Record};
 use model::system::machine::simulate::{Runs, Steps, simulate};
+use model::system::machine::{Event, RotorMachine};
 use model::system::sampling::Peak;
 use scenario::Accuracy;
 use solve::{Observer, Settings};
@@ -85,7 +85,7 @@ impl<'a> Motion<'a> {
     }
 
     /// Time of a batch at a speed, rad/s: s.
-    fn span(&self, speed: f64) -> f64 {
+    pub fn span(&self, speed: f64) -> f64 {
         let half_a_period = PI / self.pendulum();
         let turns = speed * half_a_period / TAU;
         TAU / speed * (2.0 * (0.5 * (turns - 1.0)).round().max(0.0) + 1.0)
@@ -101,7 +101,7 @@ impl<'a> Motion<'a> {
 
     /// One interval at the speed and the temperatures that the coast-down has reached; of what so many batches settle, no largest value is kept.
     pub fn interval(&mut self, built: &Built, settling: usize) -> Result<Interval, Failure> {
-        let mut record = self.condition(built);
+        let mut record = self.condition(built)?;
         self.turn_at(built.start.speed);
         let span = self.span(built.start.speed);
         let mut batches = Vec::new();
@@ -142,29 +142,21 @@ impl<'a> Motion<'a> {
     }
 
     /// The machine at the speed and the temperatures of a coast-down, and a record of what follows.
-    fn condition(&mut self, built: &Built) -> Record {
+    fn condition(&mut self, built: &Built) -> Result<Record, Failure> {
         let start = &built.start;
-        let mut constants = match self.warm(built) {
+        let mut constants = match self.warm(built)? {
             Some(machine) => machine.constants.clone(),
             None => self.machine.constants.clone(),
         };
         constants.speed = start.speed * constants.speed.signum();
-        // what has happened holds from the start
-        let schedule = &constants.schedule;
-        let later = schedule.instants().iter().enumerate();
-        let later = later.map(|(k, time)| match *time > start.time {
-            true => (*time, schedule.event(k)),
-            false => (0.0, schedule.event(k)),
-        });
-        let before = schedule.at_the_start().map(|event| (0.0, event));
-        constants.schedule = Schedule::of(before.chain(later));
+        constants.schedule = happened(&constants.schedule, start.time);
         let leap = start.time - self.time;
         for heat in self.surfaces.iter_mut().flatten() {
             heat.leap(leap);
         }
         self.time = start.time;
         self.machine = Arc::new(RotorMachine::new(constants));
-        self.record(built)
+        Ok(self.record(built))
     }
 
     /// A record of what follows, with surfaces as hot as they are.
@@ -189,10 +181,12 @@ impl<'a> Motion<'a> {
         record
     }
 
-    /// The machine with oil, clearances and friction as warm as the coast-down has made them; none where nothing of it follows, or no law holds there.
-    fn warm(&self, built: &Built) -> Option<Box<RotorMachine>> {
+    /// The machine with oil, clearances and friction as warm as the coast-down has made them; none where nothing of it follows.
+    fn warm(&self, built: &Built) -> Result<Option<Box<RotorMachine>>, Failure> {
         let machine = self.context.setup.machine;
-        let following = self.following.as_ref()?;
+        let Some(following) = &self.following else {
+            return Ok(None);
+        };
         let start = &built.start;
         let now = |k: usize| {
             let nodes = &start.temperatures[k * NODES.len()..][..NODES.len()];
@@ -207,7 +201,11 @@ impl<'a> Motion<'a> {
             })
         };
         let mut warmed = Warmed::default();
-        following.renewed(&mut warmed, machine, (start.time, &self.state), &now)
+        let warm = following.renewed(&mut warmed, machine, (start.time, &self.state), &now);
+        match warmed.broken() {
+            Some(_) => Err("no machine can be built at these temperatures"),
+            None => Ok(warm),
+        }
     }
 
     /// All that turns changes its speed by one factor: a rotor that jumped in its races would slip there.
@@ -228,6 +226,12 @@ impl<'a> Motion<'a> {
         for own in &mut record.bearings {
             own.contacts.clear();
         }
+        let schedule = &self.machine.constants.schedule;
+        if (schedule.instants().first()).is_some_and(|time| *time <= self.time) {
+            let mut constants = self.machine.constants.clone();
+            constants.schedule = happened(schedule, self.time);
+            self.machine = Arc::new(RotorMachine::new(constants));
+        }
         let machine = self.machine.clone();
         let runs = Runs {
             machines: &[&*machine],
@@ -235,6 +239,8 @@ impl<'a> Motion<'a> {
             settings: Settings {
                 start: self.time,
                 end: self.time + span,
+                // a step that time itself still tells apart
+                first_step: (self.settings.first_step).max(1e3 * f64::EPSILON * self.time),
                 ..self.settings
             },
             steps: self.steps,
@@ -290,6 +296,17 @@ impl<'a> Motion<'a> {
                 .collect(),
         }
     }
+}
+
+/// A schedule whose events until a time, s, hold from the start.
+fn happened(schedule: &Schedule<Event>, until: f64) -> Schedule<Event> {
+    let later = schedule.instants().iter().enumerate();
+    let later = later.map(|(k, time)| match *time > until {
+        true => (*time, schedule.event(k)),
+        false => (0.0, schedule.event(k)),
+    });
+    let before = schedule.at_the_start().map(|event| (0.0, event));
+    Schedule::of(before.chain(later))
 }
 
 /// Leaves out what a record found largest so far.

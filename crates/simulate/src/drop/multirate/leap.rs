@@ -13,7 +13,7 @@ const LONGEST: f64 = 0.223;
 /// From how far above a natural frequency to how far below it is passed in jumps: a motion that leaves its race softens, and drags its resonance down.
 const NEAR: [f64; 2] = [1.1, 0.7];
 /// Contact force over that before, or over the load at rest, from which on a motion is another one: at 2 a sinusoidal one leaves its race.
-const HARDER: f64 = 1.5;
+pub(super) const HARDER: f64 = 1.5;
 /// Power beside the laws, over theirs, of a rotor that rolls.
 const ROLLS: f64 = 0.03;
 /// Acceleration of unbalance over that of gravity below which it lifts no rotor, a hundredfold resonance included.
@@ -50,8 +50,8 @@ pub(super) fn modes(context: &Context, motion: &Motion) -> Vec<Mode> {
         },
     ];
     for (k, own) in context.setup.machine.constants.bearings.iter().enumerate() {
-        let carried = drop.weight(k) / drop.gravity.acceleration / f64::from(drop.rotor.planes);
-        let mass = carried + own.outer_race_mass;
+        // the weight is that of one of the planes
+        let mass = drop.weight(k) / drop.gravity.acceleration + own.outer_moving_mass();
         let mount = &own.mount;
         list.push(Mode {
             frequency: (mount.stiffness / mass).sqrt(),
@@ -129,6 +129,14 @@ fn at_rest(built: &Built) -> impl Iterator<Item = f64> {
     let loads = || built.parts.iter().map(|part| part.warm.radial_load);
     let mean = loads().sum::<f64>() / built.parts.len() as f64;
     loads().map(move |load| load.max(mean))
+}
+
+/// The largest contact force over the load at rest, of all bearings.
+pub(super) fn pressed(built: &Built, now: &Observation) -> f64 {
+    let bearings = now.mean.bearings.iter().zip(at_rest(built));
+    bearings
+        .map(|(own, load)| own.peak_force / load)
+        .fold(0.0, f64::max)
 }
 
 /// Contact forces of a motion from which on it is another one, N.

@@ -108,7 +108,7 @@ fn words(context: &Context, built: &Built, series: &IntervalSeries) -> String {
     };
     let again = series.stretches.iter().filter(|stretch| !stretch.first);
     let mut list = vec![first, rolls];
-    list.extend(again.map(|stretch| stretch.words(built, &built.parts)));
+    list.extend(again.map(|stretch| stretch.words(&built.parts)));
     list.join(" ")
 }
 
@@ -311,6 +311,9 @@ impl Followed<'_> {
     /// Mean depth worn off, m.
     fn wear(&self, k: usize) -> Result<f64, String> {
         let contact = &self.context.setup.given(k).contact;
+        if contact.friction_coefficient == 0.0 {
+            return Err("without friction the ledger does not tell the sliding".to_string());
+        }
         self.seen(k, |seen| wear_depth(contact, seen.rubbed.work))
     }
 }

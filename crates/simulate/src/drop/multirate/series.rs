@@ -3,7 +3,7 @@
 use crate::coast_down::build::{Built, Part};
 use crate::coast_down::rows::End;
 use crate::drop::multirate::batch::{Interval, Observation};
-use crate::drop::multirate::leap::rolls;
+use crate::drop::multirate::leap::{HARDER, pressed, rolls};
 use crate::drop::multirate::macro_step::{Rubbed, Step};
 
 /// A place on the coast-down.
@@ -63,8 +63,9 @@ pub(super) struct Stretch {
     /// Energy lost in it, J, and what rotor and races of each bearing have rubbed.
     pub energy: f64,
     pub rubbed: Vec<Rubbed>,
-    /// Largest contact force, N, and largest power of the bearings over that of the laws.
+    /// Largest contact force, N, the largest over the load at rest, and largest power of the bearings over that of the laws.
     pub force: f64,
+    pub pressed: f64,
     pub ratio: f64,
     /// Least speed of an inner race over that at which it rolls, and where.
     pub slowest: (f64, Place),
@@ -74,13 +75,12 @@ pub(super) struct Stretch {
 
 impl Stretch {
     /// Whether unbalance lifts the rotor; it slides else.
-    pub fn lifts(&self, built: &Built) -> bool {
-        let loads = built.parts.iter().map(|part| part.warm.radial_load);
-        self.force > 1.5 * loads.fold(0.0, f64::max)
+    pub fn lifts(&self) -> bool {
+        self.pressed > HARDER
     }
     /// In words.
-    pub fn words(&self, built: &Built, parts: &[Part]) -> String {
-        let why = match self.lifts(built) {
+    pub fn words(&self, parts: &[Part]) -> String {
+        let why = match self.lifts() {
             true => {
                 let rest = parts.iter().map(|part| part.warm.radial_load);
                 format!(
@@ -147,6 +147,7 @@ impl IntervalSeries {
                 energy: 0.0,
                 rubbed: vec![Rubbed::default(); built.parts.len()],
                 force: 0.0,
+                pressed: 0.0,
                 ratio: now.ratio(),
                 slowest: (f64::INFINITY, at),
                 first: self.rolled.is_none(),
@@ -159,6 +160,7 @@ impl IntervalSeries {
             if (now.ratio() - 1.0).abs() > (open.ratio - 1.0).abs() {
                 open.ratio = now.ratio();
             }
+            open.pressed = open.pressed.max(pressed(built, now));
             for own in bearings {
                 open.force = open.force.max(own.peak_force);
                 if own.spin < open.slowest.0 {

@@ -24,7 +24,7 @@ pub(super) fn of(context: &Context, found: &Ran, series: &IntervalSeries) -> Vec
     let mut list: Vec<Warning> = ends_early(context, series).into_iter().collect();
     list.extend(whirls(series));
     list.extend(scatters(series));
-    list.extend(leaves_rolling(found, series));
+    list.extend(leaves_rolling(series));
     list.extend(parts().filter_map(|(k, name)| hits_harder(context, found, series, k, name)));
     list.extend(parts().filter_map(|(k, name)| gets_hot(series, k, name)));
     list.extend(slid(context, found, series));
@@ -179,9 +179,9 @@ fn on(name: &str) -> String {
 }
 
 /// Where the rotor does not go on rolling.
-fn leaves_rolling(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
+fn leaves_rolling(series: &IntervalSeries) -> Option<Warning> {
     let again = series.stretches.iter().filter(|own| !own.first);
-    let lifted: Vec<_> = again.filter(|own| own.lifts(found.built)).collect();
+    let lifted: Vec<_> = again.filter(|own| own.lifts()).collect();
     let (first, last) = (lifted.first()?, lifted.last()?);
     let warning = DropWarning::RollingDoesNotLast {
         time: first.from.time,
