@@ -1,6 +1,6 @@
 //! What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings.
 //!
-//! A [`Scenario`] is read and checked, [`run`] computes it, and the [`Outcome`] is plain data in SI units: results, columns over time,
+//! A [`Scenario`] is read and checked, [`run()`] computes it, and the [`Outcome`] is plain data in SI units: results, columns over time,
 //! warnings, limits with their verdicts. Wrong input is a [`Problem`] with file, line and key, never a panic.
 //!
 //! # Load and run
