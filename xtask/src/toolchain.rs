@@ -24,8 +24,32 @@ pub fn format(repository: &Repository) -> Outcome {
     outcome
 }
 
-/// No lint of the compiler or of clippy, in any target.
+/// No lint of the compiler or of clippy, in any target; and nothing that computes asks for a file, a thread or a clock where the library is
+/// built without them.
 pub fn lints(repository: &Repository) -> Outcome {
+    let mut outcome = quiet(cargo(repository).args([
+        "clippy",
+        "--quiet",
+        "--package",
+        "auxbear",
+        "--lib",
+        "--no-default-features",
+        "--locked",
+        "--",
+        "-D",
+        "warnings",
+        "-D",
+        "clippy::disallowed_methods",
+        "-D",
+        "clippy::disallowed_types",
+    ]));
+    outcome
+        .findings
+        .append(&mut everywhere(repository).findings);
+    outcome
+}
+
+fn everywhere(repository: &Repository) -> Outcome {
     quiet(cargo(repository).args([
         "clippy",
         "--quiet",

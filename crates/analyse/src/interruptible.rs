@@ -1,23 +1,41 @@
 //! Parts of an analysis, each of which an interrupt ends at once.
 
-use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread::Builder;
-use std::time::Duration;
+#[cfg(feature = "parallel")]
+use std::{
+    panic::resume_unwind,
+    sync::mpsc::{RecvTimeoutError, channel},
+    thread::Builder,
+    time::Duration,
+};
 
 /// Why a part has no numbers where an interrupt came before its end.
 pub(crate) const INTERRUPTED: &str = "interrupted";
 
 /// How often the interrupt is looked at.
+#[cfg(feature = "parallel")]
 const LOOK: Duration = Duration::from_millis(20);
 /// Stack of a part, bytes: that of a main thread.
+#[cfg(feature = "parallel")]
 const STACK: usize = 8 << 20;
+
+/// What a part finds, or that an interrupt came before it.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn interruptible<T>(
+    interrupt: &AtomicBool,
+    part: impl FnOnce() -> Result<T, String>,
+) -> Result<T, String> {
+    match interrupt.load(Ordering::Relaxed) {
+        true => Err(INTERRUPTED.to_string()),
+        false => part(),
+    }
+}
 
 /// What a part finds, computed on a thread of its own, or that it was interrupted.
 ///
 /// Estimators know of no interrupt and may compute for seconds: the thread of one that is not waited for any more runs on
 /// until it is done, or the process ends.
+#[cfg(feature = "parallel")]
 pub(crate) fn interruptible<T: Send + 'static>(
     interrupt: &AtomicBool,
     part: impl FnOnce() -> Result<T, String> + Send + 'static,
@@ -46,7 +64,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "parallel"))]
 mod tests {
     use super::*;
     use std::sync::Arc;

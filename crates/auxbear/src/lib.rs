@@ -86,9 +86,21 @@
 //! # }
 //! ```
 
+//! # Features
+//!
+//! | feature | without it |
+//! |---|---|
+//! | `files` | scenarios are texts; measurements and rotors of other programs are not read |
+//! | `parallel` | one thread does everything, with the same numbers, and nobody measures the time |
+//! | `report` | no run directories, pages and exports |
+//! | `xlsx` | no workbooks |
+//!
+//! Without any of them nothing asks for a file, a thread, a clock or the environment.
+
 #![forbid(unsafe_code)]
 
 pub use ::catalogue::{Bearing, Catalogue, bearings};
+#[cfg(feature = "files")]
 pub use ::import::{Imported, import};
 pub use ::outcome::limits::check as check_limits;
 pub use ::outcome::{
@@ -97,7 +109,9 @@ pub use ::outcome::{
 };
 pub use ::problem::explain::explain;
 pub use ::problem::{Code, Place, Problem};
+#[cfg(feature = "report")]
 pub use ::report::directory::{read as read_directory, write as write_directory};
+#[cfg(feature = "report")]
 pub use ::report::export::export;
 pub use ::run::study::answer::Answer;
 pub use ::run::study::table::Table;
@@ -109,8 +123,14 @@ pub use ::scenario::{
 };
 
 // The crates behind it, for the command, the Python package and their tests: what they hold may change.
+#[cfg(feature = "files")]
+#[doc(hidden)]
+pub use ::import;
+#[cfg(feature = "report")]
+#[doc(hidden)]
+pub use ::report;
 #[doc(hidden)]
 pub use {
-    ::catalogue, ::import, ::measure, ::outcome, ::physics, ::problem, ::recording, ::report,
-    ::run, ::run::study, ::scenario, ::simulate, ::units,
+    ::catalogue, ::measure, ::outcome, ::physics, ::problem, ::recording, ::run, ::run::study,
+    ::scenario, ::simulate, ::units,
 };

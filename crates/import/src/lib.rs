@@ -12,6 +12,11 @@ pub mod case;
 pub mod draft;
 pub mod ross;
 mod table;
+#[cfg(feature = "xlsx")]
+mod workbook;
+
+#[cfg(feature = "xlsx")]
+use workbook::of_workbook;
 
 use draft::Draft;
 use problem::{Code, Problem};
@@ -119,6 +124,12 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
     })
 }
 
+/// Reads no workbook.
+#[cfg(not(feature = "xlsx"))]
+fn of_workbook(_bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
+    Err("a workbook, which a build without the feature xlsx does not read".to_string())
+}
+
 /// The draft of a file, recognised by its content.
 fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
     let opened = problem::open_file(path).and_then(|file| {
@@ -151,7 +162,7 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
     }
     // a workbook is a ZIP archive
     if bytes.starts_with(b"PK\x03\x04") {
-        let rows = table::of_workbook(&bytes).map_err(|why| unknown(name, &why))?;
+        let rows = of_workbook(&bytes).map_err(|why| unknown(name, &why))?;
         return table::draft(&rows, name);
     }
     let Ok(text) = String::from_utf8(bytes) else {

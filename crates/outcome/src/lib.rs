@@ -4,12 +4,14 @@
 
 pub mod columns;
 pub mod forbidden;
+pub mod host;
 pub mod joined;
 pub mod limits;
 pub mod list;
 pub mod options;
 
-pub use options::{Options, start_pool};
+pub use host::start_pool;
+pub use options::Options;
 pub use problem::warning::{Amount, Scope, Severity, Warning};
 use scenario::Limit;
 use serde::Serialize;

@@ -22,34 +22,3 @@ impl<'a> Options<'a> {
         }
     }
 }
-
-/// Threads for each core, at most: more only cost time.
-const THREADS_A_CORE: usize = 8;
-
-/// Starts the shared pool with a thread a core, whatever RAYON_NUM_THREADS says; a pool that is there already stays.
-pub fn start_pool() {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(cores);
-    let _ = pool.build_global();
-}
-
-/// Runs something on so many threads, or as many as help on this machine; on the shared pool where none are asked for. Numbers do not
-/// depend on it.
-pub fn in_pool<T: Send>(threads: Option<usize>, run: impl FnOnce() -> T + Send) -> T {
-    let pool = threads.map(|threads| {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(bounded(threads))
-            .build()
-    });
-    match pool {
-        Some(Ok(pool)) => pool.install(run),
-        // the machine refuses more threads: the shared pool gives the same numbers
-        _ => run(),
-    }
-}
-
-/// So many threads, or as many as help on this machine.
-pub fn bounded(threads: usize) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    threads.min(THREADS_A_CORE * cores)
-}

@@ -1,9 +1,11 @@
-//! Files of input: opened and read with one message for each way in which that fails.
+//! Files of input: opened and read with one message for each way in which that fails. Nothing else that computes asks for a file; without the
+//! feature `files` there are none.
 
 use crate::{Code, Place, Problem};
+#[cfg(feature = "files")]
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Largest text read, bytes.
 const LARGEST_TEXT: u64 = 10_000_000;
@@ -12,6 +14,7 @@ const LARGEST_TEXT: u64 = 10_000_000;
 ///
 /// # Errors
 /// A pipe, a socket or a device: to open or to read it may wait, or never end.
+#[cfg(feature = "files")]
 pub fn open_file(path: &Path) -> io::Result<File> {
     let kind = fs::metadata(path)?;
     if !kind.is_file() && !kind.is_dir() {
@@ -19,6 +22,26 @@ pub fn open_file(path: &Path) -> io::Result<File> {
         return Err(io::Error::new(ErrorKind::InvalidInput, found));
     }
     File::open(path)
+}
+
+/// Opens no file.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "files"))]
+pub fn open_file(_path: &Path) -> io::Result<io::Empty> {
+    Err(io::Error::new(
+        ErrorKind::Unsupported,
+        "this build reads no files",
+    ))
+}
+
+/// The path as it is found from any folder; as it is where there is no such file.
+pub fn lasting(path: PathBuf) -> PathBuf {
+    #[cfg(feature = "files")]
+    return fs::canonicalize(&path).unwrap_or(path);
+    #[cfg(not(feature = "files"))]
+    path
 }
 
 /// Reads a text of at most 10 MB; `what` names it in messages, such as "a scenario file".

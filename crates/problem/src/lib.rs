@@ -18,7 +18,7 @@ pub mod warning;
 pub mod words;
 
 pub use code::Code;
-pub use file::{open_file, read_text};
+pub use file::{lasting, open_file, read_text};
 pub use place::Place;
 use std::fmt;
 use std::path::Path;

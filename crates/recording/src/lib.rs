@@ -5,6 +5,7 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "files")]
 pub mod file;
 
 use std::fmt;

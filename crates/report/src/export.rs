@@ -12,9 +12,10 @@
 //! All values are SI, the unit stands in the head of its column: `bearing.contact.force [N]`. Numbers have the digits that
 //! give them back bit for bit; what is not a finite number is an empty cell. A table without rows is left out.
 
-use super::directory::{NewDirectory, new_file, read};
+use super::directory::{NewDirectory, read};
 use super::page::PageRun;
 use super::table::{Cell, Table};
+#[cfg(feature = "xlsx")]
 use super::workbook;
 use outcome::limits::{meant, stands_for};
 use problem::{Code, Problem};
@@ -35,6 +36,7 @@ pub enum Format {
     /// A folder of CSV files: commas, decimal points, UTF-8.
     Csv,
     /// A workbook with a sheet for each table.
+    #[cfg(feature = "xlsx")]
     Xlsx,
 }
 
@@ -67,12 +69,14 @@ pub fn export(
     let tables = tables(&run, &summary);
     let own = match format {
         Format::Csv => "csv",
+        #[cfg(feature = "xlsx")]
         Format::Xlsx => "run.xlsx",
     };
     let place = out.map_or_else(|| directory.join(own), Path::to_path_buf);
     match format {
         Format::Csv => csv(&place, &tables)?,
-        Format::Xlsx => xlsx(&place, &tables)?,
+        #[cfg(feature = "xlsx")]
+        Format::Xlsx => workbook::create(&place, &tables)?,
     }
     Ok(place)
 }
@@ -373,17 +377,4 @@ fn quoted(text: &str) -> String {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.to_string(),
     }
-}
-
-/// Writes a workbook, whole or not at all.
-fn xlsx(file: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
-    if let Some(found) = tables.iter().find_map(workbook::too_large) {
-        let needed = format!(
-            "{}: use --csv, or history.parquet itself",
-            workbook::LARGEST
-        );
-        let problem = Problem::at_path(Code::TooManyRows, file, found, needed);
-        return Err(Box::new(problem));
-    }
-    new_file(file, |out| workbook::write(out, tables))
 }

@@ -29,4 +29,5 @@ pub mod service;
 pub mod study;
 mod summary;
 mod table;
+#[cfg(feature = "xlsx")]
 mod workbook;

@@ -1,16 +1,19 @@
 //! An XLSX workbook: a sheet for each table, with a frozen head. Rows go to a temporary file one after the other, so that a
 //! million of them do not stand in memory; numbers have the digits that give them back bit for bit.
 
+use super::directory::new_file;
 use super::table::{Cell, Table};
+use problem::{Code, Problem};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, Worksheet, XlsxError};
 use std::io::{self, Seek, Write};
+use std::path::Path;
 
 /// Rows of a sheet, with its head.
 const ROWS: usize = 1_048_576;
 /// Columns of a sheet.
 const COLUMNS: usize = 16_384;
 /// What a sheet holds, in words.
-pub(super) const LARGEST: &str = "a sheet holds 1 048 576 rows and 16 384 columns";
+const LARGEST: &str = "a sheet holds 1 048 576 rows and 16 384 columns";
 /// Letters of a cell.
 const LETTERS: usize = 32_767;
 /// Width of a column of texts, letters.
@@ -19,7 +22,7 @@ const TEXT_WIDTH: usize = 32;
 const NUMBER_WIDTH: usize = 12;
 
 /// Why a table is no sheet; none of one that is.
-pub(super) fn too_large(table: &Table) -> Option<String> {
+fn too_large(table: &Table) -> Option<String> {
     let (rows, columns) = (table.rows + 1, table.heads.len());
     (rows > ROWS || columns > COLUMNS).then(|| {
         format!(
@@ -29,8 +32,17 @@ pub(super) fn too_large(table: &Table) -> Option<String> {
     })
 }
 
-/// Writes a workbook.
-pub(super) fn write(out: impl Write + Seek + Send, tables: &[Table]) -> io::Result<()> {
+/// Writes a workbook, whole or not at all.
+pub(super) fn create(file: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
+    if let Some(found) = tables.iter().find_map(too_large) {
+        let needed = format!("{LARGEST}: use --csv, or history.parquet itself");
+        let problem = Problem::at_path(Code::TooManyRows, file, found, needed);
+        return Err(Box::new(problem));
+    }
+    new_file(file, |out| write(out, tables))
+}
+
+fn write(out: impl Write + Seek + Send, tables: &[Table]) -> io::Result<()> {
     let mut workbook = Workbook::new();
     // the same run gives the same file: it does not say when it was exported
     let origin = ExcelDateTime::from_timestamp(0).map_err(io::Error::other)?;

@@ -1,10 +1,10 @@
 //! Many single runs of scenarios that differ.
 
 use crate::{build, known};
-use outcome::options::{Options, in_pool};
+use outcome::host::{self, in_pool};
+use outcome::options::Options;
 use outcome::{Outcome, Stop};
 use problem::Problem;
-use rayon::prelude::*;
 use scenario::Scenario;
 use simulate::drop::each::{self, One};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -28,16 +28,14 @@ pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> 
 
 fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Outcome> {
     let done = AtomicUsize::new(0);
-    let stages: Vec<Result<One, Box<Outcome>>> = (scenarios.par_iter())
-        .map(|scenario| {
-            let stage = staged(scenario, options);
-            if stage.is_err() {
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                (options.progress)(done as f64 / scenarios.len() as f64);
-            }
-            stage
-        })
-        .collect();
+    let stages = host::each(scenarios, |_, scenario| {
+        let stage = staged(scenario, options);
+        if stage.is_err() {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            (options.progress)(done as f64 / scenarios.len() as f64);
+        }
+        stage
+    });
     let before = done.into_inner();
     let mut places = Vec::new();
     let mut drops = Vec::new();

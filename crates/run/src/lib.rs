@@ -19,16 +19,17 @@ pub mod warnings;
 use analyse::{identify, signals};
 use analyse::{rotor, torque};
 pub use each::each;
-use outcome::limits;
-pub use outcome::options::{Options, start_pool};
+pub use outcome::host::start_pool;
+pub use outcome::options::Options;
 pub use outcome::{self, Outcome};
 use outcome::{Column, Quantity};
+use outcome::{host, limits};
 use problem::Problem;
+#[cfg(feature = "files")]
 pub use recording::file::parquet::panic_is_caught;
 use scenario::{CoastDown, Rig, Scenario, SpinUp, System};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -82,9 +83,8 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
-        let clock = Instant::now();
-        let mut outcome = self.computed(options);
-        outcome.work.seconds = clock.elapsed().as_secs_f64();
+        let (mut outcome, seconds) = host::timed(|| self.computed(options));
+        outcome.work.seconds = seconds;
         outcome.work.members = outcome.work.members.max(1);
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
         let declared: Vec<_> = warnings::declared().collect();

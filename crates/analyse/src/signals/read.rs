@@ -10,7 +10,6 @@ use timing::Timing;
 use crate::signals::unit::{no_signal, si_factor, speed_factor, unit_of};
 use measure::converter::Converter;
 use problem::{Code, Problem, did_you_mean};
-use recording::file;
 use recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use scenario::{Signals, problem_at};
 use std::path::Path;
@@ -92,6 +91,20 @@ pub struct Source<'a> {
     evened: Vec<String>,
 }
 
+#[cfg(feature = "files")]
+use recording::file::open;
+
+/// Opens no file.
+#[cfg(not(feature = "files"))]
+fn open(path: &Path) -> Result<Box<dyn Recording>, FileError> {
+    Err(FileError::new(
+        path,
+        "",
+        "a file",
+        "a build with the feature files is needed",
+    ))
+}
+
 impl<'a> Source<'a> {
     /// Opens a file; `key` names it in the scenario.
     pub fn open(
@@ -99,7 +112,7 @@ impl<'a> Source<'a> {
         key: &'static str,
         signals: &'a Signals,
     ) -> Result<Source<'a>, Box<Problem>> {
-        let recording = file::open(path).map_err(|error| of_file(&error, key))?;
+        let recording = open(path).map_err(|error| of_file(&error, key))?;
         let name = short(path);
         Ok(Source {
             recording,

@@ -14,7 +14,7 @@ mod summary;
 pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
-use outcome::options::bounded;
+use outcome::host::{self, bounded};
 use problem::{Code, Problem};
 use run::Options;
 use run::study::answer::Answer;
@@ -141,9 +141,7 @@ impl Directory {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Done, Box<Problem>> {
         let open = self.open_parts()?;
-        let threads = options
-            .threads
-            .map_or_else(rayon::current_num_threads, bounded);
+        let threads = options.threads.map_or_else(host::threads, bounded);
         let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
         let mut done = self.there;
         for parts in open.chunks(at_once) {

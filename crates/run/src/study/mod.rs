@@ -13,11 +13,9 @@ pub mod confirm;
 pub mod selection;
 pub mod table;
 
-use outcome::Options;
-use outcome::limits;
+use outcome::{Options, host, limits};
 use outcome::{Quantity, Value};
 use problem::{Place, Problem};
-use rayon::prelude::*;
 use scenario::{Scenario, StudyFile};
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
@@ -34,9 +32,7 @@ pub fn evaluate(
     changes: &[Vec<(String, String)>],
     options: &Options,
 ) -> Result<Option<Table>, Box<Problem>> {
-    let scenarios: Vec<_> = (changes.par_iter())
-        .map(|changes| scenario.with(changes))
-        .collect();
+    let scenarios = host::each(changes, |_, changes| scenario.with(changes));
     let mut refused = scenarios.iter().filter_map(|read| read.as_ref().err());
     if let Some(problem) = refused.find(|problem| problem.code.is_of_form()) {
         return Err(problem.clone());
@@ -198,11 +194,10 @@ impl Study {
     /// Runs some members with values that all of them have besides.
     fn run_with(&self, members: &[usize], all: &[(String, String)], options: &Options) -> Table {
         let drawn: Vec<Drawn> = members.iter().map(|k| self.drawn(*k)).collect();
-        let read = |drawn: &Drawn| {
+        let scenarios = host::each(&drawn, |_, drawn| {
             let values = drawn.values.iter().chain(all).cloned();
             self.file.scenario.with(&values.collect::<Vec<_>>())
-        };
-        let scenarios: Vec<_> = drawn.par_iter().map(read).collect();
+        });
         let inputs = drawn.into_iter().map(|drawn| drawn.numbers);
         let numbered = members.iter().copied().zip(inputs);
         let table = table_of(&scenarios, numbered, self.input_columns(), options);

@@ -52,9 +52,9 @@ impl Values {
             return known;
         }
         let lasting = |text: &String| {
-            let path = beside(self.file(), text);
-            let path = std::fs::canonicalize(&path).unwrap_or(path);
-            path.display().to_string()
+            problem::lasting(beside(self.file(), text))
+                .display()
+                .to_string()
         };
         match &known.value {
             Value::Texts(texts) => {

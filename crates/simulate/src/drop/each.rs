@@ -2,17 +2,16 @@
 
 use crate::drop::build::{self, Built};
 use crate::drop::context::{Context, Setup};
-use crate::drop::ensemble::{self, Finished, Member, Plan};
+use crate::drop::ensemble::{self, Member, Plan};
 use crate::drop::feedback::Following;
 use crate::drop::method::stepping;
 use crate::drop::{self, multirate};
 use crate::ending::settings_at;
 use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
-use outcome::Outcome;
 use outcome::options::Options;
+use outcome::{Outcome, host};
 use problem::Problem;
-use rayon::prelude::*;
 use scenario::{Drop, Scenario};
 use std::sync::{Arc, Mutex};
 
@@ -102,7 +101,7 @@ pub fn run(all: &[One], options: &Options) -> Vec<Outcome> {
         }
     }
     let done = Mutex::new(vec![0.0; groups.len()]);
-    let of_group = |(at, group): (usize, &Vec<usize>)| {
+    let of_group = |at: usize, group: &Vec<usize>| {
         let progress = |fraction: f64| {
             if let Ok(mut done) = done.lock() {
                 done[at] = fraction * group.len() as f64;
@@ -111,7 +110,7 @@ pub fn run(all: &[One], options: &Options) -> Vec<Outcome> {
         };
         together(all, group, options, &progress)
     };
-    let made: Vec<Vec<Outcome>> = groups.par_iter().enumerate().map(of_group).collect();
+    let made = host::each(&groups, of_group);
     let mut list: Vec<_> = (groups.into_iter().flatten())
         .zip(made.into_iter().flatten())
         .collect();
@@ -146,7 +145,7 @@ fn together(
     };
     let finished = ensemble::run(&members, &plan);
     let done = Mutex::new(vec![0.0; group.len()]);
-    let named = |(place, (k, finished)): (usize, (&usize, &Finished))| {
+    host::each(&finished, |place, finished| {
         let of_coast_down = |fraction: f64| {
             if let Ok(mut done) = done.lock() {
                 done[place] = fraction;
@@ -154,7 +153,7 @@ fn together(
                 progress(DROP_SHARE + (1.0 - DROP_SHARE) * mean);
             }
         };
-        let one = &all[*k];
+        let one = &all[group[place]];
         let context = Context {
             setup: Setup {
                 built: &one.built,
@@ -165,7 +164,5 @@ fn together(
         };
         let after = multirate::results::after(&context, options.interrupt, &of_coast_down);
         drop::outcome(one, &context, after.as_ref())
-    };
-    let each = group.par_iter().zip(&finished).enumerate();
-    each.map(named).collect()
+    })
 }

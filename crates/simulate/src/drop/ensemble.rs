@@ -8,7 +8,7 @@ use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
 use number::Level;
-use rayon::prelude::*;
+use outcome::host;
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -77,12 +77,14 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
         progress: plan.progress,
     };
     let chunk = |members: &[Member]| side_by_side(members, plan, &report);
-    let threads = rayon::current_num_threads();
+    let threads = host::threads();
     let together = together(members.len(), Level::detect().lanes(), threads);
     if members.len() <= together {
         return chunk(members);
     }
-    members.par_chunks(together).flat_map_iter(chunk).collect()
+    let chunks: Vec<&[Member]> = members.chunks(together).collect();
+    let made = host::each(&chunks, |_, members| chunk(members));
+    made.into_iter().flatten().collect()
 }
 
 /// Most members a lane takes one after the other: their records stand in memory together.

@@ -10,11 +10,11 @@ use crate::drop::ensemble::Member;
 use crate::ending;
 use model::bearing::BearingConstants;
 use number::Vec2;
+use outcome::host::{self, in_pool};
 use outcome::joined::Joined;
-use outcome::options::{Options, in_pool};
+use outcome::options::Options;
 use outcome::{Members, Outcome, Quantity, Spread, Stop, Value, Work};
 use problem::{Place, Problem};
-use rayon::prelude::*;
 use scenario::Scenario;
 use statistics::random::Random;
 use std::collections::BTreeMap;
@@ -42,20 +42,19 @@ pub fn others(scenario: &Scenario, built: &Built) -> Result<Vec<Arc<Other>>, Box
         return Ok(Vec::new());
     }
     let drop = &built.drop;
-    let read = |k| member(scenario, &draw(scenario, drop, k), k);
-    let first: Vec<_> = (1..count(drop).min(BEFORE))
-        .into_par_iter()
-        .map(read)
-        .collect();
+    let first: Vec<usize> = (1..count(drop).min(BEFORE)).collect();
+    let first = host::each(&first, |_, k| {
+        member(scenario, &draw(scenario, drop, *k), *k)
+    });
     let first = first.into_iter().collect::<Result<_, _>>()?;
     // what they draw is refused in time
-    let refused = |k| {
-        let drawn = draw(scenario, drop, k);
+    let later: Vec<usize> = (BEFORE..count(drop).max(BEFORE)).collect();
+    let refused = host::each(&later, |_, k| {
+        let drawn = draw(scenario, drop, *k);
         let problem = scenario.with(&drawn).err()?;
-        Some(member_problem(k, &drawn, *problem))
-    };
-    let later = (BEFORE..count(drop).max(BEFORE)).into_par_iter();
-    match later.filter_map(refused).find_first(|_| true) {
+        Some(member_problem(*k, &drawn, *problem))
+    });
+    match refused.into_iter().flatten().next() {
         Some(problem) => Err(problem),
         None => Ok(first),
     }
@@ -124,16 +123,18 @@ fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition 
     let mut given = given.clone();
     given.members = count;
     let mut all = Repetition::default();
-    let part = PART * rayon::current_num_threads();
+    let part = PART * host::threads();
     for begin in (0..count).step_by(part) {
         let part = begin..(begin + part).min(count);
         let drawn: Vec<Drawn> = part.clone().map(|k| draw(scenario, drop, k)).collect();
-        let read = |(k, drawn): (usize, &Drawn)| match known.get(k.wrapping_sub(1)) {
-            Some(other) => Ok(Some(other.clone())),
-            None if drawn.is_empty() => Ok(None),
-            None => member(scenario, drawn, k).map(Some),
-        };
-        let read: Vec<_> = part.clone().into_par_iter().zip(&drawn).map(read).collect();
+        let read = host::each(&drawn, |place, drawn| {
+            let k = begin + place;
+            match known.get(k.wrapping_sub(1)) {
+                Some(other) => Ok(Some(other.clone())),
+                None if drawn.is_empty() => Ok(None),
+                None => member(scenario, drawn, k).map(Some),
+            }
+        });
         let whole = part.clone().zip(&read);
         let ones: Vec<One> = whole
             .filter_map(|(k, other)| Some(perturbed(&given, k, other.as_ref().ok()?.as_deref())))
