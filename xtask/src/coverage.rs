@@ -26,7 +26,7 @@ const TABLES: &[Table] = &[
         package: "auxbear-measure",
         module: "speed_coverage",
         tests: &[""],
-        seeds: 100,
+        seeds: 400,
     },
     Table {
         subject: "The engagement of a soft clutch",

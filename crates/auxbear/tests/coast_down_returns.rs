@@ -180,7 +180,7 @@ fn a_bearing_that_runs_away_while_the_rotor_bounces_seizes_on_its_friction() {
         let after = course("time").partition_point(|t| *t < time);
         course(name)[after]
     };
-    let dents = |w: &&Warning| w.code == "AB1002" && w.text.contains("While it runs out");
+    let dents = |w: &&Warning| w.code == "AB1002" && w.text.contains("While it coasts down");
     assert!(found.warnings.iter().find(dents).is_some());
     // the patch that rubs is hotter than the bodies, and no hotter than ball by ball, 598 K
     let race = number(&found, "coast_down.peak_inner_race_temperature") - 298.15;

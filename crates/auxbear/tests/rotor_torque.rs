@@ -42,8 +42,9 @@ fn torques_by_tables_that_cannot_be_followed_are_refused() {
     );
     let slow = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"3 rpm\", \"-3 N m\"]]";
     assert!(refused(&[slow]).contains("a last row at the size of rotor.speed"));
+    let drives = "rotor.torque_over_speed=[[\"0 rpm\", \"1 N m\"], [\"90000 rpm\", \"-3 N m\"]]";
     for torque in [
-        rows,
+        drives,
         "rotor.drive_torque=1 N m",
         "rotor.drive_slope=1e-3 N m s",
     ] {

@@ -1,10 +1,15 @@
-//! Do the stated bands hold the truth? Four hundred made-up spin-ups a case, with models that differ from the estimator's.
+//! Do the stated bands hold the truth? Made-up spin-ups, many a case, with models that differ from the estimator's.
 
 use crate::synthetic::wheel::{Truth, pickup, spin_up, stamps};
 use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
 
-const SEEDS: u64 = 400;
+/// Spin-ups of each case; `AUXBEAR_SEEDS=400` for the figures of the book.
+fn seeds() -> u64 {
+    let seeds = std::env::var("AUXBEAR_SEEDS").ok();
+    seeds.and_then(|seeds| seeds.parse().ok()).unwrap_or(80)
+}
+
 /// Instants in a spin-up, and a quarter of its length after it, at which the band is asked.
 const POINTS: usize = 60;
 
@@ -96,7 +101,7 @@ fn covers(case: Case) {
         let case = &case;
         let work = |part| {
             move || {
-                (0..SEEDS)
+                (0..seeds())
                     .filter(|s| s % 2 == part)
                     .map(|s| score(case, s))
                     .collect::<Vec<_>>()

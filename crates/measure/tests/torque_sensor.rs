@@ -239,7 +239,7 @@ fn two_deviations_cover_the_torque() {
         }
     } else {
         let pick = |seed: u64| (arms[(seed % 3) as usize], spins[(seed / 3 % 3) as usize]);
-        shares.push(report("all arms and spin-ups", &scores(0..400, pick)));
+        shares.push(report("all arms and spin-ups", &scores(0..90, pick)));
     }
     // Taken one by one the slow spin-ups seen by the 10 Hz arm reach 0.981: their torque is smoother than its model.
     let highest = if each.is_some() { 0.985 } else { 0.98 };

@@ -3,6 +3,7 @@
 use crate::known::{above_the_rating, of_bearing, of_drop, of_values};
 use crate::{Built, Machine};
 use outcome::Warning;
+use scenario::CoastingBearing;
 use simulate::rig::warnings::preload_of_rig;
 use simulate::spin_up::warnings::preload_of_spin_up;
 
@@ -33,9 +34,12 @@ impl Machine<'_> {
                 list
             }
             Built::CoastDown(run, _) => {
-                let load =
-                    above_the_rating(run.bearing.static_load_rating, run.bearing.radial_load);
-                load.into_iter().collect()
+                let of = |own: &CoastingBearing| {
+                    let found =
+                        above_the_rating(own.warm.static_load_rating, own.warm.radial_load)?;
+                    Some(found.of_part(&own.name))
+                };
+                run.bearings.iter().filter_map(of).collect()
             }
             Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
         }

@@ -6,7 +6,7 @@ use crate::not_modelled;
 use crate::rotor::keys::kind_at;
 use crate::rotor::tables::{self, WrittenPart, is_part};
 use crate::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
-use crate::system::SystemName;
+use crate::system::{COASTING_DOWN, SystemName};
 use crate::table;
 pub use problem::raw::{Given, Raw, as_toml};
 use problem::raw::{Written, collect, raw, table_raw, tables};
@@ -25,6 +25,8 @@ pub struct Document {
     pub sections: BTreeMap<String, Place>,
     /// The auxiliary bearing that it is of, where the file tells several apart.
     pub bearing: Option<String>,
+    /// Number of auxiliary bearings that the file tells apart.
+    pub bearings: usize,
     /// What the file gives of each of several auxiliary bearings alone.
     own: Vec<Own>,
     /// What repeated runs vary: path, distribution, place.
@@ -60,6 +62,7 @@ impl Document {
             values: BTreeMap::new(),
             sections: BTreeMap::new(),
             bearing: None,
+            bearings: 1,
             own: Vec::new(),
             vary: Vec::new(),
             limits: Vec::new(),
@@ -97,6 +100,7 @@ impl Document {
         let of = |own: &Own| {
             let mut document = self.clone();
             document.bearing = Some(own.name.clone());
+            document.bearings = self.own.len();
             let values = own
                 .values
                 .iter()
@@ -170,10 +174,11 @@ impl Document {
                 .at(Place::of_offset(text, start))
                 .on_key(AUXILIARY_BEARING)
         };
-        if !self.system.falls() {
+        if !self.system.has_auxiliary_bearings() {
             let found = "a section that has no effect".to_string();
-            let allowed = "it is used only with system = \"drop\" or \"machine\"";
-            return Err(Box::new(problem(Code::UnusedKey, start, found, allowed)));
+            let systems = SystemName::list(COASTING_DOWN);
+            let allowed = format!("it is used only with system = {systems}");
+            return Err(Box::new(problem(Code::UnusedKey, start, found, &allowed)));
         }
         let DeValue::Array(list) = value else {
             let found = raw(value).text();

@@ -52,7 +52,7 @@ pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
-pub use coast_down::{CoastDown, CoastDownEnd};
+pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;
 pub use drop::{
     AuxiliaryBearing, BearingPlace, Body, Contact, Drop, Gravity, Levitation, Mount, Repeat,
@@ -117,7 +117,7 @@ pub enum System {
     Identify(Box<Identify>),
     /// A flexible rotor.
     Rotor(Box<RotorAnalysis>),
-    /// A rotor that runs out on its warming bearings.
+    /// A rotor that coasts down on its warming bearings.
     CoastDown(Box<CoastDown>),
 }
 
@@ -191,8 +191,8 @@ impl System {
             }
             SystemName::Rotor => System::Rotor(Box::new(RotorAnalysis::of(document, values)?)),
             SystemName::CoastDown => {
-                let run = Box::new(CoastDown::from_values(values));
-                context.coast_down(&run)?;
+                let run = Box::new(CoastDown::of(all));
+                context.coast_down(&run, all)?;
                 System::CoastDown(run)
             }
             SystemName::Torque => {

@@ -51,7 +51,7 @@ pub fn allowed_near(path: &[String], system: SystemName) -> String {
 /// What an unknown key was probably meant to be.
 pub fn meant(path: &[String], system: SystemName) -> Option<String> {
     let name = path.last()?;
-    if system.falls() && is_another_bearing(&path[0]) {
+    if system.has_auxiliary_bearings() && is_another_bearing(&path[0]) {
         return Some(OTHERS.to_string());
     }
     if let Some(hint) = confused(name, system) {

@@ -24,6 +24,7 @@ impl Values {
             file: document.file.clone(),
             system: document.system,
             bearing: document.bearing.clone(),
+            bearings: document.bearings,
             known: BTreeMap::new(),
             record: None,
             lacking: RefCell::default(),

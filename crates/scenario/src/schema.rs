@@ -13,7 +13,7 @@
 //! What an editor cannot know is left to `auxbear check`: dimensions of units, ranges of quantities, what the catalogue
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
-use crate::key::{Condition, Key, Kind, Otherwise, Presence, Range};
+use crate::key::{Condition, Key, Kind, Otherwise, Presence, Range, Section};
 use crate::rotor::keys::{PARTS, PartKind};
 use crate::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
 use crate::system::SystemName;
@@ -89,7 +89,7 @@ fn root(system: SystemName) -> Value {
             others => rules.push(one_of_them(key, others)),
         }
     }
-    if system.falls() {
+    if system.has_auxiliary_bearings() {
         add_bearings(&mut root, system);
         single.push(needed);
         rules.push(
@@ -106,17 +106,20 @@ fn root(system: SystemName) -> Value {
 
 /// Whether a key may belong to one of several auxiliary bearings.
 fn several(system: SystemName, key: &Key) -> bool {
-    system.falls() && of_each_bearing(key.path)
+    system.has_auxiliary_bearings() && of_each_bearing(key.path)
 }
 
 /// The array of several auxiliary bearings, and what repeated runs vary.
 fn add_bearings(root: &mut Value, system: SystemName) {
     let mut one = object("An auxiliary bearing that differs from the others: what it alone has.");
-    for section in table::sections_of(system).filter(|section| of_each_bearing(section.path)) {
+    let keys = || table::keys_of(system).filter(|key| of_each_bearing(key.path));
+    let own =
+        |section: &&Section| keys().any(|key| key.path.starts_with(&format!("{}.", section.path)));
+    for section in table::sections_of(system).filter(own) {
         let (parent, name) = section.path.rsplit_once('.').unwrap_or(("", section.path));
         properties(&mut one, parent).insert(name.to_string(), object(section.doc));
     }
-    for key in table::keys_of(system).filter(|key| of_each_bearing(key.path)) {
+    for key in keys() {
         properties(&mut one, key.section()).insert(key.name().to_string(), value(key, system));
     }
     let name = json!({ "type": "string", "pattern": r"^[^\s.]+$", "description": "Its name: results carry it." });
@@ -128,11 +131,13 @@ fn add_bearings(root: &mut Value, system: SystemName) {
         "description": "Auxiliary bearings that differ. Sections contact, mount and bearing in the head of the file hold for all of them.",
     });
     properties(root, "").insert(AUXILIARY_BEARING.to_string(), list);
-    let vary = json!({
-        "type": "object",
-        "description": "What repeated runs vary: dotted paths in quotes, each with one of lognormal, normal, uniform, triangular, choice.",
-    });
-    properties(root, "").insert(VARY.to_string(), vary);
+    if system.falls() {
+        let vary = json!({
+            "type": "object",
+            "description": "What repeated runs vary: dotted paths in quotes, each with one of lognormal, normal, uniform, triangular, choice.",
+        });
+        properties(root, "").insert(VARY.to_string(), vary);
+    }
 }
 
 /// The array of parts of one kind.

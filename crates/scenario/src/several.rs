@@ -4,13 +4,24 @@
 /// The array of tables that tells several auxiliary bearings apart.
 pub const AUXILIARY_BEARING: &str = "auxiliary_bearing";
 
-/// Sections that each of several auxiliary bearings may have of its own; in the head of the file they hold for all.
-const OF_EACH_BEARING: [&str; 4] = ["contact", "mount", "bearing", "heat"];
+/// Sections, and a key, that each of several auxiliary bearings may have of its own; in the head of the file they hold for all.
+const OF_EACH_BEARING: [&str; 5] = [
+    "contact",
+    "mount",
+    "bearing",
+    "heat",
+    "coast_down.radial_load",
+];
 
 /// Whether a key or section may belong to one of several auxiliary bearings.
 pub fn of_each_bearing(path: &str) -> bool {
-    let first = path.split('.').next().unwrap_or(path);
-    OF_EACH_BEARING.contains(&first)
+    let under = |path: &str, above: &str| {
+        path.strip_prefix(above)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    OF_EACH_BEARING
+        .iter()
+        .any(|own| under(path, own) || under(own, path))
 }
 
 /// A path with the auxiliary bearing that it belongs to before it.

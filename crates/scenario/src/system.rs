@@ -33,7 +33,7 @@ pub enum SystemName {
     Rotor,
     /// A flexible rotor that is released onto its auxiliary bearings.
     Machine,
-    /// A rotor that runs out on its warming auxiliary bearings.
+    /// A rotor that coasts down on its warming auxiliary bearings.
     CoastDown,
 }
 
@@ -49,7 +49,7 @@ const ABOUT: [[&str; 4]; SystemName::ALL.len()] = [
     ["What measured tests show of a bearing.", "explanation_fit_probability", "least = 0.05", READING],
     ["Modes, critical speeds and response to unbalance of a flexible rotor.", "first_critical_speed", "least = \"9000 rpm\"", "reducing the rotor"],
     ["A flexible rotor drops onto its auxiliary bearings.", "peak_contact_force", "most = \"5 kN\"", BUILDING],
-    ["A rotor runs out on its auxiliary bearings, which warm.", "peak_inner_race_temperature", "most = \"120 degC\"", BUILDING],
+    ["A rotor coasts down on its auxiliary bearings, which warm.", "peak_inner_race_temperature", "most = \"120 degC\"", BUILDING],
 ];
 const BUILDING: &str = "building the machine";
 const READING: &str = "reading the measurement files";
@@ -115,6 +115,11 @@ impl SystemName {
         FALLING.contains(&self)
     }
 
+    /// Whether its rotor lies in auxiliary bearings, one or several.
+    pub fn has_auxiliary_bearings(self) -> bool {
+        COASTING_DOWN.contains(&self)
+    }
+
     /// Whether its rotor is a shaft of parts.
     pub fn has_shaft(self) -> bool {
         SHAFT.contains(&self)
@@ -146,7 +151,7 @@ pub const RIG: &[SystemName] = &[SystemName::Rig];
 pub const IDENTIFY: &[SystemName] = &[SystemName::Identify];
 /// The analysis of a flexible rotor.
 pub const ROTOR: &[SystemName] = &[SystemName::Rotor];
-/// A rotor that runs out.
+/// A rotor that coasts down.
 pub const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
 
 /// Systems that read measurements.
@@ -179,7 +184,7 @@ pub const MOVING: &[SystemName] = &[
 
 /// Systems in which a levitated rotor falls.
 pub const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machine];
-/// Systems that run out, by themselves or after a drop.
+/// Systems that coast down, by themselves or after a drop.
 pub const COASTING_DOWN: &[SystemName] =
     &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
 

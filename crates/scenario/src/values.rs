@@ -26,6 +26,8 @@ pub struct Values {
     pub(crate) system: SystemName,
     /// Name of the auxiliary bearing, where the file has several.
     pub bearing: Option<String>,
+    /// Number of auxiliary bearings that the file tells apart.
+    pub bearings: usize,
     pub(crate) known: BTreeMap<&'static str, Known>,
     /// What the catalogue knows of the bearing named.
     pub record: Option<BearingRecord>,

@@ -1,4 +1,4 @@
-//! A rotor that runs out on warm bearings, from full speed to a stop, in steps of its speed.
+//! A rotor that coasts down on warm bearings, from full speed to a stop, in steps of its speed.
 //!
 //! ```text
 //!   I ω̇ = −Σ M_l(ω, T)          each loss l brakes, and its heat warms the nodes of a network by its shares
@@ -9,7 +9,7 @@
 //!
 //! All kinetic energy lost becomes heat of a loss at any step length, and the network takes it exactly: the ledger closes
 //! to rounding. The error of a step is its distance to a step with the moments and powers of its start alone, in time (over
-//! the time so far and the run-out I ω/M still to come) and in temperature (over 50 K).
+//! the time so far and the coast-down I ω/M still to come) and in temperature (over 50 K).
 //!
 //! A machine with several equal sides has one network for each, of which one is followed: the moments are those of the
 //! whole machine, and a side takes its part of every heat.
@@ -27,10 +27,10 @@ const FIRST: f64 = 1e-4;
 const GROWTH: f64 = 3.0;
 /// Temperature that counts as an error of 1, K.
 const SCALE: f64 = 50.0;
-/// Most steps of a run-out.
+/// Most steps of a coast-down.
 const MOST_STEPS: usize = 50_000;
 
-/// Constants of a run-out.
+/// Constants of a coast-down.
 #[derive(Clone, Debug)]
 pub struct CoastDown<L> {
     /// The network of one side.
@@ -45,7 +45,7 @@ pub struct CoastDown<L> {
     pub tolerance: f64,
 }
 
-/// The state of a run-out.
+/// The state of a coast-down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coasting {
     /// s.
@@ -95,12 +95,12 @@ impl AtNodes {
     }
 }
 
-/// Why a run-out does not end.
+/// Why a coast-down does not end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Endless {
     /// Nothing brakes at this speed, rad/s.
     NothingBrakes(f64),
-    /// More steps than a run-out may have.
+    /// More steps than a coast-down may have.
     Steps,
 }
 

@@ -8,7 +8,7 @@
 //! | [`passage`] | what heat passes between two bodies: metal, gas, radiation |
 //! | [`load_zone`] | its balls under a radial load |
 //! | [`losses`] | what brakes and heats, at a speed and at temperatures |
-//! | [`coast_down`] | a rotor that runs out, in steps of its speed |
+//! | [`coast_down`] | a rotor that coasts down, in steps of its speed |
 //! | [`steady_speed`] | warming at constant speed; runaway |
 //! | [`warm_bearing`] | the losses of bearings whose oil and rings are warm |
 //! | [`warm_machine`] | the losses of a machine whose bearings differ |

@@ -166,8 +166,11 @@ fn the_schema_has_every_section_and_key_and_no_other() {
             let asked = asked.filter(|path| path.starts_with("analysis."));
             known.extend(asked.chain(["analysis"]).map(String::from));
         }
-        if [SystemName::Drop, SystemName::Machine].contains(system) {
-            known.extend(["auxiliary_bearing", "vary"].map(String::from));
+        if system.has_auxiliary_bearings() {
+            known.push("auxiliary_bearing".to_string());
+        }
+        if system.falls() {
+            known.push("vary".to_string());
         }
         found.sort();
         known.sort();

@@ -2,12 +2,30 @@
 
 use crate::bearing::fits::SHAFT_BORE;
 use crate::checks::{Check, Context};
-use crate::coast_down::CoastDown;
+use crate::coast_down::{CoastDown, CoastingBearing};
+use crate::values::Values;
 use problem::Code;
 
 impl Context<'_> {
-    pub(crate) fn coast_down(&self, run: &CoastDown) -> Check {
-        let bearing = &run.bearing;
+    pub(crate) fn coast_down(&self, run: &CoastDown, all: &[Values]) -> Check {
+        if run.end.stop_speed >= run.speed.abs() {
+            let path = "coast_down.stop_speed";
+            let needed = format!(
+                "less than rotor.speed = {} is needed",
+                self.text("rotor.speed")
+            );
+            return self.refuse_value(Code::OutOfRange, path, needed);
+        }
+        self.planes(run.planes, run.bearings.len())?;
+        for (bearing, values) in run.bearings.iter().zip(all) {
+            let own = Context { values, ..*self };
+            own.coasting(bearing)?;
+        }
+        Ok(())
+    }
+
+    fn coasting(&self, of: &CoastingBearing) -> Check {
+        let bearing = &of.warm;
         self.geometry(
             bearing.ball_count,
             bearing.ball_diameter,
@@ -25,17 +43,9 @@ impl Context<'_> {
             "less than the track of the inner race is needed: pitch_diameter - ball_diameter";
         self.nested("heat.bore_diameter", bore < track, needed)?;
         let needed = "less than heat.bore_diameter is needed";
-        self.nested(SHAFT_BORE, run.shaft_bore_diameter < bore, needed)?;
+        self.nested(SHAFT_BORE, of.shaft_bore_diameter < bore, needed)?;
         let needed = "less than half of heat.bore_diameter is needed";
         self.nested("heat.radial_air_clearance", air < 0.5 * bore, needed)?;
-        if run.end.stop_speed >= run.speed.abs() {
-            let path = "coast_down.stop_speed";
-            let needed = format!(
-                "less than rotor.speed = {} is needed",
-                self.text("rotor.speed")
-            );
-            return self.refuse_value(Code::OutOfRange, path, needed);
-        }
         self.warm(bearing)
     }
 }

@@ -1,4 +1,4 @@
-//! A rotor that runs out on its auxiliary bearings while they warm, as typed values in SI.
+//! A rotor that coasts down on its auxiliary bearings while they warm, as typed values in SI.
 
 pub mod checks;
 pub mod keys;
@@ -9,10 +9,8 @@ use crate::values::Values;
 /// A coast-down. All values are SI, temperatures in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoastDown {
-    /// The bearings, which are alike.
-    pub bearing: Warm,
-    /// Bore of the shaft or sleeve that the inner ring may grow with, m.
-    pub shaft_bore_diameter: f64,
+    /// Its auxiliary bearings: one, which counts `planes` times, or several with names.
+    pub bearings: Vec<CoastingBearing>,
     /// Mass of the rotor, kg.
     pub rotor_mass: f64,
     /// Moment of inertia of the rotor about its axis, kg m².
@@ -27,7 +25,18 @@ pub struct CoastDown {
     pub end: CoastDownEnd,
 }
 
-/// How long a rotor runs out.
+/// A bearing that a rotor coasts down on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoastingBearing {
+    /// Its name among several; empty where it is the only one.
+    pub name: String,
+    /// What warms.
+    pub warm: Warm,
+    /// Bore of the shaft or sleeve that the inner ring may grow with, m.
+    pub shaft_bore_diameter: f64,
+}
+
+/// How long a rotor coasts down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoastDownEnd {
     /// Speed at which it ends, rad/s.
@@ -50,11 +59,17 @@ impl CoastDownEnd {
 }
 
 impl CoastDown {
-    pub(crate) fn from_values(values: &Values) -> CoastDown {
+    /// With the values of each auxiliary bearing.
+    pub(crate) fn of(all: &[Values]) -> CoastDown {
+        let values = &all[0];
         let rotor = values.section("rotor");
+        let bearing = |own: &Values| CoastingBearing {
+            name: own.bearing.clone().unwrap_or_default(),
+            warm: Warm::from_values(own, own.section("coast_down").number("radial_load")),
+            shaft_bore_diameter: own.section("bearing.fits").number("shaft_bore_diameter"),
+        };
         CoastDown {
-            bearing: Warm::from_values(values, values.section("coast_down").number("radial_load")),
-            shaft_bore_diameter: values.section("bearing.fits").number("shaft_bore_diameter"),
+            bearings: all.iter().map(bearing).collect(),
             rotor_mass: rotor.number("mass"),
             polar_inertia: rotor.number("polar_inertia"),
             speed: rotor.number("speed"),

@@ -15,7 +15,7 @@ const SPREAD: f64 = 6.0;
 
 impl Context<'_> {
     pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
-        self.planes(drop)?;
+        self.planes(drop.rotor.planes, drop.auxiliary_bearings.len())?;
         self.torques(drop)?;
         for (part, values) in drop.auxiliary_bearings.iter().zip(all) {
             let own = Context {
@@ -102,13 +102,13 @@ impl Context<'_> {
         match &part.warm {
             Some(warm) => self.brakes(warm),
             None => {
-                let needed = "heat.network = \"on\" is needed of every bearing that the rotor runs out on: what brakes it depends on their temperatures";
+                let needed = "heat.network = \"on\" is needed of every bearing that the rotor coasts down on: what brakes it depends on their temperatures";
                 refuse("run.until", needed)
             }
         }
     }
 
-    /// A share has something to be a share of; what drives or follows the time is none of the laws of a coast-down.
+    /// A share has something to be a share of; what drives a rotor leaves it no standstill.
     fn torques(&self, drop: &Drop) -> Check {
         const OVER_SPEED: &str = "rotor.torque_over_speed";
         const SHARE: &str = "rotor.torque_share_over_time";
@@ -130,29 +130,31 @@ impl Context<'_> {
             Body::Flexible(shaft) => [shaft.drive_torque, shaft.drive_slope],
             Body::Rigid(_) => [0.0; 2],
         };
-        let path = match (rotor.torque_over_speed.is_empty(), drive) {
-            (false, _) => OVER_SPEED,
-            (true, [torque, _]) if torque > 0.0 => "rotor.drive_torque",
-            (true, [_, slope]) if slope > 0.0 => "rotor.drive_slope",
+        let path = match drive {
+            _ if rotor
+                .torque_over_speed
+                .iter()
+                .any(|[_, torque]| *torque > 0.0) =>
+            {
+                OVER_SPEED
+            }
+            [torque, _] if torque > 0.0 => "rotor.drive_torque",
+            [_, slope] if slope > 0.0 => "rotor.drive_slope",
             _ => return Ok(()),
         };
-        let needed = "a rotor that only rotor.brake_torque, drag, windage and its bearings brake is needed beside run.until = \"standstill\"";
+        let needed = "torques that brake are needed beside run.until = \"standstill\": a rotor that something drives may never stand";
         self.refuse_value(Code::Conflict, path, needed)
     }
 
     /// Planes count bearings that are alike; bearings with names are counted by their names.
-    fn planes(&self, drop: &Drop) -> Check {
-        if drop.rotor.planes == 1 || drop.auxiliary_bearings.len() == 1 {
+    pub fn planes(&self, planes: u32, bearings: usize) -> Check {
+        if planes == 1 || bearings == 1 {
             return Ok(());
         }
         self.refuse(
             Code::Conflict,
             "rotor.planes",
-            format!(
-                "{} beside {} bearings in [[auxiliary_bearing]]",
-                drop.rotor.planes,
-                drop.auxiliary_bearings.len()
-            ),
+            format!("{planes} beside {bearings} bearings in [[auxiliary_bearing]]"),
             "one of the two is needed: equal bearings by their number, others by their names",
         )
     }

@@ -38,7 +38,7 @@ pub struct Drop {
     pub auxiliary_bearings: Vec<AuxiliaryBearing>,
     /// The simulation.
     pub run: Run,
-    /// How the rotor runs out after it, where the run goes on until it stands.
+    /// How the rotor coasts down after it, where the run goes on until it stands.
     pub coast_down: Option<CoastDownEnd>,
     /// Repeated runs.
     pub repeat: Repeat,

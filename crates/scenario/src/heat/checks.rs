@@ -91,11 +91,11 @@ impl Context<'_> {
         )))
     }
 
-    /// What a run-out needs to know besides: what brakes it, and how that follows warmth and clearance.
+    /// What a coast-down needs to know besides: what brakes it, and how that follows warmth and clearance.
     pub fn brakes(&self, bearing: &Warm) -> Check {
         if bearing.kind != BearingType::DeepGroove {
             let path = "bearing.type";
-            let needed = "\"deep groove\" is needed: a run-out knows radial contacts alone, not an angle and its axial preload";
+            let needed = "\"deep groove\" is needed: a coast-down knows radial contacts alone, not an angle and its axial preload";
             return self.refuse_value(Code::NotModelled, path, needed);
         }
         if !matches!(

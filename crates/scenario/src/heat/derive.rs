@@ -34,15 +34,15 @@ type Done = Result<(), Box<Problem>>;
 impl Values {
     /// Fills what follows from weight and geometry.
     pub fn warm(&mut self) -> Done {
-        let planes = self.number("rotor.planes").unwrap_or(1.0);
+        let bearings = self.bearings as f64 * self.number("rotor.planes").unwrap_or(1.0);
         if let Some(mass) = self.number("rotor.mass") {
-            let share = mass / planes;
+            let share = mass / bearings;
             if self.is_in(COAST_DOWN) {
-                let load = "mass / planes times 9.80665 m/s²";
+                let load = "mass / number of bearings times 9.80665 m/s²";
                 self.fill("coast_down.radial_load", share * GRAVITY, load)?;
             }
             let capacity = share * STEEL_HEAT.specific_heat;
-            let how = "mass / planes times 460 J/(kg K): all of the rotor";
+            let how = "mass / number of bearings times 460 J/(kg K): all of the rotor";
             self.fill("heat.rotor_capacity", capacity, how)?;
         }
         if let Some(temperature) = self.number("bearing.moment.temperature") {
@@ -81,7 +81,7 @@ impl Values {
             let seat = pressed_seat(FIT_PRESSURE) * PI * outside * width;
             self.fill("heat.outer_seat", seat, how)?;
         }
-        self.open_surfaces(planes, [outside, width])?;
+        self.open_surfaces(bearings, [outside, width])?;
         let by_rule = self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum);
         if by_rule && !self.exchanges("heat.housing_emissivity") {
             let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";
@@ -108,7 +108,7 @@ impl Values {
     }
 
     /// Surfaces that exchange heat with their surroundings, and the air that does.
-    fn open_surfaces(&mut self, planes: f64, [outside, width]: [f64; 2]) -> Done {
+    fn open_surfaces(&mut self, bearings: f64, [outside, width]: [f64; 2]) -> Done {
         let radiates = ["heat.emissivity", "heat.housing_emissivity"];
         if radiates.iter().any(|path| self.radiates(path)) {
             let how = "air at sea level, ISO 2533";
@@ -127,8 +127,8 @@ impl Values {
             self.fill("heat.rotor_diameter", (8.0 * inertia / mass).sqrt(), how)?;
             if let Some(diameter) = self.number("heat.rotor_diameter") {
                 let side = 4.0 * mass / (STEEL_HEAT.density * diameter);
-                let area = (side + 0.5 * PI * diameter * diameter) / planes;
-                let how = "a solid steel cylinder of rotor_diameter and mass, over planes; assumed";
+                let area = (side + 0.5 * PI * diameter * diameter) / bearings;
+                let how = "a solid steel cylinder of rotor_diameter and mass, over the number of bearings; assumed";
                 self.fill("heat.rotor_area", area, how)?;
             }
         }

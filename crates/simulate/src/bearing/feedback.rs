@@ -5,7 +5,7 @@
 //! ```
 //! The network takes heat in spans; after each of them the bearing goes on with the constants of its temperatures, where these
 //! have moved enough to matter. M1 of balls that their rings preload is that of the radial load which presses them as hard, as in
-//! a run-out.
+//! a coast-down.
 //!
 //! Source: derived; book/src/theory/heat.md. Assumes: rings at one temperature each; rings and balls free to grow.
 

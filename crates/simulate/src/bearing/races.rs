@@ -168,10 +168,10 @@ pub(crate) fn without_count(list: &mut [Quantity]) {
     }
 }
 
-/// Points that those of a drop and of its run-out are added at.
+/// Points that those of a drop and of its coast-down are added at.
 const PLACES: usize = 360;
 
-/// The drops that a bearing survives where each goes on until the rotor stands: what the run-out takes adds up with what the drop has
+/// The drops that a bearing survives where each goes on until the rotor stands: what the coast-down takes adds up with what the drop has
 /// taken, point by point.
 pub(crate) fn count_coast_down(drop: &mut [Quantity], bearing: &str, coast_down: &[Quantity]) {
     let points = |list: &[Quantity], name: &str| -> Option<Vec<f64>> {
@@ -199,7 +199,7 @@ pub(crate) fn count_coast_down(drop: &mut [Quantity], bearing: &str, coast_down:
     let share = inner
         .zip(outer)
         .map(|(inner, outer)| used_by(&[inner, outer]));
-    let share = share.ok_or_else(|| "the run-out has no life".to_string());
+    let share = share.ok_or_else(|| "the coast-down has no life".to_string());
     for (name, survival) in DROPS_UNTIL {
         let name = of_part(bearing, name);
         for quantity in drop.iter_mut().filter(|quantity| quantity.name == name) {

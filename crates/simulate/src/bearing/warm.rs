@@ -381,10 +381,10 @@ origins! {
         source "makers' catalogues",
         valid "1 is the limit; bodies of one temperature each, whose rises are right within a factor of two where conductances were not given";
     TAKE: law "every node stays at its limit once it is there: largest power that must be taken from it for that, all other heats into it, and the \
-          sum. By the heats of this run, or by a second run-out",
+          sum. By the heats of this run, or by a second coast-down",
         source "crates/thermal/src/held.rs; book/src/theory/heat.md",
         valid "cooling that acts on the node itself, of which friction and clearance know nothing in a run ball by ball; as heat_made of one bearing, \
-            of a run-out all bearings together";
+            of a coast-down all bearings together";
     pub(crate) GROWTH: law "largest real part of the eigenvalues of C⁻¹(∂P/∂T − G − (∂G/∂T) T); above 0 a disturbance grows, 1/it is the time",
         source "crates/thermal/src/steady_speed.rs; book/src/theory/heat.md",
         valid "the speed of that instant held, under the weight; ball by ball only of balls that are preloaded. A whirl presses them harder, and its rate is larger";
@@ -402,7 +402,7 @@ origins! {
         valid "as heat_made";
     AT_NODE: law "heat that losses make in the body; C ΔT; ∫G (T − T_ambient) dt. Made − stored − given is what it has passed on to other bodies",
         source "crates/model/src/bearing_heat.rs, crates/thermal/src/network.rs; book/src/theory/heat.md",
-        valid "as heat_made, or all bearings together where the run-out says so; below 0 heat came from where it else goes";
+        valid "as heat_made, or all bearings together where the coast-down says so; below 0 heat came from where it else goes";
     PASSED: law "least and largest conductance of the way: as given, or a rough line, gas between surfaces and in the open, radiation",
         source "crates/thermal/src/passage.rs, crates/physics/src/air.rs; book/src/theory/heat.md",
         valid "at the ends of spans or steps, by the mean force of the rotor on the race in them; within a factor of two";

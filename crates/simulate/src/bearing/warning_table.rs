@@ -9,7 +9,7 @@ problem::warnings! {
         Pressure { pressure: "Pa", limit: "Pa" } "AB1002" Invalid, each
             ("The peak Hertz pressure of {:.0} MPa exceeds the limit of {:.0} MPa: {DENTS}.", pressure * 1e-6, limit * 1e-6);
         PressureInCoastDown { load: "N", pressure: "Pa", limit: "Pa" } "AB1002" Invalid, coast_down
-            ("While it runs out a ball presses with up to {load:.0} N, {:.0} MPa, beyond the limit of {:.0} MPa: {DENTS}.", 1e-6 * pressure, 1e-6 * limit);
+            ("While it coasts down a ball presses with up to {load:.0} N, {:.0} MPa, beyond the limit of {:.0} MPa: {DENTS}.", 1e-6 * pressure, 1e-6 * limit);
         Residual { residual: "1" } "AB1006" Invalid, each
             ("The energy ledger misses {residual:.1e} of what was turned over: a smaller run.tolerance closes it.");
         NoMoment "AB1008" Note

@@ -1,9 +1,10 @@
-//! Bearings that warm, and the machine that runs out on them: networks, losses, and the loads of the balls.
+//! Bearings that warm, and the machine that coasts down on them: networks, losses, and the loads of the balls.
 
 use crate::coast_down::passages;
 use crate::coast_down::rows::{BallsSeen, End, Row};
 use catalogue::Ring;
 use model::bearing_heat::sliding;
+use model::rotor::TorqueTables;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, PointContact, Race, maximum_pressure};
 use physics::load_zone::joint_stiffness;
@@ -13,7 +14,7 @@ use physics::viscosity::Viscosity;
 use problem::{Code, Problem};
 pub(crate) use scenario::heat::ICE_POINT;
 use scenario::heat::{SHOULDER, STEEL_EXPANSION};
-use scenario::{CoastDown, CoastDownEnd, Feedback, Moment, Warm, problem_at};
+use scenario::{CoastDown, CoastDownEnd, CoastingBearing, Feedback, Moment, Warm, problem_at};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use thermal::bearing_network::{
@@ -35,7 +36,7 @@ const OIL_SPECIFIC_HEAT: f64 = 1900.0;
 /// Pressure that dents where none is given, Pa. Source: ISO 76 (ball bearings, 4200 MPa).
 const DENTS: f64 = 4.2e9;
 
-/// A bearing of a run-out.
+/// A bearing of a coast-down.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     /// Its name; empty for an only bearing.
@@ -64,7 +65,7 @@ impl Part {
     }
 }
 
-/// The machine of a run-out.
+/// The machine of a coast-down.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// Bearings that differ.
@@ -77,13 +78,15 @@ pub struct Built {
     pub rotor: RotorDrag,
     /// When its brake begins, s.
     pub brake_start: f64,
+    /// A load over speed and time that brakes it, as each of the equal sides carries it.
+    pub load: Option<TorqueTables>,
     /// How it ends.
     pub end: CoastDownEnd,
     /// Kinetic energy of what turns at its beginning, J.
     pub energy: f64,
     /// Temperatures at its beginning, °C.
     pub warm_from: Vec<f64>,
-    /// Where the run-out by laws starts.
+    /// Where the coast-down by laws starts.
     pub(crate) start: Start,
     /// How its motion differs from rolling, between two windows; none where it rolls.
     pub(crate) motion: Option<Motion>,
@@ -107,7 +110,7 @@ impl Motion {
     }
 }
 
-/// Where a run-out starts.
+/// Where a coast-down starts.
 #[derive(Clone, Debug)]
 pub(crate) struct Start {
     /// s.
@@ -214,6 +217,20 @@ pub(crate) fn hold(
 }
 
 impl Built {
+    /// The next time after this one at which what brakes the rotor changes its law, s; the last one there is at the latest.
+    pub(crate) fn until(&self, time: f64) -> f64 {
+        let knots = (self.load.iter()).flat_map(|load| load.share_over_time.points());
+        let instants = knots.map(|knot| knot.0).chain([self.brake_start]);
+        let later = instants.filter(|instant| *instant > time);
+        later.fold(self.end.longest, f64::min)
+    }
+    /// The next speed below this one, rad/s, at which it does; 0 where there is none.
+    pub(crate) fn knot_below(&self, speed: f64) -> f64 {
+        let knots = (self.load.iter()).flat_map(|load| load.over_speed.points());
+        let lower = knots.map(|knot| knot.0).filter(|knot| *knot < speed);
+        lower.fold(0.0, f64::max)
+    }
+
     /// Whether a ring on a seat follows the temperatures.
     pub(crate) fn seats_follow(&self) -> bool {
         let mut networks = self.parts.iter().map(|part| &part.network);
@@ -225,11 +242,17 @@ impl Built {
         let parts = self.parts.iter();
         parts.flat_map(|part| part.network.capacities).collect()
     }
-    /// The losses of the machine at a time.
-    pub fn losses(&self, time: f64) -> WarmMachine {
+    /// The losses of the machine at a time; of a load by tables the line that holds down from a speed, rad/s.
+    pub fn losses(&self, time: f64, speed: f64) -> WarmMachine {
         let mut rotor = self.rotor;
         if time < self.brake_start {
             rotor.torque = 0.0;
+        }
+        if let Some(load) = &self.load {
+            let line = load.over_speed.piece(speed.next_down());
+            let share = f64::from(self.sides) * load.share_over_time.value(time);
+            rotor.torque -= share * line.at(0.0);
+            rotor.drag -= share * line.slope;
         }
         WarmMachine {
             bearings: self.parts.iter().map(|part| part.losses.clone()).collect(),
@@ -239,15 +262,21 @@ impl Built {
     }
 }
 
-/// Builds a run-out by itself.
+/// Builds a coast-down by itself.
 pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
-    let mut part = part(&run.bearing, String::new(), run.planes)?;
-    let heat = &part.warm.heat;
-    let clearance = heat.radial_air_clearance.unwrap_or(0.0);
-    part.losses.ratio = 1.0 - clearance / (0.5 * heat.bore_diameter);
-    let start = part.warm.heat.start_temperature - ICE_POINT;
+    let of = |own: &CoastingBearing| {
+        let mut part = part(&own.warm, own.name.clone(), run.planes)?;
+        let heat = &part.warm.heat;
+        let clearance = heat.radial_air_clearance.unwrap_or(0.0);
+        part.losses.ratio = 1.0 - clearance / (0.5 * heat.bore_diameter);
+        Ok(part)
+    };
+    let parts = (run.bearings.iter().map(of)).collect::<Result<Vec<_>, Box<Problem>>>()?;
+    let starts = parts
+        .iter()
+        .map(|part| part.warm.heat.start_temperature - ICE_POINT);
+    let start: Vec<f64> = starts.flat_map(|start| [start; NODES.len()]).collect();
     Ok(Built {
-        parts: vec![part],
         sides: run.planes,
         inertia: run.polar_inertia,
         rotor: RotorDrag {
@@ -255,15 +284,17 @@ pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
             ..RotorDrag::default()
         },
         brake_start: 0.0,
+        load: None,
         end: run.end,
         energy: 0.5 * run.polar_inertia * run.speed * run.speed,
-        warm_from: vec![start; NODES.len()],
-        start: Start::at(0.0, run.speed.abs(), vec![start; NODES.len()], 1),
+        warm_from: start.clone(),
+        start: Start::at(0.0, run.speed.abs(), start, parts.len()),
         motion: None,
+        parts,
     })
 }
 
-/// A bearing of a run-out, of which there are so many.
+/// A bearing of a coast-down, of which there are so many.
 pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Problem>> {
     let (network, zone) = network(warm)?;
     let points = &warm.viscosity_points;

@@ -1,4 +1,4 @@
-//! A run-out step by step, and the same with nodes that are held at their limits.
+//! A coast-down step by step, and the same with nodes that are held at their limits.
 
 use crate::coast_down::build::{Built, ICE_POINT, Part, hold};
 use crate::coast_down::rows::{End, Row, RowOfBearing};
@@ -19,7 +19,7 @@ const LONGEST_STEP: f64 = 0.03;
 /// Temperature above which nothing of the model holds, °C: hardened steel is soft, oil and grease are gone.
 pub(crate) const BEYOND: f64 = 350.0;
 
-/// A run-out.
+/// A coast-down.
 #[derive(Clone, Debug)]
 pub(crate) struct Course {
     pub rows: Vec<Row>,
@@ -50,7 +50,7 @@ pub(super) fn follow(
         start.time,
         start.speed,
         start.temperatures.clone(),
-        &built.losses(start.time),
+        &built.losses(start.time, start.speed),
     );
     state.heats.clone_from(&start.heats);
     state.given = start.given;
@@ -88,25 +88,30 @@ pub(super) fn follow(
         if let Some(end) = left(built, &state.temperatures) {
             break end;
         }
-        let machine = Coast {
+        let mut machine = Coast {
             network: network(built, (state.speed, &state.temperatures), held.marks())
                 .map_err(no_network)?,
-            losses: built.losses(state.time),
+            losses: built.losses(state.time, state.speed),
             inertia: built.inertia,
             sides,
             tolerance: built.end.tolerance,
         };
-        let before = state.time;
-        let given = state.at_nodes.given.clone();
-        let stop = (built.end.stop_speed).max(state.speed * (-LONGEST_STEP).exp());
-        let until = match state.time < built.brake_start {
-            true => built.end.longest.min(built.brake_start),
-            false => built.end.longest,
-        };
-        if let Err(endless) = step(&machine, &mut state, stop, until, built.seats_follow()) {
+        let before = state.clone();
+        let stop = (state.speed * (-LONGEST_STEP).exp())
+            .max(built.end.stop_speed)
+            .max(built.knot_below(state.speed));
+        let until = built.until(state.time);
+        let mut stepped = step(&machine, &mut state, stop, until, built.seats_follow());
+        if stepped.is_ok() && built.load.is_some() {
+            // a load that changes with time acts as in the middle of the step
+            machine.losses = built.losses(0.5 * (before.time + state.time), before.speed);
+            state = before.clone();
+            stepped = step(&machine, &mut state, stop, until, built.seats_follow());
+        }
+        if let Err(endless) = stepped {
             break End::Endless(endless);
         }
-        let reached = state.at_nodes.given.iter().zip(&given);
+        let reached = state.at_nodes.given.iter().zip(&before.at_nodes.given);
         let reached: Vec<f64> = reached
             .map(|(now, before)| (now - before) / sides)
             .collect();
@@ -114,7 +119,7 @@ pub(super) fn follow(
             (&mut held, &mut state.temperatures),
             &capacities,
             &reached,
-            (sides, state.time - before),
+            (sides, state.time - before.time),
             &mut taken,
         );
         rows.push(row(built, &state, &powers));
@@ -136,7 +141,7 @@ pub(super) fn follow(
     })
 }
 
-/// Why a run-out ends at temperatures of the nodes of all bearings, °C, that no law of it knows.
+/// Why a coast-down ends at temperatures of the nodes of all bearings, °C, that no law of it knows.
 fn left(built: &Built, temperatures: &[f64]) -> Option<End> {
     if !temperatures.iter().all(|now| now.abs() < BEYOND) {
         return Some(End::Beyond);
@@ -267,7 +272,7 @@ fn no_network(why: NetworkError) -> Box<Problem> {
 }
 
 fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
-    let losses = built.losses(state.time);
+    let losses = built.losses(state.time, state.speed);
     let mut all = vec![0.0; losses.count()];
     losses.moments(state.speed, &state.temperatures, &mut all);
     let moments = by_kind(&all);

@@ -1,11 +1,11 @@
-//! A rotor that runs out on its auxiliary bearings, which warm: from full speed to a stop in slow time.
+//! A rotor that coasts down on its auxiliary bearings, which warm: from full speed to a stop in slow time.
 //!
 //! The rotor rolls; what whirls, bounces or slides needs a run in motion before it. Speed, temperatures of a network of seven
 //! nodes and what follows them (viscosity, clearance, ball loads, conductances) are integrated in steps of the speed, and the heat
-//! made is stored or given away to rounding. A second run-out holds every node at its limit from the moment it gets there: the
+//! made is stored or given away to rounding. A second coast-down holds every node at its limit from the moment it gets there: the
 //! heat that must be taken from it for that.
 //!
-//! Source: derived; book/src/theory/heat.md., 3, 5, 6 and 8.
+//! Source: derived; book/src/theory/heat.md.
 
 pub mod build;
 pub(crate) mod course;
@@ -27,7 +27,7 @@ use problem::Problem;
 use scenario::{CoastDown, Scenario};
 use thermal::coast_down::Endless;
 
-/// The results of a run-out, without values.
+/// The results of a coast-down, without values.
 pub fn results(built: &Built) -> Vec<Quantity> {
     let mut list = List::default();
     quantities::name(&mut list, &built.parts, None);
@@ -42,22 +42,28 @@ pub fn columns(built: &Built) -> Vec<Column> {
 /// Computes it and names what it finds.
 pub fn run(scenario: &Scenario, run: &CoastDown, built: &Built, options: &Options) -> Outcome {
     let found = ran::ran(built, options.interrupt);
-    let named = run.bearing.name.as_deref().unwrap_or("bearing");
+    let names = run.bearings.iter();
+    let mut names: Vec<_> =
+        (names.map(|own| own.warm.name.as_deref().unwrap_or("bearing"))).collect();
+    names.dedup();
+    let named = names.join(" and ");
     let mut outcome = Outcome {
         system: "coast_down",
-        title: (scenario.title.clone()).unwrap_or_else(|| format!("Run-out on a {named}")),
+        title: (scenario.title.clone()).unwrap_or_else(|| format!("Coast-down on {named}")),
         stop: Stop {
             reason: "finished",
             time: 0.0,
             text: String::new(),
         },
-        pictures: vec![Picture {
-            bearing: String::new(),
-            clearance: None,
-            pressure_limit: None,
-            rolling_cage_ratio: f64::NAN,
-            balls: run.bearing.ball_count,
-        }],
+        pictures: (run.bearings.iter())
+            .map(|own| Picture {
+                bearing: own.name.clone(),
+                clearance: None,
+                pressure_limit: None,
+                rolling_cage_ratio: f64::NAN,
+                balls: own.warm.ball_count,
+            })
+            .collect(),
         ..Outcome::default()
     };
     match found {

@@ -1,4 +1,4 @@
-//! Every named result of a run-out with its law, source and valid range.
+//! Every named result of a coast-down with its law, source and valid range.
 
 use crate::bearing::races::{self as shared, BY_POINT, Life, no_rating, used_by};
 use crate::bearing::severity::{INDENTATION_INDEX, indentation_index};
@@ -21,7 +21,7 @@ use thermal::warm_machine::{OF_BEARING, by_kind};
 /// Places of the outer ring that its life is summed over.
 const PLACES: usize = 180;
 
-/// Names the results of a run-out on these bearings; without a run those of any.
+/// Names the results of a coast-down on these bearings; without a run those of any.
 pub(crate) fn name(list: &mut List, parts: &[Part], run: Option<&Ran>) {
     motion(list, &(), run);
     for (k, part) in parts.iter().enumerate() {
@@ -127,17 +127,17 @@ results! {
             least_of_turns(ratios.zip(turned(&run.free.rows)).collect())
         };
     }
-    /// What a run-out takes of the life of a bearing.
+    /// What a coast-down takes of the life of a bearing.
     fn life(part: &Part, run: &Life) {
-        "life_share": number "1" headline, LIFE, "share of the rating life that this run-out takes" in added_up "rolling fatigue, of L10" in life "Share of the life L10 that it uses" in tile "Life used by one run-out", unless no_rating(part.rating()) => run.share;
+        "life_share": number "1" headline, LIFE, "share of the rating life that this coast-down takes" in added_up "rolling fatigue, of L10" in life "Share of the life L10 that it uses" in tile "Life used by one coast-down", unless no_rating(part.rating()) => run.share;
         "life_share_with_lubricant": number "1", LUBRICATED, "the same with the life factor of the lubricant" in added_up "rolling fatigue, of L10" in life "Share with lubricant, cleanliness and temperature", unless no_ratings(part) => {
             run.with_lubricant.clone()
         };
         "inner_life_share_by_point": list "1", BY_POINT, "share of life at each point of the inner ring" when part.rating().is_some() => run.points[0].clone();
         "outer_life_share_by_point": list "1", BY_POINT, "share of life at each point of the outer ring" when part.rating().is_some() => run.points[1].clone();
-        "runs_until_one_percent_fail": number "1", RUNS, "run-outs until 1 % of bearings have failed" in life "Run-outs until 1 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.99);
-        "runs_until_ten_percent_fail": number "1" headline, RUNS, "run-outs until 10 % of bearings have failed" in life "Run-outs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
-        "runs_until_half_fail": number "1", RUNS, "run-outs until half of the bearings have failed" in life "Run-outs until half of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
+        "runs_until_one_percent_fail": number "1", RUNS, "coast-downs until 1 % of bearings have failed" in life "Coast-downs until 1 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.99);
+        "runs_until_ten_percent_fail": number "1" headline, RUNS, "coast-downs until 10 % of bearings have failed" in life "Coast-downs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
+        "runs_until_half_fail": number "1", RUNS, "coast-downs until half of the bearings have failed" in life "Coast-downs until half of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
     }
 }
 
@@ -205,7 +205,7 @@ impl Ran<'_> {
         if self.built.start.heats.iter().any(|heat| *heat != 0.0) {
             return Vec::new();
         }
-        let losses = self.built.losses(0.0);
+        let losses = self.built.losses(0.0, 0.0);
         let flow = |loss: usize| {
             let share = |node| losses.share(loss, k * NODES.len() + node);
             let heat = |node| self.free.state.heats[loss] * share(node);
@@ -304,7 +304,7 @@ fn viscosity_ratio(k: usize, part: &Part, row: &Row) -> f64 {
     shared::viscosity_ratio(&part.warm, viscosity, row.bearings[k].speed)
 }
 
-/// Share of the rating life that the run-out uses at the points of both rings of one bearing, with a life factor at each row and the radial
+/// Share of the rating life that the coast-down uses at the points of both rings of one bearing, with a life factor at each row and the radial
 /// load that presses the balls as hard, W ΣQ/ΣQ_0, N.
 fn used(
     ran: &Ran,

@@ -1,4 +1,4 @@
-//! A run-out as it was computed, and what its rows say.
+//! A coast-down as it was computed, and what its rows say.
 
 use crate::coast_down::build::{Built, OnLimits, Part, Start};
 use crate::coast_down::course::{self, Course};
@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 use thermal::bearing_network::NODES;
 use thermal::held::Held;
 
-/// A run-out, and the same with its nodes held at their limits where one is passed.
+/// A coast-down, and the same with its nodes held at their limits where one is passed.
 pub(crate) struct Ran<'a> {
     pub built: &'a Built,
     pub free: Course,
@@ -18,7 +18,7 @@ pub(crate) struct Ran<'a> {
     pub limits: Vec<Option<f64>>,
 }
 
-/// Computes a run-out.
+/// Computes a coast-down.
 pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a>, Box<Problem>> {
     let each = built.parts.iter().flat_map(|part| limits(&part.warm));
     let limits: Vec<_> = each.collect();
@@ -73,7 +73,7 @@ impl Part {
 }
 
 impl Ran<'_> {
-    /// Where another run-out goes on, at the end of this one: the last row is that of its first.
+    /// Where another coast-down goes on, at the end of this one: the last row is that of its first.
     pub fn start(&self) -> Start {
         let before = |course: &Course| {
             course

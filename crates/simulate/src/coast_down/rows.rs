@@ -1,4 +1,4 @@
-//! What is known at the instants of a run-out, and how it ended.
+//! What is known at the instants of a coast-down, and how it ended.
 
 use std::sync::Arc;
 use thermal::bearing_network::Landing;
@@ -65,7 +65,7 @@ impl Row {
     }
 }
 
-/// How a run-out ended.
+/// How a coast-down ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum End {
     Stands,

@@ -1,4 +1,4 @@
-//! What the user should know before trusting a run-out, the most severe first.
+//! What the user should know before trusting a coast-down, the most severe first.
 
 use crate::assumptions;
 use crate::bearing::severity::wide_line;
@@ -17,7 +17,7 @@ use thermal::oil_range::{self, BeyondData};
 use thermal::passage::Passage;
 
 problem::warnings! {
-    /// Of a run-out.
+    /// Of a coast-down.
     pub enum CoastDownWarning {
         Overspeed { limit: "rad/s", how_long: words } "AB2314" Invalid, coast_down
             ("The speed stays above the limiting speed of the bearing, {limit:.0} rad/s, for {how_long}: friction and heat are extrapolated there.");
@@ -30,7 +30,7 @@ problem::warnings! {
     }
 }
 
-/// Of a run-out by itself.
+/// Of a coast-down by itself.
 pub(super) fn of(ran: &Ran) -> Vec<Warning> {
     let mut list = of_course(ran);
     for (k, part) in ran.parts() {

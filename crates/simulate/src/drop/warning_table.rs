@@ -1,4 +1,4 @@
-//! Warnings of a drop, its magnets, its flexible rotor and its run-out.
+//! Warnings of a drop, its magnets, its flexible rotor and its coast-down.
 
 /// Share of the first bending frequency from which on a rotor bends noticeably.
 pub(crate) const BENDING_SHARE: f64 = 0.7;

@@ -38,7 +38,7 @@ fn graded(list: impl IntoIterator<Item = Graded>) -> Vec<Warning> {
     list.into_iter().map(told).collect()
 }
 
-/// All warnings of a drop, the most severe first, with those of the run-out `after` it, which one member says for all.
+/// All warnings of a drop, the most severe first, with those of the coast-down `after` it, which one member says for all.
 pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) -> Vec<Warning> {
     let drop = context.setup.drop();
     let names: Vec<&str> = context.setup.parts().collect();
@@ -63,7 +63,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
         list
     }));
     let says = |kind| after.is_some_and(|after| after.says(kind));
-    // the run-out says it of all, from where the drop left the data on, and of a bearing that closes on
+    // the coast-down says it of all, from where the drop left the data on, and of a bearing that closes on
     let (drawn_on, closes) = (says(DRAWN_ON), says(CLOSES) || says(RUNS_AWAY));
     list.retain(|own| !(drawn_on && own.is(DRAWN_ON) || closes && own.is(CLOSES)));
     list.extend(after.iter().flat_map(|after| &after.warnings).map(|own| {

@@ -1,4 +1,4 @@
-//! A rotor that runs out on two warm bearings: stop time, temperatures, energies; in fine steps and in windows.
+//! A rotor that coasts down on two warm bearings: stop time, temperatures, energies; in fine steps and in windows.
 
 use super::json::{number, numbers, within};
 use super::tally::{Allowed, Tally, tolerance};
@@ -44,7 +44,7 @@ fn machine(
     })
 }
 
-/// A run-out followed to its stop.
+/// A coast-down followed to its stop.
 struct Followed {
     end: Coasting,
     /// States at the times asked for.

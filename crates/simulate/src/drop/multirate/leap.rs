@@ -173,7 +173,11 @@ impl Limits {
     pub fn of(built: &Built, now: &Observation) -> Self {
         let start = &built.start;
         let sides = f64::from(built.sides);
-        let braked = built.losses(start.time).rotor.moment(start.speed) + now.followed.rotor;
+        let braked = built
+            .losses(start.time, start.speed)
+            .rotor
+            .moment(start.speed)
+            + now.followed.rotor;
         let bearings = now.mean.bearings.iter();
         let own = bearings.map(|own| own.steady + own.other).sum::<f64>() * sides / start.speed;
         let moment = own + braked;

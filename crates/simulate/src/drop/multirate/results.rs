@@ -1,6 +1,6 @@
 //! The results of a drop that goes on until the rotor stands.
 //!
-//! The spin that the run-out starts with is all the kinetic energy there is at the change, over the square of the speed: nothing is
+//! The spin that the coast-down starts with is all the kinetic energy there is at the change, over the square of the speed: nothing is
 //! lost or made by it.
 
 use crate::bearing::races::count_coast_down;
@@ -29,7 +29,7 @@ use thermal::warm_machine::RotorDrag;
 /// A bearing as its file gives it.
 type Given<'a> = &'a AuxiliaryBearing;
 
-/// Before the names of the results of a run-out.
+/// Before the names of the results of a coast-down.
 const COAST_DOWN: &str = "coast_down";
 /// Before those of its course.
 const OVER_TIME: &str = "over_time";
@@ -142,7 +142,7 @@ impl After {
 fn broken(stop: Stop, why: String) -> Stop {
     Stop {
         reason: "left the model",
-        text: format!("{} The run-out could not be computed: {why}.", stop.text),
+        text: format!("{} The coast-down could not be computed: {why}.", stop.text),
         ..stop
     }
 }
@@ -159,10 +159,10 @@ fn without_values(mut quantities: Vec<Quantity>, why: &str) -> Vec<Quantity> {
     quantities
 }
 
-/// Why there is no run-out of a bearing.
+/// Why there is no coast-down of a bearing.
 const NOT_FOLLOWED: &str = "the temperatures of a bearing are not followed";
 
-/// The bearings of the run-out.
+/// The bearings of the coast-down.
 fn parts(setup: Setup) -> Result<Vec<Part>, String> {
     let of_bearing = |(k, name): (usize, &str)| {
         let given = setup.given(k);
@@ -184,7 +184,7 @@ fn parts(setup: Setup) -> Result<Vec<Part>, String> {
     setup.parts().enumerate().map(of_bearing).collect()
 }
 
-/// The machine of the run-out, from the state in which the drop ended.
+/// The machine of the coast-down, from the state in which the drop ended.
 fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, String> {
     let (drop, machine) = (context.setup.drop(), context.setup.machine);
     let ending = &context.finished.ending;
@@ -233,6 +233,7 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
             scenario::Spin::Braked { start, .. } => start,
             _ => 0.0,
         },
+        load: rotor.torque.clone(),
         end: *end,
         start: Start::at(ending.time, speed, temperatures, bearings)
             .holding(Held::together(&held), at_limits)
@@ -241,13 +242,13 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
     })
 }
 
-/// The results of the run-out of a drop, without values.
+/// The results of the coast-down of a drop, without values.
 pub(crate) fn results(setup: Setup) -> Vec<Quantity> {
     let parts = parts(setup).unwrap_or_default();
     named(setup, &parts, None)
 }
 
-/// The results under their names: those of the run-out, and its course over time.
+/// The results under their names: those of the coast-down, and its course over time.
 fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Followed)>) -> Vec<Quantity> {
     let mut list = List::default();
     let went = run.map(|(_, went)| went);
@@ -374,7 +375,7 @@ origins! {
     RETURNS: law "intervals, after one in which it rolled, that lose 3 % more or less than laws say or press with 1.5 of the load at rest",
         source "crates/simulate/src/drop/multirate/series.rs; book/src/theory/heat.md",
         valid "as coast_down.windows";
-    COURSE: law "the run-out over coast_down.over_time.time",
+    COURSE: law "the coast-down over coast_down.over_time.time",
         source "crates/thermal/src/coast_down.rs",
         valid "as coast_down.stop_time";
 }
