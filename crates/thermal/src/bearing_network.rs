@@ -427,13 +427,14 @@ mod tests {
         use crate::load_zone::LoadZone;
         use crate::steady_speed::SteadySpeed;
         use crate::warm_bearing::{BearingLoad, WarmBearings};
+        use physics::load_zone::cosines;
         use physics::palmgren::Palmgren;
         use physics::viscosity::Viscosity;
         let network = bearing();
         let zone = LoadZone {
             load: 118.0,
             stiffness: 8.35e9,
-            angles: (0..10).map(|k| 0.2 * PI * f64::from(k)).collect(),
+            cosines: cosines(10),
             clearance: ThermalClearance {
                 at_reference: 12.9e-6,
                 reference: 25.0,

@@ -1,8 +1,7 @@
 //! The balls of a warm bearing under its radial load.
 
 use crate::clearance::{Seat, ThermalClearance};
-use physics::load_zone::{ball_load, displacement};
-use std::f64::consts::TAU;
+use physics::load_zone::{ball_load, cosines, displacement};
 
 /// ΣQ over the radial load of balls without clearance: the integral of cos^1.5 over that of cos^2.5. Source: derived.
 const WITHOUT_CLEARANCE: f64 = 1.216;
@@ -14,8 +13,8 @@ pub struct LoadZone {
     pub load: f64,
     /// Ball and both races in series, N/m^1.5.
     pub stiffness: f64,
-    /// Angles of the balls from the load line, rad.
-    pub angles: Vec<f64>,
+    /// Cosines of the angles of the balls from the load line.
+    pub cosines: Vec<f64>,
     /// Clearance over temperatures.
     pub clearance: ThermalClearance,
     /// Nodes of inner ring, balls and outer ring.
@@ -65,10 +64,10 @@ impl LoadZone {
     }
     /// The same under another radial load, N.
     pub fn loads_under(&self, load: f64, clearance: f64) -> Vec<f64> {
-        let moved = displacement(load, self.stiffness, clearance, &self.angles, 1.0);
-        let loads = self.angles.iter();
+        let moved = displacement(load, self.stiffness, clearance, &self.cosines, 1.0);
+        let loads = self.cosines.iter();
         loads
-            .map(|angle| ball_load(self.stiffness, moved, clearance, *angle))
+            .map(|cosine| ball_load(self.stiffness, moved, clearance, *cosine))
             .collect()
     }
     /// The radial load that presses the balls as hard as they are at a clearance, N: W ΣQ/ΣQ_0.
@@ -84,14 +83,12 @@ impl LoadZone {
     /// Load of a ball at each of a number of places around the bearing at a clearance, N: balls that pass by, the load shared by as
     /// many as there are.
     pub fn all_round(&self, clearance: f64, places: usize) -> Vec<f64> {
-        let angles: Vec<f64> = (0..places)
-            .map(|place| TAU * place as f64 / places as f64)
-            .collect();
-        let weight = self.angles.len() as f64 / places as f64;
-        let moved = displacement(self.load, self.stiffness, clearance, &angles, weight);
-        let loads = angles.iter();
+        let cosines = cosines(places);
+        let weight = self.cosines.len() as f64 / places as f64;
+        let moved = displacement(self.load, self.stiffness, clearance, &cosines, weight);
+        let loads = cosines.iter();
         loads
-            .map(|angle| ball_load(self.stiffness, moved, clearance, *angle))
+            .map(|cosine| ball_load(self.stiffness, moved, clearance, *cosine))
             .collect()
     }
 }
@@ -106,7 +103,7 @@ mod tests {
         let zone = |load: f64| LoadZone {
             load,
             stiffness: 8.35e9,
-            angles: (0..10).map(|k| 0.1 * TAU * f64::from(k)).collect(),
+            cosines: cosines(10),
             clearance: ThermalClearance {
                 at_reference: 0.0,
                 reference: 20.0,
@@ -149,7 +146,7 @@ mod tests {
         let zone = LoadZone {
             load: 100.0,
             stiffness: 8e9,
-            angles: (0..10).map(|k| 0.628_318_530_7 * f64::from(k)).collect(),
+            cosines: cosines(10),
             clearance: ThermalClearance {
                 at_reference: 5e-6,
                 reference: 20.0,
@@ -169,8 +166,8 @@ mod tests {
         for inner in [20.0, 60.0] {
             let sum: f64 = at(inner)
                 .iter()
-                .zip(&zone.angles)
-                .map(|(q, a)| q * a.cos())
+                .zip(&zone.cosines)
+                .map(|(q, cosine)| q * cosine)
                 .sum();
             assert!((sum / 100.0 - 1.0).abs() < 1e-9, "{sum}");
         }

@@ -7,7 +7,7 @@ use model::bearing_heat::sliding;
 use model::rotor::TorqueTables;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, PointContact, Race, maximum_pressure};
-use physics::load_zone::joint_stiffness;
+use physics::load_zone::{cosines, joint_stiffness};
 use physics::materials::{BEARING_STEEL, contact_modulus};
 use physics::palmgren::Palmgren;
 use physics::viscosity::Viscosity;
@@ -15,7 +15,7 @@ use problem::{Code, Problem};
 pub(crate) use scenario::heat::ICE_POINT;
 use scenario::heat::{SHOULDER, STEEL_EXPANSION};
 use scenario::{CoastDown, CoastDownEnd, CoastingBearing, Feedback, Moment, Warm, problem_at};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::sync::Arc;
 use thermal::bearing_network::{
     BALLS, BearingNetwork, INNER_RACE, LUBRICANT, NODES, OUTER_RACE, ROTOR,
@@ -354,9 +354,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     let zone = LoadZone {
         load: run.radial_load,
         stiffness,
-        angles: (0..run.ball_count)
-            .map(|ball| TAU * ball as f64 / balls)
-            .collect(),
+        cosines: cosines(run.ball_count),
         clearance: ThermalClearance {
             at_reference: run.operating_diametral_clearance,
             reference: celsius(heat.start_temperature),

@@ -74,19 +74,19 @@ fn drop(row: &Value, tally: &mut Tally) -> Result<(), String> {
     for phase in list(row, "phases")? {
         let (load, turns) = (positive(phase, "load")?, positive(phase, "turns")?);
         let direction = within(phase, "direction_deg", -1e6, 1e6)?;
-        let angles: Vec<f64> = (0..POINTS)
-            .map(|point| (point as f64 - direction).to_radians())
+        let cosines: Vec<f64> = (0..POINTS)
+            .map(|point| (point as f64 - direction).to_radians().cos())
             .collect();
         let weight = balls / POINTS as f64;
-        let moved = displacement(load, stiffness, 0.0, &angles, weight);
+        let moved = displacement(load, stiffness, 0.0, &cosines, weight);
         let reference = number(phase, "displacement")?;
         tally.add("drop: displacement", "m", reference, moved)?;
-        let largest = ball_load(stiffness, moved, 0.0, 0.0);
+        let largest = ball_load(stiffness, moved, 0.0, 1.0);
         let reference = number(phase, "largest")?;
         tally.add("drop: largest ball load", "N", reference, largest)?;
         let mut mean = 0.0;
-        for (sum, angle) in outer.iter_mut().zip(&angles) {
-            let cube = ball_load(stiffness, moved, 0.0, *angle).powi(3);
+        for (sum, cosine) in outer.iter_mut().zip(&cosines) {
+            let cube = ball_load(stiffness, moved, 0.0, *cosine).powi(3);
             *sum += turns * passages[1] * cube;
             mean += cube / POINTS as f64;
         }

@@ -2,10 +2,9 @@
 
 use super::json::{count, exactly, number, positive, within};
 use super::tally::{Compare, Tally};
-use physics::load_zone::{ball_load, displacement};
+use physics::load_zone::{ball_load, cosines, displacement};
 use physics::severity::{permanent_indentation, wear_volume, wear_volume_by_energy};
 use serde_json::Value;
-use std::f64::consts::TAU;
 
 /// Most balls.
 const MOST_BALLS: usize = 1000;
@@ -24,15 +23,13 @@ fn ball_loads(row: &Value, tally: &mut Tally) -> Result<(), String> {
     let balls = count(row, "Z", MOST_BALLS)?;
     let (load, stiffness) = (positive(row, "load")?, positive(row, "K_io")?);
     let clearance = number(row, "diametral_clearance")?;
-    let angles: Vec<f64> = (0..balls)
-        .map(|ball| TAU * ball as f64 / balls as f64)
-        .collect();
-    let moved = displacement(load, stiffness, clearance, &angles, 1.0);
+    let cosines = cosines(balls);
+    let moved = displacement(load, stiffness, clearance, &cosines, 1.0);
     let reference = number(row, "displacement")?;
     tally.add("ball loads: displacement", "m", reference, moved)?;
-    let ours = angles
+    let ours = cosines
         .iter()
-        .map(|angle| ball_load(stiffness, moved, clearance, *angle));
+        .map(|cosine| ball_load(stiffness, moved, clearance, *cosine));
     let ours: Vec<f64> = ours.collect();
     for (reference, ours) in exactly(row, "loads", balls)?.iter().zip(&ours) {
         tally.add("ball loads: each", "N", *reference, *ours)?;

@@ -82,7 +82,7 @@ pub(super) fn pace(modes: &[Mode], speed: f64) -> Pace {
     };
     let [above, below] = NEAR;
     modes.iter().fold(free, |pace, mode| {
-        let own = mode.damping.max(JUMP);
+        let own = mode.damping.max(0.5 * JUMP);
         match speed / mode.frequency {
             ratio if ratio > above => Pace {
                 leap: pace.leap.min((ratio / above).ln().max(own)),

@@ -26,7 +26,7 @@
 //! does not roll, of races that still spin up and of brakes too quick to leap are these: what is not stationary has a large σ or λ.
 //!
 //! Near a natural frequency (of rotor and mount as rigid body; the pendulum √(g/c0) in the air clearance and its double, where unbalance excites it at
-//! half the speed) a leap is no longer than a jump, or the damping ratio where that is more, and jumps are half of that ratio at most; where unbalance
+//! half the speed) a leap is no longer than half a jump, or the damping ratio where that is more, and jumps are half of that ratio at most; where unbalance
 //! makes a motion grow, it is followed for as long as a factor e takes, λ = e Ω²/(4 g) √(g/c0). The last leap goes to the standstill by laws, what was
 //! found beside them fades: where unbalance lifts nothing (e Ω² < g/100), the rotor rolls, and half of what friction transmits suffices.
 //!
@@ -315,6 +315,7 @@ impl<'a> Multirate<'a> {
             self.length = factor.min(0.9) * leap.length;
             return Ok(Closed::TakenBack);
         }
+        self.series.step_error = self.series.step_error.max(error);
         if leap.whole {
             // a leap that something else kept short says nothing against a longer one
             let short = leap.length < 0.9 * self.length;
