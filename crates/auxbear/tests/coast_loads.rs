@@ -1,6 +1,6 @@
 //! What presses and closes a bearing that coasts down: centrifugal force of its balls, growth of its inner ring, forces of a whirl, gas.
 
-use crate::coast_down::{list, number};
+use crate::coast_down::{list, number, parsed};
 use auxbear::outcome::Outcome;
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -262,4 +262,134 @@ fn the_air_clearance_follows_rotor_and_race() {
     assert!(gained > 0.4e-6, "{gained}");
     let expected = 0.25e-3 + gained;
     assert!((found - expected).abs() < 0.12e-6, "{found} {expected}");
+}
+
+#[test]
+fn an_angular_contact_bearing_coasts_down_as_ball_by_ball() {
+    const ANGULAR: &str = include_str!("../../../scenarios/angular_contact_drop.toml");
+    let sets = [
+        "heat.network=on",
+        "bearing.moment.law=palmgren",
+        "bearing.moment.f0=1.7",
+        "bearing.moment.f1_factor=0.001",
+        "bearing.moment.f1_exponent=0.33",
+        "bearing.moment.temperature=25 degC",
+        "bearing.moment.viscosity_points=[[\"40 degC\", \"22 mm^2/s\"], [\"100 degC\", \"4.6 mm^2/s\"]]",
+        "run.accuracy=screening",
+        "run.output_interval=10 ms",
+    ];
+    let with = |more: &[&str]| ran(ANGULAR, &[&sets, more].concat());
+    let coasts = with(&["run.until=standstill", "coast_down.stop_speed=5300 rad/s"]);
+    assert!(coasts.stop.complete(), "{}", coasts.stop.text);
+    assert!(number(&coasts, "coast_down.relative_heat_residual") < 1e-9);
+    assert!(number(&coasts, "coast_down.life_share") > 0.0);
+    let motion = with(&["run.duration=8 s"]);
+    let ball_by_ball = |name: &str| {
+        let column = motion.history.iter().find(|column| column.name == name);
+        *column.unwrap().values.last().unwrap()
+    };
+    let course = |name: &str| {
+        let list = |name: &str| list(&coasts, &format!("coast_down.over_time.{name}"));
+        let (times, values) = (list("time"), list(name));
+        let next = times.partition_point(|time| *time < 8.0);
+        let way = (8.0 - times[next - 1]) / (times[next] - times[next - 1]);
+        values[next - 1] + way * (values[next] - values[next - 1])
+    };
+    let speed = course("rotor.speed") / ball_by_ball("rotor.speed");
+    assert!((speed - 1.0).abs() < 5e-3, "{speed}");
+    for node in ["inner_race", "balls", "lubricant", "outer_race"] {
+        let name = format!("{node}.temperature");
+        let (one, other) = (course(&name), ball_by_ball(&name));
+        assert!((one - other).abs() < 2.0, "{node}: {one} {other}");
+    }
+}
+
+#[test]
+fn a_load_by_tables_brakes_a_coast_down() {
+    let coasts = |sets: &[&str]| {
+        let calm = [
+            "rotor.unbalance_eccentricity=0.5 um",
+            "run.duration=3 s",
+            "heat.feedback=none",
+        ];
+        let found = ran(DROP, &[&calm, sets].concat());
+        assert!(found.stop.complete(), "{}", found.stop.text);
+        assert!(number(&found, "coast_down.relative_heat_residual") < 1e-9);
+        found
+    };
+    // as a brake of the same torque
+    let braked = coasts(&["rotor.spin=braked", "rotor.brake_torque=0.2 N m"]);
+    let flat = "rotor.torque_over_speed=[[\"0 rpm\", \"-0.2 N m\"], [\"13000 rpm\", \"-0.2 N m\"]]";
+    let [by_brake, by_table] =
+        [&braked, &coasts(&[flat])].map(|run| number(run, "coast_down.stop_time"));
+    assert!((20.0..100.0).contains(&by_brake), "{by_brake}");
+    assert!(
+        (by_table / by_brake - 1.0).abs() < 2e-3,
+        "{by_table} {by_brake}"
+    );
+    // of a fan whose gas fades: its heat is ∫τ(Ω) s(t) Ω dt over the course
+    let fan = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"6000 rpm\", \"-0.1 N m\"], [\"13000 rpm\", \"-0.5 N m\"]]";
+    let fades = "rotor.torque_share_over_time=[[\"5 s\", 1.0], [\"25 s\", 0.3]]";
+    let found = coasts(&[fan, fades]);
+    let rpm = std::f64::consts::PI / 30.0;
+    let torque = |speed: f64| match speed / rpm {
+        slow if slow < 6000.0 => 0.1 * slow / 6000.0,
+        fast => 0.1 + 0.4 * (fast - 6000.0) / 7000.0,
+    };
+    let share = |time: f64| 1.0 - 0.7 * ((time - 5.0) / 20.0).clamp(0.0, 1.0);
+    let course = |name: &str| list(&found, &format!("coast_down.over_time.{name}"));
+    let powers: Vec<[f64; 2]> = (course("time").iter().zip(course("rotor.speed")))
+        .map(|(time, speed)| [*time, torque(*speed) * share(*time) * speed])
+        .collect();
+    let between = |pair: &[[f64; 2]]| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]);
+    let work: f64 = powers.windows(2).map(between).sum();
+    let heat = number(&found, "coast_down.windage_heat");
+    assert!(heat > 0.1 * number(&found, "coast_down.rotor_energy"));
+    assert!((heat / work - 1.0).abs() < 2e-3, "{heat} {work}");
+    let drives =
+        "rotor.torque_over_speed=[[\"0 rpm\", \"0.1 N m\"], [\"13000 rpm\", \"-0.2 N m\"]]";
+    let told = parsed(DROP, &[drives]).err().unwrap_or_default();
+    assert!(told.contains("may never stand"), "{told}");
+}
+
+#[test]
+fn bearings_with_names_coast_down_as_equal_ones_do() {
+    let text = include_str!("../../../scenarios/coast_down_vacuum.toml");
+    let coasts = |text: &str| ran(text, &[]);
+    let equal = coasts(text);
+    let named = |of_each: [&str; 2]| {
+        let [one, other] = of_each;
+        let text = text.replacen("planes = 2", "", 1);
+        coasts(&format!(
+            "{text}\n[[auxiliary_bearing]]\nname = \"drive_end\"\n{one}\n[[auxiliary_bearing]]\nname = \"free_end\"\n{other}\n"
+        ))
+    };
+    let alike = named(["", ""]);
+    for name in ["stop_time", "rotor_energy", "heat_to_surroundings"] {
+        let [a, b] = [&equal, &alike].map(|run| number(run, name));
+        assert!((a / b - 1.0).abs() < 1e-9, "{name}: {a} {b}");
+    }
+    let peak =
+        |run: &Outcome, part: &str| number(run, &format!("{part}peak_outer_race_temperature"));
+    assert!((peak(&equal, "") - peak(&alike, "free_end.")).abs() < 1e-6);
+    // with more load a bearing makes more heat
+    let unequal = named([
+        "coast_down.radial_load = \"2000 N\"",
+        "coast_down.radial_load = \"451 N\"",
+    ]);
+    assert!(number(&unequal, "relative_heat_residual") < 1e-9);
+    assert!(peak(&unequal, "drive_end.") > peak(&unequal, "free_end.") + 1.0);
+    let both = format!(
+        "{text}\n[[auxiliary_bearing]]\nname = \"drive_end\"\n[[auxiliary_bearing]]\nname = \"free_end\"\n"
+    );
+    let told = parsed(&both, &[]).err().unwrap_or_default();
+    assert!(told.contains("one of the two is needed"), "{told}");
+    let whole = text.replacen("planes = 2", "", 1);
+    let told = parsed(
+        &format!(
+            "{whole}\n[[auxiliary_bearing]]\nname = \"a\"\n[auxiliary_bearing.coast_down]\nlongest = \"1 h\"\n"
+        ),
+        &[],
+    );
+    assert!(told.is_err());
 }

@@ -44,8 +44,8 @@ fn no_change_of_the_structure_passes_for_other_content() {
             "OHDR", "OCHK", "FRHP", "FHDB", "FHIB", "BTHD", "BTIN", "BTLF", "FAHD", "FADB", "EAHD",
             "EAIB", "EASB", "EADB",
         ] {
-            // Every piece is longer than 24 bytes; more than a dozen of a kind show nothing new.
-            for &at in places(&whole, kind.as_bytes()).iter().take(12) {
+            // Every piece is longer than 24 bytes; more of a kind show nothing new.
+            for &at in places(&whole, kind.as_bytes()).iter().take(4) {
                 for inside in 0..24 {
                     let mut changed = whole.clone();
                     changed[at + inside] ^= 1 << (inside % 8);

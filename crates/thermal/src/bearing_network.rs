@@ -434,6 +434,7 @@ mod tests {
         let zone = LoadZone {
             load: 118.0,
             stiffness: 8.35e9,
+            radial: 1.0,
             cosines: cosines(10),
             clearance: ThermalClearance {
                 at_reference: 12.9e-6,

@@ -11,8 +11,10 @@ const WITHOUT_CLEARANCE: f64 = 1.216;
 pub struct LoadZone {
     /// Radial load, N.
     pub load: f64,
-    /// Ball and both races in series, N/m^1.5.
+    /// Ball and both races in series, over a radial approach, N/m^1.5: at a contact angle α K cos^1.5 α.
     pub stiffness: f64,
+    /// Cosine of the contact angle: what of the load of a ball is radial.
+    pub radial: f64,
     /// Cosines of the angles of the balls from the load line.
     pub cosines: Vec<f64>,
     /// Clearance over temperatures.
@@ -64,7 +66,8 @@ impl LoadZone {
     }
     /// The same under another radial load, N.
     pub fn loads_under(&self, load: f64, clearance: f64) -> Vec<f64> {
-        let moved = displacement(load, self.stiffness, clearance, &self.cosines, 1.0);
+        let along = load / self.radial;
+        let moved = displacement(along, self.stiffness, clearance, &self.cosines, 1.0);
         let loads = self.cosines.iter();
         loads
             .map(|cosine| ball_load(self.stiffness, moved, clearance, *cosine))
@@ -85,7 +88,8 @@ impl LoadZone {
     pub fn all_round(&self, clearance: f64, places: usize) -> Vec<f64> {
         let cosines = cosines(places);
         let weight = self.cosines.len() as f64 / places as f64;
-        let moved = displacement(self.load, self.stiffness, clearance, &cosines, weight);
+        let along = self.load / self.radial;
+        let moved = displacement(along, self.stiffness, clearance, &cosines, weight);
         let loads = cosines.iter();
         loads
             .map(|cosine| ball_load(self.stiffness, moved, clearance, *cosine))
@@ -103,6 +107,7 @@ mod tests {
         let zone = |load: f64| LoadZone {
             load,
             stiffness: 8.35e9,
+            radial: 1.0,
             cosines: cosines(10),
             clearance: ThermalClearance {
                 at_reference: 0.0,
@@ -146,6 +151,7 @@ mod tests {
         let zone = LoadZone {
             load: 100.0,
             stiffness: 8e9,
+            radial: 1.0,
             cosines: cosines(10),
             clearance: ThermalClearance {
                 at_reference: 5e-6,

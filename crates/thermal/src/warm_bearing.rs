@@ -42,6 +42,8 @@ pub struct WarmBearings {
 pub enum BearingLoad {
     /// A radial load, N, with the factors of Palmgren's law.
     Radial(f64),
+    /// M1 as it is, N m: of balls that an axial load presses besides.
+    Moment(f64),
     /// Ball loads, some of them from rings that close: M1 = μ₁ (d_m/2) (ΣQ + Z Q), N m.
     Closing {
         /// μ₁.
@@ -70,7 +72,7 @@ impl WarmBearings {
     /// Diametral clearance, m, and preload of each ball, N, at a speed of the inner race, rad/s; none where the load is given.
     pub fn closing(&self, speed: f64, temperatures: &[f64]) -> Option<(f64, f64)> {
         let (open, stiffness) = match &self.load {
-            BearingLoad::Radial(_) => return None,
+            BearingLoad::Radial(_) | BearingLoad::Moment(_) => return None,
             BearingLoad::Closing {
                 stiffness,
                 clearance,
@@ -109,7 +111,7 @@ impl WarmBearings {
     pub fn radial_load(&self, speed: f64, temperatures: &[f64]) -> f64 {
         match &self.load {
             BearingLoad::Radial(load) => *load,
-            BearingLoad::Closing { .. } => 0.0,
+            BearingLoad::Closing { .. } | BearingLoad::Moment(_) => 0.0,
             BearingLoad::Zone { unpreloaded, zone } => {
                 zone.pressing(zone.clearance_at(temperatures, speed), *unpreloaded)
             }
@@ -137,6 +139,7 @@ impl WarmBearings {
                     * loads
                     * (speed / FADING_SPEED).tanh()
             }
+            (BearingLoad::Moment(moment), _) => moment * (speed / FADING_SPEED).tanh(),
             _ => 0.0,
         };
         [parts.speed_dependent, parts.load_dependent + closing]

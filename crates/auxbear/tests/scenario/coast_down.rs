@@ -306,7 +306,7 @@ fn what_cannot_be_is_refused_with_its_key() {
                 "bearing.moment.f1_exponent=0.33",
                 "bearing.moment.equivalent_load=timken",
             ],
-            "radial contacts alone",
+            "one row of balls",
         ),
         (&["heat.outer_diameter=20 mm"], "heat.bore_diameter"),
     ] {

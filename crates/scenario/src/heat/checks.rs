@@ -93,22 +93,29 @@ impl Context<'_> {
 
     /// What a coast-down needs to know besides: what brakes it, and how that follows warmth and clearance.
     pub fn brakes(&self, bearing: &Warm) -> Check {
-        if bearing.kind != BearingType::DeepGroove {
+        let known = match bearing.kind {
+            BearingType::DeepGroove => true,
+            // its angle is that of the motion before
+            BearingType::AngularContact => self.values.system().falls(),
+            _ => false,
+        };
+        if !known {
             let path = "bearing.type";
-            let needed = "\"deep groove\" is needed: a coast-down knows radial contacts alone, not an angle and its axial preload";
+            let needed = "\"deep groove\" is needed, or after a drop \"angular contact\": a coast-down knows one row of balls";
             return self.refuse_value(Code::NotModelled, path, needed);
         }
-        if !matches!(
-            bearing.moment,
+        let angular = bearing.kind == BearingType::AngularContact;
+        match bearing.moment {
             Moment::Palmgren {
                 printed: false,
-                axial_load: 0.0,
+                axial_load,
                 ..
+            } if angular || axial_load == 0.0 => {}
+            _ => {
+                let path = "bearing.moment.law";
+                let needed = "\"palmgren\" is needed, without an axial load where balls have no angle: warmth and clearance act on its two parts";
+                return self.refuse_value(Code::Conflict, path, needed);
             }
-        ) {
-            let path = "bearing.moment.law";
-            let needed = "\"palmgren\" without an axial load is needed: warmth and clearance act on its two parts";
-            return self.refuse_value(Code::Conflict, path, needed);
         }
         if bearing.viscosity_points.len() != 2 {
             let path = "bearing.moment.viscosity";

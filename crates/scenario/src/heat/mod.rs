@@ -105,6 +105,10 @@ pub struct Warm {
     pub pitch_diameter: f64,
     /// Material of the balls.
     pub ball_material: BallMaterial,
+    /// Contact angle, rad; 0 of radial contacts.
+    pub contact_angle: f64,
+    /// Axial preload that holds it, N.
+    pub axial_preload: f64,
     /// Diametral internal clearance as mounted, at the start temperature, m; negative is preload.
     pub operating_diametral_clearance: f64,
     /// Groove radius of the inner race over ball diameter.
@@ -224,6 +228,8 @@ impl Warm {
             ball_diameter: bearing.number("ball_diameter"),
             pitch_diameter: bearing.number("pitch_diameter"),
             ball_material: ball_material(&bearing),
+            contact_angle: bearing.maybe("contact_angle").unwrap_or(0.0),
+            axial_preload: bearing.maybe("axial_preload").unwrap_or(0.0),
             operating_diametral_clearance: bearing.number("operating_diametral_clearance"),
             inner_groove_curvature: bearing.number("inner_groove_curvature"),
             outer_groove_curvature: bearing.number("outer_groove_curvature"),

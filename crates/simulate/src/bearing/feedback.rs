@@ -212,7 +212,8 @@ impl FollowedBearing {
             let before = last.and_then(|last| last.loose[seat]);
             before.or_else(|| loose[seat].then_some(time))
         });
-        let closes = clearance < 0.0 && self.bearing.operating_diametral_clearance >= 0.0;
+        let opened = self.bearing.operating_diametral_clearance >= 0.0;
+        let closes = clearance < 0.0 && opened && self.follows.closes(&self.bearing);
         *last = Some(State {
             clearance,
             viscosity: self.follows.viscosity(nodes),

@@ -5,6 +5,7 @@ use crate::coast_down::rows::{BallsSeen, End, Row};
 use catalogue::Ring;
 use model::bearing_heat::sliding;
 use model::rotor::TorqueTables;
+use physics::angular_contact::preload_interference;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::hertz::{BallRace, PointContact, Race, maximum_pressure};
 use physics::load_zone::{cosines, joint_stiffness};
@@ -312,7 +313,8 @@ pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Pr
         network,
         zone,
         load_direction: 0.0,
-        closes: warm.heat.feedback == Feedback::Full,
+        // at an angle springs keep the preload
+        closes: warm.heat.feedback == Feedback::Full && warm.contact_angle == 0.0,
         viscosity,
         pressure_limit: DENTS,
         warm: warm.clone(),
@@ -334,7 +336,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
             ball_diameter: run.ball_diameter,
             pitch_diameter: run.pitch_diameter,
             groove_curvature,
-            contact_angle: 0.0,
+            contact_angle: run.contact_angle,
             race,
         };
         PointContact::new(shape.curvature(), modulus)
@@ -351,12 +353,18 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     let balls = run.ball_count as f64;
     let gap = run.ball_diameter;
     let seats = passages::seats(run);
+    let (angle, radial) = (run.contact_angle, run.contact_angle.cos());
+    let pressed = match run.axial_preload > 0.0 {
+        true => preload_interference(run.axial_preload, run.ball_count, stiffness, angle),
+        false => 0.0,
+    };
     let zone = LoadZone {
         load: run.radial_load,
-        stiffness,
+        stiffness: stiffness * radial.powf(1.5),
+        radial,
         cosines: cosines(run.ball_count),
         clearance: ThermalClearance {
-            at_reference: run.operating_diametral_clearance,
+            at_reference: run.operating_diametral_clearance - 2.0 * pressed,
             reference: celsius(heat.start_temperature),
             tracks: [run.pitch_diameter - gap, run.pitch_diameter + gap],
             ball: run.ball_diameter,
@@ -479,6 +487,7 @@ pub(crate) fn losses(
         preload: 0.0,
     };
     let load = match run.heat.feedback {
+        _ if run.contact_angle > 0.0 => BearingLoad::Moment(at_angle(run)?),
         Feedback::Full => BearingLoad::Zone {
             unpreloaded: unpreloaded(zone),
             zone: zone.clone(),
@@ -501,6 +510,20 @@ pub(crate) fn losses(
         lubricant: LUBRICANT,
         shares: [viscous, sliding(run.ball_material.heat()).to_vec()],
     })
+}
+
+/// M1 of contacts at an angle under the radial load and the axial one of their law, N m.
+fn at_angle(run: &Warm) -> Result<f64, Box<Problem>> {
+    let law = (run.moment.law(&run.rated())).map_err(|why| {
+        problem(
+            "bearing.moment",
+            why,
+            "a law that knows the contact angle is needed",
+        )
+    })?;
+    // far above the speed at which it fades
+    let moments = law.parts(1.0, run.radial_load, run.moment.axial_load());
+    Ok(run.moment_scale * moments.load_dependent)
 }
 
 /// Sum of the loads of the balls at the start, as if no ring pressed on them, N.

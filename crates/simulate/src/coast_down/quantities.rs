@@ -106,8 +106,8 @@ results! {
         "peak_*_time": number "s", PEAK, "instant of this temperature" => peak.1;
     }
     fn clearance(of: &(usize, &Part), run: &Ran) {
-        "smallest_clearance": number "m" headline, CLEARANCE, "smallest diametral clearance" => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
-        "closing_time": instant "s" headline, CLEARANCE, "first time without clearance" in instants "clearance closed" => {
+        "smallest_clearance": number "m" headline, CLEARANCE, "smallest diametral clearance", unless at_angle(of.1) => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
+        "closing_time": instant "s" headline, CLEARANCE, "first time without clearance" in instants "clearance closed", unless at_angle(of.1) => {
             let closes = run.first(|row| -row.bearings[of.0].clearance);
             closes.ok_or_else(|| "the bearing stays open".to_string())
         };
@@ -139,6 +139,12 @@ results! {
         "runs_until_ten_percent_fail": number "1" headline, RUNS, "coast-downs until 10 % of bearings have failed" in life "Coast-downs until 10 % of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.9);
         "runs_until_half_fail": number "1", RUNS, "coast-downs until half of the bearings have failed" in life "Coast-downs until half of bearings have failed", unless no_rating(part.rating()) => run.repeated(0.5);
     }
+}
+
+/// Why a bearing has no clearance.
+fn at_angle(part: &Part) -> Option<String> {
+    let words = "an axial preload presses its balls at an angle";
+    (part.warm.contact_angle > 0.0).then(|| words.to_string())
 }
 
 impl Part {
@@ -314,13 +320,13 @@ fn used(
     factor: &dyn Fn(&Row, f64) -> f64,
 ) -> [Vec<f64>; 2] {
     let warm = &part.warm;
-    let gamma = warm.ball_diameter / warm.pitch_diameter;
+    let gamma = warm.ball_diameter * warm.contact_angle.cos() / warm.pitch_diameter;
     let bearing = RatedBearing {
         rating,
         ball_count: warm.ball_count as f64,
         gamma,
         grooves: [warm.inner_groove_curvature, warm.outer_groove_curvature],
-        contact_angle: 0.0,
+        contact_angle: warm.contact_angle,
     };
     let passages = passages_per_turn(warm.ball_count as f64, gamma);
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
