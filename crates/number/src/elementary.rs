@@ -7,6 +7,41 @@
 
 use crate::Real;
 
+/// The functions of this page as methods of a number.
+macro_rules! elementary_functions {
+    () => {
+        #[inline(always)]
+        fn exp(self) -> Self {
+            $crate::elementary::exp(self)
+        }
+        #[inline(always)]
+        fn ln(self) -> Self {
+            $crate::elementary::ln(self)
+        }
+        #[inline(always)]
+        fn tanh(self) -> Self {
+            $crate::elementary::tanh(self)
+        }
+        #[inline(always)]
+        fn tanh_pair(self, other: Self) -> (Self, Self) {
+            $crate::elementary::tanh_pair(self, other)
+        }
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            $crate::elementary::sin_cos(self)
+        }
+        #[inline(always)]
+        fn two_thirds(self) -> Self {
+            $crate::elementary::two_thirds(self)
+        }
+        #[inline(always)]
+        fn asin_small(self) -> Self {
+            $crate::elementary::asin_small(self)
+        }
+    };
+}
+pub(crate) use elementary_functions;
+
 /// What the polynomials need beyond [`Real`]: the bits of the number.
 ///
 /// A *shifted* integer n is n + [`ROUNDING`]: its low bits are n, in two's complement.

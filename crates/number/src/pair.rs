@@ -3,7 +3,7 @@
 //! The arithmetic of a ball is one long chain in which every operation waits for the one before: two independent
 //! chains side by side keep the vector unit busy.
 
-use crate::elementary::{self, Bits};
+use crate::elementary::{Bits, elementary_functions};
 use crate::real::Vectorized;
 use crate::scalar::group_of_one;
 use crate::{Mask, Real};
@@ -119,34 +119,7 @@ impl<V: Bits> Real for Pair<V> {
             self.1.lane(index - V::LANES)
         }
     }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        elementary::exp(self)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        elementary::ln(self)
-    }
-    #[inline(always)]
-    fn tanh(self) -> Self {
-        elementary::tanh(self)
-    }
-    #[inline(always)]
-    fn tanh_pair(self, other: Self) -> (Self, Self) {
-        elementary::tanh_pair(self, other)
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn two_thirds(self) -> Self {
-        elementary::two_thirds(self)
-    }
-    #[inline(always)]
-    fn asin_small(self) -> Self {
-        elementary::asin_small(self)
-    }
+    elementary_functions!();
     #[inline(always)]
     fn vectorized<T: Vectorized>(task: T) -> T::Output {
         V::vectorized(task)

@@ -79,34 +79,7 @@ macro_rules! scalar_real {
                 let $x = self;
                 $make(elementary::round_f64($get))
             }
-            #[inline(always)]
-            fn exp(self) -> Self {
-                elementary::exp(self)
-            }
-            #[inline(always)]
-            fn ln(self) -> Self {
-                elementary::ln(self)
-            }
-            #[inline(always)]
-            fn tanh(self) -> Self {
-                elementary::tanh(self)
-            }
-            #[inline(always)]
-            fn tanh_pair(self, other: Self) -> (Self, Self) {
-                elementary::tanh_pair(self, other)
-            }
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                elementary::sin_cos(self)
-            }
-            #[inline(always)]
-            fn two_thirds(self) -> Self {
-                elementary::two_thirds(self)
-            }
-            #[inline(always)]
-            fn asin_small(self) -> Self {
-                elementary::asin_small(self)
-            }
+            $crate::elementary::elementary_functions!();
             #[inline(always)]
             fn greater(self, other: Self) -> bool {
                 self.lane(0) > other.lane(0)

@@ -5,8 +5,8 @@
 //! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
 
 use crate::elementary::{
-    self, Bits, LOW_EXPONENT, LOW_EXPONENT_BITS, ONE_BITS, ROOT_OFFSET, ROOT_SLOPE, ROUNDING,
-    SIGN_BIT,
+    Bits, LOW_EXPONENT, LOW_EXPONENT_BITS, ONE_BITS, ROOT_OFFSET, ROOT_SLOPE, ROUNDING, SIGN_BIT,
+    elementary_functions,
 };
 use crate::real::Vectorized;
 use crate::scalar::group_of_one;
@@ -133,34 +133,7 @@ macro_rules! shared_methods {
         fn round(self) -> Self {
             (self + Self::splat(ROUNDING)) - Self::splat(ROUNDING)
         }
-        #[inline(always)]
-        fn exp(self) -> Self {
-            elementary::exp(self)
-        }
-        #[inline(always)]
-        fn ln(self) -> Self {
-            elementary::ln(self)
-        }
-        #[inline(always)]
-        fn tanh(self) -> Self {
-            elementary::tanh(self)
-        }
-        #[inline(always)]
-        fn tanh_pair(self, other: Self) -> (Self, Self) {
-            elementary::tanh_pair(self, other)
-        }
-        #[inline(always)]
-        fn sin_cos(self) -> (Self, Self) {
-            elementary::sin_cos(self)
-        }
-        #[inline(always)]
-        fn two_thirds(self) -> Self {
-            elementary::two_thirds(self)
-        }
-        #[inline(always)]
-        fn asin_small(self) -> Self {
-            elementary::asin_small(self)
-        }
+        elementary_functions!();
         #[inline(always)]
         fn vectorized<T: Vectorized>(task: T) -> T::Output {
             // SAFETY: see the module.
