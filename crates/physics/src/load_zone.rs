@@ -22,6 +22,9 @@ pub fn ball_load(stiffness: f64, displacement: f64, clearance: f64, cosine: f64)
 }
 
 /// Cosines of the angles of so many balls from the load line, one ball on it.
+///
+/// Source: definition.
+/// Valid: balls at equal angles.
 pub fn cosines(balls: usize) -> Vec<f64> {
     let angle = TAU / balls as f64;
     (0..balls).map(|ball| (angle * ball as f64).cos()).collect()
