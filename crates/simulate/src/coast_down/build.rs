@@ -89,11 +89,11 @@ pub struct Built {
     pub warm_from: Vec<f64>,
     /// Where the coast-down by laws starts.
     pub(crate) start: Start,
-    /// How its motion differs from rolling, between two windows; none where it rolls.
+    /// How its motion differs from rolling, between two intervals; none where it rolls.
     pub(crate) motion: Option<Motion>,
 }
 
-/// Between two windows that followed the motion.
+/// Between two intervals that followed the motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
     pub between: Between,
@@ -104,7 +104,7 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// The balls of a bearing as the window nearest to a speed has seen them.
+    /// The balls of a bearing as the interval nearest to a speed has seen them.
     pub fn balls(&self, speed: f64, bearing: usize) -> Option<&Arc<BallsSeen>> {
         let nearest = usize::from(self.between.way(speed) > 0.5);
         self.balls[nearest][bearing].as_ref()

@@ -206,7 +206,7 @@ impl Ran<'_> {
         }
         passes
     }
-    /// Heat of the losses of a bearing over its nodes, J; nothing after windows, whose heat is known by nodes alone.
+    /// Heat of the losses of a bearing over its nodes, J; nothing after intervals, whose heat is known by nodes alone.
     fn heats_by_node(&self, k: usize) -> Vec<(&'static str, Vec<f64>)> {
         if self.built.start.heats.iter().any(|heat| *heat != 0.0) {
             return Vec::new();
@@ -332,7 +332,7 @@ fn used(
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
     let open = part.zone.clearance.at_reference.max(0.0);
     let unpreloaded = mean(&part.zone.all_round(open, PLACES));
-    // sums of cubes that pass each place, by laws from the load line on, by windows as they have seen them
+    // sums of cubes that pass each place, by laws from the load line on, by intervals as they have seen them
     let mut by_laws = [vec![0.0; PLACES], vec![0.0; PLACES]];
     let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
     for (row, turned) in (ran.free.rows.iter()).zip(turned(&ran.free.rows)) {
@@ -343,10 +343,10 @@ fn used(
         let pressing = warm.radial_load * mean(&zone) / unpreloaded;
         let cubes = [0.0, part.network.centrifugal(own.speed)]
             .map(|more| -> Vec<f64> { zone.iter().map(|load| (load + more).powi(3)).collect() });
-        // a window is as closed as its bearing was then, and the laws know no impacts: the larger of both counts
+        // an interval is as closed as its bearing was then, and the laws know no impacts: the larger of both counts
         let times = |balls: &BallsSeen| mean(&balls.cubes[1]) / (passages[1] * mean(&cubes[1]));
-        let seen_by_window = own.balls.as_ref().map(|balls| (balls, times(balls)));
-        match seen_by_window.filter(|(_, times)| *times > 1.0) {
+        let seen_by_interval = own.balls.as_ref().map(|balls| (balls, times(balls)));
+        match seen_by_interval.filter(|(_, times)| *times > 1.0) {
             Some((balls, times)) => {
                 let turned = turned / factor(row, times.cbrt() * pressing);
                 for (sum, cubes) in seen.iter_mut().zip(&balls.cubes) {

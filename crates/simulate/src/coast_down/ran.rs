@@ -28,7 +28,7 @@ pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a
         nodes.any(|(now, limit)| limit.is_some_and(|limit| *now > limit))
     };
     let held = match free.rows.iter().any(passes) {
-        // between two windows nothing is known of what comes after the end of this one
+        // between two intervals nothing is known of what comes after the end of this one
         true if built.motion.is_some() && free.end.leaves() => {
             let mut until = built.clone();
             let delay = built.start.on_limits.as_ref().map_or(0.0, |way| way.delay);

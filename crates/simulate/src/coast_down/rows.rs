@@ -36,11 +36,11 @@ pub(crate) struct RowOfBearing {
     pub landing: Landing,
     /// Speed of its inner race, rad/s.
     pub speed: f64,
-    /// Of its balls, where windows follow them: as the nearest has seen them.
+    /// Of its balls, where intervals follow them: as the nearest has seen them.
     pub balls: Option<Arc<BallsSeen>>,
 }
 
-/// What a window ball by ball has seen of the balls of a bearing.
+/// What an interval has seen of the balls of a bearing.
 #[derive(Clone, Debug)]
 pub(crate) struct BallsSeen {
     /// Largest load at the inner and at the outer race, N.

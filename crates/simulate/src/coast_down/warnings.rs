@@ -248,7 +248,7 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
     if closed && least > before - CLOSES_ON {
         return None;
     }
-    // what windows see of impacts has other causes
+    // what intervals see of impacts has other causes
     let loads = ran.built.parts[k].zone.loads(least);
     let most = loads.into_iter().fold(0.0, f64::max);
     let when = match closed {
