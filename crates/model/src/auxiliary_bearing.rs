@@ -6,14 +6,15 @@
 //!                                     ground ──/\/\/── mount ──  outer race c_o
 //!
 //!   m_i c̈_i = contact + bearing + m_i g           or held
-//!   (I_i + J) φ̈_i = contact + bearing + drive     J: what balls and cage add, where they have no states
-//!   m_o c̈_o = bearing + mount + m_o g             does not turn: the ground takes t_O
+//!   (I_i + J) φ̈_i = contact + bearing + drive     J: what balls and cage add, where they have no states; or φ̈_i given
+//!   m_o c̈_o = bearing + mount + m_o g             or held; does not turn: the ground takes t_O
 //! ```
+//! On a rig the load with the friction that it presses, or a clutch, stands for the contact, and what carries the outer race for the mount: see
+//! [`fixture`](crate::system::rig::fixture).
+//!
 //! A bearing without balls is a plain bushing: both races are one ring, which stands in the state as an inner race that does
-//! not turn. The rotor rubs on it, and the ground takes the moment of that friction:
-//! ```text
-//!   m_o c̈_o = contact + mount + m_o g             ω_i = 0
-//! ```
+//! not turn, of no mass of its own. The rotor rubs on it, and the ground takes the moment of that friction: what the contact does stands
+//! for the bearing, m_o c̈_o = contact + mount + m_o g, ω_i = 0.
 //! The motion of a node of the rotor in, the wrench on that node out. States: those of both races and of the bearing, where
 //! [`BearingAt`] says.
 //!
@@ -24,11 +25,13 @@ use crate::bearing_heat::WarmBearing;
 use crate::body::BodyAt;
 use crate::contact::{ContactReaction, JournalContact};
 pub use crate::heats::{HEATS, OWN_HEATS};
-use crate::motion::{Body, Motion};
+use crate::motion::Motion;
 use crate::mount::{Mount, MountParts, MountReaction, WholeMount};
 use crate::rotor::GeometricCentre;
 use crate::surface_heat::Surfaces;
 use crate::system::layout::Layout;
+use crate::system::rig::fixture::{Acting, Fixture, FixtureOver};
+use crate::system::rig::layout::{ARM, HOUSING, READINGS};
 use number::{Gather, Real, Vec2, constants};
 use std::ops::Range;
 
@@ -71,12 +74,31 @@ pub struct AuxiliaryBearingConstants {
     pub surfaces: Option<Surfaces>,
     /// What warms of it, where that is followed.
     pub warm: Option<Box<WarmBearing>>,
+    /// What turns, loads and carries it on a rig, in place of node, contact and mount; none in a machine.
+    pub fixture: Option<Box<Fixture>>,
 }
 
 impl AuxiliaryBearingConstants {
     /// Whether it is a bushing: one ring that does not turn.
     pub fn is_bushing(&self) -> bool {
         self.bearing.balls() == 0
+    }
+    /// Whether both races stay in the middle: no load reaches the balls.
+    pub fn is_concentric(&self) -> bool {
+        let housing = (self.fixture.as_ref()).and_then(|fixture| fixture.housing.as_ref());
+        housing.map_or(self.inner_race.centre_held, |housing| housing.centre_held)
+    }
+    /// Whether the outer race stands.
+    fn outer_held(&self) -> bool {
+        let held = |fixture: &Fixture| (fixture.housing.as_ref()).is_none_or(|own| own.centre_held);
+        self.fixture.as_ref().is_some_and(|fixture| held(fixture))
+    }
+    /// Mass on which gravity acts besides balls and inner race, kg: a load counts the housing of a rig.
+    pub fn outer_weighing_mass(&self) -> f64 {
+        match self.fixture {
+            Some(_) => self.bearing.mass_with_outer_race(),
+            None => self.outer_moving_mass(),
+        }
     }
     /// Mass that translates with the outer race, kg.
     pub fn outer_moving_mass(&self) -> f64 {
@@ -141,6 +163,8 @@ pub struct BearingAt {
     pub inner: BodyAt,
     /// The outer race, which does not turn; of a bushing the ring that is the inner one too.
     pub outer: BodyAt,
+    /// Channel of the rotor's spin.
+    pub driver: usize,
     /// First channel of the bearing's own states, the angle of its cage.
     pub bearing: usize,
     /// Number of these.
@@ -194,11 +218,20 @@ impl BearingAt {
 }
 
 /// Adds the races of an auxiliary bearing to a layout, or the ring of a bushing: the inner and the outer one.
-pub fn lay_races(layout: &mut Layout, name: &str, bushing: bool) -> [BodyAt; 2] {
-    let inner = layout.body(name, "bearing.inner_race", BodyAt::free);
-    let outer = match bushing {
-        true => inner.without_turn(),
-        false => layout.body(name, "bearing.outer_race", BodyAt::moving),
+pub fn lay_races(layout: &mut Layout, part: &AuxiliaryBearingConstants) -> [BodyAt; 2] {
+    let housing = (part.fixture.as_ref()).map(|fixture| fixture.housing.is_some());
+    if housing == Some(true) {
+        let shaft = layout.body(&part.name, "shaft", BodyAt::turning);
+        let readings = layout.block(&part.name, READINGS.map(String::from));
+        let outer = layout.body(&part.name, "housing", BodyAt::moving);
+        debug_assert!(readings.start == ARM && outer == HOUSING);
+        return [shaft, outer];
+    }
+    let inner = layout.body(&part.name, "bearing.inner_race", BodyAt::free);
+    let outer = match (housing, part.is_bushing()) {
+        (Some(_), _) => BodyAt::STILL,
+        (None, true) => inner.without_turn(),
+        (None, false) => layout.body(&part.name, "bearing.outer_race", BodyAt::moving),
     };
     [inner, outer]
 }
@@ -211,6 +244,9 @@ pub struct AuxiliaryBearing<R: Real> {
     pub(crate) bearing: Bearing<R>,
     pub(crate) mount: WholeMount<R>,
     pub(crate) outer_moving_mass: R,
+    outer_weighing_mass: R,
+    pub(crate) outer_held: bool,
+    pub(crate) fixture: Option<FixtureOver<R>>,
     bushing: bool,
     /// Reciprocals, because a division costs as much as ten products.
     inverse_inner_mass: R,
@@ -219,11 +255,34 @@ pub struct AuxiliaryBearing<R: Real> {
 
 /// What the rotor does at the node.
 #[derive(Clone, Copy, Debug)]
-pub struct AtNode<R> {
+pub(crate) struct AtNode<'a, R> {
     /// Its motion.
     pub centre: GeometricCentre<R>,
     /// What the contact does at this motion.
     pub contact: ContactReaction<R>,
+    /// What acts on a rig.
+    pub acting: Option<&'a Acting<R>>,
+}
+
+/// How the races of a bearing on a rig move and turn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turned<R> {
+    /// Motion of the races.
+    pub motion: Motion<R>,
+    /// The bearing with its acceleration loss.
+    pub bearing: BearingReaction<R>,
+    /// Acceleration of the inner race, rad/s².
+    pub spin_rate: R,
+    /// Moment on it besides those of bearing and support, N m.
+    pub needed: R,
+    /// Moment on the outer race t_O, N m.
+    pub outer_moment: R,
+    /// Heats of the bearing, W.
+    pub heats: [R; bearing::HEATS.len()],
+    /// Weight of the inner race, N.
+    pub race_weight: Vec2<R>,
+    /// Force on the outer race from outside, N.
+    pub on_outer: Vec2<R>,
 }
 
 /// Where the rates and probes of an auxiliary bearing are written.
@@ -233,6 +292,8 @@ pub struct Outlet<'a, R> {
     pub heat: usize,
     /// Channel of its first source.
     pub source: usize,
+    /// State of the machine.
+    pub state: &'a [R],
     /// Rates of the machine.
     pub rate: &'a mut [R],
     /// Probes of the machine; empty where nobody looks.
@@ -262,21 +323,13 @@ impl<R: Real> AuxiliaryBearing<R> {
                 (&constants(lane).mount, &constants(lane).mount_parts)
             }),
             outer_moving_mass: lanes(&|c| c.outer_moving_mass()),
+            outer_weighing_mass: lanes(&|c| c.outer_weighing_mass()),
+            outer_held: constants(0).outer_held(),
+            fixture: FixtureOver::gather(constants),
             bushing: constants(0).is_bushing(),
             inverse_inner_mass: lanes(&|c| 1.0 / c.inner_race.mass),
             inverse_outer_mass: lanes(&|c| 1.0 / c.outer_moving_mass()),
         }
-    }
-
-    /// What the contact does to rotor and inner race.
-    #[inline(always)]
-    pub fn contact(
-        &self,
-        centre: &GeometricCentre<R>,
-        spin: R,
-        inner: &Body<R>,
-    ) -> ContactReaction<R> {
-        self.contact.react(centre, spin, inner)
     }
 
     /// What the bearing does between its races; writes the rates of its own states and the detail of its balls.
@@ -284,7 +337,7 @@ impl<R: Real> AuxiliaryBearing<R> {
     pub fn bearing(
         &self,
         at: &BearingAt,
-        motion: &Motion<R>,
+        (motion, held_load): (&Motion<R>, R),
         state: &[R],
         rate: &mut [R],
         probe: &mut [R],
@@ -298,7 +351,8 @@ impl<R: Real> AuxiliaryBearing<R> {
                 .min(at.detail + bearing::DETAIL_PER_BALL * at.balls);
             &mut probe[at.detail.min(end)..end]
         };
-        (self.bearing).react(motion, &state[at.own()], &mut rate[at.own()], detail)
+        let (state, rate) = (&state[at.own()], &mut rate[at.own()]);
+        (self.bearing).react_under(motion, held_load, state, rate, detail)
     }
 
     /// What the mount does at a motion of the outer race; writes the rates of its own states.
@@ -318,22 +372,19 @@ impl<R: Real> AuxiliaryBearing<R> {
     /// Writes the rates of both races and of the ledger's heats and sources, and the probes where asked, which alone see the
     /// acceleration of the node; returns the moments from outside.
     #[inline(always)]
-    pub fn accelerate(
+    pub(crate) fn accelerate(
         &self,
         at: &BearingAt,
-        (node, node_acceleration): (&AtNode<R>, Vec2<R>),
+        (node, node_acceleration): (&AtNode<'_, R>, Vec2<R>),
         gravity: Vec2<R>,
         motion: &Motion<R>,
         (bearing, on_outer): (&BearingReaction<R>, &MountReaction<R>),
         into: Outlet<'_, R>,
     ) -> External<R> {
-        if self.bushing {
-            let node = (node, node_acceleration);
-            return self.accelerate_ring(at, node, gravity, &motion.inner, on_outer, into);
-        }
         let Outlet {
             heat,
             source,
+            state,
             rate,
             probe,
         } = into;
@@ -343,36 +394,51 @@ impl<R: Real> AuxiliaryBearing<R> {
         let (inner, outer) = (&motion.inner, &motion.outer);
         let mount = on_outer.force;
 
+        // turn of the inner race
+        let by_contact = contact.on_bore.moment;
+        let (inner_moment, on_race) = match node.acting {
+            None => (by_contact + bearing.on_inner.moment + race.torque, zero),
+            Some(acting) => {
+                let on_race = bearing.on_inner.moment - acting.support;
+                (acting.on_race(by_contact, on_race), on_race)
+            }
+        };
+        let mut bearing = (*bearing).with_loss(inner.spin, inner_moment);
+        let inertia = race.inertia + bearing.inner_inertia;
+        let inner_spin_rate = match node.acting {
+            None if self.bushing => zero,
+            None => inner_moment / inertia,
+            Some(acting) => acting.spin_rate(inner_moment, inertia),
+        };
+        (at.inner).turn_at(rate, inner.spin, inner_spin_rate);
+
+        // outer race: the ground holds its spin; a ring passes on what the rotor does
+        if self.bushing {
+            bearing.on_outer = contact.on_bore;
+        }
+        let outer_force = bearing.on_outer.force + mount + gravity * self.outer_weighing_mass;
+        let outer_acceleration = if self.outer_held {
+            Vec2::zero()
+        } else {
+            outer_force * self.inverse_outer_mass
+        };
+        (at.outer).move_at(rate, outer.velocity, outer_acceleration);
+        let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * inner_spin_rate;
+
         // inner race
         let inner_force = contact.on_bore.force + bearing.on_inner.force + gravity * race.mass;
-        let inner_acceleration = if race.centre_held {
+        let inner_acceleration = if self.bushing {
+            outer_acceleration
+        } else if race.centre_held {
             Vec2::zero()
         } else {
             inner_force * self.inverse_inner_mass
         };
-        let inner_moment = contact.on_bore.moment + bearing.on_inner.moment + race.torque;
-        let bearing = (*bearing).with_loss(inner.spin, inner_moment);
-        let inner_spin_rate = inner_moment / (race.inertia + bearing.inner_inertia);
         (at.inner).move_at(rate, inner.velocity, inner_acceleration);
-        (at.inner).turn_at(rate, inner.spin, inner_spin_rate);
-
-        // outer race: the ground holds its spin
-        let outer_force = bearing.on_outer.force + mount + gravity * self.outer_moving_mass;
-        let outer_acceleration = outer_force * self.inverse_outer_mass;
-        (at.outer).move_at(rate, outer.velocity, outer_acceleration);
-        let outer_moment = bearing.on_outer.moment - bearing.outer_inertia * inner_spin_rate;
 
         // ledger
-        let of_bearing = bearing.heat.kinds();
-        let mut heats = [zero; HEATS];
-        let (kinds, rest) = heats.split_at_mut(of_bearing.len());
-        kinds.copy_from_slice(&of_bearing);
-        kinds[POCKET_FRICTION] += bearing.loss_heat(inner.spin, inner_spin_rate);
-        rest.copy_from_slice(&[on_outer.heat(), contact.damping_heat, contact.friction_heat]);
-        rate[heat..heat + HEATS].copy_from_slice(&heats);
-        rate[source] = race.torque * inner.spin;
-        rate[source + 1] = bearing.growth_impulse * inner_spin_rate;
-
+        let mut of_bearing = bearing.heat.kinds();
+        of_bearing[POCKET_FRICTION] += bearing.loss_heat(inner.spin, inner_spin_rate);
         if !probe.is_empty() {
             let values: [R; probe::COUNT] = [
                 contact.penetration,
@@ -397,6 +463,35 @@ impl<R: Real> AuxiliaryBearing<R> {
             ];
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
         }
+        if let (Some(acting), Some(fixture)) = (node.acting, &self.fixture) {
+            // copies: what a call outside of the kernel sees stays in memory
+            let turned = Turned {
+                motion: *motion,
+                bearing,
+                spin_rate: inner_spin_rate,
+                needed: inertia * inner_spin_rate - on_race,
+                outer_moment,
+                heats: of_bearing,
+                race_weight: gravity * race.mass,
+                on_outer: mount + gravity * self.outer_weighing_mass,
+            };
+            let into = Outlet {
+                heat,
+                source,
+                state,
+                rate,
+                probe,
+            };
+            return fixture.book(at, (acting, &turned), &self.bearing, into);
+        }
+        let mut heats = [zero; HEATS];
+        let (kinds, rest) = heats.split_at_mut(of_bearing.len());
+        kinds.copy_from_slice(&of_bearing);
+        rest.copy_from_slice(&[on_outer.heat(), contact.damping_heat, contact.friction_heat]);
+        rate[heat..heat + HEATS].copy_from_slice(&heats);
+        rate[source] = race.torque * inner.spin;
+        rate[source + 1] = bearing.growth_impulse * inner_spin_rate;
+
         let weight_moment = |position: Vec2<R>, mass: R| position.cross(gravity) * mass;
         let hold = if race.centre_held {
             // the force that holds the centre is the opposite of everything else on the race
@@ -415,59 +510,6 @@ impl<R: Real> AuxiliaryBearing<R> {
                 outer.position.cross(mount),
                 bearing.external_moment,
                 -outer_moment,
-            ],
-        }
-    }
-}
-
-impl<R: Real> AuxiliaryBearing<R> {
-    /// The same of a bushing.
-    #[inline(always)]
-    fn accelerate_ring(
-        &self,
-        at: &BearingAt,
-        (node, node_acceleration): (&AtNode<R>, Vec2<R>),
-        gravity: Vec2<R>,
-        ring: &Body<R>,
-        mount: &MountReaction<R>,
-        into: Outlet<'_, R>,
-    ) -> External<R> {
-        let (rate, zero) = (into.rate, R::zero());
-        let contact = &node.contact;
-        let force = contact.on_bore.force + mount.force + gravity * self.outer_moving_mass;
-        let acceleration = force * self.inverse_outer_mass;
-        (at.inner).move_at(rate, ring.velocity, acceleration);
-        (at.inner).turn_at(rate, zero, zero);
-
-        // ledger: neither balls nor a drive
-        let heats = &mut rate[into.heat..into.heat + HEATS];
-        let (of_balls, own) = heats.split_at_mut(bearing::HEATS.len());
-        of_balls.fill(zero);
-        own.copy_from_slice(&[mount.heat(), contact.damping_heat, contact.friction_heat]);
-        rate[into.source..into.source + SOURCES.len()].fill(zero);
-
-        if !into.probe.is_empty() {
-            let mut values = [zero; probe::COUNT];
-            values[probe::PENETRATION] = contact.penetration;
-            values[probe::PENETRATION_SPEED] = contact.penetration_speed;
-            values[probe::NORMAL_FORCE] = contact.normal_force;
-            let approach = node_acceleration - acceleration;
-            values[probe::NORMAL_FORCE_RATE] =
-                (self.contact).force_rate(contact, &node.centre, ring, approach);
-            values[probe::FRICTION_FORCE] = contact.friction_force;
-            values[probe::SLIP_SPEED] = contact.slip_speed;
-            values[probe::BEARING_LOAD] = contact.on_bore.force.length_squared().sqrt();
-            values[probe::MOUNT_FORCE] = mount.force.length_squared().sqrt();
-            into.probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
-        }
-        External {
-            weights: [zero, ring.position.cross(gravity) * self.outer_moving_mass],
-            others: [
-                zero,
-                zero,
-                ring.position.cross(mount.force),
-                zero,
-                -contact.on_bore.moment,
             ],
         }
     }

@@ -42,6 +42,12 @@ impl BodyAt {
             ..Self::free(first)
         }
     }
+    /// A body that neither moves nor turns: it has no channels.
+    pub const STILL: Self = BodyAt {
+        first: 0,
+        moves: false,
+        turns: false,
+    };
     /// The same, taken as one that does not turn.
     pub const fn without_turn(self) -> Self {
         BodyAt {
@@ -77,14 +83,11 @@ impl BodyAt {
     }
     /// Names of its channels, of a body of that name.
     pub fn names(self, body: &str) -> impl Iterator<Item = String> {
-        let centre: &[_] = &["x", "y", "x_speed", "y_speed"];
-        let names = match (self.moves, self.turns) {
-            (true, true) => [centre, &["angle", "speed"]].concat(),
-            (true, false) => centre.to_vec(),
-            (false, _) => vec!["angle", "speed"],
-        };
+        let centre = ["x", "y", "x_speed", "y_speed"].map(|name| (name, self.moves));
+        let turn = ["angle", "speed"].map(|name| (name, self.turns));
+        let names = centre.into_iter().chain(turn).filter(|name| name.1);
         let body = body.to_string();
-        names.into_iter().map(move |name| format!("{body}.{name}"))
+        names.map(move |(name, _)| format!("{body}.{name}"))
     }
     /// Its motion in a state; what it has no freedom for is zero.
     #[inline(always)]
@@ -99,11 +102,13 @@ impl BodyAt {
         }
         body
     }
-    /// Writes the rates of its centre.
+    /// Writes the rates of its centre, where that moves.
     #[inline(always)]
     pub fn move_at<R: Real>(self, rate: &mut [R], velocity: Vec2<R>, acceleration: Vec2<R>) {
-        put(rate, self.centre(), velocity);
-        put(rate, self.velocity(), acceleration);
+        if self.moves {
+            put(rate, self.centre(), velocity);
+            put(rate, self.velocity(), acceleration);
+        }
     }
     /// Writes the rates of its turn.
     #[inline(always)]

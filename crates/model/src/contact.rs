@@ -62,6 +62,26 @@ pub struct ContactReaction<R> {
     pub friction_heat: R,
 }
 
+impl<R: Real> ContactReaction<R> {
+    /// Nothing touches.
+    #[inline(always)]
+    pub fn none() -> Self {
+        let zero = R::zero();
+        ContactReaction {
+            on_journal: Wrench::zero(),
+            on_bore: Wrench::zero(),
+            penetration: zero,
+            penetration_speed: zero,
+            normal_force: zero,
+            elastic_force: zero,
+            friction_force: zero,
+            slip_speed: zero,
+            damping_heat: zero,
+            friction_heat: zero,
+        }
+    }
+}
+
 /// Stiffness and damping of the contact, for linearly implicit steps.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactTangent<R> {

@@ -24,6 +24,16 @@ constants! {
     }
 }
 
+impl Levitation<f64> {
+    /// Nothing holds the rotor.
+    pub const NONE: Self = Levitation {
+        stiffness: 0.0,
+        damping: 0.0,
+        centre: Vec2 { x: 0.0, y: 0.0 },
+        carried: Vec2 { x: 0.0, y: 0.0 },
+    };
+}
+
 impl<R: Real> Levitation<R> {
     /// Force on the rotor at its geometric centre, N.
     #[inline(always)]

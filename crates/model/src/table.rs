@@ -49,7 +49,24 @@ constants! {
     }
 }
 
+impl Piece<f64> {
+    /// Zero everywhere.
+    pub const NONE: Self = Piece {
+        start: 0.0,
+        value: 0.0,
+        slope: 0.0,
+    };
+}
+
 impl<R: Real> Piece<R> {
+    /// One line per lane.
+    pub fn from_lanes(of: &dyn Fn(usize) -> Piece<f64>) -> Self {
+        Piece {
+            start: R::from_lanes(|lane| of(lane).start),
+            value: R::from_lanes(|lane| of(lane).value),
+            slope: R::from_lanes(|lane| of(lane).slope),
+        }
+    }
     /// The value at `x`.
     #[inline(always)]
     pub fn at(&self, x: R) -> R {

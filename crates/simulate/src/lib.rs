@@ -10,6 +10,8 @@
 //! | [`rotor`] | the model of a flexible rotor and its magnets |
 //! | `levitated` | levitations that do not hold their rotor |
 //! | `stepping` | which steps a run takes, and how exact they are |
+//! | [`ensemble`] | runs machines, in lanes and threads |
+//! | `following` | what of a machine follows the temperatures of its bearings |
 //! | `ending` | settings of the integration, and how a run ended |
 
 #![forbid(unsafe_code)]
@@ -21,6 +23,8 @@ pub mod coast_down;
 pub mod drawing;
 pub mod drop;
 pub mod ending;
+pub mod ensemble;
+mod following;
 pub mod levitated;
 pub mod rig;
 pub mod rotor;

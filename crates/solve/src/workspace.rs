@@ -88,13 +88,10 @@ impl Seen {
     pub(crate) fn take<R: Real>(&mut self, state: &[R], probe: &[R]) {
         let width = self.channels + self.probes;
         assert!(probe.len() == self.probes && self.values.len() == R::LANES * width);
-        for (lane, values) in self.values.chunks_exact_mut(width.max(1)).enumerate() {
-            let (channels, probes) = values.split_at_mut(self.channels);
-            for (value, lanes) in channels.iter_mut().zip(state) {
-                *value = lanes.lane(lane);
-            }
-            for (value, lanes) in probes.iter_mut().zip(probe) {
-                *value = lanes.lane(lane);
+        for (k, lanes) in state[..self.channels].iter().chain(probe).enumerate() {
+            // the lanes inside: their number is known when this is compiled
+            for lane in 0..R::LANES {
+                self.values[lane * width + k] = lanes.lane(lane);
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::machine::ReferenceMachine;
 use super::reference::{DerivativePoint, DropReference};
 use super::simulator::{DerivativeAnswer, DropAnswer, ElasticBounce, FreeFall, Simulator};
-use auxbear::simulate::drop::ensemble::{self, Finished, Member, Plan};
+use auxbear::simulate::ensemble::{self, Finished, Member, Plan};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, RaceConstants};
 use model::bearing::ball::{BallConstants, BallMotion, BallReaction};
@@ -151,6 +151,7 @@ fn simulate(
             until_rolling: false,
             steps: Steps::Explicit,
             interval: duration,
+            taps: &[],
             interrupt: &AtomicBool::new(false),
             progress: &|_| {},
         },
@@ -252,6 +253,7 @@ pub(super) fn falling_machine(
             mount_parts: MountParts::NONE,
             surfaces: None,
             warm: None,
+            fixture: None,
         }],
         gravity,
         speed: 0.0,
@@ -363,6 +365,7 @@ pub(super) fn constants(
             mount_parts: MountParts::NONE,
             surfaces: None,
             warm: None,
+            fixture: None,
         }],
         gravity,
         speed,

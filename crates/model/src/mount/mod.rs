@@ -144,6 +144,14 @@ pub struct MountReaction<R> {
 }
 
 impl<R: Real> MountReaction<R> {
+    /// A force that comes without heat, N.
+    #[inline(always)]
+    pub fn of(force: Vec2<R>) -> Self {
+        MountReaction {
+            force,
+            heats: [R::zero(); HEATS.len()],
+        }
+    }
     /// All heat, W.
     #[inline(always)]
     pub fn heat(&self) -> R {

@@ -39,7 +39,7 @@ pub struct TorqueTables {
 /// Constants of a rotor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorConstants {
-    /// Its coordinates, one at least.
+    /// Its coordinates; none of one that only turns: the flywheel of a rig, or the rotor that slides in a bore there.
     pub coordinates: Vec<Coordinate>,
     /// Gyroscopic matrix G row by row, symmetric; empty where there is none.
     pub gyroscopic: Vec<f64>,
@@ -96,6 +96,15 @@ impl RotorConstants {
             places: Vec::new(),
         }
     }
+    /// A rotor that only turns: polar inertia, kg m²; without effect, and zero, where its spin is held.
+    pub fn turning(polar_inertia: f64, spin_held: bool) -> Self {
+        RotorConstants {
+            coordinates: Vec::new(),
+            polar_inertia: if spin_held { 0.0 } else { polar_inertia },
+            spin_held,
+            ..Self::point(1.0, 1.0, 0.0)
+        }
+    }
     /// Adds unbalances to a rotor without any, whose polar inertia is that of the whole rotor about its axis, these masses in it.
     ///
     /// Formula: N = M⁻¹ Σ u e^{jδ} φ,  I_G = I_p - NᴴMN
@@ -139,13 +148,12 @@ impl RotorConstants {
         let rows = self.places.iter().all(|row| row.len() == n);
         let matrices = [&self.gyroscopic, &self.damping, &self.damping_rotating];
         let whole = |matrix: &&Vec<f64>| matrix.is_empty() || matrix.len() == n * n;
-        if n == 0 {
-            Some("a rotor has a coordinate")
-        } else if !rows {
+        let inert = self.polar_inertia > 0.0 || n == 0 && self.spin_held;
+        if !rows {
             Some("a place has an entry for each coordinate")
         } else if !matrices.iter().all(whole) {
             Some("a matrix has a row and a column for each coordinate")
-        } else if !self.coordinates.iter().all(|own| own.mass > 0.0) || self.polar_inertia <= 0.0 {
+        } else if !self.coordinates.iter().all(|own| own.mass > 0.0) || !inert {
             Some("masses and inertias are positive")
         } else {
             None

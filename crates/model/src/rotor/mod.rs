@@ -213,7 +213,7 @@ impl<R: Real> Rotor<R> {
         } else {
             let driving = outside + (self.drive[0] - self.drive[1] * motion.spin);
             let all = others + driving;
-            let rate = if turns {
+            let rate = if turns || n == 0 {
                 all / (self.polar_inertia + shaft.inertia)
             } else {
                 all * self.inverse_polar_inertia

@@ -35,19 +35,19 @@ impl RotorAt {
     pub fn spin(&self) -> usize {
         self.angle() + 1
     }
-    /// Names of the channels: of a point its own, else those of its modes.
-    pub fn names(&self) -> Vec<String> {
+    /// Names of the channels, of a rotor of that name: of a point its own, else those of its modes.
+    pub fn names(&self, rotor: &str) -> Vec<String> {
         let mut names = Vec::with_capacity(self.channels());
         for name in ["x", "y", "x_speed", "y_speed"] {
             for k in 1..=self.coordinates {
                 names.push(if self.coordinates == 1 {
-                    format!("rotor.{name}")
+                    format!("{rotor}.{name}")
                 } else {
-                    format!("rotor.mode_{k}.{name}")
+                    format!("{rotor}.mode_{k}.{name}")
                 });
             }
         }
-        names.extend(["rotor.angle", "rotor.speed"].map(String::from));
+        names.extend(["angle", "speed"].map(|name| format!("{rotor}.{name}")));
         names
     }
     /// Motion of the rotor in a state.

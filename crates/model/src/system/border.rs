@@ -52,6 +52,9 @@ pub(super) fn solve<R: Real>(a: &[R], n: usize, side: &mut [R]) {
 /// u of a body's velocities, and of its position, whose right-hand sides stand there.
 #[inline(always)]
 pub(super) fn follow<R: Real>(side: &mut [R], body: BodyAt, velocity: [R; 2], inverse_g: R) {
+    if body == BodyAt::STILL {
+        return;
+    }
     let channels = body.centre().into_iter().zip(body.velocity());
     for ((place, rate), velocity) in channels.zip(velocity) {
         side[place] = (side[place] + velocity) * inverse_g;

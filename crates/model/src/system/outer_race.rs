@@ -12,9 +12,8 @@
 //! the moments, so the exact form is a check and not an identity. Where a race moves, the work `other`
 //! carries its part.
 
-use super::layout::Layout;
-use crate::bearing::{self, BearingEnergy};
-use physics::rolling::RollingSet;
+use super::machine::RotorMachine;
+use crate::bearing;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
 
 /// Works by the moments on the races that a spin-up keeps, in the order of their channels.
@@ -48,43 +47,28 @@ pub struct OuterRaceEnergy {
     pub largest_path: f64,
 }
 
-impl OuterRaceEnergy {
-    /// From the ledgers of two states (start, end) of a system that keeps [`WORKS`], with the final speed Ω0 of the inner
-    /// race, rad/s, and the energy of balls, cage and contacts in a state.
+impl RotorMachine {
+    /// From the ledgers of two states (start, end) of a rig, whose race has its final speed Ω0 at the end.
     ///
     /// The printed and the corrected form and the bounds of the path term take the balls to have been at rest at the
     /// start and to roll at the end.
-    pub fn between(
-        layout: &Layout,
-        set: RollingSet<f64>,
-        final_speed: f64,
-        stored: impl Fn(&[f64]) -> BearingEnergy,
-        [start, end]: [&[f64]; 2],
-    ) -> Self {
+    pub fn outer_race_energy(&self, start: &[f64], end: &[f64]) -> OuterRaceEnergy {
+        let layout = self.layout();
         let flow = |channel: usize| end[channel] - start[channel];
-        let (outer_work, path, other) = (
-            flow(layout.work(1)),
-            flow(layout.work(2)),
-            flow(layout.work(3)),
-        );
+        let stored = |state: &[f64]| self.bearing_content(0, state).sum();
+        let [outer_work, path, other] = [1, 2, 3].map(|work| flow(layout.work(work)));
         let by_outer_race = SpinUpEnergy {
-            set,
-            final_speed,
+            set: self.constants.bearings[0].bearing.set(),
+            final_speed: end[layout.bearings[0].inner.spin()],
             outer_moment_work: outer_work,
         };
         let (least_path, largest_path) = by_outer_race.path_term_bounds();
+        let heats = 0..bearing::HEATS.len();
         OuterRaceEnergy {
-            dissipated: (0..bearing::HEATS.len())
-                .map(|kind| flow(layout.heat(kind)))
-                .sum(),
+            dissipated: heats.map(|kind| flow(layout.heat(kind))).sum(),
             printed: by_outer_race.printed_loss(),
             corrected: by_outer_race.rolling_loss(),
-            exact: spin_up_loss(
-                outer_work,
-                other,
-                path,
-                stored(end).sum() - stored(start).sum(),
-            ),
+            exact: spin_up_loss(outer_work, other, path, stored(end) - stored(start)),
             path,
             least_path,
             path_behind_the_race: by_outer_race.path_term_behind_the_race(),

@@ -16,9 +16,7 @@ use super::sampling::Peak;
 use crate::bearing::{BearingConstants, PlanarConstants};
 use crate::motion::Motion;
 use physics::traction::SlidingContact;
-use solve::{Machine, Step};
 use std::f64::consts::PI;
-use std::ops::Range;
 
 /// Points of a ring.
 const POINTS: usize = 72;
@@ -128,27 +126,6 @@ impl RaceRecord {
             }
         }
         due
-    }
-
-    /// Looks at the only bearing of a system where it is time: the bearing, its own channels, the probe of its largest load and the first of its
-    /// largest skids, the motion of its races in a state.
-    pub fn watch<M: Machine>(
-        &mut self,
-        step: &mut Step<M>,
-        (bearing, own, [load, skid]): (&BearingConstants, Range<usize>, [usize; 2]),
-        motion: impl Fn(&[f64]) -> Motion<f64>,
-    ) {
-        let (time, load) = (step.end, step.end_probe(load));
-        let skids = [0, 1].map(|race: usize| step.end_probe(skid + race));
-        if self.is_due(time, load, skids) {
-            let state = step.state(1.0);
-            self.look(&Seen {
-                bearing,
-                time,
-                motion: motion(state),
-                state: &state[own],
-            });
-        }
     }
 
     /// Looks at the balls.

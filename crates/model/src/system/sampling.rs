@@ -24,6 +24,11 @@ impl Peak {
             *self = Peak { value, time };
         }
     }
+    /// Takes a larger size of a probe at the ends of a step.
+    pub fn raise_at_ends<M: Machine>(&mut self, step: &Step<M>, probe: usize) {
+        self.raise(step.start_probe(probe).abs(), step.start);
+        self.raise(step.end_probe(probe).abs(), step.end);
+    }
 }
 
 /// Means of some probes over equal periods that end with the run, by trapezoids over the steps; and the range of a channel

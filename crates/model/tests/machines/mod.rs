@@ -317,6 +317,7 @@ pub fn reference() -> MachineConstants {
             mount_parts: MountParts::NONE,
             surfaces: None,
             warm: None,
+            fixture: None,
         }],
         gravity: vec2(0.0, -G),
         speed: 400.0 * PI,

@@ -5,12 +5,13 @@ use super::bench::{
 };
 use crate::machines::{settings, vec2};
 use model::bearing::{BearingConstants, LubricantConstants};
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
+use model::system::machine::simulate::{Runs, Shape, simulate_on};
 use model::system::rig::layout::{
     BEARING_HEAT, HOUSING, INNER_MOMENT, MOMENTUM_RATE, OUTER_MOMENT, SHAFT, TEMPERATURE,
 };
-use model::system::rig::record::Keep;
-use model::system::rig::simulate::{Run, simulate_on};
-use model::system::rig::{Engagement, Program, Record, RigConstants, RigMachine};
+use model::system::rig::{Engagement, Program, RigConstants};
 use number::Level;
 use physics::lubricant_state::FilmHeating;
 use solve::{Steps, Stop};
@@ -49,7 +50,7 @@ fn energy_and_angular_momentum_close() {
             (concentric, "concentric"),
         ] {
             let run = run(make(bearing.clone(), quick()), 0.08, 1e-5);
-            assert!(run.record.locked_at().is_some());
+            assert!(run.record.rig().locked_at().is_some());
             closes(&run, &format!("{fidelity} {place}"));
         }
     }
@@ -130,8 +131,8 @@ fn heat_that_films_keep_reaches_the_bearing_when_they_give_it() {
         let run = run(c, 0.3, 1e-6);
         let heat: f64 = (0..model::bearing::HEATS.len()).map(|k| run.heat(k)).sum();
         let in_films = |state: &[f64]| {
-            let own = &state[run.machine.layout().bearing()];
-            let at = run.machine.constants.bearing.lubricant_at(own);
+            let own = &state[run.machine.layout().bearings[0].own()];
+            let at = run.machine.constants.bearings[0].bearing.lubricant_at(own);
             films.heat_capacity * at.expect("it has a state").film_temperature_rise
         };
         let rows: Vec<(f64, f64)> = (run.record.rows())
@@ -161,8 +162,8 @@ fn turned(constants: &RigConstants, angle: f64) -> RigConstants {
     let (sine, cosine) = angle.sin_cos();
     let turn = |v: number::Vec2<f64>| vec2(cosine * v.x - sine * v.y, sine * v.x + cosine * v.y);
     let mut c = constants.clone();
-    c.race.load_direction = turn(c.race.load_direction);
-    housing(&mut c).gravity = turn(housing(&mut c).gravity);
+    c.load_direction = turn(c.load_direction);
+    c.gravity = turn(c.gravity);
     match &mut c.bearing {
         BearingConstants::Planar(bearing) => {
             bearing.ball.gravity = turn(bearing.ball.gravity);
@@ -212,7 +213,7 @@ fn the_weight_hangs_on_the_balls() {
         // the mean load of the last half is the weight; what rings at the start is the centrifugal force of the balls
         let loads: Vec<f64> = (run.record.rows())
             .filter(|row| row.time > 0.01)
-            .map(|row| row.probe[model::system::rig::layout::OUTER_FORCE])
+            .map(|row| row.probe[model::system::rig::layout::INNER_FORCE])
             .collect();
         let mean = loads.iter().sum::<f64>() / loads.len() as f64;
         // cage and, where they roll, balls: up to 0.2 N more
@@ -227,7 +228,7 @@ fn at_one_speed_both_moments_are_that_of_the_law() {
         let mut c = rig(bearing, Program::coast_down(SPEED, Some(5.0)));
         clutch(&mut c).flywheel.inertia = 1e3;
         let run = run(c, 0.4, 1e-4);
-        let means = run.record.late_means(SPEED).expect("turns");
+        let means = run.record.rig().turns.late_means(SPEED).expect("turns");
         // what creep and pockets take besides is in a measured law, not in this one
         assert!(
             (means.inner_moment / means.outer_moment - 1.0).abs() < 5e-3,
@@ -243,25 +244,24 @@ fn at_one_speed_both_moments_are_that_of_the_law() {
 #[test]
 fn a_run_gives_the_same_bits_on_every_level_of_the_vector_unit() {
     let c = rig(BearingConstants::Planar(balls()), quick());
-    let machine = RigMachine::new(c).expect("the rig can be built");
+    let machine = RotorMachine::on_rig(c).expect("the rig can be built");
     let one = |level: Level| {
-        let mut record = Record::new(&machine, &Keep::rows(0.02, 1e-3));
-        let run = Run {
-            machine: &machine,
-            start: machine.start(),
-            settings: &settings(0.02, 1e-4),
+        let mut record = Record::new(&machine, 0.02, 1e-3, true);
+        let runs = Runs {
+            machines: &[&machine],
+            starts: &[machine.start()],
+            settings: settings(0.02, 1e-4),
             steps: Steps::Explicit,
-            observer: &mut record,
             interrupt: &AtomicBool::new(false),
         };
-        let run = simulate_on(level, run);
+        let run = simulate_on(level, Shape::Balls, runs, &mut [&mut record]).remove(0);
         assert_eq!(run.stop, Stop::Finished);
         record.finish(&machine, run.time, &run.state);
         let rows = record
             .rows()
             .flat_map(|row| [row.state, row.probe].concat());
         let bits: Vec<u64> = rows.map(f64::to_bits).collect();
-        (bits, run.work, record.clutch)
+        (bits, run.work, record.rig().clutch.clone())
     };
     let plain = one(Level::Baseline);
     for level in Level::available().chain([Level::Baseline]) {

@@ -1,13 +1,16 @@
 //! A rig like that of the source paper, and its runs.
 
 use crate::machines::{planar_bearing, settings, vec2};
+use model::auxiliary_bearing::RaceConstants;
 use model::bearing::{
     BearingConstants, PlanarConstants, RollingConstants, SharedMoment, SteadyMoment,
 };
-use model::system::rig::simulate::Run;
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
+use model::system::machine::simulate::{Runs, simulate};
 use model::system::rig::{
-    Arm, ClutchDrive, Disturbance, Drag, Drive, Flywheel, HeatNode, Housing, InnerRace, Keep,
-    Motor, Program, Record, RigConstants, RigMachine, Tap, simulate,
+    Arm, ClutchDrive, Disturbance, Drag, Drive, Flywheel, HeatNode, Housing, Motor, Program,
+    RigConstants, Tap,
 };
 use model::table::Table;
 use physics::palmgren::Palmgren;
@@ -90,7 +93,6 @@ pub fn rig(bearing: BearingConstants, program: Program) -> RigConstants {
     };
     let housing = Housing {
         mass: 2.0,
-        gravity: vec2(0.0, -9.81),
         centre_held: false,
         // 20.7 Hz: 2 % in 0.1 s
         arm: Arm {
@@ -110,17 +112,19 @@ pub fn rig(bearing: BearingConstants, program: Program) -> RigConstants {
         },
     };
     RigConstants {
-        race: InnerRace {
+        race: RaceConstants {
             mass: 0.0,
             inertia: 1e-4,
             centre_held: true,
-            load_direction: vec2(0.0, -1.0),
-            gravity: vec2(0.0, 0.0),
+            torque: 0.0,
         },
+        load_direction: vec2(0.0, -1.0),
+        gravity: vec2(0.0, -9.81),
         bearing,
         drive: Drive::Clutch(Box::new(clutch)),
         load: Table::constant(LOAD),
         housing: Some(housing),
+        warm: None,
         target_speed: SPEED,
     }
 }
@@ -157,7 +161,7 @@ pub fn without_drag(mut constants: RigConstants) -> RigConstants {
 
 /// A finished run.
 pub struct Finished {
-    pub machine: RigMachine,
+    pub machine: RotorMachine,
     pub start: Vec<f64>,
     pub ending: Ending,
     pub record: Record,
@@ -170,23 +174,18 @@ pub fn run(constants: RigConstants, end: f64, tolerance: f64) -> Finished {
 
 /// The same with taps.
 pub fn run_with(constants: RigConstants, end: f64, tolerance: f64, taps: &[Tap]) -> Finished {
-    let machine = RigMachine::new(constants).expect("the rig can be built");
-    let keep = Keep {
-        end,
-        interval: Some(end / 100.0),
-        taps,
-    };
-    let mut record = Record::new(&machine, &keep);
+    let machine = RotorMachine::on_rig(constants).expect("the rig can be built");
+    let mut record = Record::with_taps(&machine, end, Some(end / 100.0), taps);
     let never = AtomicBool::new(false);
     let settings = settings(end, tolerance);
-    let ending = simulate(Run {
-        machine: &machine,
-        start: machine.start(),
-        settings: &settings,
+    let runs = Runs {
+        machines: &[&machine],
+        starts: &[machine.start()],
+        settings,
         steps: Steps::Explicit,
-        observer: &mut record,
         interrupt: &never,
-    });
+    };
+    let ending = simulate(runs, &mut [&mut record]).remove(0);
     record.finish(&machine, ending.time, &ending.state);
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));

@@ -29,7 +29,7 @@ fn the_heat_of_a_slip_is_that_of_an_inelastic_impact() {
         assert!((run.end()[SHAFT.spin()] / speed - 1.0).abs() < 1e-12);
         assert_eq!(run.end()[SHAFT.spin()], run.end()[FLYWHEEL.spin()]);
         // locked when the capacity has turned the shaft to that speed
-        let locked = run.record.locked_at().expect("locks");
+        let locked = run.record.rig().locked_at().expect("locks");
         let impulse = shaft * speed;
         let closed = if rate * 0.02 < 0.4 {
             0.01 + (2.0 * impulse / rate).sqrt()
@@ -51,7 +51,13 @@ fn it_locks_once_and_stays_locked() {
         };
         let program = Program::spin_up(SPEED, 0.005, engagement, true);
         let run = run(concentric(bearing, program), 0.1, 1e-5);
-        let kinds: Vec<Clutch> = run.record.clutch.iter().map(|event| event.clutch).collect();
+        let kinds: Vec<Clutch> = run
+            .record
+            .rig()
+            .clutch
+            .iter()
+            .map(|event| event.clutch)
+            .collect();
         assert_eq!(
             kinds,
             [
@@ -60,13 +66,13 @@ fn it_locks_once_and_stays_locked() {
                 Clutch::Locked
             ]
         );
-        let locked = run.record.locked_at().expect("locks");
+        let locked = run.record.rig().locked_at().expect("locks");
         for row in run.record.rows().filter(|row| row.time > locked) {
             assert_eq!(row.probe[CLUTCH_SLIP], 0.0);
             assert!(row.probe[DRIVE_MOMENT].abs() < row.probe[CLUTCH_CAPACITY]);
         }
         // the peak is that of the last instant of slipping
-        let peak = run.record.acceleration;
+        let peak = run.record.rig().acceleration;
         assert!((peak.time - locked).abs() < 1e-12, "{peak:?} {locked}");
         let after = run
             .record
@@ -100,7 +106,13 @@ fn it_gives_way_when_overloaded_and_locks_again() {
     c.race.inertia = 1e-3;
     let inertia = c.race.inertia + frictionless().set.inner_inertia();
     let run = run(c, 10.0, 1e-7);
-    let kinds: Vec<Clutch> = run.record.clutch.iter().map(|event| event.clutch).collect();
+    let kinds: Vec<Clutch> = run
+        .record
+        .rig()
+        .clutch
+        .iter()
+        .map(|event| event.clutch)
+        .collect();
     assert_eq!(
         kinds,
         [
@@ -109,13 +121,13 @@ fn it_gives_way_when_overloaded_and_locks_again() {
             Clutch::Locked
         ],
         "{:?}",
-        run.record.clutch
+        run.record.rig().clutch
     );
     // while it slips the shaft has the acceleration of the capacity
-    let slips = run.record.clutch[1];
+    let slips = run.record.rig().clutch[1];
     assert!(slips.time > 0.01 && slips.time < 0.2, "{slips:?}");
     for row in run.record.rows() {
-        if row.time > slips.time && row.time < run.record.clutch[2].time {
+        if row.time > slips.time && row.time < run.record.rig().clutch[2].time {
             assert!((row.probe[ACCELERATION] * inertia / 0.02 - 1.0).abs() < 1e-9);
             assert!(row.probe[CLUTCH_SLIP] > 0.0);
         }
@@ -135,7 +147,7 @@ fn a_clutch_too_weak_for_the_drags_never_moves_the_shaft_far() {
         0.5,
         1e-6,
     );
-    assert_eq!(run.record.locked_at(), None);
+    assert_eq!(run.record.rig().locked_at(), None);
     // 2 N mm against 5 N mm of support drag that fades at rest: it creeps
     assert!(run.end()[SHAFT.spin()] < 0.5, "{}", run.end()[SHAFT.spin()]);
     assert!(run.heat(DRIVE_HEAT) > 0.1);
@@ -159,10 +171,10 @@ fn a_faster_shaft_drives_the_flywheel() {
     for bearing in fidelities() {
         let run = run(concentric(bearing, program.clone()), 0.4, 1e-5);
         assert_eq!(
-            run.record.clutch[1].clutch,
+            run.record.rig().clutch[1].clutch,
             Clutch::Slipping { direction: -1.0 }
         );
-        assert!(run.record.locked_at().is_some());
+        assert!(run.record.rig().locked_at().is_some());
         assert!(
             run.end()[SHAFT.spin()] < 0.0,
             "the flywheel is the heavier one"
@@ -193,9 +205,9 @@ fn balls_that_hit_their_pockets_do_not_keep_an_overloaded_clutch_from_a_decision
     };
     let [_, planar] = fidelities();
     let run = run(concentric(planar, program), 0.05, 1e-5);
-    println!("{} changes", run.record.clutch.len());
-    assert!(run.record.clutch.len() > 1, "it does slip");
-    for pair in run.record.clutch.windows(2) {
+    println!("{} changes", run.record.rig().clutch.len());
+    assert!(run.record.rig().clutch.len() > 1, "it does slip");
+    for pair in run.record.rig().clutch.windows(2) {
         assert!(pair[1].time >= pair[0].time && pair[1].clutch != pair[0].clutch);
     }
     assert!(run.energy_residual().abs() < 1e-6);

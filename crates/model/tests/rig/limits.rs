@@ -2,9 +2,8 @@
 
 use super::bench::{SPEED, clutch, concentric, housing, rolls};
 use model::bearing::BearingConstants;
-use model::system::rig::{
-    Action, Engagement, Program, RampError, Refusal, RigMachine, Start, engagement_ramp,
-};
+use model::system::machine::RotorMachine;
+use model::system::rig::{Action, Engagement, Program, RampError, Refusal, Start, engagement_ramp};
 use model::table::Table;
 
 fn spin_up(largest: f64) -> Program {
@@ -14,7 +13,7 @@ fn spin_up(largest: f64) -> Program {
 fn refusal(change: impl Fn(&mut model::system::rig::RigConstants)) -> Option<Refusal> {
     let mut c = concentric(BearingConstants::Rolling(rolls()), spin_up(5.0));
     change(&mut c);
-    RigMachine::new(c).err()
+    RotorMachine::on_rig(c).err()
 }
 
 #[test]
@@ -40,7 +39,7 @@ fn constants_without_meaning_are_refused() {
     let varies = Table::through(vec![(0.0, 1.0), (1.0, 2.0)]).expect("rises");
     let changes = refusal(|c| c.load = varies.clone());
     assert_eq!(changes, Some(Refusal::LoadChanges));
-    let direction = refusal(|c| c.race.load_direction.x = 1.0);
+    let direction = refusal(|c| c.load_direction.x = 1.0);
     assert_eq!(direction, Some(Refusal::Direction));
     let order = refusal(|c| {
         clutch(c).program.actions = vec![(1.0, Action::MotorOff), (0.5, Action::Disengage)];

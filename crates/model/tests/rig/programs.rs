@@ -19,11 +19,13 @@ fn the_three_tests_of_the_paper_have_their_accelerations() {
         };
         let rate = engagement_ramp(&with(1.0), wanted, SPEED).expect("found");
         let run = run(with(rate), 0.4, 1e-6);
-        let peak = run.record.acceleration.value;
+        let peak = run.record.rig().acceleration.value;
         assert!((peak / wanted - 1.0).abs() < 1e-3, "{peak} {wanted}");
         // Ω rises with the square of the time, from when the capacity exceeds the drags
-        let lock = run.record.locked_at().expect("locks");
-        let half = run.record.time_to_50_percent().expect("half");
+        let lock = run.record.rig().locked_at().expect("locks");
+        let half = run.record.bearings[0]
+            .inner_race_time_to_50_percent()
+            .expect("half");
         let took = (lock - half) / (1.0 - 0.5_f64.sqrt());
         // drags that grow with speed; the flywheel yields 0.2 % where the motor does not hold it
         assert!((took / time - 1.0).abs() < 0.03, "{took} {time}");
@@ -88,7 +90,7 @@ fn a_viscous_drag_slows_by_an_exponential_with_the_flywheel_locked_to_the_shaft(
     let run = run(c, 2.0, 1e-8);
     let expected = SPEED * (-2.0 * 1e-3 / inertia).exp();
     assert!((run.end()[SHAFT.spin()] / expected - 1.0).abs() < 1e-6);
-    assert_eq!(run.record.clutch.len(), 1);
+    assert_eq!(run.record.rig().clutch.len(), 1);
 }
 
 #[test]
@@ -115,10 +117,10 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
     .map(|bearing| {
         let run = run(concentric(bearing, program()), 0.08, 1e-5);
         let energy = run.machine.outer_race_energy(&run.start, run.end());
-        let lock = run.record.locked_at().expect("locks");
+        let lock = run.record.rig().locked_at().expect("locks");
         [
             lock,
-            run.record.acceleration.value,
+            run.record.rig().acceleration.value,
             energy.dissipated,
             energy.path,
         ]
@@ -137,7 +139,12 @@ fn a_ramp_is_held() {
         clutch(&mut c).motor.torque_limit = 100.0;
         clutch(&mut c).motor.gain = 50.0;
         let run = run(c, 0.15, 1e-5);
-        assert_eq!(run.record.clutch.len(), 1, "{:?}", run.record.clutch);
+        assert_eq!(
+            run.record.rig().clutch.len(),
+            1,
+            "{:?}",
+            run.record.rig().clutch
+        );
         let at = |time: f64| {
             let row = run
                 .record
@@ -152,7 +159,9 @@ fn a_ramp_is_held() {
         assert!((speed - 1500.0 * 0.05).abs() < 3.0, "{speed}");
         let (speed, acceleration) = at(0.145);
         assert!((speed / SPEED - 1.0).abs() < 1e-3 && acceleration.abs() < 1.0);
-        let (_, probe) = run.machine.inspect(&run.record.mode, 0.15, run.end());
+        let (_, probe) = run
+            .machine
+            .inspect_in(&run.record.rig().mode, 0.15, run.end());
         assert!(probe[CAGE_SLIP].abs() < 0.01);
     }
 }
@@ -169,9 +178,9 @@ fn a_test_is_repeated_after_rest() {
         1.5,
         1e-6,
     );
-    let locks: Vec<f64> = run.record.locks().collect();
-    assert_eq!(locks.len(), 2, "{:?}", run.record.clutch);
-    let opened = (run.record.clutch.iter().rev())
+    let locks: Vec<f64> = run.record.rig().locks().collect();
+    assert_eq!(locks.len(), 2, "{:?}", run.record.rig().clutch);
+    let opened = (run.record.rig().clutch.iter().rev())
         .find(|event| event.clutch == Clutch::Open)
         .expect("opens");
     assert!((opened.time - 0.11).abs() < 1e-12);
@@ -211,6 +220,7 @@ fn a_motor_brings_the_flywheel_to_speed_first() {
     let run = run(c, 4.0, 1e-6);
     assert!(
         run.record
+            .rig()
             .locked_at()
             .is_some_and(|time| (3.5..3.6).contains(&time))
     );

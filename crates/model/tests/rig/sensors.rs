@@ -165,7 +165,7 @@ fn a_converter_samples_one_channel_after_the_other_and_changes_nothing() {
         let c = rig(bearing, program());
         let (plain, tapped) = (run(c.clone(), 0.05, 1e-4), run_with(c, 0.05, 1e-4, &taps));
         assert_eq!(plain.end(), tapped.end());
-        let lists: Vec<_> = tapped.record.taps.iter().collect();
+        let lists: Vec<_> = tapped.record.rig().taps.iter().collect();
         assert_eq!(lists.len(), 5);
         for (tap, samples) in &lists[..4] {
             let last = tap.time(samples.len() - 1);

@@ -3,8 +3,10 @@
 use super::rig::{BEARING, Run, free_bearing, greased_bearing, machine, rolling, run};
 use crate::machines::{separations, vec2};
 use model::bearing::{BearingConstants, PlanarConstants, Separation};
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
 use model::system::rig::layout::{CAGE_SLIP, DETAIL, INNER, INNER_MOMENT, OUTER_MOMENT};
-use model::system::rig::{Drive, Keep, Record, RigConstants, RigMachine, SlidingRotor};
+use model::system::rig::{Drive, RigConstants, SlidingRotor};
 use model::table::Table;
 use physics::traction::{TanhTraction, Traction};
 
@@ -37,8 +39,11 @@ fn ends_rolling(run: &Run) -> bool {
 fn after_a_step_the_exact_energy_form_is_the_true_loss_and_the_printed_one_is_not() {
     let run = run(skidding(), 0.03, 1e-5);
     assert!(ends_rolling(&run));
-    assert_eq!(run.record.time_to_95_percent(), Some(0.0));
-    let cage = run.record.cage_time_to_95_percent();
+    assert_eq!(
+        run.record.bearings[0].inner_race_time_to_95_percent(),
+        Some(0.0)
+    );
+    let cage = run.record.bearings[0].cage_time_to_95_percent();
     assert!(
         cage.is_some_and(|time| (1e-3..0.02).contains(&time)),
         "{cage:?}"
@@ -78,7 +83,7 @@ fn moments_differ_by_what_balls_and_cage_gain(bearing: PlanarConstants) {
     let off = energy.exact / energy.dissipated - 1.0;
     assert!(off.abs() < 1e-4, "{energy:?}");
     let momentum = |row: &model::system::sampling::Row| {
-        run.machine.bearing_content(row.state).angular_momentum
+        run.machine.bearing_content(0, row.state).angular_momentum
     };
     // t_I - t_O = dL/dt at instants, dL/dt by the rates of the states
     for row in run.record.rows().step_by(7) {
@@ -140,11 +145,11 @@ fn a_mirrored_machine_gives_a_mirrored_answer() {
         let mut c = planar_machine(bearing, Drive::ramp(1e5, sign * 1000.0));
         c.race.centre_held = false;
         c.load = Table::constant(150.0);
-        let machine = RigMachine::new(c).expect("can be built");
+        let machine = RotorMachine::on_rig(c).expect("can be built");
         let start = machine.start();
         // equal steps: step control looks at components
         let settings = crate::machines::equal_steps(4e-3, 5e-7);
-        let mut record = Record::new(&machine, &Keep::peaks(4e-3));
+        let mut record = Record::new(&machine, 4e-3, 4e-3, false);
         let end = super::rig::observe(&machine, &start, &settings, &mut record).state;
         let layout = machine.layout().clone();
         [
@@ -180,9 +185,8 @@ fn balls_with_ample_grip_equal_the_rolling_bearing() {
     let time = |bearing: BearingConstants| {
         let mut c = machine(bearing, rotor(0.2), 1000.0);
         c.load = Table::constant(80.0);
-        run(c, 0.04, 1e-5)
-            .record
-            .time_to_95_percent()
+        run(c, 0.04, 1e-5).record.bearings[0]
+            .inner_race_time_to_95_percent()
             .expect("comes to speed")
     };
     let (balls, rolls) = (
@@ -202,9 +206,9 @@ fn a_bearing_starts_in_balance_under_its_load() {
         ball.outer_track = ball.inner_track + 2.0 * ball.radius - interference;
         let mut c = planar_machine(bearing, Drive::Torque(Table::constant(0.0)));
         c.race.centre_held = false;
-        c.race.load_direction = vec2(0.6, -0.8);
+        c.load_direction = vec2(0.6, -0.8);
         c.load = Table::constant(load);
-        let machine = RigMachine::new(c).expect("can be built");
+        let machine = RotorMachine::on_rig(c).expect("can be built");
         let state = machine.start();
         let (rate, probe) = machine.inspect_at(0.0, &state);
         let force = 20.4e-3 * rate[INNER.velocity()[0]].hypot(rate[INNER.velocity()[1]]);
@@ -229,7 +233,7 @@ fn a_loaded_race_free_to_move_closes_its_ledger() {
     bearing.ball.gravity = vec2(0.0, -9.81);
     let mut c = planar_machine(bearing, rotor(0.2));
     c.race.centre_held = false;
-    c.race.gravity = vec2(0.0, -9.81);
+    c.gravity = vec2(0.0, -9.81);
     c.load = Table::through(vec![(0.0, 100.0), (5e-3, 300.0)]).expect("rises");
     let run = run(c, 0.02, 1e-6);
     assert!(run.end[INNER.spin()] > 900.0, "{}", run.end[INNER.spin()]);

@@ -3,9 +3,10 @@
 use super::rig::{BEARING, greased_bearing, machine, observe};
 use crate::machines::settings;
 use model::bearing::BearingConstants;
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
+use model::system::rig::Drive;
 use model::system::rig::layout::{CAGE_SLIP, INNER};
-use model::system::rig::record::{Keep, Record};
-use model::system::rig::{Drive, RigMachine};
 use model::table::Table;
 use physics::traction::{FourParameterTraction, TanhTraction, Traction};
 
@@ -20,14 +21,14 @@ fn cage_slips(traction: Traction<f64>, rolling: bool) -> [f64; 2] {
     let mut c = machine(BearingConstants::Planar(bearing), Drive::step(SPEED), SPEED);
     c.race.centre_held = false;
     c.load = Table::constant(LOAD);
-    let machine = RigMachine::new(c).expect("can be built");
+    let machine = RotorMachine::on_rig(c).expect("can be built");
     let mut state = machine.start();
     state[INNER.spin()] = SPEED;
     if rolling {
         start_rolling.roll(&mut state[BEARING..], SPEED);
     }
     [0.06, 0.02].map(|time| {
-        let mut record = Record::new(&machine, &Keep::peaks(time));
+        let mut record = Record::new(&machine, time, time, false);
         state = observe(&machine, &state, &settings(time, 1e-5), &mut record).state;
         let (_, probe) = machine.inspect_at(time, &state);
         probe[CAGE_SLIP]

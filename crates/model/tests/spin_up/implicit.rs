@@ -5,7 +5,8 @@ use crate::machines::missing::{Looked, missing};
 use crate::machines::settings;
 use model::bearing::BearingConstants;
 use model::bearing::tangents::Known;
-use model::system::rig::{Drive, Rig, RigConstants, RigMachine, SlidingRotor};
+use model::system::machine::{Machines, RotorMachine};
+use model::system::rig::{Drive, RigConstants, SlidingRotor};
 use model::table::Table;
 use solve::{Flow, Machine, Observer, Step, Steps};
 
@@ -41,8 +42,8 @@ struct States {
     kept: Vec<(f64, Vec<f64>)>,
 }
 
-impl Observer<RigMachine> for States {
-    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
+impl Observer<RotorMachine> for States {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         self.seen += 1;
         if self.seen.is_multiple_of(20) {
             self.kept
@@ -53,9 +54,9 @@ impl Observer<RigMachine> for States {
 }
 
 /// 0.1 m/s of a centre or of a surface; positions by what that makes of them in a step.
-fn unit(machine: &RigMachine, channel: usize, g: f64) -> f64 {
+fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
     let name = machine.channel_name(channel);
-    let BearingConstants::Planar(bearing) = &machine.constants.bearing else {
+    let BearingConstants::Planar(bearing) = &machine.constants.bearings[0].bearing else {
         panic!("it has balls");
     };
     let ball = &bearing.ball;
@@ -81,14 +82,14 @@ fn tangents_of_a_spin_up_miss_no_stiffness() {
     ];
     for (name, drive, oversize) in cases {
         let given = matches!(drive, Drive::Speed(_));
-        let machine = RigMachine::new(loaded(drive, oversize)).expect("it can be built");
+        let machine = RotorMachine::on_rig(loaded(drive, oversize)).expect("it can be built");
         assert_eq!(machine.tangents(), Known::All);
         let mut states = States::default();
         let (start, settings) = (machine.start(), settings(0.08, SCREENING));
         observe_by(Steps::Implicit, &machine, &start, &settings, &mut states);
         assert!(states.kept.len() > 10, "{name}: {}", states.kept.len());
         let looked = |(length, state): &(f64, Vec<f64>)| {
-            missing::<Rig<f64>>(&Looked {
+            missing::<Machines<f64>>(&Looked {
                 machine: &machine,
                 active: machine.layout().ledger(),
                 length: *length,
@@ -118,7 +119,9 @@ const MOST: f64 = 6.0;
 /// What a spin-up is judged by: time to 95 % of rolling of the cage, cage speed at the end, heat of the bearing.
 fn judged(run: &Run) -> [f64; 3] {
     let heat = run.machine.flows(&run.end).heat;
-    let half = run.record.cage_time_to_95_percent().expect("it is fast");
+    let half = run.record.bearings[0]
+        .cage_time_to_95_percent()
+        .expect("it is fast");
     [half, run.end[BEARING + 1], heat]
 }
 

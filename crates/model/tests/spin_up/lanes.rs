@@ -5,8 +5,9 @@ use super::rig::{greased_bearing, machine, observe, palmgren, rolling, shared};
 use crate::machines::counting::ALLOCATIONS;
 use crate::machines::settings;
 use model::bearing::{AccelerationLoss, BearingConstants, SteadyMoment};
-use model::system::rig::record::{Keep, Record};
-use model::system::rig::{Drive, Rig, RigConstants, RigMachine, SlidingRotor};
+use model::system::machine::record::Record;
+use model::system::machine::{Machines, RotorMachine};
+use model::system::rig::{Drive, RigConstants, SlidingRotor};
 use model::table::Table;
 use number::{Level, Real, Task};
 use physics::moment_curve::MomentCurve;
@@ -16,8 +17,8 @@ use std::sync::atomic::AtomicBool;
 /// Every accepted step: its end, and sometimes state and probes in its middle.
 #[derive(Default)]
 struct Bits(Vec<u64>);
-impl Observer<RigMachine> for Bits {
-    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
+impl Observer<RotorMachine> for Bits {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         self.0.push(step.end.to_bits());
         if self.0.len().is_multiple_of(50) {
             let (state, probes) = step.evaluate(0.5);
@@ -28,17 +29,17 @@ impl Observer<RigMachine> for Bits {
     }
 }
 
-struct Side<'a>(&'a [RigMachine], f64);
+struct Side<'a>(&'a [RotorMachine], f64);
 impl Task for Side<'_> {
     type Output = Vec<(Ending, Vec<u64>)>;
     fn run<R: Real>(self) -> Self::Output {
         let Side(machines, end) = self;
-        let starts: Vec<_> = machines.iter().map(RigMachine::start).collect();
+        let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
         let machines: Vec<_> = machines.iter().collect();
         let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
         let never = AtomicBool::new(false);
         let settings = settings(end, 1e-4);
-        let endings = solve::run::<R, Rig<R>, _>(
+        let endings = solve::run::<R, Machines<R>, _>(
             &solve::BOGACKI_SHAMPINE,
             &machines,
             &starts,
@@ -53,7 +54,7 @@ impl Task for Side<'_> {
 
 fn same_bits(constants: impl Fn(usize) -> RigConstants, end: f64) {
     let machines: Vec<_> = (0..8)
-        .map(|i| RigMachine::new(constants(i)).expect("can be built"))
+        .map(|i| RotorMachine::on_rig(constants(i)).expect("can be built"))
         .collect();
     let bits = |run: &(Ending, Vec<u64>)| -> Vec<u64> {
         let state = run.0.state.iter().map(|value| value.to_bits());
@@ -148,11 +149,11 @@ fn a_spin_up_ten_times_longer_allocates_no_more() {
         Drive::step(1000.0),
         1000.0,
     );
-    let machine = RigMachine::new(c).expect("can be built");
+    let machine = RotorMachine::on_rig(c).expect("can be built");
     let start = machine.start();
     let count = |end: f64| {
         let before = ALLOCATIONS.get();
-        let mut record = Record::new(&machine, &Keep::rows(end, end / 50.0));
+        let mut record = Record::new(&machine, end, end / 50.0, true);
         observe(&machine, &start, &settings(end, 1e-4), &mut record);
         assert!(record.row_count() > 49 && machine.dimension() > 50);
         ALLOCATIONS.get() - before

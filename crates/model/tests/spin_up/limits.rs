@@ -2,7 +2,8 @@
 
 use super::rig::{free_bearing, greased_bearing, machine, rolling, run};
 use model::bearing::{AccelerationLoss, BearingConstants, PlanarConstants, RollingConstants};
-use model::system::rig::{Drive, Refusal, RigMachine};
+use model::system::machine::RotorMachine;
+use model::system::rig::{Drive, Refusal};
 use model::table::{Table, TableError};
 use solve::Machine;
 
@@ -21,7 +22,7 @@ fn torque() -> Drive {
 }
 
 fn refusal(bearing: BearingConstants, drive: Drive) -> Option<Refusal> {
-    RigMachine::new(machine(bearing, drive, 1000.0)).err()
+    RotorMachine::on_rig(machine(bearing, drive, 1000.0)).err()
 }
 
 #[test]
@@ -61,7 +62,7 @@ fn what_has_no_meaning_is_refused() {
 
     let mut c = machine(rolls(|_| ()), torque(), 1000.0);
     c.load = Table::through(vec![(0.0, 10.0), (1.0, -1.0)]).expect("rises");
-    let refused = RigMachine::new(c).err();
+    let refused = RotorMachine::on_rig(c).err();
     assert_eq!(refused, Some(Refusal::NegativeLoad));
     assert!(refused.is_some_and(|why| why.to_string().contains("load")));
 }
@@ -101,14 +102,16 @@ fn a_ramp_ends_at_its_speed_and_stays() {
     for speed in [700.0, -700.0] {
         let c = machine(rolls(|_| ()), Drive::ramp(7e4, speed), speed);
         assert_eq!(
-            RigMachine::new(c.clone()).expect("built").landings(),
+            RotorMachine::on_rig(c.clone()).expect("built").landings(),
             [0.01]
         );
         let run = run(c, 0.015, 1e-6);
         let reached = run.end[model::system::rig::layout::INNER.spin()];
         // rounding of the sum of the steps
         assert!((reached - speed).abs() < 1e-9, "{reached}");
-        let half = run.record.time_to_50_percent().expect("reached");
+        let half = run.record.bearings[0]
+            .inner_race_time_to_50_percent()
+            .expect("reached");
         assert!((half - 0.005).abs() < 1e-9, "{half}");
     }
 }
@@ -116,14 +119,14 @@ fn a_ramp_ends_at_its_speed_and_stays() {
 #[test]
 fn every_channel_has_a_name_and_a_scale() {
     for bearing in [planar(greased_bearing()), rolls(|_| ())] {
-        let machine = RigMachine::new(machine(bearing, torque(), 1000.0)).expect("built");
+        let machine = RotorMachine::on_rig(machine(bearing, torque(), 1000.0)).expect("built");
         let mut names: Vec<_> = (0..machine.dimension())
             .map(|channel| {
                 assert!(machine.error_scale(channel) > 0.0);
                 machine.channel_name(channel)
             })
             .collect();
-        assert_eq!(names[5], "bearing.inner_race.speed");
+        assert_eq!(names[7], "bearing.inner_race.speed");
         assert_eq!(names[8], "bearing.cage.angle");
         names.sort();
         names.dedup();

@@ -3,8 +3,9 @@
 use super::rig::{BEARING, Run, greased_bearing, machine, palmgren, rolling, run};
 use crate::machines::lubricant;
 use model::bearing::{BearingConstants, LubricantAt, LubricantConstants, SteadyMoment};
+use model::system::machine::RotorMachine;
 use model::system::rig::layout::{INNER_MOMENT, OUTER_MOMENT, STEADY_MOMENT};
-use model::system::rig::{Drive, Refusal, RigConstants, RigMachine};
+use model::system::rig::{Drive, Refusal, RigConstants};
 use model::system::sampling::Row;
 use model::table::Table;
 use physics::friction::MomentParts;
@@ -43,8 +44,8 @@ fn ball_by_ball(lubricant: Option<LubricantConstants>) -> RigConstants {
 }
 
 fn lubricant_of(run: &Run, state: &[f64]) -> LubricantAt {
-    let own = &state[run.machine.layout().bearing()];
-    let bearing = &run.machine.constants.bearing;
+    let own = &state[run.machine.layout().bearings[0].own()];
+    let bearing = &run.machine.constants.bearings[0].bearing;
     bearing.lubricant_at(own).expect("it has a state")
 }
 
@@ -67,7 +68,7 @@ fn a_rested_grease_starts_low_comes_to_the_law_and_falls_below_it() {
         1e-6,
     );
     let ramp = SPEED / 7200.0;
-    let set = run.machine.constants.bearing.set();
+    let set = run.machine.constants.bearings[0].bearing.set();
     let cage = set.cage_speed(SPEED);
     let MomentParts {
         speed_dependent: m0,
@@ -228,7 +229,7 @@ fn its_states_stand_behind_the_others_with_names() {
                 "lubricant.film_temperature_rise"
             ]
         );
-        let machine = RigMachine::new(constants).expect("can be built");
+        let machine = RotorMachine::on_rig(constants).expect("can be built");
         assert_eq!(machine.layout().ledger(), BEARING + others + 3);
     }
 }
@@ -241,7 +242,7 @@ fn a_state_without_meaning_is_refused() {
     negative.films.as_mut().expect("they warm").conductance = -1.0;
     for wrong in [outside, negative] {
         let constants = rolls(Some(wrong), Drive::ramp(7200.0, SPEED));
-        let refused = RigMachine::new(constants).err();
+        let refused = RotorMachine::on_rig(constants).err();
         assert_eq!(refused, Some(Refusal::LubricantState));
         assert!(refused.is_some_and(|why| why.to_string().contains("lubricant")));
     }

@@ -2,11 +2,13 @@
 
 use super::rig::{observe, race};
 use crate::machines::{settings, vec2};
+use model::auxiliary_bearing::RaceConstants;
 use model::bearing::{BearingConstants, PlanarConstants};
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
 use model::system::rig::capacity::traction_capacity;
 use model::system::rig::layout::{INNER, INNER_LOAD_SUM};
-use model::system::rig::record::{Keep, Record};
-use model::system::rig::{Drive, InnerRace, RigConstants, RigMachine};
+use model::system::rig::{Drive, RigConstants};
 use model::table::Table;
 
 /// Means over the late cage turns of a plateau.
@@ -38,11 +40,13 @@ pub fn plateaus(bearing: &PlanarConstants, load: f64, speeds: &[f64]) -> Vec<Pla
         let ramp = f64::abs(speed - from) / ACCELERATION;
         let constants = RigConstants {
             housing: None,
-            race: InnerRace {
+            warm: None,
+            race: RaceConstants {
                 centre_held: false,
-                load_direction: vec2(0.0, -1.0),
                 ..race()
             },
+            load_direction: vec2(0.0, -1.0),
+            gravity: vec2(0.0, 0.0),
             bearing: BearingConstants::Planar(bearing.clone()),
             drive: Drive::Speed(Table::through(vec![(0.0, from), (ramp, speed)]).expect("rises")),
             load: Table::constant(load),
@@ -50,15 +54,19 @@ pub fn plateaus(bearing: &PlanarConstants, load: f64, speeds: &[f64]) -> Vec<Pla
         };
         let turn = 2.0 * std::f64::consts::PI / (constants.bearing.rolling_cage_ratio() * speed);
         let end = ramp + TURNS * turn.abs();
-        let machine = RigMachine::new(constants).expect("the machine can be built");
+        let machine = RotorMachine::on_rig(constants).expect("the machine can be built");
         let start = state.take().unwrap_or_else(|| machine.start());
-        let mut record = Record::new(&machine, &Keep::peaks(end));
+        let mut record = Record::new(&machine, end, end, false);
         let ending = observe(&machine, &start, &settings(end, 1e-4), &mut record);
-        let means = record.late_means(speed).expect("turns at the speed");
+        let means = record
+            .rig()
+            .turns
+            .late_means(speed)
+            .expect("turns at the speed");
         let (_, probe) = machine.inspect_at(ending.time, &ending.state);
         let capacity = traction_capacity(
             &bearing.traction,
-            &machine.constants.bearing,
+            &machine.constants.bearings[0].bearing,
             speed,
             probe[INNER_LOAD_SUM],
         );

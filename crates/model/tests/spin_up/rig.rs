@@ -1,12 +1,13 @@
 //! Machines and runs of the spin-up tests.
 
 use crate::machines::{planar_bearing, rolling_bearing, settings, vec2};
+use model::auxiliary_bearing::RaceConstants;
 use model::bearing::{BearingConstants, PlanarConstants, SharedMoment, SteadyMoment};
-use model::system::rig::record::{Keep, Record};
-use model::system::rig::simulate::{Run as Simulation, simulate_on};
-use model::system::rig::{Drive, InnerRace, RigConstants, RigMachine};
+use model::system::machine::RotorMachine;
+use model::system::machine::record::Record;
+use model::system::machine::simulate::{Runs, simulate};
+use model::system::rig::{Drive, RigConstants};
 use model::table::Table;
-use number::Level;
 use physics::palmgren::Palmgren;
 use solve::{Ending, Observer, Settings, Steps, Stop};
 use std::sync::atomic::AtomicBool;
@@ -28,13 +29,12 @@ pub fn palmgren() -> Palmgren<f64> {
 }
 
 /// The inner race of the reference machine, without weight.
-pub fn race() -> InnerRace<f64> {
-    InnerRace {
+pub fn race() -> RaceConstants<f64> {
+    RaceConstants {
         mass: 20.4e-3,
         inertia: 3.9e-6,
         centre_held: true,
-        load_direction: vec2(0.0, -1.0),
-        gravity: vec2(0.0, 0.0),
+        torque: 0.0,
     }
 }
 
@@ -71,10 +71,13 @@ pub fn shared(law: SteadyMoment<f64>) -> SharedMoment {
 pub fn machine(bearing: BearingConstants, drive: Drive, speed: f64) -> RigConstants {
     RigConstants {
         race: race(),
+        load_direction: vec2(0.0, -1.0),
+        gravity: vec2(0.0, 0.0),
         bearing,
         drive,
         load: Table::constant(0.0),
         housing: None,
+        warm: None,
         target_speed: speed,
     }
 }
@@ -86,10 +89,10 @@ pub fn rolling() -> model::bearing::RollingConstants {
 
 /// Runs a machine under an observer; it must finish.
 pub fn observe(
-    machine: &RigMachine,
+    machine: &RotorMachine,
     start: &[f64],
     settings: &Settings,
-    observer: &mut dyn Observer<RigMachine>,
+    observer: &mut dyn Observer<RotorMachine>,
 ) -> Ending {
     observe_by(Steps::Explicit, machine, start, settings, observer)
 }
@@ -97,21 +100,20 @@ pub fn observe(
 /// The same by explicit or linearly implicit steps.
 pub fn observe_by(
     steps: Steps,
-    machine: &RigMachine,
+    machine: &RotorMachine,
     start: &[f64],
     settings: &Settings,
-    observer: &mut dyn Observer<RigMachine>,
+    observer: &mut dyn Observer<RotorMachine>,
 ) -> Ending {
     let never = AtomicBool::new(false);
-    let run = Simulation {
-        machine,
-        start: start.to_vec(),
-        settings,
+    let runs = Runs {
+        machines: &[machine],
+        starts: &[start.to_vec()],
+        settings: *settings,
         steps,
-        observer,
         interrupt: &never,
     };
-    let ending = simulate_on(Level::detect(), run);
+    let ending = simulate(runs, &mut [observer]).remove(0);
     assert_eq!(ending.stop, Stop::Finished);
     assert!(ending.state.iter().all(|value| value.is_finite()));
     ending
@@ -124,9 +126,9 @@ pub fn run(constants: RigConstants, end: f64, tolerance: f64) -> Run {
 
 /// The same by explicit or linearly implicit steps.
 pub fn run_by(steps: Steps, constants: RigConstants, end: f64, tolerance: f64) -> Run {
-    let machine = RigMachine::new(constants).expect("the machine can be built");
+    let machine = RotorMachine::on_rig(constants).expect("the machine can be built");
     let start = machine.start();
-    let mut record = Record::new(&machine, &Keep::rows(end, end / 100.0));
+    let mut record = Record::new(&machine, end, end / 100.0, true);
     let settings = settings(end, tolerance);
     let ending = observe_by(steps, &machine, &start, &settings, &mut record);
     record.finish(&machine, ending.time, &ending.state);
@@ -141,7 +143,7 @@ pub fn run_by(steps: Steps, constants: RigConstants, end: f64, tolerance: f64) -
 
 /// A finished run.
 pub struct Run {
-    pub machine: RigMachine,
+    pub machine: RotorMachine,
     pub start: Vec<f64>,
     pub end: Vec<f64>,
     pub record: Record,

@@ -268,7 +268,7 @@ fn a_race_free_to_move_closes_its_ledger_too() {
     bearing.moment = SteadyMoment::Palmgren(palmgren());
     let mut c = rolling_machine(bearing, saturated(0.2), 80.0);
     c.race.centre_held = false;
-    c.race.gravity = vec2(0.0, -9.81);
+    c.gravity = vec2(0.0, -9.81);
     let run = run(c, 0.04, 1e-7);
     assert!(run.end[INNER.centre()[1]] < -0.2e-6, "pressed down");
     let (energy, momentum) = residuals(&run);
@@ -311,7 +311,7 @@ fn spin_up_times_are_those_of_the_reference() {
         let mut c = rolling_machine(bearing, saturated(value("mu")), value("W"));
         // the record finds 95 % of the target
         c.target_speed = value("Om_end") / 0.95;
-        let time = run(c, 0.1, 1e-10).record.time_to_95_percent();
+        let time = run(c, 0.1, 1e-10).record.bearings[0].inner_race_time_to_95_percent();
         match (time, field(part, "t")) {
             // the reference's own tolerance
             (Some(time), Some(reference)) => {
@@ -332,7 +332,11 @@ fn late_means_begin_when_the_race_is_at_its_speed() {
         let mut bearing = rolling();
         bearing.moment = SteadyMoment::Palmgren(super::rig::palmgren());
         let constants = rolling_machine(bearing, Drive::ramp(20_000.0, 1000.0), 0.0);
-        run(constants, end, 1e-6).record.late_means(1000.0)
+        run(constants, end, 1e-6)
+            .record
+            .rig()
+            .turns
+            .late_means(1000.0)
     };
     assert_eq!(of(0.06), None, "less than a turn at full speed");
     let late = of(0.1).expect("three turns");

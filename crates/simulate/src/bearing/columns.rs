@@ -2,6 +2,9 @@
 
 use crate::bearing::film::Films;
 use crate::bearing::run::BearingRun;
+use model::auxiliary_bearing::probe::{
+    LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+};
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, LubricantAt, Separation};
 use model::body::BodyAt;
@@ -81,9 +84,9 @@ impl<'a> Table<'a> {
         let BearingConstants::Planar(bearing) = run.bearing else {
             return;
         };
-        let [pocket, land] = run.cage_forces;
+        let [pocket, land] = [LARGEST_POCKET_FORCE, LAND_FORCE].map(|kind| run.at.probe(kind));
         let has_cage = !full_complement(run.bearing);
-        let place = run.states.start + CAGE_PLACE;
+        let place = run.at.bearing + CAGE_PLACE;
         let (is_free, is_guided) = match &bearing.separation {
             Separation::FreeCage(guide) => (true, guide.is_some()),
             Separation::Neighbours(_) | Separation::CentredCage => (false, false),
@@ -144,7 +147,7 @@ impl<'a> Table<'a> {
                 }
                 let (what, unit, meaning) = detail;
                 columns! { self.columns, |row|
-                    "bearing.ball_{number:02}.{what}": unit, "{meaning}" => row.probe[run.detail + k * n + ball];
+                    "bearing.ball_{number:02}.{what}": unit, "{meaning}" => row.probe[run.at.detail + k * n + ball];
                 }
             }
             let Some(films) = &films else { continue };
@@ -156,7 +159,8 @@ impl<'a> Table<'a> {
                 }
             }
         }
-        let (probes, factors) = (run.largest_loads, run.pressure_factors.races);
+        let factors = run.pressure_factors.races;
+        let probes = [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD].map(|kind| run.at.probe(kind));
         for (race, side) in RACES.into_iter().enumerate() {
             columns! { self.columns, |row|
                 "bearing.{side}_pressure": "Pa", "largest Hertz pressure of all balls at the {side} race"

@@ -52,7 +52,7 @@ impl<'a> Films<'a> {
 
     /// Films of a ball at the inner and the outer race; none where it carries no load.
     pub fn at(&self, row: &Row, ball: usize) -> [Option<Film>; 2] {
-        let motion = (self.run.motion)(row.state);
+        let motion = self.run.motion(row.state);
         let reaction = (self.bearing).ball_reaction(&motion, self.run.own(row.state), ball);
         let [inner, outer] = reaction.contacts();
         [(&self.law.inner, inner), (&self.law.outer, outer)].map(|(law, at)| {

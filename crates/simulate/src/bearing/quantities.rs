@@ -49,7 +49,7 @@ pub(crate) fn balls(list: &mut List, setup: &BearingSetup, run: Option<&BearingR
 /// What the races saw of the balls, and what the lubricant came to.
 pub(crate) fn races_and_lubricant(list: &mut List, setup: &BearingSetup, run: Option<&BearingRun>) {
     if setup.planar().is_some() {
-        races::races(list, &(), run.and_then(|run| run.races));
+        races::races(list, &(), run.and_then(|run| run.record?.races.as_ref()));
     }
     if let Some(part) = setup.constants.lubricant() {
         let at = |run: &BearingRun| run.bearing.lubricant_at(run.own(run.end));
@@ -65,7 +65,7 @@ pub(crate) fn ball_loads(list: &mut List, setup: &BearingSetup, run: Option<&Bea
 
 results! {
     fn loads(setup: &BearingSetup, run: &BearingRun) {
-        "peak_ball_load": number "N", BALL_LOAD, "largest load of a ball" => run.loads[0].value.max(run.loads[1].value);
+        "peak_ball_load": number "N", BALL_LOAD, "largest load of a ball" => run.peaks()[0].value.max(run.peaks()[1].value);
         "peak_hertz_pressure": number "Pa" headline, PRESSURE, "largest Hertz pressure between ball and race" in tile "Peak Hertz pressure" => run.pressures().races;
         "peak_ball_ball_pressure": number "Pa", PRESSURE, "largest Hertz pressure between two balls" in note "Peak Hertz pressure: between balls" when setup.factors.neighbours.is_some() => {
             run.pressures().neighbours.unwrap_or(0.0)
@@ -83,10 +83,10 @@ results! {
     }
     /// Largest forces on the cage, or between the balls, and what their friction took.
     fn cage(separation: &Separation<f64>, run: &BearingRun) {
-        "peak_ball_ball_force": number "N", CAGE_FORCE, "largest force between two balls" when neighbours(separation) => run.cage[0].value;
-        "peak_pocket_force": number "N", CAGE_FORCE, "largest force between ball and pocket" when !neighbours(separation) => run.cage[0].value;
+        "peak_ball_ball_force": number "N", CAGE_FORCE, "largest force between two balls" when neighbours(separation) => run.peaks()[2].value;
+        "peak_pocket_force": number "N", CAGE_FORCE, "largest force between ball and pocket" when !neighbours(separation) => run.peaks()[2].value;
         "peak_cage_land_force": number "N", CAGE_FORCE, "largest force between cage and land" when matches!(separation, Separation::FreeCage(Some(_))) => {
-            run.cage[1].value
+            run.peaks()[3].value
         };
         "ball_ball_friction_energy": number "J", CAGE_FRICTION, "friction heat between the balls" when neighbours(separation) => run.cage_friction();
         "cage_friction_energy": number "J", CAGE_FRICTION, "friction heat of pockets and land" when !neighbours(separation) => run.cage_friction();
@@ -127,7 +127,7 @@ origins! {
         source "Hunt and Crossley 1975, crates/model/src/bearing/pocket.rs, cage.rs, full_complement.rs",
         valid "stiffness and damping as given; pocket impacts are often chaotic: repeat the run";
     CAGE_FRICTION: law "time integral of friction force times sliding speed in pockets, at the land, or between balls",
-        source "energy ledger, crates/model/src/system/machine/ledger.rs and rig/ledger.rs",
+        source "energy ledger, crates/model/src/system/machine/ledger.rs",
         valid "dry friction with the coefficients given";
     BALL_LOAD: law "Q = max(0, K(δ^1.5 + 1.5 β δ^½ δ̇)), the rolling fidelity adds the centrifugal force at the outer race; largest \
           over balls and races at the steps; in drops also, near the record, on dense output between them",

@@ -33,7 +33,7 @@ impl BearingRun<'_> {
     /// What the races have seen of balls that may slide.
     fn races_of_balls(&self) -> Option<&RaceRecord> {
         let planar = matches!(self.bearing, BearingConstants::Planar(_));
-        self.races.filter(|_| planar)
+        self.record?.races.as_ref().filter(|_| planar)
     }
     /// A contact of ball and race that got too hot, and by how much it warmed, K.
     pub fn hot_skid(&self) -> Option<(f64, Warning)> {

@@ -56,7 +56,7 @@ results! {
         "indentation_index": number "1", INDENTATION_INDEX, "largest ball load over the load that dents" in worst "dents by ball loads" => {
             indentation_index(run.pressures().races, given.hertz_pressure_limit)
         };
-        "largest_indentation": number "m", INDENTATION, "depth of the largest permanent indentation" => indentation(run.loads, given);
+        "largest_indentation": number "m", INDENTATION, "depth of the largest permanent indentation" => indentation(run.peaks(), given);
     }
 }
 
@@ -82,7 +82,7 @@ pub(crate) fn blows(peaks: impl Iterator<Item = f64>, load: f64) -> Result<f64, 
 }
 
 /// The deeper one of both races, m, or why there is no law for it.
-fn indentation([inner, outer]: [Peak; 2], bearing: &Bearing) -> Result<f64, String> {
+fn indentation([inner, outer, ..]: [Peak; 4], bearing: &Bearing) -> Result<f64, String> {
     if bearing.ball_material == BallMaterial::SiliconNitride {
         return Err("its law is for steel balls; ceramic ones indent the ring alone".to_string());
     }

@@ -49,7 +49,7 @@ impl<'a> Skids<'a> {
         let (mut then, mut now) = (vec![[0.0; 2]; balls], vec![[0.0; 2]; balls]);
         for row in &self.run.rows {
             let speed = self.run.speed(row);
-            let detail = &row.probe[self.run.detail..];
+            let detail = &row.probe[self.run.at.detail..];
             let of = |list: usize, ball: usize| detail[list * balls + ball];
             for (ball, power) in now.iter_mut().enumerate() {
                 let slips = [2, 3].map(|list| of(list, ball));

@@ -2,11 +2,14 @@
 
 use crate::bearing::contacts::ball_contacts;
 use crate::bearing::traction::traction;
+use model::auxiliary_bearing::RaceConstants;
 use model::bearing::BearingConstants;
+use model::system::machine::RotorMachine;
 use model::system::rig::capacity::{LEAST_CAPACITY, traction_capacity};
 use model::system::rig::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
-use model::system::rig::{Drive, InnerRace, Refusal, RigConstants, RigMachine};
+use model::system::rig::{Drive, Refusal, RigConstants};
 use model::table::Table;
+use number::Vec2;
 use problem::{Code, Problem};
 use scenario::{Bearing, Moment, problem_at};
 
@@ -37,6 +40,10 @@ pub(crate) struct SteadyPoint {
     pub speed: f64,
     /// Radial load, N.
     pub load: f64,
+    /// Its direction, a unit vector.
+    pub direction: Vec2<f64>,
+    /// Gravity, m/s².
+    pub gravity: Vec2<f64>,
 }
 
 /// Moment and traction capacity of a bearing that is pressed together at rest. None where there is no steady moment or
@@ -44,9 +51,10 @@ pub(crate) struct SteadyPoint {
 pub(crate) fn steady(
     constants: &BearingConstants,
     bearing: &Bearing,
-    race: &InnerRace<f64>,
-    SteadyPoint { speed, load }: SteadyPoint,
+    race: &RaceConstants<f64>,
+    at: SteadyPoint,
 ) -> Result<Option<SteadyFinding>, Box<Problem>> {
+    let SteadyPoint { speed, load, .. } = at;
     if bearing.moment == Moment::None || speed == 0.0 {
         return Ok(None);
     }
@@ -55,12 +63,15 @@ pub(crate) fn steady(
         BearingConstants::Planar(_) => Drive::step(speed),
         BearingConstants::Rolling(_) => Drive::Torque(Table::constant(0.0)),
     };
-    let machine = RigMachine::new(RigConstants {
+    let machine = RotorMachine::on_rig(RigConstants {
         race: *race,
         bearing: constants.clone().at_the_law(),
         drive,
         load: Table::constant(load),
+        load_direction: at.direction,
+        gravity: at.gravity,
         housing: None,
+        warm: None,
         target_speed: speed,
     })
     .map_err(refused)?;

@@ -16,7 +16,6 @@ use model::magnets::MagnetsConstants;
 use model::mount::Mount;
 use model::rotor::RotorConstants;
 use model::system::machine::MachineConstants;
-use model::system::rig::InnerRace;
 use number::Vec2;
 use problem::Problem;
 use scenario::several::path_of;
@@ -105,30 +104,22 @@ fn auxiliary_bearing(
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     let contacts = bearing::contacts::ball_contacts(given)?;
     let constants = bearing::build::bearing(given, &contacts, gravity)?;
-    let steady = bearing::steady::steady(
-        &constants,
-        given,
-        &InnerRace {
-            mass: given.inner_race_mass,
-            inertia: given.inner_race_inertia,
-            centre_held: given.inner_race_centre_held,
-            load_direction: Vec2::new(cosine, sine),
-            gravity,
-        },
-        SteadyPoint {
-            speed: drop.rotor.speed,
-            load: drop.body.mass * drop.share(k) * drop.gravity.acceleration,
-        },
-    )?;
-    let built = BuiltBearing {
-        pressure_factors: contacts.pressure_factors(),
-        steady,
-    };
     let inner_race = RaceConstants {
         mass: given.inner_race_mass,
         inertia: given.inner_race_inertia,
         centre_held: given.inner_race_centre_held,
         torque: given.inner_race_torque,
+    };
+    let at = SteadyPoint {
+        speed: drop.rotor.speed,
+        load: drop.body.mass * drop.share(k) * drop.gravity.acceleration,
+        direction: Vec2::new(cosine, sine),
+        gravity,
+    };
+    let steady = bearing::steady::steady(&constants, given, &inner_race, at)?;
+    let built = BuiltBearing {
+        pressure_factors: contacts.pressure_factors(),
+        steady,
     };
     let mut warm = bearing::networks::built(part.warm.as_deref(), given)?;
     if let (Some(warm), Some(area)) = (&mut warm, part.area_over_core()) {
@@ -191,10 +182,11 @@ fn around(
         mount_parts: mount::parts(&part.mount.parts),
         surfaces: layers::built(part),
         warm: None,
+        fixture: None,
     }
 }
 
-pub(super) fn gravity(drop: &Drop) -> Vec2<f64> {
+pub(crate) fn gravity(drop: &Drop) -> Vec2<f64> {
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     Vec2::new(cosine, sine) * drop.gravity.acceleration
 }

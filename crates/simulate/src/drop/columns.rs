@@ -8,7 +8,6 @@ use crate::drop::{magnets, shaft_results};
 use model::auxiliary_bearing::probe::{
     BEARING_LOAD, FRICTION_FORCE, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
-use model::system::energy::Balance;
 use model::system::layout::of_part;
 use outcome::Column;
 use outcome::columns::columns;
@@ -33,13 +32,7 @@ pub(crate) fn history(setup: Setup, run: Option<&Context>) -> Vec<Column> {
         let k = setup.parts().position(|name| name == part);
         runs[k.unwrap_or(0)].bearing
     });
-    let begun = run.map(|run| (run, run.at_start()));
-    table.energies(|row| {
-        begun.map(|(run, start)| Balance {
-            start,
-            end: run.booked(row.time, row.content, row.state),
-        })
-    });
+    table.energies(|row| run.map(|run| run.finished.balance(row.time, row.content, row.state)));
     columns.extend(table.columns.list);
     columns
 }

@@ -1,19 +1,14 @@
 //! What the pages that name results need to know.
 
-use crate::bearing::feedback::Renewals;
 use crate::bearing::quantities::BearingSetup;
 use crate::bearing::run::BearingRun;
 use crate::bearing::warm::{Followed, Heated};
 use crate::drop::build::Built;
-use crate::drop::ensemble::Finished;
-use crate::drop::feedback::Warmed;
 use crate::drop::shaft::BuiltShaft;
 use crate::drop::{Drop, Shaft};
-use model::auxiliary_bearing::probe;
-use model::system::energy::{Balance, Content, Flows};
+use crate::ensemble::Finished;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
-use model::system::sampling::Peak;
 use scenario::AuxiliaryBearing;
 
 /// A drop before its run.
@@ -62,25 +57,7 @@ impl<'a> Setup<'a> {
     }
     /// A bearing as it is before a run.
     pub fn bearing(self, k: usize) -> BearingRun<'a> {
-        let at = &self.machine.layout().bearings[k];
-        BearingRun {
-            bearing: &self.machine.constants.bearings[k].bearing,
-            states: at.own(),
-            detail: at.detail,
-            largest_loads: [probe::LARGEST_INNER_LOAD, probe::LARGEST_OUTER_LOAD]
-                .map(|kind| at.probe(kind)),
-            cage_forces: [probe::LARGEST_POCKET_FORCE, probe::LAND_FORCE]
-                .map(|kind| at.probe(kind)),
-            pressure_factors: self.built.bearings[k].pressure_factors,
-            loads: [Peak::NONE; 2],
-            cage: [Peak::NONE; 2],
-            part: &self.machine.constants.bearings[k].name,
-            layout: self.machine.layout(),
-            end: &[],
-            motion: Box::new(move |state| at.motion(state)),
-            rows: Vec::new(),
-            races: None,
-        }
+        BearingRun::before(self.machine, k, self.built.bearings[k].pressure_factors)
     }
 }
 
@@ -119,58 +96,10 @@ impl<'a> Context<'a> {
     }
     /// A bearing whose temperatures were followed.
     pub fn followed(&self, k: usize) -> Option<Followed<'a>> {
-        let warmed = self.finished.warmed.as_deref();
-        Some(Followed {
-            heated: self.setup.heated(k)?,
-            warmth: self.record(k).warmth.as_deref()?,
-            state: warmed.and_then(|warmed| warmed.state(k)),
-            broken: warmed.and_then(Warmed::broken),
-        })
+        self.finished.followed(self.setup.heated(k), k)
     }
-    /// Energies and flows at the release.
-    pub fn at_start(&self) -> (Content, Flows) {
-        let start = &self.finished.start;
-        (
-            self.setup.machine.content(start),
-            self.setup.machine.flows(start),
-        )
-    }
-    /// The same at an instant of the run; rings that have closed on their balls have done work.
-    pub fn booked(&self, time: f64, content: Content, state: &[f64]) -> (Content, Flows) {
-        let found = (content, self.setup.machine.flows(state));
-        match self.renewals() {
-            Some(renewals) => renewals.booked(time, found),
-            None => found,
-        }
-    }
-    /// Energy and angular momentum from the release to the end.
-    pub fn balance(&self) -> Balance {
-        let ending = &self.finished.ending;
-        let renewals = self.renewals();
-        let machine = renewals.map_or(self.setup.machine, |renewals| {
-            renewals.machine(self.setup.machine)
-        });
-        let content = machine.content(&ending.state);
-        Balance {
-            start: self.at_start(),
-            end: self.booked(f64::INFINITY, content, &ending.state),
-        }
-    }
-    /// The machines that it has been; none where nothing follows.
-    pub fn renewals(&self) -> Option<&'a Renewals<RotorMachine>> {
-        let warmed = self.finished.warmed.as_deref();
-        warmed.map(|warmed| &warmed.renewals)
-    }
-    pub fn bearing(&self, bearing: usize) -> BearingRun<'a> {
-        let record = self.record(bearing);
-        BearingRun {
-            loads: [record.largest_inner_load, record.largest_outer_load],
-            cage: [record.largest_pocket_force, record.largest_land_force],
-            end: &self.finished.ending.state,
-            rows: self.finished.record.rows().collect(),
-            races: record.races.as_ref(),
-            ..self.setup.bearing(bearing)
-        }
+    pub fn bearing(&self, k: usize) -> BearingRun<'a> {
+        self.setup.bearing(k).after(self.finished, k)
     }
 }
 

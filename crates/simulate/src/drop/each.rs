@@ -2,11 +2,11 @@
 
 use crate::drop::build::{self, Built};
 use crate::drop::context::{Context, Setup};
-use crate::drop::ensemble::{self, Member, Plan};
-use crate::drop::feedback::Following;
 use crate::drop::method::stepping;
 use crate::drop::{self, multirate};
 use crate::ending::settings_at;
+use crate::ensemble::{self, Member, Plan};
+use crate::following::Following;
 use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
 use outcome::options::Options;
@@ -70,23 +70,8 @@ impl<'a> One<'a> {
         self.kind == other.kind
             && self.stepping == other.stepping
             && self.built.drop.run == other.built.drop.run
-            && share_lanes(&self.member.machine, &other.member.machine)
+            && (self.member.machine).shares_lanes(&other.member.machine)
     }
-}
-
-/// Whether machines of one kind have the same states: another rotor or cutoff has other modes.
-fn share_lanes(a: &RotorMachine, b: &RotorMachine) -> bool {
-    let rows = |machine: &RotorMachine| -> Vec<usize> {
-        let seals = machine.constants.seals.iter();
-        seals.map(|seal| seal.rows.len()).collect()
-    };
-    a.layout() == b.layout()
-        && match (&a.constants.magnets, &b.constants.magnets) {
-            (Some(a), Some(b)) => a.share_lanes(b),
-            (a, b) => a.is_none() && b.is_none(),
-        }
-        && a.constants.rotor.spin_held == b.constants.rotor.spin_held
-        && rows(a) == rows(b)
 }
 
 /// Runs all of them; they stand in their order.
@@ -139,6 +124,7 @@ fn together(
         settings: settings_at(&built.drop.run, stepping.tolerance),
         steps: stepping.steps,
         interval: built.drop.run.output_interval,
+        taps: &[],
         until_rolling: built.drop.coast_down.is_some(),
         interrupt: options.interrupt,
         progress: &of_drop,

@@ -5,8 +5,6 @@ pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
 pub mod each;
-pub mod ensemble;
-mod feedback;
 mod layers;
 pub(crate) mod magnets;
 mod magnets_in_time;

@@ -8,8 +8,8 @@ use crate::bearing::severity::{
 };
 use crate::bearing::warm::{self, RINGS};
 use crate::drop::context::{Context, Setup, touched};
-use crate::drop::feedback::Following;
 use crate::drop::{magnets, mount_results, shaft_results, surfaces};
+use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
 use model::system::energy::Content;
@@ -222,12 +222,12 @@ results! {
         "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
         "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop().rotor.planes as f64 * run.heat();
         "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" when Following::of(setup.drop()).is_some() => {
-            run.renewals().map_or(0.0, |renewals| renewals.work_until(f64::INFINITY))
+            run.finished.work_of_rings()
         };
-        "work_of_sources": number "J", BALANCE, "work of sources" => run.balance().end.1.work - run.balance().start.1.work;
+        "work_of_sources": number "J", BALANCE, "work of sources" => run.finished.whole_balance().end.1.work - run.finished.whole_balance().start.1.work;
         "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|content| content.translation + content.spin);
         "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|content| content.potential);
-        "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.balance().energy_residual();
+        "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.finished.whole_balance().energy_residual();
         "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in machine_tile "Energy residual" in bound "AB1006" => residuals(run).0;
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
     }
@@ -240,7 +240,7 @@ impl Context<'_> {
     }
     /// Change of an energy over the run, J.
     fn change(&self, of: fn(Content) -> f64) -> f64 {
-        let balance = self.balance();
+        let balance = self.finished.whole_balance();
         of(balance.end.0) - of(balance.start.0)
     }
 }
@@ -253,7 +253,7 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
     let machine = context.setup.machine;
     let record = &context.finished.record;
     let start = &context.finished.start;
-    let balance = context.balance();
+    let balance = context.finished.whole_balance();
     let scale = (balance.heat())
         .max(balance.end.1.work_size)
         .max(record.largest_translation);

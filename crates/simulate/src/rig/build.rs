@@ -3,10 +3,12 @@
 use crate::bearing;
 use crate::bearing::steady::SteadyPoint;
 use crate::rig::run::Built;
+use model::auxiliary_bearing::RaceConstants;
 use model::bearing_heat::WarmBearing;
+use model::system::machine::RotorMachine;
 use model::system::rig::{
     Action, Arm, ClutchDrive, Disturbance, Drag, Drive, Engagement, Flywheel, HeatNode, Housing,
-    InnerRace, Motor, Program, RigConstants, RigMachine, engagement_ramp,
+    Motor, Program, RigConstants, engagement_ramp,
 };
 use model::table::Table;
 use number::Vec2;
@@ -22,19 +24,19 @@ const FADING: f64 = 0.5;
 pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
     let contacts = bearing::contacts::ball_contacts(&rig.bearing)?;
     let bearing = bearing::build::bearing(&rig.bearing, &contacts, Vec2::zero())?;
-    let down = Vec2::new(0.0, -1.0);
     let centre_held = rig.load.hanging_mass.is_none();
     // the ring that is free to move is the outer one here; to the balls it is the same turned round
-    let race = InnerRace {
+    let race = RaceConstants {
         mass: rig.load.hanging_mass.unwrap_or(1.0),
         inertia: rig.bearing.inner_race_inertia,
         centre_held,
-        load_direction: down,
-        gravity: Vec2::zero(),
+        torque: 0.0,
     };
     let at = SteadyPoint {
         speed: rig.speed,
         load: rig.load.radial_load,
+        direction: Vec2::new(0.0, -1.0),
+        gravity: Vec2::zero(),
     };
     let steady = bearing::steady::steady(&bearing, &rig.bearing, &race, at)?;
     let warm = bearing::networks::built(rig.warm.as_deref(), &rig.bearing)?;
@@ -59,7 +61,6 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
     };
     let housing = Housing {
         mass: rig.load.hanging_mass.unwrap_or(0.0),
-        gravity: Vec2::zero(),
         centre_held,
         arm: Arm {
             natural_frequency: 2.0 * PI * arm.natural_frequency,
@@ -78,7 +79,7 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
         },
     };
     let mut constants = RigConstants {
-        race: InnerRace {
+        race: RaceConstants {
             inertia: rig.shaft.inertia + rig.bearing.inner_race_inertia,
             centre_held: true,
             ..race
@@ -86,17 +87,19 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
         bearing,
         drive: Drive::Clutch(Box::new(clutch(1.0))),
         load: Table::constant(rig.load.radial_load),
+        load_direction: at.direction,
+        gravity: at.gravity,
         housing: Some(housing),
+        warm,
         target_speed: rig.speed,
     };
     let torque_rate = torque_rate(rig, &constants)?;
     if let Some(rate) = torque_rate {
         constants.drive = Drive::Clutch(Box::new(clutch(rate)));
     }
-    let machine = RigMachine::new(constants).map_err(refused)?;
+    let machine = RotorMachine::on_rig(constants).map_err(refused)?;
     Ok(Built {
         machine,
-        warm,
         torque_rate,
         pressure_factors: contacts.pressure_factors(),
         steady,

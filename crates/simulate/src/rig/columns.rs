@@ -2,14 +2,15 @@
 
 use crate::bearing::columns::Table;
 use crate::bearing::warm::{self, Heated};
-use crate::rig::Context;
 use crate::rig::run::{Built, bearing};
+use crate::rig::{Context, given};
+use model::auxiliary_bearing::probe::{BEARING_LOAD, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::bearing::BearingConstants;
 use model::system::rig::layout::{
     ACCELERATION, ARM, BEARING_HEAT, BELT_DRAG, CAGE_ANGLE, CAGE_SLIP, CAGE_SPEED, CLUTCH_CAPACITY,
     CLUTCH_SLIP, DISTURBANCE, DRIVE_MOMENT, DRIVER_ACCELERATION, FLYWHEEL, HOUSING, INNER_LOAD_SUM,
-    INNER_MOMENT, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, MOMENTUM_RATE, MOTOR_TORQUE, OUTER_FORCE,
-    OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG, TEMPERATURE, THERMOCOUPLE,
+    INNER_MOMENT, MOMENTUM_RATE, MOTOR_TORQUE, OUTER_MOMENT, SHAFT, STEADY_MOMENT, SUPPORT_DRAG,
+    TEMPERATURE, THERMOCOUPLE,
 };
 use model::system::sampling::Row;
 use outcome::Column;
@@ -29,9 +30,9 @@ pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Co
         "flywheel.speed": "rad/s", "spin of the flywheel" => row.state[FLYWHEEL.spin()];
         "arm.reading": "N m", "torque that the swinging arm indicates, before its gauges" => row.state[ARM];
     }
-    let heated = Heated::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
-    let warming = run.and_then(|run| run.warming.as_ref());
-    let warmth = warming.map(|warming| warming.followed().warmth);
+    let heated = given(rig).heated(built);
+    let followed = run.and_then(|run| run.followed());
+    let warmth = followed.as_ref().map(|followed| followed.warmth);
     let bead = run
         .and_then(|run| run.bead.as_ref())
         .map(|bead| (bead, bead.at(0.0)));
@@ -46,7 +47,7 @@ pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Co
         Some((bead, start)) => bead.at(row.time) - start,
         None => row.state[THERMOCOUPLE],
     };
-    let centre_moves = !machine.constants.is_concentric();
+    let centre_moves = !machine.constants.bearings[0].is_concentric();
     columns! { table.columns, |row|
         "bearing.temperature_rise": "K", "temperature of the outer race above that at the start" => rise(row);
         "thermocouple.temperature_rise": "K", "what the thermocouple has of it" => reading(row);
@@ -68,7 +69,7 @@ pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Co
         "shaft.drag_moment": "N m", "drag of the shaft's own bearings" => row.probe[SUPPORT_DRAG];
         "arm.disturbance": "N m", "what lateral vibration adds to the moment that the arm feels" => row.probe[DISTURBANCE];
         "bearing.cage.speed": "rad/s", "spin of the cage" => row.probe[CAGE_SPEED];
-        "bearing.radial_load": "N", "size of the force of the balls on the outer race" => row.probe[OUTER_FORCE];
+        "bearing.radial_load": "N", "size of the force of the balls on the outer race" => row.probe[BEARING_LOAD];
         "bearing.heat": "W", "heat made in the bearing" => row.probe[BEARING_HEAT];
         "bearing.angular_momentum_rate": "N m", "rate of the angular momentum of balls and cage" => row.probe[MOMENTUM_RATE];
         "bearing.inner_race.ball_load_sum": "N", "sum of the ball loads at the inner race" => row.probe[INNER_LOAD_SUM];

@@ -3,7 +3,7 @@
 //! | page | subject |
 //! |---|---|
 //! | [`build`] | scenario → constants of the model |
-//! | [`run`](mod@run) | a run of a bearing on a rig, of a spin-up or of a test; `warming`: its temperatures |
+//! | [`run`](mod@run) | a run of a bearing on a rig, of a spin-up or of a test |
 //! | `chain` | from what happened to what the logger writes |
 //! | `raw_file` | the raw file, and the file that says what its channels are |
 //! | `thermocouple` | its reading of an outer race whose temperature a network gives |
@@ -16,14 +16,13 @@ mod quantities;
 mod raw_file;
 pub mod run;
 mod thermocouple;
-pub(crate) mod warming;
 pub mod warnings;
 
 use crate::bearing::warm::Followed;
 use crate::ending::DESIGN;
 use crate::stepping::Stepping;
 use chain::{Happened, Sampled};
-use model::system::rig::Record;
+use model::system::rig::Taps;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use outcome::options::Options;
 use outcome::{Column, Outcome, Quantity};
@@ -34,7 +33,6 @@ use std::iter;
 use std::ops::Deref;
 use thermal::bearing_network::OUTER_RACE;
 use thermocouple::Bead;
-use warming::Warming;
 
 /// A test and its run.
 pub(crate) struct Context<'a> {
@@ -63,20 +61,24 @@ pub fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
     quantities::name(rig, built, None)
 }
 
-/// Runs a test.
-pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
-    let given = RunInput {
+/// What a file gives of bearing and run.
+fn given(rig: &Rig) -> RunInput<'_> {
+    RunInput {
         bearing: &rig.bearing,
         warm: rig.warm.as_deref(),
         run: &rig.run,
-    };
+    }
+}
+
+/// Runs a test.
+pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
     let stepping = Stepping {
         steps: Steps::Explicit,
         tolerance: DESIGN,
     };
-    let run = RigRun::of(built, given, stepping, &chain::taps(rig), options);
-    let bead = run.warming.as_ref().map(|warming| bead(rig, warming));
-    let happened = happened(rig, &run.record, bead.as_ref());
+    let run = RigRun::of(built, given(rig), stepping, &chain::taps(rig), options);
+    let bead = run.followed().map(|followed| bead(rig, &followed));
+    let happened = happened(rig, &run.rig().taps, bead.as_ref());
     let raw = chain::raw(rig, &happened);
     let clipped = raw.iter().filter(|channel| channel.clipped > 0);
     let context = Context {
@@ -89,7 +91,9 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
     };
     let title = (scenario.title.clone()).unwrap_or_else(|| "Test on a rig".to_string());
     let quantities = quantities::name(rig, built, Some(&context));
-    let cage_ratio = built.machine.constants.bearing.rolling_cage_ratio();
+    let cage_ratio = built.machine.constants.bearings[0]
+        .bearing
+        .rolling_cage_ratio();
     Outcome {
         system: "rig",
         history: columns::history(rig, built, Some(&context)),
@@ -97,7 +101,7 @@ pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> 
         quantities,
         files: raw_file::files(rig, &title, raw, cage_ratio, rested(rig, &happened)),
         title,
-        ..context.outcome(given)
+        ..context.outcome()
     }
 }
 
@@ -122,8 +126,8 @@ fn rested(rig: &Rig, happened: &Happened) -> Option<f64> {
 const STANDING: f64 = 1e-3;
 
 /// The thermocouple on an outer race of a network.
-fn bead(rig: &Rig, warming: &Warming) -> Bead {
-    let Followed { heated, warmth, .. } = warming.followed();
+fn bead(rig: &Rig, followed: &Followed) -> Bead {
+    let Followed { heated, warmth, .. } = followed;
     let course = (warmth.course.iter()).map(|(time, nodes)| (*time, nodes[OUTER_RACE]));
     Bead::new(
         rig.temperature.lag,
@@ -131,11 +135,11 @@ fn bead(rig: &Rig, warming: &Warming) -> Bead {
     )
 }
 
-fn happened(rig: &Rig, record: &Record, bead: Option<&Bead>) -> Happened {
+fn happened(rig: &Rig, taps: &Taps, bead: Option<&Bead>) -> Happened {
     // a logger keeps whole scans
-    let scans = record.taps.iter().map(|(_, values)| values.len()).min();
+    let scans = taps.iter().map(|(_, values)| values.len()).min();
     let sampled = |channel: usize| {
-        let tap = record.taps.iter().find(|(tap, _)| tap.channel == channel);
+        let tap = taps.iter().find(|(tap, _)| tap.channel == channel);
         tap.map_or_else(Sampled::default, |(tap, values)| Sampled {
             first: tap.first,
             interval: tap.interval,

@@ -1,10 +1,8 @@
 //! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
 
 use crate::bearing::quantities::{BearingSetup, ball_loads, races_and_lubricant};
-use crate::bearing::warm::Heated;
-use crate::rig::Context;
-use crate::rig::run::Built;
-use crate::rig::warming::Warming;
+use crate::rig::run::{Built, name_temperatures};
+use crate::rig::{Context, given};
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, DRIVE_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
@@ -15,18 +13,17 @@ use outcome::list::{List, origins, relative};
 use scenario::{Fidelity, Rig, RigProgram};
 use thermal::bearing_network::OUTER_RACE;
 
-const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/rate.rs";
-const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
+const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/fixture.rs";
+const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
 /// Names the results; without a run those of any.
 pub(crate) fn name(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Quantity> {
     let mut list = List::default();
     motion(&mut list, rig, run);
-    let heated = Heated::of(rig.warm.as_deref(), &rig.bearing, built.warm.as_deref());
-    Warming::name(&mut list, heated, run.and_then(|run| run.warming.as_ref()));
+    name_temperatures(&mut list, given(rig).heated(built), run.map(|run| &**run));
     let bearing = BearingSetup {
         given: &rig.bearing,
-        constants: &built.machine.constants.bearing,
+        constants: &built.machine.constants.bearings[0].bearing,
         factors: &built.pressure_factors,
     };
     let balls = run.map(|run| run.bearing());
@@ -42,31 +39,30 @@ results! {
         "clutch_torque_rate": number "N m/s" headline, RATE, "rate of the torque that the clutch can carry" in note "Peak acceleration: rate of the clutch" => run.built.torque_rate.ok_or_else(no_clutch);
         "clutch_lock_time": number "s" headline, ENGAGEMENT, "instant at which the clutch locks" in instants "locked" in change "locked" in tile "Clutch locked" => {
             let slips = || "the clutch still slips at the end".to_string();
-            engages_at(rig).and_then(|_| run.record.locked_at().ok_or_else(slips))
+            engages_at(rig).and_then(|_| run.rig().locked_at().ok_or_else(slips))
         };
         "peak_acceleration": number "rad/s^2" headline, PEAK_ACCELERATION, "largest acceleration of the shaft" in tile "Peak acceleration" => match rig.program {
-            RigProgram::CoastDown { .. } => 0.0 - run.record.deceleration.value,
-            _ => run.record.acceleration.value,
+            RigProgram::CoastDown { .. } => 0.0 - run.rig().deceleration.value,
+            _ => run.rig().acceleration.value,
         };
-        "peak_deceleration": number "rad/s^2", PEAK_DECELERATION, "largest deceleration of the shaft, below 0" => 0.0 - run.record.deceleration.value;
-        "shaft_time_to_50_percent": instant "s", RISE, "time to half of rig.speed" => run.record.time_to_50_percent().ok_or_else(|| never(50.0));
-        "shaft_time_to_95_percent": instant "s", RISE, "time to 95 % of rig.speed" => run.record.time_to_95_percent().ok_or_else(|| never(95.0));
+        "peak_deceleration": number "rad/s^2", PEAK_DECELERATION, "largest deceleration of the shaft, below 0" => 0.0 - run.rig().deceleration.value;
+        "shaft_time_to_50_percent": instant "s", RISE, "time to half of rig.speed" => run.record.bearings[0].inner_race_time_to_50_percent().ok_or_else(|| never(50.0));
+        "shaft_time_to_95_percent": instant "s", RISE, "time to 95 % of rig.speed" => run.record.bearings[0].inner_race_time_to_95_percent().ok_or_else(|| never(95.0));
         "cage_time_to_95_percent_of_rolling": instant "s", RISE, "time of the cage to 95 % of its rolling speed" => {
-            run.record.cage_time_to_95_percent().ok_or_else(|| never(95.0))
+            run.record.bearings[0].cage_time_to_95_percent().ok_or_else(|| never(95.0))
         };
         "shaft_final_speed": number "rad/s" headline, SPEED, "speed of the shaft at the end" => run.ending.state[SHAFT.spin()];
         "flywheel_final_speed": number "rad/s", SPEED, "speed of the flywheel at the end" => run.ending.state[FLYWHEEL.spin()];
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
-        "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.record.drive_moment.value;
-        "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.record.inner_moment.value;
-        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.record.outer_moment.value;
+        "peak_clutch_torque": number "N m" headline, PEAK_MOMENT, "largest torque of the clutch" => run.rig().drive_moment.value;
+        "peak_inner_race_moment": number "N m", PEAK_MOMENT, "largest moment on the inner race" => run.rig().inner_moment.value;
+        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.rig().outer_moment.value;
         "inner_race_moment_at_end": number "N m", AT_END, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
         "outer_race_moment_at_end": number "N m", AT_END, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
         "law_moment_at_end": number "N m", AT_END, "moment of the friction law at the end" => run.probe(STEADY_MOMENT);
         "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" in tile "Cage slip at the end [%]" => run.late_slip();
         "peak_temperature_rise": number "K" headline, TEMPERATURE, "largest rise of the outer race" => {
-            let of_network = run.warming.as_ref().map(|warming| warming.followed());
-            of_network.map_or(run.record.temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
+            run.followed().map_or(run.rig().temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
         };
     }
     fn energies(rig: &Rig, run: &Context) {
@@ -115,7 +111,7 @@ impl Context<'_> {
             }
             (Fidelity::Planar, false) => Err("the shaft hardly turns at the end".to_string()),
             (Fidelity::Planar, true) => {
-                Ok((self.record.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP)))
+                Ok((self.rig().turns.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP)))
             }
         }
     }

@@ -3,34 +3,30 @@
 use crate::bearing::pressure::PressureFactors;
 use crate::bearing::run::BearingRun;
 use crate::bearing::steady::SteadyFinding;
+use crate::bearing::warm::{self, Followed, Heated};
 use crate::ending::{settings_at, stop};
-use crate::rig::warming::{Warming, Watched};
+use crate::ensemble::{self, Finished, Member, Plan};
+use crate::following::Following;
 use crate::stepping::Stepping;
-use model::bearing_heat::WarmBearing;
-use model::system::energy::{Balance, Content};
+use model::system::machine::RotorMachine;
 use model::system::outer_race::OuterRaceEnergy;
-use model::system::rig::layout::{
-    DETAIL, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-};
-use model::system::rig::simulate::Run as Simulation;
-use model::system::rig::{Keep, Record, RigMachine, Tap, simulate};
-use model::system::sampling::Peak;
+use model::system::rig::Tap;
+use model::system::rig::record::RigRecord;
+use outcome::list::List;
 use outcome::options::Options;
 use outcome::{Outcome, Picture, Work};
 use scenario::{Bearing, Run, Warm};
-use solve::Ending;
+use std::ops::Deref;
 
 /// A rig ready to be simulated.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// The machine.
-    pub machine: RigMachine,
+    pub machine: RotorMachine,
     /// Rate of a clutch's torque, N m/s: as given, or found; none where none engages.
     pub torque_rate: Option<f64>,
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
-    /// The network of its temperatures, where that is followed.
-    pub warm: Option<Box<WarmBearing>>,
     /// What traction can carry at full speed under the last load; none where the bearing has no steady moment.
     pub steady: Option<SteadyFinding>,
 }
@@ -43,17 +39,27 @@ pub(crate) struct RunInput<'a> {
     pub run: &'a Run,
 }
 
+impl<'a> RunInput<'a> {
+    /// The bearing, where its temperatures are followed.
+    pub fn heated(self, built: &'a Built) -> Option<Heated<'a>> {
+        let part = built.machine.constants.bearings[0].warm.as_deref();
+        Heated::of(self.warm, self.bearing, part)
+    }
+}
+
 /// A run.
 pub(crate) struct RigRun<'a> {
     pub built: &'a Built,
-    pub start: Vec<f64>,
-    pub record: Record,
-    pub ending: Ending,
-    /// How warm the bearing became; none where no network follows that.
-    pub warming: Option<Warming<'a>>,
+    given: RunInput<'a>,
+    finished: Finished,
     stepping: Stepping,
-    /// The machine as it is at the end.
-    at_end: RigMachine,
+}
+
+impl Deref for RigRun<'_> {
+    type Target = Finished;
+    fn deref(&self) -> &Finished {
+        &self.finished
+    }
 }
 
 impl<'a> RigRun<'a> {
@@ -65,68 +71,48 @@ impl<'a> RigRun<'a> {
         taps: &[Tap],
         options: &Options<'a>,
     ) -> Self {
-        let machine = &built.machine;
-        let settings = settings_at(given.run, stepping.tolerance);
-        let keep = Keep {
-            end: settings.end,
-            interval: Some(given.run.output_interval),
-            taps,
-        };
-        let record = Record::new(machine, &keep);
-        let warming = Warming::of(given.warm, given.bearing, built.warm.as_deref());
-        let mut watched = Watched::new(record, warming, settings.end, options);
-        let start = machine.start();
-        let ending = simulate(Simulation {
-            machine,
-            start: start.clone(),
-            settings: &settings,
+        let plan = Plan {
+            settings: settings_at(given.run, stepping.tolerance),
             steps: stepping.steps,
-            observer: &mut watched,
+            interval: given.run.output_interval,
+            taps,
+            until_rolling: false,
             interrupt: options.interrupt,
-        });
-        let (mut record, warming, at_end) = watched.finish(machine, &ending);
-        record.finish(&at_end, ending.time, &ending.state);
+            progress: options.progress,
+        };
+        let member = Member {
+            following: Following::on_rig(given.warm, given.bearing).map(Into::into),
+            keep_rows: true,
+            ..Member::of(built.machine.clone(), built.machine.start())
+        };
         RigRun {
             built,
-            start,
-            record,
-            ending,
-            warming,
+            given,
+            finished: ensemble::run(&[member], &plan).remove(0),
             stepping,
-            at_end,
         }
     }
-    /// What must close between the start and a row, or the end.
-    pub fn balance(&self, time: f64, content: Content, state: &[f64]) -> Balance {
-        let machine = &self.built.machine;
-        let end = (content, machine.flows(state));
-        Balance {
-            start: (machine.content(&self.start), machine.flows(&self.start)),
-            end: match &self.warming {
-                Some(warming) => warming.renewals.booked(time, end),
-                None => end,
-            },
-        }
+    /// What is kept of it besides its bearing.
+    pub fn rig(&self) -> &RigRecord {
+        self.record.rig()
     }
-    /// What must close between the start and the end.
-    pub fn whole_balance(&self) -> Balance {
-        let end = &self.ending.state;
-        self.balance(f64::INFINITY, self.at_end.content(end), end)
+    /// Temperatures of the bearing; none where no network follows them.
+    pub fn followed(&self) -> Option<Followed<'_>> {
+        self.finished.followed(self.given.heated(self.built), 0)
     }
     /// What the bearing dissipated, J, true and by the forms of (21). Where rings closed on loaded balls, what is stored counts by the
     /// bearing as it was at either end, and the work of the rings is not heat.
     pub fn outer_race_energy(&self) -> OuterRaceEnergy {
-        let (before, now) = (&self.built.machine, &self.at_end);
+        let (before, now) = (&self.machine, self.at_end());
         let mut forms = now.outer_race_energy(&self.start, &self.ending.state);
-        let stored = |machine: &RigMachine| machine.bearing_content(&self.start).sum();
-        let work = |warming: &Warming| warming.renewals.work_until(f64::INFINITY);
-        forms.exact += stored(before) - stored(now) + self.warming.as_ref().map_or(0.0, work);
+        let stored = |machine: &RotorMachine| machine.bearing_content(0, &self.start).sum();
+        forms.exact += stored(before) - stored(now) + self.work_of_rings();
         forms
     }
     /// A probe at the end.
     pub fn probe(&self, index: usize) -> f64 {
         let (time, state) = (self.ending.time, &self.ending.state);
-        self.at_end.last_probes(&self.record.mode, time, state)[index]
+        (self.at_end()).last_probes(&self.rig().mode, time, state)[index]
     }
     /// A heat of the ledger at the end, J.
     pub fn heat(&self, kind: usize) -> f64 {
@@ -134,33 +120,27 @@ impl<'a> RigRun<'a> {
     }
     /// The bearing in the run.
     pub fn bearing(&self) -> BearingRun<'_> {
-        let record = &self.record;
-        BearingRun {
-            loads: [record.largest_inner_load, record.largest_outer_load],
-            cage: [record.largest_pocket_force, record.largest_land_force],
-            end: &self.ending.state,
-            rows: record.rows().collect(),
-            races: Some(&record.races),
-            ..bearing(self.built)
-        }
+        bearing(self.built).after(&self.finished, 0)
     }
     /// How it ended, what it took, and the picture of its bearing.
-    pub fn outcome(&self, given: RunInput) -> Outcome {
+    pub fn outcome(&self) -> Outcome {
+        let (work, bearing) = (&self.ending.work, self.given.bearing);
+        let constants = &self.built.machine.constants.bearings[0].bearing;
         Outcome {
             stop: stop(&self.ending),
             work: Work {
-                steps: self.ending.work.accepted,
-                rejected: self.ending.work.rejected,
-                rate_calls: self.ending.work.rate_calls,
+                steps: work.accepted,
+                rejected: work.rejected,
+                rate_calls: work.rate_calls,
                 method: Some(self.stepping.name()),
                 ..Work::default()
             },
             pictures: vec![Picture {
                 bearing: String::new(),
                 clearance: None,
-                pressure_limit: Some(given.bearing.hertz_pressure_limit),
-                rolling_cage_ratio: self.built.machine.constants.bearing.rolling_cage_ratio(),
-                balls: given.bearing.ball_count,
+                pressure_limit: Some(bearing.hertz_pressure_limit),
+                rolling_cage_ratio: constants.rolling_cage_ratio(),
+                balls: bearing.ball_count,
             }],
             ..Outcome::default()
         }
@@ -169,20 +149,15 @@ impl<'a> RigRun<'a> {
 
 /// The bearing as it is before a run.
 pub(crate) fn bearing(built: &Built) -> BearingRun<'_> {
-    BearingRun {
-        bearing: &built.machine.constants.bearing,
-        states: built.machine.layout().bearing(),
-        detail: DETAIL,
-        largest_loads: [LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD],
-        cage_forces: [LARGEST_POCKET_FORCE, LAND_FORCE],
-        pressure_factors: built.pressure_factors,
-        loads: [Peak::NONE; 2],
-        cage: [Peak::NONE; 2],
-        part: "",
-        layout: built.machine.layout(),
-        end: &[],
-        motion: Box::new(|state| built.machine.layout().motion(state)),
-        rows: Vec::new(),
-        races: None,
-    }
+    BearingRun::before(&built.machine, 0, built.pressure_factors)
+}
+
+/// Names what the bearing became, and the work of its rings; before a run what these are.
+pub(crate) fn name_temperatures(list: &mut List, heated: Option<Heated>, run: Option<&RigRun>) {
+    let Some(heated) = heated else {
+        return;
+    };
+    warm::name(list, &heated, run.and_then(RigRun::followed).as_ref());
+    let work = run.map(|run| run.work_of_rings());
+    warm::work_of_rings(list, &(), work.as_ref());
 }

@@ -40,8 +40,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         .map(|row| row.state[SHAFT.spin()].abs());
     let speed = speeds.fold(0.0, f64::max);
     list.extend(shared::skids(context.built.steady.as_ref()));
-    if let Some(warming) = &context.warming {
-        let judged = warm::judged(&warming.followed());
+    if let Some(followed) = context.followed() {
+        let judged = warm::judged(&followed);
         list.extend(judged.into_iter().map(|(_, warning)| warning));
     }
     for (name, count) in &context.clipped {

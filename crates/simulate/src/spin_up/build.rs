@@ -4,7 +4,9 @@ use crate::bearing;
 use crate::bearing::loss::table;
 use crate::bearing::steady::{SteadyPoint, refused};
 use crate::rig::run::Built;
-use model::system::rig::{Drive, InnerRace, RigConstants, RigMachine, SlidingRotor};
+use model::auxiliary_bearing::RaceConstants;
+use model::system::machine::RotorMachine;
+use model::system::rig::{Drive, RigConstants, SlidingRotor};
 use model::table::Table;
 use number::Vec2;
 use problem::Problem;
@@ -14,12 +16,11 @@ use scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
     let (sine, cosine) = spin_up.load_direction.sin_cos();
     let gravity = Vec2::zero();
-    let race = InnerRace {
+    let race = RaceConstants {
         mass: spin_up.bearing.inner_race_mass,
         inertia: spin_up.bearing.inner_race_inertia,
         centre_held: spin_up.bearing.inner_race_centre_held,
-        load_direction: Vec2::new(cosine, sine),
-        gravity,
+        torque: 0.0,
     };
     let contacts = bearing::contacts::ball_contacts(&spin_up.bearing)?;
     let bearing = bearing::build::bearing(&spin_up.bearing, &contacts, gravity)?;
@@ -27,14 +28,19 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
     let at = SteadyPoint {
         speed: target_speed,
         load: spin_up.radial_load.at(spin_up.run.duration),
+        direction: Vec2::new(cosine, sine),
+        gravity,
     };
     let steady = bearing::steady::steady(&bearing, &spin_up.bearing, &race, at)?;
-    let machine = RigMachine::new(RigConstants {
+    let machine = RotorMachine::on_rig(RigConstants {
         race,
         bearing,
         drive: drive(&spin_up.drive),
         load: course(&spin_up.radial_load),
+        load_direction: at.direction,
+        gravity,
         housing: None,
+        warm: bearing::networks::built(spin_up.warm.as_deref(), &spin_up.bearing)?,
         target_speed,
     })
     .map_err(refused)?;
@@ -43,7 +49,6 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
         torque_rate: None,
         pressure_factors: contacts.pressure_factors(),
         steady,
-        warm: bearing::networks::built(spin_up.warm.as_deref(), &spin_up.bearing)?,
     })
 }
 

@@ -51,15 +51,19 @@ fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
     }
 }
 
-/// Runs a spin-up.
-pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Options) -> Outcome {
-    let given = RunInput {
+/// What a file gives of bearing and run.
+fn given(spin_up: &SpinUp) -> RunInput<'_> {
+    RunInput {
         bearing: &spin_up.bearing,
         warm: spin_up.warm.as_deref(),
         run: &spin_up.run,
-    };
+    }
+}
+
+/// Runs a spin-up.
+pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Options) -> Outcome {
     let stepping = asked(spin_up, built).stepping(|| 0.0);
-    let run = RigRun::of(built, given, stepping, &[], options);
+    let run = RigRun::of(built, given(spin_up), stepping, &[], options);
     let context = Context { spin_up, run };
     let quantities = quantities::name(spin_up, built, Some(&context));
     let title = (scenario.title.clone()).unwrap_or_else(|| "Spin-up of an inner race".to_string());
@@ -69,6 +73,6 @@ pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Optio
         history: columns::history(spin_up, built, Some(&context)),
         warnings: warnings::of(scenario, &context, &quantities),
         quantities,
-        ..context.outcome(given)
+        ..context.outcome()
     }
 }

@@ -1,25 +1,23 @@
 //! Every named result of a spin-up with its law, source and valid range.
 
 use crate::bearing::quantities::{BearingSetup, balls};
-use crate::bearing::warm::Heated;
-use crate::rig::run::Built;
-use crate::rig::warming::Warming;
-use crate::spin_up::Context;
+use crate::rig::run::{Built, name_temperatures};
+use crate::spin_up::{Context, given};
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use catalogue::geometry::digits;
+use model::system::cage_turns::LateMeans;
 use model::system::outer_race::OuterRaceEnergy;
 use model::system::rig::layout::{
     CAGE_SLIP, CAGE_SPEED, INNER, INNER_MOMENT, OUTER_MOMENT, ROTOR, STEADY_MOMENT,
 };
-use model::system::rig::record::LateMeans;
 use outcome::list::results;
 use outcome::list::{List, origins, relative};
 use outcome::{Quantity, Value};
 use scenario::{Drive, Fidelity, SpinUp};
 
 const EQUATIONS: &str =
-    "equations of motion, crates/model/src/system/rig/rate.rs and crates/model/src/bearing/";
-const LEDGER: &str = "energy ledger, crates/model/src/system/rig/ledger.rs";
+    "equations of motion, crates/model/src/system/rig/fixture.rs and crates/model/src/bearing/";
+const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
 /// Cage slip from which balls are said to skid.
 const SKIDDING: f64 = 0.02;
@@ -34,14 +32,13 @@ pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Ve
     motion(&mut list, spin_up, run);
     let bearing = BearingSetup {
         given: &spin_up.bearing,
-        constants: &built.machine.constants.bearing,
+        constants: &built.machine.constants.bearings[0].bearing,
         factors: &built.pressure_factors,
     };
     balls(&mut list, &bearing, run.map(|run| run.bearing()).as_ref());
     load(&mut list, spin_up, run);
-    let warm = spin_up.warm.as_deref();
-    let heated = Heated::of(warm, &spin_up.bearing, built.warm.as_deref());
-    Warming::name(&mut list, heated, run.and_then(|run| run.warming.as_ref()));
+    let heated = given(spin_up).heated(built);
+    name_temperatures(&mut list, heated, run.map(|run| &**run));
     energies(&mut list, spin_up, run);
     list.ended_at(run.map(|run| run.ending.time))
 }
@@ -49,14 +46,14 @@ pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Ve
 results! {
     fn motion(spin_up: &SpinUp, run: &Context) {
         "inner_race_time_to_50_percent": instant "s", RISE, "time to half of the full speed" in instants "race 50 %" => {
-            run.reached(run.record.time_to_50_percent(), "half of the full speed", 0.5 * spin_up.target_speed())
+            run.reached(run.record.bearings[0].inner_race_time_to_50_percent(), "half of the full speed", 0.5 * spin_up.target_speed())
         };
         "inner_race_time_to_95_percent": instant "s" headline, RISE, "time to 95 % of the full speed" in instants "race 95 %" in tile "Inner race at 95 % speed" => {
-            run.reached(run.record.time_to_95_percent(), "95 % of the full speed", 0.95 * spin_up.target_speed())
+            run.reached(run.record.bearings[0].inner_race_time_to_95_percent(), "95 % of the full speed", 0.95 * spin_up.target_speed())
         };
         "cage_time_to_95_percent_of_rolling": instant "s" headline, RISE, "time of the cage to 95 % of its rolling speed" in instants "cage 95 % of rolling" in note "Inner race at 95 % speed: the cage at 95 % of rolling at" => {
-            let rolling = spin_up.target_speed() * run.built.machine.constants.bearing.rolling_cage_ratio();
-            run.reached(run.record.cage_time_to_95_percent(), "95 % of the rolling cage speed", 0.95 * rolling)
+            let rolling = spin_up.target_speed() * run.built.machine.constants.bearings[0].bearing.rolling_cage_ratio();
+            run.reached(run.record.bearings[0].cage_time_to_95_percent(), "95 % of the rolling cage speed", 0.95 * rolling)
         };
         "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => run.ending.state[INNER.spin()];
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.probe(CAGE_SPEED);
@@ -64,9 +61,9 @@ results! {
             Drive::SlidingRotor { .. } => Ok(run.ending.state[ROTOR.spin()]),
             Drive::Torque { .. } | Drive::Speed(_) => Err("no rotor slides here".to_string()),
         };
-        "peak_inner_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the inner race" in tile "Largest moment t_I" => run.record.inner_moment.value;
-        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.record.outer_moment.value;
-        "peak_drive_moment": number "N m", PEAK_MOMENT, "largest moment of the drive" => run.record.drive_moment.value;
+        "peak_inner_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the inner race" in tile "Largest moment t_I" => run.rig().inner_moment.value;
+        "peak_outer_race_moment": number "N m" headline, PEAK_MOMENT, "largest moment on the outer race" in tile "Largest moment t_O" => run.rig().outer_moment.value;
+        "peak_drive_moment": number "N m", PEAK_MOMENT, "largest moment of the drive" => run.rig().drive_moment.value;
         "inner_race_moment_at_end": number "N m", INNER_RACE, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
         "outer_race_moment_at_end": number "N m", OUTER_RACE, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
         "law_moment_at_end": number "N m" headline, LAW, "moment of the friction law at the end" => run.by_law(run.probe(STEADY_MOMENT));
@@ -109,8 +106,9 @@ results! {
         };
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that at full speed" => {
             let constants = &run.built.machine.constants;
-            let inertia = constants.race.inertia + constants.bearing.set().inner_inertia();
-            relative(run.whole_balance().angular_momentum_residual(), inertia * constants.target_speed.abs())
+            let part = &constants.bearings[0];
+            let inertia = part.inner_race.inertia + part.bearing.set().inner_inertia();
+            relative(run.whole_balance().angular_momentum_residual(), inertia * constants.speed.abs())
         };
     }
 }
@@ -135,8 +133,8 @@ impl Context<'_> {
             return Err("the run ended early".to_string());
         }
         let speed = self.ending.state[INNER.spin()];
-        self.record.late_means(speed).ok_or_else(|| {
-            let ratio = self.built.machine.constants.bearing.rolling_cage_ratio();
+        self.rig().turns.late_means(speed).ok_or_else(|| {
+            let ratio = self.built.machine.constants.bearings[0].bearing.rolling_cage_ratio();
             let turn = 2.0 * std::f64::consts::PI / (ratio * self.spin_up.target_speed()).abs();
             format!(
                 "the race was at its final speed for less than a turn of the cage ({:.4} ms at full speed)",
@@ -146,7 +144,7 @@ impl Context<'_> {
     }
     /// Cage slip at the end: of the last turn of the cage, or of the last instant where there was none.
     fn late_slip(&self) -> f64 {
-        (self.record.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP))
+        (self.rig().turns.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP))
     }
     /// Whether a speed is one that slip may be compared with: a race at rest has none.
     fn is_fast(&self, speed: f64) -> bool {
@@ -246,10 +244,10 @@ origins! {
         source "the source paper, (21) as printed",
         valid "nowhere: its integral must not bear the factor 1+2s; shown for comparison";
     CORRECTED: law "D = ∫t_O Ω dt + ½(1+2s)(3/20 N m_b + ¼ m_c)R²Ω0²",
-        source "the source paper, (21), corrected; crates/model/src/system/rig/ledger.rs",
+        source "the source paper, (21), corrected; crates/model/src/system/outer_race.rs",
         valid "from rest, balls that roll all the way; wrong by up to half of L0 Ω0 where they skid";
     EXACT: law "D = ∫(t_O + t_g)Ω dt + ∫Ω dL - Δ(KE + U)",
-        source "balance of energy and angular momentum of balls and cage, crates/model/src/system/rig/ledger.rs",
+        source "balance of energy and angular momentum of balls and cage, crates/model/src/system/outer_race.rs",
         valid "any skidding; needs the speed of the cage, or the path term as an uncertainty";
     PATH: law "∫Ω dL of balls and cage: ½ L0 Ω0 where they roll all the way, L0 Ω0 where they are spun up after the race, \
           ½ (1+s)(N m_b + m_c) R² Ω0² where they spin with the race and orbit last",

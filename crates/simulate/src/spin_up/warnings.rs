@@ -5,7 +5,8 @@ use crate::bearing::warm;
 use crate::bearing::warnings as shared;
 use crate::spin_up::quantities::rolling_start_to_end;
 use crate::spin_up::{Context, asked};
-use model::system::rig::layout::{APPLIED_LOAD, INNER};
+use model::auxiliary_bearing::probe::NORMAL_FORCE;
+use model::system::rig::layout::INNER;
 use outcome::{Quantity, Warning};
 use physics::palmgren::FADING_SPEED;
 use scenario::{Bearing, Moment, Scenario};
@@ -48,10 +49,10 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, quantities: &[Quantity]
         rows.map(|row| value(&row).abs()).fold(0.0, f64::max)
     };
     let speed = largest(&|row| row.state[INNER.spin()]);
-    let load = largest(&|row| row.probe[APPLIED_LOAD]);
+    let load = largest(&|row| row.probe[NORMAL_FORCE]);
     list.extend(creeps(bearing, speed));
     list.extend(shared::skids(context.built.steady.as_ref()));
-    if let Some(followed) = context.warming.as_ref().map(|warming| warming.followed()) {
+    if let Some(followed) = context.followed() {
         list.extend(
             warm::judged(&followed)
                 .into_iter()

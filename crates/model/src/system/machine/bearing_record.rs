@@ -11,18 +11,19 @@ use super::travel::Travel;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
     BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-    LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE, NORMAL_FORCE_RATE, PENETRATION, PENETRATION_SPEED,
-    SLIP_SPEED,
+    LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
 };
 use crate::bearing::BearingConstants;
 use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
 use crate::contact::ContactReaction;
+use crate::heats::HEATS;
 use crate::surface_heat::{Motions, Seen, SurfaceHeat};
 use crate::system::race_record::{RaceRecord, Seen as BallsSeen};
+use crate::system::rig::Drive;
+use crate::system::rig::layout::DRIVE_HEAT;
 use crate::system::sampling::{Peak, Rise};
 use number::Vec2;
 use solve::Step;
-use solve::watch::{maximum, root};
 use std::f64::consts::PI;
 use thermal::bearing_network::INNER_RACE;
 
@@ -147,7 +148,10 @@ impl BearingRecord {
         BearingRecord {
             at,
             bearing,
-            contacts: Vec::with_capacity(CONTACTS),
+            contacts: match part.fixture {
+                None => Vec::with_capacity(CONTACTS),
+                Some(_) => Vec::new(),
+            },
             largest_inner_load: Peak::NONE,
             largest_outer_load: Peak::NONE,
             largest_pocket_force: Peak::NONE,
@@ -210,134 +214,6 @@ impl BearingRecord {
         });
         peaks.reduce(|a, b| if b.value > a.value { b } else { a })
     }
-    pub(super) fn contacts_of(&mut self, step: &mut Step<RotorMachine>) {
-        let (at, bearing) = (self.at, self.bearing);
-        // it may follow the temperatures
-        self.clearance = step.machine.constants.bearings[bearing]
-            .contact
-            .radial_clearance;
-        let (start, end) = (
-            step.start_probe(at.probe(PENETRATION)),
-            step.end_probe(at.probe(PENETRATION)),
-        );
-        let rates = (
-            step.start_probe(at.probe(PENETRATION_SPEED)),
-            step.end_probe(at.probe(PENETRATION_SPEED)),
-        );
-        let length = step.end - step.start;
-        // the extremum of the penetration inside the step, where its rate changes sign
-        let turning = if (rates.0 > 0.0) != (rates.1 > 0.0) {
-            // Hermite estimate of the bulge beyond the ends; searched only where it matters
-            let bulge = 0.125 * length * (rates.0 - rates.1);
-            let middle = 0.5 * (start + end) + bulge;
-            let flips = (start > 0.0) == (end > 0.0) && (middle + bulge > 0.0) != (end > 0.0);
-            let record = rates.0 > 0.0
-                && middle + self.clearance + bulge > self.rotor_race_displacement.value;
-            (flips || record).then(|| {
-                let theta = root(step, (0.0, rates.0), (1.0, rates.1), |step, theta| {
-                    contact_at(step, bearing, theta).penetration_speed
-                });
-                (theta, contact_at(step, bearing, theta).penetration)
-            })
-        } else {
-            None
-        };
-        if let Some((theta, value)) = turning {
-            let time = step.time(theta);
-            self.rotor_race_displacement
-                .raise(value + self.clearance, time);
-        }
-        self.rotor_race_displacement
-            .raise(end + self.clearance, step.end);
-        if end > 0.0 {
-            // nearer than this, the eccentric centre cannot be farther than ever before
-            let least = (self.rotor_displacement.value - self.eccentricity).max(0.0);
-            if mass_centre_at_end(step, bearing).length_squared() >= least * least {
-                let centre = centre_at_end(step, bearing) + step.machine.one.nodes[bearing].datum;
-                self.rotor_displacement
-                    .raise(centre.length_squared().sqrt(), step.end);
-            }
-        }
-
-        if start > 0.0 && self.contacts.is_empty() {
-            // a start in contact: it began before the run
-            self.contacts.push(Contact {
-                start: step.start,
-                end: None,
-                peak_force: step.start_probe(at.probe(NORMAL_FORCE)),
-                peak_time: step.start,
-                peak_rise: 0.0,
-            });
-        }
-        let mut from = (0.0, start);
-        for to in turning.into_iter().chain([(1.0, end)]) {
-            let crosses = (from.1 > 0.0) != (to.1 > 0.0);
-            let event = crosses.then(|| {
-                root(step, from, to, |step, theta| {
-                    contact_at(step, bearing, theta).penetration
-                })
-            });
-            if let (Some(begin), true) = (event, to.1 > 0.0) {
-                self.contacts.push(Contact {
-                    start: step.time(begin),
-                    end: None,
-                    peak_force: 0.0,
-                    peak_time: step.time(begin),
-                    peak_rise: 0.0,
-                });
-                self.force_peak(step, begin, to.0);
-            } else if from.1 > 0.0 {
-                self.force_peak(step, from.0, event.unwrap_or(to.0));
-                if let (Some(open), Some(contact)) = (event, self.contacts.last_mut()) {
-                    contact.end = Some(step.time(open));
-                }
-            }
-            from = to;
-        }
-    }
-
-    /// The largest normal force between two fractions of a step raises the peak of the current contact.
-    fn force_peak(&mut self, step: &mut Step<RotorMachine>, low: f64, high: f64) {
-        let (at, bearing) = (self.at, self.bearing);
-        let Some(contact) = self.contacts.last_mut() else {
-            return;
-        };
-        let mut peak = Peak {
-            value: contact.peak_force,
-            time: contact.peak_time,
-        };
-        if high == 1.0 {
-            peak.raise(step.end_probe(at.probe(NORMAL_FORCE)), step.end);
-        }
-        let force = (
-            step.start_probe(at.probe(NORMAL_FORCE)),
-            step.end_probe(at.probe(NORMAL_FORCE)),
-        );
-        let rate = (
-            step.start_probe(at.probe(NORMAL_FORCE_RATE)),
-            step.end_probe(at.probe(NORMAL_FORCE_RATE)),
-        );
-        let whole = low == 0.0 && high == 1.0;
-        if whole && rate.0 > 0.0 && rate.1 < 0.0 {
-            let bulge = 0.125 * (step.end - step.start) * (rate.0 - rate.1);
-            if force.0.max(force.1) + 2.0 * bulge > peak.value {
-                let (theta, value) = maximum(step, 0.0, 1.0, |step, theta| {
-                    contact_at(step, bearing, theta).normal_force
-                });
-                peak.raise(value, step.time(theta));
-            }
-        } else if !whole {
-            // begin or end inside the step: a few points decide whether the peak is here too
-            for i in 1..8 {
-                let theta = low + (high - low) * f64::from(i) / 8.0;
-                let value = contact_at(step, bearing, theta).normal_force;
-                peak.raise(value, step.time(theta));
-            }
-        }
-        contact.peak_force = peak.value;
-        contact.peak_time = peak.time;
-    }
-
     /// Records of the watched forces, in their order.
     fn forces(&mut self) -> [&mut Peak; WATCHED.len()] {
         [
@@ -389,6 +265,23 @@ impl BearingRecord {
                 }
             }
         }
+    }
+
+    /// A step on a rig: largest values are those at its ends.
+    pub(super) fn on_rig(&mut self, step: &mut Step<RotorMachine>) {
+        for (peak, probe) in [
+            (&mut self.largest_inner_load, LARGEST_INNER_LOAD),
+            (&mut self.largest_outer_load, LARGEST_OUTER_LOAD),
+            (&mut self.largest_pocket_force, LARGEST_POCKET_FORCE),
+            (&mut self.largest_land_force, LAND_FORCE),
+        ] {
+            peak.raise_at_ends(step, self.at.probe(probe));
+        }
+        for rise in &mut self.rises {
+            rise.watch(step);
+        }
+        self.balls_of(step);
+        self.warmth_of(step);
     }
 
     /// Follows the heat of the surfaces that rub.
@@ -480,12 +373,12 @@ impl BearingRecord {
         let first = self.at.own().start;
         let seen = WarmthSeen {
             time,
-            heats: std::array::from_fn(|k| state(self.first_heat + k)),
+            heats: heats_of(machine, self.first_heat, state),
             spin: state(self.at.inner.spin()),
             drag_factor: part.bearing.drag_factor(&|own| state(first + own)),
             films: part.bearing.in_films(&|own| state(first + own)),
             taken: (self.heat.as_ref()).map(|heat| (heat.taken(), heat.slid.impulse)),
-            impulse: Some(self.impulse),
+            impulse: part.fixture.is_none().then_some(self.impulse),
         };
         warmth.take(warm, &seen);
     }
@@ -537,6 +430,19 @@ impl BearingRecord {
         self.mount_displacement.value > self.limits.mount_displacement
             || step.end_probe(self.at.probe(PENETRATION)) > self.limits.penetration
     }
+}
+
+/// Heats of a bearing, J: on a rig those of its balls, and the friction of a sliding rotor.
+fn heats_of(machine: &RotorMachine, first: usize, state: &dyn Fn(usize) -> f64) -> [f64; HEATS] {
+    let Some(fixture) = machine.fixture() else {
+        return std::array::from_fn(|kind| state(first + kind));
+    };
+    let slides = matches!(fixture.drive, Drive::SlidingRotor(_));
+    std::array::from_fn(|kind| match kind {
+        kind if kind < DRIVE_HEAT => state(first + kind),
+        kind if slides && kind == HEATS - 1 => state(first + DRIVE_HEAT),
+        _ => 0.0,
+    })
 }
 
 /// Whether a value with these mean slopes over the last and this step may have a peak inside this step that rises

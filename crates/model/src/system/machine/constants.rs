@@ -11,7 +11,7 @@ use number::Vec2;
 /// Constants of one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineConstants {
-    /// The rotor, or its share of one of several equal bearings.
+    /// The rotor, or its share of one of several equal bearings; on a rig what drives the race.
     pub rotor: RotorConstants,
     /// Levitation of a point rotor, active before release only.
     pub levitation: Levitation<f64>,
@@ -23,7 +23,7 @@ pub struct MachineConstants {
     pub bearings: Vec<AuxiliaryBearingConstants>,
     /// Gravity, m/s².
     pub gravity: Vec2<f64>,
-    /// Spin of the rotor at release, rad/s.
+    /// Spin of the rotor at release, rad/s; on a rig the speed that counts as reached, of either sign.
     pub speed: f64,
     /// Angle of the unbalance at release, rad.
     pub unbalance_angle: f64,
@@ -36,7 +36,7 @@ pub struct MachineConstants {
 pub enum Event {
     /// The brake of the rotor comes on.
     Brake,
-    /// A row of the rotor's torque over time: a step ends there and nothing else happens.
+    /// A row of a table over time, of the rotor's torque, or of load or drive of a rig: a step ends there.
     Knot,
     /// Something happens to the controllers of the magnets.
     Control(ControlEvent),
@@ -45,13 +45,17 @@ pub enum Event {
 impl MachineConstants {
     /// Why a machine cannot be computed.
     pub(super) fn fault(&self) -> Option<&'static str> {
-        let rows = self.bearings.iter().map(|part| &part.node);
+        let on_rig = |part: &&AuxiliaryBearingConstants| part.fixture.is_some();
+        let in_machine = self.bearings.iter().filter(|part| !on_rig(part));
+        let rows = in_machine.map(|part| &part.node);
         let rows = rows.chain(self.magnets.iter().flat_map(MagnetsConstants::nodes));
         let mut rows = rows.chain(self.seals.iter().map(|seal| &seal.node));
         let count = self.rotor.coordinates.len();
         let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);
         if self.bearings.is_empty() {
             Some("a machine has a bearing")
+        } else if self.bearings.len() > 1 && self.bearings.iter().any(|part| on_rig(&part)) {
+            Some("a rig has one bearing")
         } else if rows.any(|row| row.len() != count || still(row)) {
             Some("a node has an entry for each coordinate, and moves with one of them")
         } else {

@@ -2,20 +2,26 @@
 //!
 //! ```text
 //!   rotor        x of all coordinates (of G), y, ẋ, ẏ; φ, Ω
-//!   races        of each auxiliary bearing: inner x y, ẋ ẏ, φ_i, ω_i; outer x y, ẋ ẏ
+//!   races        of each auxiliary bearing: inner x y, ẋ ẏ, φ_i, ω_i; outer x y, ẋ ẏ; on a rig see rig::layout
 //!   bearings     own states of each, then of each mount
 //!   magnets      sensors, controllers, currents, where they act in time
 //!   ledger       heats of the rotor, where it has any, and of each bearing; works of the sources, of the rotor first; external
-//!                angular impulse
+//!                angular impulse; on a rig the works by the moments on the races
 //!
-//!   probes       of each bearing, then the details of each
+//!   probes       of each bearing, on a rig what is measured of it, then the details of each
 //! ```
 
 use super::constants::MachineConstants;
-use crate::auxiliary_bearing::{self, BearingAt, lay_races, probe};
+use crate::auxiliary_bearing::{
+    AuxiliaryBearingConstants, BearingAt, HEATS, OWN_HEATS, SOURCES, lay_races, probe,
+};
 use crate::bearing::{self, BearingConstants, DETAIL_PER_BALL};
 use crate::rotor::RotorAt;
 use crate::system::layout;
+use crate::system::outer_race::WORKS;
+use crate::system::rig::Drive;
+use crate::system::rig::fixture::Fixture;
+use crate::system::rig::layout::{ARM, ARM_RATE, MEASURED, TEMPERATURE, THERMOCOUPLE};
 use std::ops::{Deref, Range};
 
 /// First channel of the rotor.
@@ -83,9 +89,11 @@ impl Layout {
             first: ROTOR,
             coordinates: own.coordinates.len(),
         };
-        channels.block("", rotor.names());
+        let fixture = parts[0].fixture.as_deref();
+        let clutch = fixture.is_some_and(|own| matches!(own.drive, Drive::Clutch(_)));
+        channels.block("", rotor.names(if clutch { "flywheel" } else { "rotor" }));
         let races: Vec<_> = (parts.iter())
-            .map(|part| lay_races(&mut channels, &part.name, part.is_bushing()))
+            .map(|part| lay_races(&mut channels, part))
             .collect();
         let states: Vec<_> = (parts.iter())
             .map(|part| channels.bearing(&part.name, &part.bearing))
@@ -104,41 +112,56 @@ impl Layout {
             seals: None,
             seal_damping: heat(!constants.seals.is_empty(), "seal_damping"),
         };
-        channels.sources_of("", ROTOR_SOURCES);
+        let sources = rotor_sources(fixture, clutch);
+        channels.sources_of("", sources);
         if constants.magnets.is_some() {
             of_rotor.magnets = Some(channels.sources_of("", ["magnets"]));
         }
         if !constants.seals.is_empty() {
             of_rotor.seals = Some(channels.sources_of("", ["seals"]));
         }
-        let mut probes = parts.len() * probe::COUNT;
+        let measured = fixture.map_or(0, |_| MEASURED);
+        let mut probes = parts.len() * probe::COUNT + measured;
         let mut bearings = Vec::with_capacity(parts.len());
         for (k, part) in parts.iter().enumerate() {
-            let kinds = bearing::HEATS
-                .into_iter()
-                .chain(auxiliary_bearing::OWN_HEATS);
+            let own: &[_] = match fixture {
+                None => &OWN_HEATS,
+                Some(_) if clutch => &["clutch", "belt", "support_bearings"],
+                Some(_) => &OWN_HEATS[2..],
+            };
+            let heats = bearing::HEATS.into_iter().chain(own.iter().copied());
+            let heat = channels.heats_of(&part.name, heats);
+            // of a clutch there is no torque from the ground
+            let sources = SOURCES.into_iter().skip(usize::from(clutch));
+            let source = channels.sources_of(&part.name, sources);
             let balls = part.bearing.balls();
             bearings.push(BearingAt {
                 inner: races[k][0],
                 outer: races[k][1],
+                driver: rotor.spin(),
                 bearing: states[k].start,
                 bearing_states: states[k].len(),
                 mount: mounts[k].start,
                 mount_states: mounts[k].len(),
                 balls,
-                heat: channels.heats_of(&part.name, kinds),
-                source: channels.sources_of(&part.name, auxiliary_bearing::SOURCES),
+                heat,
+                // a rig has all of them
+                source: if fixture.is_some() { 0 } else { source },
                 probe: k * probe::COUNT,
                 detail: probes,
             });
             probes += DETAIL_PER_BALL * balls;
         }
         channels.impulses_of("", ["impulse"]);
-        // balls that roll find the largest loads in the list of all
-        let roll = |part: &auxiliary_bearing::AuxiliaryBearingConstants| {
-            matches!(part.bearing, BearingConstants::Rolling(_))
+        if let Some(fixture) = fixture {
+            channels.impulses_of("", fixture.housing.iter().map(|_| "bearing_impulse"));
+            channels.works_of("", WORKS);
+        }
+        // balls that roll find the largest loads in the list of all, a rig their sum
+        let looks = |part: &AuxiliaryBearingConstants| {
+            fixture.is_some() || matches!(part.bearing, BearingConstants::Rolling(_))
         };
-        let watched_probes = match (parts.iter().any(roll), &bearings[..]) {
+        let watched_probes = match (parts.iter().any(looks), &bearings[..]) {
             (false, _) => parts.len() * probe::COUNT,
             (true, [only]) => only.detail + 2 * only.balls,
             (true, _) => probes,
@@ -173,6 +196,9 @@ impl Layout {
     /// [`error_scale`](BearingConstants::error_scale). The rotor by the smallest clearance of its bearings; its coordinates by what
     /// they make of it at these, those that swing quickly by their speed over their frequency.
     pub fn error_scale(&self, constants: &MachineConstants) -> Vec<f64> {
+        if let Some(fixture) = &constants.bearings[0].fixture {
+            return self.error_scale_on_rig(constants, fixture);
+        }
         let gravity = constants.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
         let spin = constants.speed.abs().max(match constants.rotor.driven() {
             true => RUN_UP_SPIN,
@@ -214,7 +240,7 @@ impl Layout {
             (part.mount_parts).error_scale(of_mount, 0.01 * clearance, 0.3 * fall_speed);
             let inertia = part.inner_race.inertia;
             let turned = 0.5 * inertia * spin * spin + 0.5 * mass * fall_speed * fall_speed;
-            let heats = self.heat(at.heat)..self.heat(at.heat + auxiliary_bearing::HEATS);
+            let heats = self.heat(at.heat)..self.heat(at.heat + HEATS);
             scale[heats].fill(turned);
             scale[self.source(at.source)..self.source(at.source + 2)].fill(turned);
             energy = energy.min(turned);
@@ -236,6 +262,49 @@ impl Layout {
         }
         scale[self.angular_impulse()] = impulse;
         scale
+    }
+
+    /// The same on a rig: places of centres and balls by a ten-thousandth of the ball, speeds of centres by a thousandth of the speed
+    /// of the ball centres, spins by the speed that counts as reached, energies by the spin energy of the race at that speed, the arm by
+    /// a moment of 0.1 N m, temperatures by 1 K.
+    fn error_scale_on_rig(&self, constants: &MachineConstants, fixture: &Fixture) -> Vec<f64> {
+        const MOMENT: f64 = 0.1;
+        let (at, part) = (&self.bearings[0], &constants.bearings[0]);
+        let spin = constants.speed.abs().max(1.0);
+        let set = part.bearing.set();
+        let centre_speed = 1e-3 * spin * part.bearing.pitch_radius();
+        let inertia = part.inner_race.inertia + set.inner_inertia();
+        let length = 1e-4 * set.inner_track_radius * set.ball_ratio;
+        let mut scale = vec![0.0; self.dimension()];
+        scale[self.rotor.angle()] = 1.0;
+        scale[self.rotor.spin()] = spin;
+        for body in [at.inner, at.outer] {
+            body.error_scale(&mut scale, length, centre_speed, spin);
+        }
+        if let Some(housing) = &fixture.housing {
+            scale[ARM] = MOMENT;
+            scale[ARM_RATE] = MOMENT * housing.arm.natural_frequency;
+            scale[TEMPERATURE..=THERMOCOUPLE].fill(1.0);
+        }
+        (part.bearing).error_scale(&mut scale[at.own()], spin, centre_speed);
+        scale[self.ledger()..].fill(0.5 * inertia * spin * spin);
+        scale[self.angular_impulse()..self.work(0)].fill(inertia * spin);
+        scale
+    }
+}
+
+/// Sources before those of the bearings, magnets and seals: those of a rotor, or on a rig with the radial load.
+fn rotor_sources(fixture: Option<&Fixture>, clutch: bool) -> [&'static str; 2] {
+    let load = match fixture {
+        None => return ROTOR_SOURCES,
+        Some(Fixture {
+            housing: Some(_), ..
+        }) => "weight",
+        Some(_) => "radial_load",
+    };
+    match clutch {
+        true => ["motor", load],
+        false => [load, ROTOR_SOURCES[1]],
     }
 }
 

@@ -1,9 +1,15 @@
 //! Energies and angular momentum of a machine, and what must close.
 //!
 //! At all times: works of the sources = change of (kinetic + potential) + heats, and
-//! change of angular momentum about the origin = external angular impulse.
+//! change of angular momentum about the origin = external angular impulse. On a rig it closes for balls and cage alone as well,
+//!
+//! ```text
+//!   t_I - t_O - t_g + weights + c_i × F_i + c_o × F_o
+//! ```
+//! and the temperatures count apart: C ΔT + C_f ΔΘ = heats of the bearing - ∫G T dt.
 
-use super::RotorMachine;
+use super::{Mode, RotorMachine};
+use crate::bearing::BearingEnergy;
 use crate::mount::MountReaction;
 use crate::system::energy::{Balance, Content, Flows};
 use number::Vec2;
@@ -48,7 +54,7 @@ impl RotorMachine {
             if !race.centre_held {
                 content.potential += weight(race.mass, inner.position);
             }
-            content.potential += weight(outer_mass, outer.position);
+            content.potential += weight(part.outer_weighing_mass(), outer.position);
             content.potential += bearing.elastic;
             content.potential += bearing.weight;
             content.angular_momentum += race.mass * inner.position.cross(inner.velocity);
@@ -68,6 +74,21 @@ impl RotorMachine {
         Balance::between(start, end, |state| (self.content(state), self.flows(state)))
     }
 
+    /// Energies and angular momentum of balls and cage of a bearing alone.
+    pub fn bearing_content(&self, bearing: usize, state: &[f64]) -> BearingEnergy {
+        let at = &self.layout().bearings[bearing];
+        let constants = &self.constants.bearings[bearing].bearing;
+        constants.energy(&at.motion(state), &state[at.own()])
+    }
+    /// External angular impulse on balls and cage less the change of their angular momentum, N m s: zero but for errors. Of a
+    /// rig with a housing.
+    pub fn bearing_momentum_residual(&self, start: &[f64], end: &[f64]) -> f64 {
+        // the second of the impulses
+        let impulse = self.layout().angular_impulse() + 1;
+        let held = |state: &[f64]| self.bearing_content(0, state).angular_momentum;
+        (end[impulse] - start[impulse]) - (held(end) - held(start))
+    }
+
     /// What the mount of a bearing does at a state, for inspection.
     pub fn mount(&self, bearing: usize, state: &[f64]) -> MountReaction<f64> {
         let at = &self.layout().bearings[bearing];
@@ -75,11 +96,27 @@ impl RotorMachine {
         let mut rate = vec![0.0; self.dimension()];
         self.one.bearings[bearing].mount(at, &motion, state, &mut rate)
     }
-    /// The rate of change of a state, for inspection: (rate, probes).
+    /// The rate of change of a state at the start, for inspection: (rate, probes).
     pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.inspect_in(&self.start_mode(), 0.0, state)
+    }
+    /// The same at an instant in a mode.
+    pub fn inspect_in(&self, mode: &Mode<f64>, time: f64, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let mut rate = vec![0.0; self.dimension()];
         let mut probe = vec![0.0; self.probes()];
-        self.rate(&self.start_mode(), 0.0, state, &mut rate, &mut probe);
+        self.rate(mode, time, state, &mut rate, &mut probe);
         (rate, probe)
+    }
+    /// The same on a rig without a clutch, in the mode of that instant.
+    pub fn inspect_at(&self, time: f64, state: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.inspect_in(&self.mode_at(time), time, state)
+    }
+    /// The probes at the end of a rig's run, in the mode that it has come to.
+    pub fn last_probes(&self, mode: &Mode<f64>, time: f64, state: &[f64]) -> Vec<f64> {
+        let (_, probe) = match self.clutch() {
+            Some(_) => self.inspect_in(mode, time, state),
+            None => self.inspect_at(time, state),
+        };
+        probe
     }
 }

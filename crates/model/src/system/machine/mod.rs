@@ -1,4 +1,4 @@
-//! A levitated rotor falls onto its auxiliary bearings.
+//! A machine of parts: a rotor, magnets, seals, auxiliary bearings. A drop, a coast-down, a spin-up, a test on a rig are machines.
 //!
 //! ```text
 //!        rotor η, φ ──(levitation, until t = 0; magnets with controllers or with currents that decay; seals)
@@ -24,6 +24,8 @@
 //! The rotor is a part too: [`rotor`](crate::rotor). Each bearing meets it at a node of its own and counts its coordinates from
 //! a datum of its own. On a point rotor all see the same motion; equal bearings there may be computed as one that carries its
 //! share of the rotor's mass, polar inertia and torques.
+//!
+//! On a [`rig`](super::rig) one bearing stands in a fixture, and the rotor only turns.
 
 pub mod bearing_record;
 pub mod constants;
@@ -42,13 +44,16 @@ use crate::levitation::Levitation;
 use crate::magnets::{AxisConstants, ControlEvent, Instant, Magnets};
 use crate::rotor::{GeometricCentre, Node, Rotor};
 use crate::seal::Seal;
+use crate::system::rig::Clutch;
+use crate::system::rig::{ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
+use crate::table::Piece;
 use ::levitation::OfAxes;
 pub use constants::{Event, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
 use solve::{Batch, Machine};
 
-/// Discrete facts of a machine: 1 for on, 0 for off.
+/// What holds between two landings: 1 for on, 0 for off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode<R> {
     /// Levitation.
@@ -57,6 +62,12 @@ pub struct Mode<R> {
     pub brake: R,
     /// Power of the magnets.
     pub power: R,
+    /// Radial load on a rig, N.
+    pub load: Piece<R>,
+    /// Torque, N m, or speed, rad/s, that is given on a rig; zero where neither is.
+    pub drive: Piece<R>,
+    /// Motor and clutch of a rig.
+    pub clutch: ClutchMode,
 }
 
 impl Mode<f64> {
@@ -101,6 +112,11 @@ pub struct Machines<R: Real> {
 }
 
 impl RotorMachine {
+    /// A bearing on a rig.
+    pub fn on_rig(constants: RigConstants) -> Result<Self, Refusal> {
+        constants.check()?;
+        Ok(Self::new(constants.machine()))
+    }
     /// A machine whose levitation has just been lost.
     pub fn new(constants: MachineConstants) -> Self {
         Self::with_levitation(constants, false)
@@ -127,6 +143,26 @@ impl RotorMachine {
             constants,
         }
     }
+    /// Whether lanes may hold both: the same states, magnets, seals, switches and drives.
+    pub fn shares_lanes(&self, other: &Self) -> bool {
+        let (a, b) = (&self.constants, &other.constants);
+        let rows = |own: &MachineConstants| -> Vec<usize> {
+            own.seals.iter().map(|seal| seal.rows.len()).collect()
+        };
+        let drive = |machine: &Self| {
+            let fixture = machine.fixture();
+            fixture.map(|own| std::mem::discriminant(&own.drive))
+        };
+        let magnets = match (&a.magnets, &b.magnets) {
+            (Some(a), Some(b)) => a.share_lanes(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        self.layout == other.layout
+            && magnets
+            && rows(a) == rows(b)
+            && a.rotor.spin_held == b.rotor.spin_held
+            && drive(self) == drive(other)
+    }
     /// Where everything stands in the state.
     pub fn layout(&self) -> &Layout {
         &self.layout
@@ -135,6 +171,29 @@ impl RotorMachine {
     pub fn place(&self, place: usize, state: &[f64]) -> Vec2<f64> {
         let motion = self.layout.rotor.motion(state);
         self.places[place].centre(&motion).position
+    }
+    /// What turns, loads and carries the bearing of a rig; none of another machine.
+    pub fn fixture(&self) -> Option<&Fixture> {
+        self.constants.bearings[0].fixture.as_deref()
+    }
+    fn clutch(&self) -> Option<&ClutchDrive> {
+        match &self.fixture()?.drive {
+            Drive::Clutch(clutch) => Some(clutch),
+            _ => None,
+        }
+    }
+    /// The mode at an instant, before an event or a clutch does anything.
+    pub(super) fn mode_at(&self, time: f64) -> Mode<f64> {
+        let nothing = [Piece::NONE; 2];
+        let [load, drive] = (self.fixture()).map_or(nothing, |fixture| fixture.pieces(time));
+        Mode {
+            levitation: f64::from(u8::from(self.levitated)),
+            brake: 0.0,
+            power: f64::from(u8::from(self.controlled())),
+            load,
+            drive,
+            clutch: ClutchMode::idle(),
+        }
     }
     /// Whether controllers hold the rotor for a while.
     pub fn controlled(&self) -> bool {
@@ -235,6 +294,10 @@ impl<R: Real> Machines<R> {
 impl Machine for RotorMachine {
     type Mode = Mode<f64>;
 
+    fn starts_afresh(&self) -> bool {
+        // a clutch that changes changes what moves at once
+        self.clutch().is_some()
+    }
     fn dimension(&self) -> usize {
         self.layout.dimension()
     }
@@ -257,26 +320,52 @@ impl Machine for RotorMachine {
         self.layout.channel_name(channel)
     }
     fn start_mode(&self) -> Mode<f64> {
-        let mut mode = Mode {
-            levitation: f64::from(u8::from(self.levitated)),
-            brake: 0.0,
-            power: f64::from(u8::from(self.controlled())),
-        };
+        let mut mode = self.mode_at(0.0);
         for event in self.constants.schedule.at_the_start() {
             mode.happen(event);
+        }
+        if let Some(clutch) = self.clutch()
+            && mode.clutch.due(&clutch.program) <= 0.0
+        {
+            mode.advance(self, &clutch.program, 0.0, &self.start());
         }
         mode
     }
     fn landings(&self) -> &[f64] {
         self.constants.schedule.instants()
     }
+    fn due(&self, mode: &Mode<f64>, landing: usize) -> f64 {
+        match self.clutch() {
+            Some(clutch) => mode.clutch.due(&clutch.program),
+            None => (self.landings().get(landing).copied()).unwrap_or(f64::INFINITY),
+        }
+    }
     fn transition(&self, landing: usize, mode: &mut Mode<f64>, state: &mut [f64]) {
+        if let Some(clutch) = self.clutch() {
+            let time = mode.clutch.due(&clutch.program);
+            return mode.advance(self, &clutch.program, time, state);
+        }
+        if let Some(fixture) = self.fixture() {
+            [mode.load, mode.drive] = fixture.pieces(self.landings()[landing]);
+        }
         let event = self.constants.schedule.event(landing);
         mode.happen(event);
         if let (Event::Control(event), Some(magnets)) = (event, &self.one.magnets) {
             let at = self.layout.magnets.clone();
             magnets.happen(event, self.layout.rotor, at, state);
         }
+    }
+    fn guard(&self, mode: &Mode<f64>, _time: f64, at: (&[f64], &[f64])) -> f64 {
+        self.reserve(mode, at)
+    }
+    fn guard_error(&self, mode: &Mode<f64>) -> f64 {
+        match mode.clutch.state {
+            Clutch::Slipping { .. } => 1e-13 * self.constants.speed.abs(),
+            Clutch::Open | Clutch::Locked => f64::INFINITY,
+        }
+    }
+    fn cross(&self, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
+        self.change_clutch(time, mode, state);
     }
     fn rate(
         &self,
@@ -298,26 +387,21 @@ impl<R: Real> Batch<R> for Machines<R> {
     where
         RotorMachine: 'a,
     {
-        let layout = &machine(0).layout;
+        let first = machine(0);
         for lane in 1..R::LANES {
-            assert!(machine(lane).layout == *layout, "lanes share their layout");
-            let magnets = |lane: usize| machine(lane).constants.magnets.is_some();
-            assert!(magnets(lane) == magnets(0), "lanes share their magnets");
-            let rows = |lane: usize| {
-                let seals = machine(lane).constants.seals.iter();
-                seals.map(|seal| seal.rows.len()).collect::<Vec<_>>()
-            };
-            assert!(rows(lane) == rows(0), "lanes share the rows of their seals");
-            let held = |lane: usize| machine(lane).constants.rotor.spin_held;
-            assert!(held(lane) == held(0), "lanes share switches");
+            let shares = machine(lane).shares_lanes(first);
+            assert!(shares, "lanes share states, laws and switches");
         }
-        Machines::of(&|lane| &machine(lane).constants, layout.clone())
+        Machines::of(&|lane| &machine(lane).constants, first.layout.clone())
     }
     fn gather_mode(modes: &dyn Fn(usize) -> Mode<f64>) -> Mode<R> {
         Mode {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
             brake: R::from_lanes(|lane| modes(lane).brake),
             power: R::from_lanes(|lane| modes(lane).power),
+            load: Piece::from_lanes(&|lane| modes(lane).load),
+            drive: Piece::from_lanes(&|lane| modes(lane).drive),
+            clutch: modes(0).clutch,
         }
     }
     #[inline(always)]

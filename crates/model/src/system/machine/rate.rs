@@ -4,7 +4,9 @@ use super::layout::ROTOR_SOURCES;
 use super::{Machines, Mode};
 use crate::auxiliary_bearing::{AtNode, Outlet};
 use crate::magnets::{Instant, Pull};
+use crate::mount::MountReaction;
 use crate::rotor::RotorMotion;
+use crate::system::rig::fixture::Acting;
 use number::{Mask, Real, Vec2};
 
 /// So many nodes are kept from the forces on the rotor for the bearings; more than the usual two bearings compute theirs twice.
@@ -22,13 +24,24 @@ fn blocks<R>(rate: &mut [R], coordinates: usize) -> [&mut [R]; 4] {
 impl<R: Real> Machines<R> {
     /// What the rotor does at a bearing.
     #[inline(always)]
-    fn at_node(&self, k: usize, state: &[R], rotor: &RotorMotion<R>) -> AtNode<R> {
+    fn at_node<'a>(
+        &self,
+        k: usize,
+        state: &[R],
+        rotor: &RotorMotion<R>,
+        acting: Option<&'a Acting<R>>,
+    ) -> AtNode<'a, R> {
         let centre = self.nodes[k].centre(rotor);
         let inner = self.layout.bearings[k].motion(state).inner;
-        AtNode {
-            contact: self.bearings[k].contact(&centre, rotor.spin, &inner),
+        let mut there = AtNode {
+            contact: (self.bearings[k].contact).react(&centre, rotor.spin, &inner),
             centre,
+            acting,
+        };
+        if let Some(acting) = acting {
+            there.contact = acting.contact;
         }
+        there
     }
 
     /// The rate of change of the state, and the probes where asked.
@@ -49,6 +62,13 @@ impl<R: Real> Machines<R> {
         // what acts on the rotor
         let count = layout.rotor.coordinates;
         let rotor = layout.rotor.motion(state);
+        // a rig has one bearing
+        let first = (&self.bearings[0], &layout.bearings[0]);
+        let acting = first.0.fixture.as_ref().map(|fixture| {
+            let spins = [rotor.spin, state[first.1.inner.spin()]];
+            fixture.act(mode, time, spins, &first.0.contact)
+        });
+        let acting = acting.as_ref();
         let pulls = self.magnets.as_ref().map(|magnets| {
             let powered = mode.power;
             let states = layout.magnets.clone();
@@ -69,9 +89,9 @@ impl<R: Real> Machines<R> {
             held_at = centre.position.cross(force);
             levitation = (force.dot(centre.velocity), held_at);
         }
-        let mut kept: [Option<AtNode<R>>; KEPT] = [None; KEPT];
+        let mut kept: [Option<AtNode<'_, R>>; KEPT] = [None; KEPT];
         for (k, node) in self.nodes.iter().enumerate() {
-            let there = self.at_node(k, state, &rotor);
+            let there = self.at_node(k, state, &rotor, acting);
             let on_journal = &there.contact.on_journal;
             node.push(on_journal.force, [&mut *force_x, &mut *force_y]);
             moment += on_journal.moment;
@@ -104,7 +124,10 @@ impl<R: Real> Machines<R> {
         } else {
             zero
         };
-        let from_outside = brake + self.rotor.torque_by_tables(time, rotor.spin);
+        let from_outside = match acting {
+            None => brake + self.rotor.torque_by_tables(time, rotor.spin),
+            Some(acting) => acting.motor - acting.belt,
+        };
 
         // rotor
         let [x, y, acceleration_x, acceleration_y] = blocks(rate, count);
@@ -143,11 +166,15 @@ impl<R: Real> Machines<R> {
         let mut impulse = self.rotor.weight_moment(&rotor, self.gravity);
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
             let motion = at.motion(state);
-            let reaction = part.bearing(at, &motion, state, rate, probe);
-            let mount = part.mount(at, &motion, state, rate);
+            let held_load = acting.map_or(zero, |acting| acting.held_load);
+            let reaction = part.bearing(at, (&motion, held_load), state, rate, probe);
+            let mount = match acting {
+                None => part.mount(at, &motion, state, rate),
+                Some(acting) => MountReaction::of(acting.on_outer),
+            };
             let there = match kept.get(k) {
                 Some(Some(there)) => *there,
-                _ => self.at_node(k, state, &rotor),
+                _ => self.at_node(k, state, &rotor, acting),
             };
             let node = &self.nodes[k];
             let acceleration = if probe.is_empty() {
@@ -165,6 +192,7 @@ impl<R: Real> Machines<R> {
                 Outlet {
                     heat: layout.heat(at.heat),
                     source: layout.source(at.source),
+                    state,
                     rate: &mut *rate,
                     probe: &mut *probe,
                 },

@@ -3,8 +3,10 @@
 //! Contacts begin, end and peak on dense output, not on the steps. Rows are sampled at equal intervals and at the end.
 //! The rows are allocated before the run; only the list of contacts may grow during it.
 
-use super::RotorMachine;
 pub use super::bearing_record::{BearingRecord, Contact};
+use super::{Mode, RotorMachine};
+use crate::system::rig::Tap;
+use crate::system::rig::record::RigRecord;
 use crate::system::sampling::{Peak, Row, Rows};
 use solve::{Flow, Observer, Step};
 
@@ -13,6 +15,7 @@ use solve::{Flow, Observer, Step};
 pub struct Record {
     /// Of each auxiliary bearing.
     pub bearings: Vec<BearingRecord>,
+    rig: Option<Box<RigRecord>>,
     /// Largest kinetic energy of the rotor's centre, J.
     pub largest_translation: f64,
     /// Largest displacement of the rotor at each watched place, m; seen at 64 points a turn.
@@ -85,11 +88,22 @@ fn look_interval(spin: f64) -> f64 {
 impl Record {
     /// A record for a run until `end`, with a row every `interval`, or without rows.
     pub fn new(machine: &RotorMachine, end: f64, interval: f64, keep_rows: bool) -> Self {
+        Record::with_taps(machine, end, keep_rows.then_some(interval), &[])
+    }
+    /// A record for a run until `end`, with a row every `interval` where there is one; of a rig with what a converter samples.
+    pub fn with_taps(
+        machine: &RotorMachine,
+        end: f64,
+        interval: Option<f64>,
+        taps: &[Tap],
+    ) -> Self {
+        let keep_rows = interval.is_some();
         let bearings = 0..machine.constants.bearings.len();
         Record {
             bearings: bearings
                 .map(|k| BearingRecord::new(machine, k, keep_rows))
                 .collect(),
+            rig: RigRecord::new(machine, end, taps).map(Box::new),
             largest_translation: 0.0,
             places: vec![Peak::NONE; machine.constants.rotor.places.len()],
             currents: match machine.controlled() {
@@ -100,7 +114,7 @@ impl Record {
                 true => vec![AtLimit::default(); machine.axes().count()],
                 false => Vec::new(),
             },
-            rows: Rows::new(machine, end, interval, keep_rows),
+            rows: Rows::new(machine, end, interval.unwrap_or(f64::INFINITY), keep_rows),
             next_look: 0.0,
             released: None,
             limit_passed: false,
@@ -115,12 +129,19 @@ impl Record {
             ..self
         }
     }
+    /// What is kept of a rig besides its bearing.
+    ///
+    /// # Panics
+    /// When the machine is none.
+    pub fn rig(&self) -> &RigRecord {
+        self.rig.as_deref().expect("a machine on a rig")
+    }
     /// Number of rows.
     pub fn row_count(&self) -> usize {
         self.rows.count()
     }
     /// The sampled rows.
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+    pub fn rows(&self) -> impl DoubleEndedIterator<Item = Row<'_>> {
         self.rows.iter()
     }
     /// Adds the last state of a run as a row, where it is not one already.
@@ -130,9 +151,14 @@ impl Record {
             bearing.contacts.shrink_to_fit();
             bearing.warm(machine, time, &|channel| state[channel]);
         }
-        let (_, probe) = machine.inspect(state);
-        for bearing in &mut self.bearings {
-            bearing.look(machine, time, state);
+        let probe = match &self.rig {
+            Some(rig) => machine.last_probes(&rig.mode, time, state),
+            None => machine.inspect(state).1,
+        };
+        if self.rig.is_none() {
+            for bearing in &mut self.bearings {
+                bearing.look(machine, time, state);
+            }
         }
         self.rows.finish(&Row {
             time,
@@ -199,6 +225,12 @@ impl Record {
 
 impl Observer<RotorMachine> for Record {
     fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
+        if let Some(rig) = &mut self.rig {
+            rig.step(step);
+            self.bearings[0].on_rig(step);
+            self.rows.sample(step, RotorMachine::content);
+            return Flow::Continue;
+        }
         for bearing in &mut self.bearings {
             bearing.contacts_of(step);
             bearing.forces_of(step);
@@ -232,6 +264,19 @@ impl Observer<RotorMachine> for Record {
         }
         Flow::Continue
     }
+    fn switched(
+        &mut self,
+        machine: &RotorMachine,
+        mode: &Mode<f64>,
+        time: f64,
+        state: &[f64],
+    ) -> Flow {
+        if let Some(rig) = &mut self.rig {
+            let speed = state[machine.layout().bearings[0].inner.spin()];
+            rig.switched(mode, time, speed);
+        }
+        Flow::Continue
+    }
 }
 
 impl RotorMachine {
@@ -239,10 +284,5 @@ impl RotorMachine {
     pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {
         let at = &self.layout().bearings[bearing];
         (self.constants.bearings[bearing].bearing).cage_speed(&at.motion(state), &state[at.own()])
-    }
-    /// Azimuth of a ball of a bearing at a state, rad.
-    pub fn ball_azimuth(&self, bearing: usize, state: &[f64], ball: usize) -> f64 {
-        let at = &self.layout().bearings[bearing];
-        (self.constants.bearings[bearing].bearing).azimuth(&state[at.own()], ball)
     }
 }

@@ -25,11 +25,14 @@ pub fn levitated_orbit(constants: &MachineConstants) -> (Vec2<f64>, Vec2<f64>) {
 }
 
 impl RotorMachine {
-    /// The state at release of a point rotor.
+    /// The state at release of a point rotor, or at the start of a rig.
     ///
     /// # Panics
     /// When the rotor bends: it [starts](Self::start_with) where it is said to.
     pub fn start(&self) -> Vec<f64> {
+        if let Some(fixture) = self.fixture() {
+            return self.start_on_rig(fixture);
+        }
         assert!(
             self.layout().rotor.coordinates == 1,
             "a rotor that bends has no levitated orbit here"

@@ -8,10 +8,13 @@
 //!   rotor/race   normal     c* w wᵀ, w = (n, n·arm⊥/L, -n, 0)          n turns with the unbalance, by the known R_φ/G
 //!                friction   τ w wᵀ,  w = (-t, -(a_j + arm × t)/L, t, a_i/R_i),  τ = N ∂μ/∂u
 //! ```
+//! On a rig without clutch and housing the sliding rotor has one row, that of its spin, and the contact friction alone, τ = W ∂μ/∂u; races that
+//! are held, and a speed that is given, are rows that do not answer.
+//!
 //! w over the node's velocity, spin and race. L is the radius of the first bore: it makes the spin a speed. Every element acts on
 //! both of its bodies.
 //!
-//! Left out: levitation, magnets, seals, gyroscopic moments, what damping and spin do from one coordinate to another, drive, drag, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
+//! Left out: how the friction of a sliding rotor pushes the race aside, levitation, magnets, seals, gyroscopic moments, what damping and spin do from one coordinate to another, drive, drag, brake, how rotor friction follows the load, how the contact's direction turns with the whirl.
 
 use super::rotor_rows::RotorRows;
 use super::{Machines, Mode, RotorMachine};
@@ -20,6 +23,7 @@ use crate::bearing::{self, Planar};
 use crate::body::pair;
 use crate::rotor::RotorMotion;
 use crate::system::border::{add_bearing, factor, follow, hold, solve, turn};
+use crate::system::rig::Drive;
 use number::{Mask, Real, Vec2};
 use solve::Tangents;
 
@@ -89,6 +93,9 @@ impl RotorMachine {
         if self.controlled() {
             return Known::NotControllers;
         }
+        if (self.fixture()).is_some_and(|own| own.housing.is_some()) || self.clutch().is_some() {
+            return Known::Nothing;
+        }
         let bearings = self.constants.bearings.iter();
         let each = bearings.map(|part| match part.bearing.tangents() {
             known if known < Known::Nothing && part.mount_parts.any() => Known::NotMounts,
@@ -104,6 +111,31 @@ impl<R: Real> Machines<R> {
         match self.bearings[k].bearing.planar() {
             Some(bearing) => bearing,
             None => panic!("balls that roll take explicit steps"),
+        }
+    }
+    /// What of the spin and of the centre of the inner race, and of the centre of the outer one does not answer.
+    #[inline(always)]
+    fn held(&self, k: usize) -> [bool; 3] {
+        let part = &self.bearings[k];
+        let fixture = part.fixture.as_ref();
+        let given = fixture.is_some_and(|fixture| matches!(fixture.own.drive, Drive::Speed(_)));
+        [given, part.inner_race.centre_held, part.outer_held]
+    }
+    /// The friction of a rotor that slides in the bore of a rig.
+    #[inline(always)]
+    fn sliding_tangent(&self, mode: &Mode<R>, time: R, [rotor, race]: [R; 2]) -> Contact<R> {
+        let (zero, one) = (R::zero(), R::one());
+        let bore = &self.bearings[0].contact;
+        let slip = bore.bore_radius * (rotor - race);
+        let saturation = (slip * bore.inverse_reference_speed).tanh();
+        let slope = bore.friction * bore.inverse_reference_speed * (one - saturation.square());
+        let [_, inverse_inner_radius] = self.planar(0).border().inner_radius;
+        let per_race = bore.bore_radius * inverse_inner_radius;
+        Contact {
+            touches: true,
+            along_slip: [zero, zero, -one, zero, zero, per_race],
+            friction: slope * mode.load.at(time),
+            ..Contact::open()
         }
     }
     /// The radius that makes the rotor's spin a speed.
@@ -175,15 +207,17 @@ impl<R: Real> Tangents<R> for Machines<R> {
 
     fn at_points(&self) -> Vec<bool> {
         let mut at_points = vec![true; self.layout.ledger_length()];
-        for at in &self.layout.bearings {
+        for (at, part) in self.layout.bearings.iter().zip(&self.bearings) {
             at_points[at.heat + POCKET_HEAT..][..2].fill(false);
-            at_points[at.heat + CONTACT_HEAT..][..2].fill(false);
+            if part.fixture.is_none() {
+                at_points[at.heat + CONTACT_HEAT..][..2].fill(false);
+            }
         }
         at_points
     }
 
     #[inline(always)]
-    fn take(&self, _mode: &Mode<R>, _time: R, state: &[R], room: &mut Room<R>) {
+    fn take(&self, mode: &Mode<R>, time: R, state: &[R], room: &mut Room<R>) {
         let rotor = self.layout.rotor.motion(state);
         for k in 0..self.bearings.len() {
             let at = &self.layout.bearings[k];
@@ -191,7 +225,10 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let motion = at.motion(state);
             self.planar(k)
                 .tangents(&motion, &state[at.own()], &mut part.balls);
-            part.contact = self.contact_tangent(k, &rotor, state);
+            part.contact = match &self.bearings[k].fixture {
+                None => self.contact_tangent(k, &rotor, state),
+                Some(_) => self.sliding_tangent(mode, time, [rotor.spin, motion.inner.spin]),
+            };
         }
     }
 
@@ -257,10 +294,12 @@ impl<R: Real> Tangents<R> for Machines<R> {
         if rotor.spin_held {
             hold(border, n, spin);
         }
-        for (k, part) in self.bearings.iter().enumerate() {
-            if part.inner_race.centre_held {
-                hold(border, n, rows.of_bearing(k));
-                hold(border, n, rows.of_bearing(k) + 1);
+        for k in 0..self.bearings.len() {
+            let [spin, inner, outer] = self.held(k);
+            for (row, held) in [inner, inner, spin, outer, outer].into_iter().enumerate() {
+                if held {
+                    hold(border, n, rows.of_bearing(k) + row);
+                }
             }
         }
         factor(border, n);
@@ -288,26 +327,27 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let (auxiliary, planar) = (&self.bearings[k], self.planar(k));
             let known = KnownRates {
                 inner: pair(side, at.inner.centre()),
-                outer: pair(side, at.outer.centre()),
+                outer: at.outer.motion(side).position,
                 cage: side[at.bearing],
             };
             let of_balls = planar.forward(&part.balls, &known, &mut side[at.own()]);
             let race = &auxiliary.inner_race;
             let scales = planar.border();
             let outer = known.outer * (auxiliary.mount.spring.stiffness * inverse_g);
+            let outer_rate = at.outer.motion(side).velocity;
             let own = [
                 race.mass * side[at.inner.velocity()[0]],
                 race.mass * side[at.inner.velocity()[1]],
                 race.inertia * side[at.inner.spin()] * scales.inner_radius[1],
-                auxiliary.outer_moving_mass * side[at.outer.velocity()[0]] - outer.x,
-                auxiliary.outer_moving_mass * side[at.outer.velocity()[1]] - outer.y,
+                auxiliary.outer_moving_mass * outer_rate.x - outer.x,
+                auxiliary.outer_moving_mass * outer_rate.y - outer.y,
                 scales.cage_inertia * side[at.bearing + 1] * scales.cage_radius[1],
             ];
             for row in 0..ROWS {
                 of_border[rows.of_bearing(k) + row] = own[row] + of_balls[row];
             }
             let contact = &part.contact;
-            if contact.touches {
+            if contact.touches && auxiliary.fixture.is_none() {
                 let (x, y) = (&side[at_rotor.block(0)], &side[at_rotor.block(1)]);
                 let apart = self.nodes[k].along(x, y) - known.inner;
                 let q = (contact.stiffness * contact.normal.dot(apart)
@@ -321,11 +361,19 @@ impl<R: Real> Tangents<R> for Machines<R> {
         if rotor.spin_held {
             of_border[rows.spin()] = side[spin] * inverse_g * l;
         }
-        for (k, part) in self.bearings.iter().enumerate() {
-            if part.inner_race.centre_held {
-                let held = pair(side, self.layout.bearings[k].inner.velocity()) * inverse_g;
-                of_border[rows.of_bearing(k)] = held.x;
-                of_border[rows.of_bearing(k) + 1] = held.y;
+        for (k, at) in self.layout.bearings.iter().enumerate() {
+            let own = &mut of_border[rows.of_bearing(k)..];
+            let [spin, inner, outer] = self.held(k);
+            if inner {
+                let held = pair(side, at.inner.velocity()) * inverse_g;
+                (own[0], own[1]) = (held.x, held.y);
+            }
+            if spin {
+                let [radius, _] = self.planar(k).border().inner_radius;
+                own[2] = side[at.inner.spin()] * radius * inverse_g;
+            }
+            if outer {
+                own[3..5].fill(R::zero());
             }
         }
         solve(border, n, of_border);
@@ -361,7 +409,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
             rates[at.heat + POCKET_HEAT] += in_pockets[0];
             rates[at.heat + POCKET_HEAT + 1] += in_pockets[1];
             let contact = &part.contact;
-            if contact.touches {
+            if contact.touches && self.bearings[k].fixture.is_none() {
                 let [inner_radius, _] = planar.border().inner_radius;
                 let (x, y) = (&vector[rotor.block(2)], &vector[rotor.block(3)]);
                 let node = self.nodes[k].along(x, y);

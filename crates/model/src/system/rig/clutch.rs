@@ -17,18 +17,24 @@
 //!
 //! Assumes: one coefficient of friction at rest and in motion. Does not model: warming and fading of the lining.
 
-use super::layout::{CLUTCH_CAPACITY, DRIVE_HEAT, DRIVE_MOMENT, Layout};
-use super::machine::RigMachine;
-use super::mode::{Clutch, Mode};
+use super::layout::{CLUTCH_CAPACITY, DRIVE_HEAT, DRIVE_MOMENT};
+use super::mode::Clutch;
+use crate::bearing::BearingConstants;
+use crate::system::machine::layout::Layout;
+use crate::system::machine::{Mode, RotorMachine};
 
 /// Speed by which the flywheel is ahead of the shaft, rad/s.
 fn slip_speed(layout: &Layout, state: &[f64]) -> f64 {
-    state[layout.driver.spin()] - state[layout.race.spin()]
+    state[layout.rotor.spin()] - state[layout.bearings[0].inner.spin()]
 }
 
-impl RigMachine {
+impl RotorMachine {
     /// What is left before the clutch changes: of the slip, rad/s, or of the capacity, N m.
-    pub(super) fn reserve(&self, mode: &Mode<f64>, (state, probe): (&[f64], &[f64])) -> f64 {
+    pub(in crate::system) fn reserve(
+        &self,
+        mode: &Mode<f64>,
+        (state, probe): (&[f64], &[f64]),
+    ) -> f64 {
         match mode.clutch.state {
             Clutch::Open => f64::INFINITY,
             Clutch::Slipping { direction } => slip_speed(self.layout(), state) * direction,
@@ -36,7 +42,12 @@ impl RigMachine {
         }
     }
     /// What becomes of the clutch where nothing is left.
-    pub(super) fn change_clutch(&self, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
+    pub(in crate::system) fn change_clutch(
+        &self,
+        time: f64,
+        mode: &mut Mode<f64>,
+        state: &mut [f64],
+    ) {
         match mode.clutch.state {
             Clutch::Open => {}
             Clutch::Slipping { .. } => {
@@ -44,7 +55,7 @@ impl RigMachine {
                 mode.clutch.state = self.engaged(mode, time, state);
             }
             Clutch::Locked => {
-                let torque = self.inspect(mode, time, state).1[DRIVE_MOMENT];
+                let torque = self.inspect_in(mode, time, state).1[DRIVE_MOMENT];
                 mode.clutch.state = Clutch::Slipping {
                     direction: torque.signum(),
                 };
@@ -52,7 +63,7 @@ impl RigMachine {
         }
     }
     /// What an engaged clutch does in a state at an instant.
-    pub(super) fn engaged(&self, mode: &Mode<f64>, time: f64, state: &[f64]) -> Clutch {
+    pub(in crate::system) fn engaged(&self, mode: &Mode<f64>, time: f64, state: &[f64]) -> Clutch {
         let slip = slip_speed(self.layout(), state);
         if slip != 0.0 {
             return Clutch::Slipping {
@@ -61,7 +72,7 @@ impl RigMachine {
         }
         let mut locked = *mode;
         locked.clutch.state = Clutch::Locked;
-        let torque = self.inspect(&locked, time, state).1[DRIVE_MOMENT];
+        let torque = self.inspect_in(&locked, time, state).1[DRIVE_MOMENT];
         if torque.abs() <= mode.clutch.capacity.at(time) {
             Clutch::Locked
         } else {
@@ -74,11 +85,16 @@ impl RigMachine {
     /// the clutch.
     fn even_out(&self, state: &mut [f64]) {
         let layout = self.layout();
-        let (race, driver) = (layout.race.spin(), layout.driver.spin());
+        let (race, driver) = (layout.bearings[0].inner.spin(), layout.rotor.spin());
         let slip = slip_speed(layout, state);
-        let flywheel = self.constants.drive.driver_inertia();
+        let flywheel = self.constants.rotor.polar_inertia;
+        let part = &self.constants.bearings[0];
         // balls that roll turn with the shaft; others keep their own motion
-        let shaft = self.constants.race.inertia + self.rolling_inertia();
+        let rolling = match &part.bearing {
+            BearingConstants::Rolling(bearing) => bearing.set.inner_inertia(),
+            BearingConstants::Planar(_) => 0.0,
+        };
+        let shaft = part.inner_race.inertia + rolling;
         let shared = (flywheel * state[driver] + shaft * state[race]) / (flywheel + shaft);
         state[driver] = shared;
         state[race] = shared;

@@ -1,44 +1,41 @@
 //! Constants of a rig.
 
-use super::drive::Drive;
-use super::housing::Housing;
-use super::mode::{ClutchMode, Mode};
+use super::fixture::Fixture;
 use super::refusal::{self, Refusal};
+use super::{Drive, Housing};
+use crate::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use crate::bearing::BearingConstants;
+use crate::bearing_heat::WarmBearing;
+use crate::contact::JournalContact;
+use crate::levitation::Levitation;
+use crate::mount::{Mount, MountParts};
+use crate::schedule::Schedule;
+use crate::system::machine::{Event, MachineConstants};
 use crate::table::Table;
-use number::{Vec2, constants};
+use number::Vec2;
 
 /// Constants of one rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigConstants {
-    /// The inner race with what is rigidly on it.
-    pub race: InnerRace<f64>,
+    /// The inner race with what is rigidly on it, of a rig with a clutch shaft and driven half of that; its centre is held where a housing
+    /// carries the outer race.
+    pub race: RaceConstants<f64>,
     /// The test bearing.
     pub bearing: BearingConstants,
     /// What turns the inner race.
     pub drive: Drive,
     /// Radial load W over time, N over s; not negative: on the inner race, or by the housing on the outer one.
     pub load: Table,
+    /// Direction of that, a unit vector.
+    pub load_direction: Vec2<f64>,
+    /// Gravity, m/s², on the race and on what moves with the outer race besides (cage, rolling balls). The balls have their own.
+    pub gravity: Vec2<f64>,
     /// What carries the outer race and feels its moment; without it that race stands at the origin.
     pub housing: Option<Housing>,
+    /// What warms of the bearing, where that is followed.
+    pub warm: Option<Box<WarmBearing>>,
     /// Speed that counts as reached, rad/s: scales of errors and of the record. Either sign, not 0.
     pub target_speed: f64,
-}
-
-constants! {
-    /// The inner race with its sleeve; of a rig with a clutch with shaft and driven half of that.
-    pub struct InnerRace {
-        /// Mass, kg.
-        mass: R,
-        /// Polar inertia I_I, kg m²; without balls and cage.
-        inertia: R,
-        /// True where its centre is held in the middle, as it is where a housing carries the outer race.
-        centre_held: bool,
-        /// Direction of the radial load, a unit vector.
-        load_direction: Vec2<R>,
-        /// Gravity, m/s². The balls have their own.
-        gravity: Vec2<R>,
-    }
 }
 
 impl RigConstants {
@@ -52,11 +49,11 @@ impl RigConstants {
         let free_inertia = (!given_speed).then_some(self.race.inertia);
         refusal::of_bearing(&self.bearing, free_inertia)?;
         let rolls = matches!(self.bearing, BearingConstants::Rolling(_));
-        if rolls && given_speed && self.start_speed() != 0.0 {
+        if rolls && given_speed && self.drive.race_speed() != 0.0 {
             return Err(Refusal::StepOfRollingBalls);
         }
         // a hundredth of a percent: a direction written with five digits
-        let length = self.race.load_direction.length_squared();
+        let length = self.load_direction.length_squared();
         if !(0.9999..1.0001).contains(&length) {
             return Err(Refusal::Direction);
         }
@@ -70,42 +67,76 @@ impl RigConstants {
         }
         self.housing.as_ref().map_or(Ok(()), Housing::check)
     }
-    /// Speed of the inner race at the start, rad/s.
-    pub fn start_speed(&self) -> f64 {
-        match &self.drive {
-            Drive::Speed(speed) => speed.value(0.0),
-            Drive::Clutch(clutch) => clutch.program.start.shaft_speed,
-            Drive::SlidingRotor(_) | Drive::Torque(_) => 0.0,
-        }
-    }
-    /// Whether both races stay in the middle: the load does not reach the balls.
-    pub fn is_concentric(&self) -> bool {
-        (self.housing.as_ref()).map_or(self.race.centre_held, |housing| housing.centre_held)
-    }
-    /// Load and drive from an instant until the next landing, before a clutch does anything.
-    pub(super) fn mode(&self, time: f64) -> Mode<f64> {
-        Mode {
-            load: self.load.piece(time),
-            drive: match &self.drive {
-                Drive::Torque(table) | Drive::Speed(table) => table.piece(time),
-                Drive::SlidingRotor(_) | Drive::Clutch(_) => Table::constant(0.0).piece(time),
-            },
-            clutch: ClutchMode::idle(),
-        }
-    }
-    /// Instants at which the load or the drive changes its line, s.
-    pub(super) fn landings(&self) -> Vec<f64> {
-        let of_drive = match &self.drive {
+    /// The machine: its rotor is what drives the race, or rests.
+    pub fn machine(self) -> MachineConstants {
+        let RigConstants {
+            race,
+            bearing,
+            drive,
+            load,
+            load_direction,
+            gravity,
+            housing,
+            warm,
+            target_speed: speed,
+        } = self;
+        let of_drive = match &drive {
             Drive::Torque(table) | Drive::Speed(table) => table.points(),
             Drive::SlidingRotor(_) | Drive::Clutch(_) => &[],
         };
-        let mut instants: Vec<f64> = (self.load.points().iter().chain(of_drive))
+        let mut knots: Vec<f64> = (load.points().iter().chain(of_drive))
             .map(|point| point.0)
-            .filter(|instant| *instant > 0.0)
             .collect();
-        instants.sort_by(f64::total_cmp);
-        instants.dedup();
-        instants
+        knots.sort_by(f64::total_cmp);
+        knots.dedup();
+        // without a sliding rotor a bore of 1 m without friction
+        let mut bore = JournalContact {
+            radial_clearance: 0.0,
+            bore_radius: 1.0,
+            stiffness: 0.0,
+            exponent: 1.0,
+            damping: 0.0,
+            friction: 0.0,
+            inverse_reference_speed: 0.0,
+        };
+        if let Drive::SlidingRotor(rotor) = &drive {
+            bore.bore_radius = rotor.bore_radius;
+            bore.friction = rotor.friction;
+            bore.inverse_reference_speed = rotor.inverse_reference_speed;
+        }
+        MachineConstants {
+            rotor: drive.rotor(),
+            levitation: Levitation::NONE,
+            magnets: None,
+            seals: Vec::new(),
+            gravity,
+            speed,
+            unbalance_angle: 0.0,
+            schedule: Schedule::of(knots.into_iter().map(|knot| (knot, Event::Knot))),
+            bearings: vec![AuxiliaryBearingConstants {
+                name: String::new(),
+                node: Vec::new(),
+                datum: Vec2::zero(),
+                contact: bore,
+                inner_race: race,
+                bearing,
+                outer_race_mass: housing.map_or(0.0, |housing| housing.mass),
+                mount: Mount {
+                    stiffness: 0.0,
+                    damping: 0.0,
+                    free_position: Vec2::zero(),
+                },
+                mount_parts: MountParts::NONE,
+                surfaces: None,
+                warm,
+                fixture: Some(Box::new(Fixture {
+                    drive,
+                    load,
+                    load_direction,
+                    housing,
+                })),
+            }],
+        }
     }
 }
 

@@ -13,15 +13,13 @@
 
 use super::constants::{not_negative, positive};
 use super::refusal::Refusal;
-use number::{Real, Vec2};
+use number::Real;
 
 /// The housing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Housing {
     /// Mass of the housing with outer race and suspended weights, kg.
     pub mass: f64,
-    /// Gravity on what moves with the outer race besides (cage, rolling balls), m/s². Balls that move have their own.
-    pub gravity: Vec2<f64>,
     /// True where its centre is held in the middle: the concentric rig. Then the load reaches the law of the steady moment, not
     /// the balls.
     pub centre_held: bool,

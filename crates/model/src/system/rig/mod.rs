@@ -12,16 +12,15 @@
 //!
 //! | page | subject |
 //! |---|---|
-//! | [`layout`] | where everything stands in the state, and its names |
-//! | [`rate`] | the equations of motion; those of [`drive`] and [`housing`] on their own pages |
+//! | [`constants`] | the rig as constants of a [`machine`](super::machine): its rotor is what drives the race |
+//! | [`layout`] | where its parts stand in the state; its probes |
+//! | [`fixture`] | the equations of what turns, loads and carries the bearing; [`drive`] and [`housing`]: its constants |
 //! | [`clutch`] | open, slipping, locked, and the changes between them |
 //! | [`program`] | what is done to a rig with a clutch, and when |
-//! | [`machine`], [`mode`] | the rig as the solver runs it; what holds between two landings |
-//! | [`simulate`](mod@simulate) | a run |
+//! | [`mode`] | what motor and clutch do between two landings |
+//! | `start` | the bearing settled under its load |
 //! | [`ramp`] | the engagement that gives a wanted acceleration |
-//! | [`ledger`] | energies, momentum, what closes; the energy by the outer race, (21) |
-//! | [`record`] | what is watched and kept of a run; [`taps`]: what a converter samples |
-//! | [`tangents`] | what is stiff, for linearly implicit steps |
+//! | [`record`] | what is watched besides the bearing; [`taps`]: what a converter samples |
 //! | [`capacity`] | whether traction can turn the balls against the steady moment |
 //!
 //! The race that the load presses moves in the plane, or is held in the middle: the concentric rig of the paper's equations.
@@ -36,28 +35,24 @@ pub mod capacity;
 pub mod clutch;
 pub mod constants;
 pub mod drive;
+pub mod fixture;
 pub mod housing;
 pub mod layout;
-pub mod ledger;
-pub mod machine;
 pub mod mode;
 pub mod program;
 pub mod ramp;
-pub mod rate;
 pub mod record;
 pub mod refusal;
-pub mod simulate;
-pub mod tangents;
+mod start;
 pub mod taps;
 
-pub use constants::{InnerRace, RigConstants};
+pub use constants::RigConstants;
 pub use drive::{ClutchDrive, Drag, Drive, Flywheel, Motor, SlidingRotor};
+pub use fixture::Fixture;
 pub use housing::{Arm, Disturbance, HeatNode, Housing};
-pub use machine::{Rig, RigMachine};
-pub use mode::{Clutch, ClutchEvent, Mode};
+pub use mode::{Clutch, ClutchEvent, ClutchMode};
 pub use program::{Action, Engagement, Program, Start};
 pub use ramp::{RampError, engagement_ramp};
-pub use record::{Keep, Record};
+pub use record::RigRecord;
 pub use refusal::Refusal;
-pub use simulate::simulate;
 pub use taps::{Tap, Taps};

@@ -1,19 +1,8 @@
-//! What holds between two instants at which something is switched, and how far a program has come.
+//! What motor and clutch do between two instants at which something is switched, and how far a program has come.
 
-use super::machine::RigMachine;
 use super::program::{Action, Program};
+use crate::system::machine::{Mode, RotorMachine};
 use crate::table::Piece;
-
-/// What holds between two landings.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mode<R> {
-    /// Radial load, N.
-    pub load: Piece<R>,
-    /// Torque, N m, or speed, rad/s, that is given; zero where neither is.
-    pub drive: Piece<R>,
-    /// Motor and clutch.
-    pub clutch: ClutchMode,
-}
 
 /// Discrete facts of motor and clutch, what holds between two instants at which something is switched, and what is due next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +47,7 @@ pub struct ClutchEvent {
 
 impl ClutchMode {
     /// Before anything is done: motor off, clutch open.
-    pub(super) fn idle() -> Self {
+    pub(in crate::system) fn idle() -> Self {
         ClutchMode {
             motor: None,
             capacity: flat(0.0, 0.0),
@@ -69,7 +58,7 @@ impl ClutchMode {
         }
     }
     /// The next instant at which something is due, s.
-    pub(super) fn due(&self, program: &Program) -> f64 {
+    pub(in crate::system) fn due(&self, program: &Program) -> f64 {
         let action = program.actions.get(self.next_action).map(|next| next.0);
         [
             action,
@@ -119,14 +108,14 @@ impl ClutchMode {
 
 impl Mode<f64> {
     /// Does what the program of a clutch has due at an instant.
-    pub(super) fn advance(
+    pub(in crate::system) fn advance(
         &mut self,
-        machine: &RigMachine,
+        machine: &RotorMachine,
         program: &Program,
         time: f64,
         state: &[f64],
     ) {
-        let flywheel = state[machine.layout().driver.spin()];
+        let flywheel = state[machine.layout().rotor.spin()];
         let engaged = self.clutch.advance(program, time, flywheel);
         // last, since what locking takes depends on all of it
         self.clutch.state = match engaged {

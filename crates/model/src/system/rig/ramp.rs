@@ -8,10 +8,11 @@
 //! balls that roll: they take milliseconds.
 
 use super::mode::Clutch;
-use super::record::{Keep, Record};
-use super::simulate::{Run, simulate};
-use super::{Action, Drive, Mode, Refusal, RigConstants, RigMachine};
+use super::{Action, Drive, Refusal, RigConstants};
 use crate::bearing::{BearingConstants, RollingConstants};
+use crate::system::machine::record::Record;
+use crate::system::machine::simulate::{Runs, simulate};
+use crate::system::machine::{Mode, RotorMachine};
 use solve::{Flow, Observer, Settings, Step, Steps, Stop};
 use std::fmt;
 use std::sync::atomic::AtomicBool;
@@ -195,8 +196,8 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f
             }
         }
     }
-    let machine = RigMachine::new(rig).map_err(RampError::Refused)?;
-    let mut first = UntilLocked(Record::new(&machine, &Keep::peaks(end)));
+    let machine = RotorMachine::on_rig(rig).map_err(RampError::Refused)?;
+    let mut first = UntilLocked(Record::with_taps(&machine, end, None, &[]));
     let settings = Settings {
         start: 0.0,
         end,
@@ -206,28 +207,28 @@ fn peak_acceleration(rig: &RigConstants, rate: f64, end: f64) -> Result<Option<f
         step_limit: 1_000_000,
     };
     let never = AtomicBool::new(false);
-    let ending = simulate(Run {
-        machine: &machine,
-        start: machine.start(),
-        settings: &settings,
+    let runs = Runs {
+        machines: &[&machine],
+        starts: &[machine.start()],
+        settings,
         steps: Steps::Explicit,
-        observer: &mut first,
         interrupt: &never,
-    });
-    let locked = matches!(ending.stop, Stop::Halted(_));
-    Ok(locked.then_some(first.0.acceleration.value))
+    };
+    let endings = simulate(runs, &mut [&mut first]);
+    let locked = matches!(endings[0].stop, Stop::Halted(_));
+    Ok(locked.then_some(first.0.rig().acceleration.value))
 }
 
 /// A record that ends where the clutch locks.
 struct UntilLocked(Record);
 
-impl Observer<RigMachine> for UntilLocked {
-    fn step(&mut self, step: &mut Step<RigMachine>) -> Flow {
+impl Observer<RotorMachine> for UntilLocked {
+    fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         self.0.step(step)
     }
     fn switched(
         &mut self,
-        machine: &RigMachine,
+        machine: &RotorMachine,
         mode: &Mode<f64>,
         time: f64,
         state: &[f64],

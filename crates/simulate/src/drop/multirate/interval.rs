@@ -15,10 +15,10 @@
 use crate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::coast_down::rows::BallsSeen;
 use crate::drop::context::Context;
-use crate::drop::feedback::{Following, Now, Warmed};
 use crate::drop::method;
 use crate::drop::multirate::batch::{Batch, Bearing, Interval};
 use crate::ending::settings_at;
+use crate::following::{Following, Now, Warmed};
 use model::auxiliary_bearing::HEATS;
 use model::bearing_heat::{Warmth, steady_moment};
 use model::schedule::Schedule;

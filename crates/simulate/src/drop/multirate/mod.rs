@@ -48,7 +48,7 @@ use crate::coast_down::build::{Built, Part};
 use crate::coast_down::ran::ran;
 use crate::coast_down::rows::{End, Row};
 use crate::drop::context::Context;
-use crate::drop::feedback::friction;
+use crate::following::friction;
 use batch::{Batch, Observation};
 use interval::{BATCHES, Failure, Motion, SETTLING};
 use leap::{Limits, Mode};

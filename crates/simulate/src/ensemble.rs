@@ -3,10 +3,13 @@
 //! A member's result depends on its constants and its start alone, bit for bit: not on the lane, the company, the
 //! vector unit or the number of threads.
 
-use crate::drop::feedback::{Following, Now, Warmed};
-use model::system::machine::RotorMachine;
+use crate::bearing::warm::{Followed, Heated};
+use crate::following::{Following, Now, Warmed};
+use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
+use model::system::machine::{Mode, RotorMachine};
+use model::system::rig::Tap;
 use number::Level;
 use outcome::host;
 use solve::{Ending, Flow, Observer, Settings, Step};
@@ -41,14 +44,61 @@ impl Member {
 /// What came out of one member.
 #[derive(Clone, Debug)]
 pub struct Finished {
+    /// The machine at the start.
+    pub machine: Arc<RotorMachine>,
     /// The state at the start.
     pub start: Vec<f64>,
+    /// Energies and flows at the start.
+    pub(crate) begun: (Content, Flows),
     /// What was watched and kept.
     pub record: Record,
     /// What has followed its temperatures.
     pub(crate) warmed: Option<Box<Warmed>>,
     /// How it ended.
     pub ending: Ending,
+}
+
+impl Finished {
+    /// The machine as it is at the end.
+    pub(crate) fn at_end(&self) -> &RotorMachine {
+        let warmed = self.warmed.as_deref();
+        warmed.map_or(&*self.machine, |warmed| {
+            warmed.renewals.machine(&self.machine)
+        })
+    }
+    /// Temperatures of a bearing, where they were followed.
+    pub(crate) fn followed<'a>(
+        &'a self,
+        heated: Option<Heated<'a>>,
+        k: usize,
+    ) -> Option<Followed<'a>> {
+        let warmed = self.warmed.as_deref();
+        Some(Followed {
+            heated: heated?,
+            warmth: self.record.bearings[k].warmth.as_deref()?,
+            state: warmed.and_then(|warmed| warmed.state(k)),
+            broken: warmed.and_then(Warmed::broken),
+        })
+    }
+    /// What must close between the start and an instant; rings that have closed on their balls have done work.
+    pub(crate) fn balance(&self, time: f64, content: Content, state: &[f64]) -> Balance {
+        let found = (content, self.machine.flows(state));
+        let warmed = self.warmed.as_deref();
+        Balance {
+            start: self.begun,
+            end: warmed.map_or(found, |warmed| warmed.renewals.booked(time, found)),
+        }
+    }
+    /// What must close between the start and the end.
+    pub(crate) fn whole_balance(&self) -> Balance {
+        let end = &self.ending.state;
+        self.balance(f64::INFINITY, self.at_end().content(end), end)
+    }
+    /// Work of rings that have closed on loaded balls, J.
+    pub(crate) fn work_of_rings(&self) -> f64 {
+        let warmed = self.warmed.as_deref();
+        warmed.map_or(0.0, |warmed| warmed.renewals.work_until(f64::INFINITY))
+    }
 }
 
 /// How to run the members.
@@ -59,6 +109,8 @@ pub struct Plan<'a> {
     pub steps: Steps,
     /// Time between rows, s.
     pub interval: f64,
+    /// What a converter samples on a rig.
+    pub taps: &'a [Tap],
     /// Whether a run ends once its rotor rolls.
     pub until_rolling: bool,
     /// Stops everything when true.
@@ -143,7 +195,8 @@ struct Watched<'a> {
 impl<'a> Watched<'a> {
     fn of(member: &'a Member, plan: &Plan, report: &'a Report<'a>) -> Self {
         let end = plan.settings.end;
-        let record = Record::new(&member.machine, end, plan.interval, member.keep_rows);
+        let interval = member.keep_rows.then_some(plan.interval);
+        let record = Record::with_taps(&member.machine, end, interval, plan.taps);
         Watched {
             record: match plan.until_rolling {
                 true => record.until_rolling(),
@@ -162,11 +215,15 @@ impl<'a> Watched<'a> {
             self.advance(1000);
         }
         let mut record = self.record;
-        let machine = (self.warmed.as_ref())
-            .map_or(&*member.machine, |w| w.renewals.machine(&member.machine));
-        record.finish(machine, ending.time, &ending.state);
+        let machine = member.machine.clone();
+        let warmed = self.warmed.as_deref();
+        let at_end = warmed.map_or(&*machine, |warmed| warmed.renewals.machine(&machine));
+        record.finish(at_end, ending.time, &ending.state);
+        let start = member.start.clone();
         Finished {
-            start: member.start.clone(),
+            begun: (machine.content(&start), machine.flows(&start)),
+            machine,
+            start,
             record,
             warmed: self.warmed,
             ending,
@@ -212,6 +269,15 @@ impl Observer<RotorMachine> for Watched<'_> {
         let (following, warmed) = (self.following?, self.warmed.as_mut()?);
         let now = |k| now(&self.record, machine, k);
         following.renewed(warmed, machine, (time, state), &now)
+    }
+    fn switched(
+        &mut self,
+        machine: &RotorMachine,
+        mode: &Mode<f64>,
+        time: f64,
+        state: &[f64],
+    ) -> Flow {
+        self.record.switched(machine, mode, time, state)
     }
 }
 

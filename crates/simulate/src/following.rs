@@ -15,8 +15,9 @@ use crate::drop::Drop;
 use crate::drop::build::gravity;
 use model::system::machine::RotorMachine;
 use model::table::Table;
+use number::Vec2;
 use scenario::heat::{RotorBodies, STEEL_EXPANSION};
-use scenario::{AuxiliaryBearing, Feedback};
+use scenario::{AuxiliaryBearing, Bearing, Feedback, Warm};
 use thermal::bearing_network::{INNER_RACE, ROTOR, ROTOR_CORE};
 
 /// Change of an air clearance that matters, m: less than the roughness of ground surfaces.
@@ -26,7 +27,7 @@ const RUBS: f64 = 1e-2;
 
 /// What the air clearance of a rotor in its race gains as both warm.
 #[derive(Debug)]
-pub(super) struct AirClearance {
+pub(crate) struct AirClearance {
     /// Radius of the bore, and of the rotor in it, m.
     radii: [f64; 2],
     /// At the start, °C.
@@ -108,7 +109,7 @@ impl Friction {
 
 /// Coefficient of friction of rotor and race at temperatures of the nodes of their bearing, °C, and at the rise of their patch above the start, K,
 /// where that is known: at the hotter body's else.
-pub(super) fn friction(part: &AuxiliaryBearing, temperatures: &[f64], patch: Option<f64>) -> f64 {
+pub(crate) fn friction(part: &AuxiliaryBearing, temperatures: &[f64], patch: Option<f64>) -> f64 {
     Friction::of(part).map_or(part.contact.friction_coefficient, |friction| {
         let hotter = temperatures[ROTOR].max(temperatures[INNER_RACE]);
         friction.at(patch.unwrap_or(hotter + ICE_POINT - friction.start))
@@ -161,6 +162,18 @@ impl Following {
             .iter()
             .any(Option::is_some)
             .then_some(Following { parts })
+    }
+
+    /// What follows of a bearing on a rig; none where nothing does.
+    pub fn on_rig(warm: Option<&Warm>, bearing: &Bearing) -> Option<Self> {
+        let part = Part {
+            followed: Some(FollowedBearing::of(warm, bearing, Vec2::zero())?),
+            friction: None,
+            air: None,
+        };
+        Some(Following {
+            parts: vec![Some(part)],
+        })
     }
 
     /// Whether the friction of a contact has moved enough to go on with another one.
