@@ -329,23 +329,27 @@ fn a_load_by_tables_brakes_a_coast_down() {
     );
     // of a fan whose gas fades: its heat is ∫τ(Ω) s(t) Ω dt over the course
     let fan = "rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"6000 rpm\", \"-0.1 N m\"], [\"13000 rpm\", \"-0.5 N m\"]]";
-    let fades = "rotor.torque_share_over_time=[[\"5 s\", 1.0], [\"25 s\", 0.3]]";
-    let found = coasts(&[fan, fades]);
     let rpm = std::f64::consts::PI / 30.0;
     let torque = |speed: f64| match speed / rpm {
         slow if slow < 6000.0 => 0.1 * slow / 6000.0,
         fast => 0.1 + 0.4 * (fast - 6000.0) / 7000.0,
     };
-    let share = |time: f64| 1.0 - 0.7 * ((time - 5.0) / 20.0).clamp(0.0, 1.0);
-    let course = |name: &str| list(&found, &format!("coast_down.over_time.{name}"));
-    let powers: Vec<[f64; 2]> = (course("time").iter().zip(course("rotor.speed")))
-        .map(|(time, speed)| [*time, torque(*speed) * share(*time) * speed])
-        .collect();
-    let between = |pair: &[[f64; 2]]| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]);
-    let work: f64 = powers.windows(2).map(between).sum();
-    let heat = number(&found, "coast_down.windage_heat");
-    assert!(heat > 0.1 * number(&found, "coast_down.rotor_energy"));
-    assert!((heat / work - 1.0).abs() < 2e-3, "{heat} {work}");
+    for (begin, end) in [(1.0, 0.3), (0.0, 1.0)] {
+        let shares =
+            format!("rotor.torque_share_over_time=[[\"5 s\", {begin}], [\"25 s\", {end}]]");
+        let found = coasts(&[fan, &shares]);
+        let share = |time: f64| begin + (end - begin) * ((time - 5.0) / 20.0).clamp(0.0, 1.0);
+        let course = |name: &str| list(&found, &format!("coast_down.over_time.{name}"));
+        let powers: Vec<[f64; 2]> = (course("time").iter().zip(course("rotor.speed")))
+            .map(|(time, speed)| [*time, torque(*speed) * share(*time) * speed])
+            .collect();
+        let between =
+            |pair: &[[f64; 2]]| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]);
+        let work: f64 = powers.windows(2).map(between).sum();
+        let heat = number(&found, "coast_down.windage_heat");
+        assert!(heat > 0.1 * number(&found, "coast_down.rotor_energy"));
+        assert!((heat / work - 1.0).abs() < 2e-3, "{heat} {work}");
+    }
     let drives =
         "rotor.torque_over_speed=[[\"0 rpm\", \"0.1 N m\"], [\"13000 rpm\", \"-0.2 N m\"]]";
     let told = parsed(DROP, &[drives]).err().unwrap_or_default();
@@ -357,13 +361,13 @@ fn bearings_with_names_coast_down_as_equal_ones_do() {
     let text = include_str!("../../../scenarios/coast_down_vacuum.toml");
     let coasts = |text: &str| ran(text, &[]);
     let equal = coasts(text);
-    let named = |of_each: [&str; 2]| {
-        let [one, other] = of_each;
+    let text_of = |[one, other]: [&str; 2]| {
         let text = text.replacen("planes = 2", "", 1);
-        coasts(&format!(
+        format!(
             "{text}\n[[auxiliary_bearing]]\nname = \"drive_end\"\n{one}\n[[auxiliary_bearing]]\nname = \"free_end\"\n{other}\n"
-        ))
+        )
     };
+    let named = |of_each: [&str; 2]| coasts(&text_of(of_each));
     let alike = named(["", ""]);
     for name in ["stop_time", "rotor_energy", "heat_to_surroundings"] {
         let [a, b] = [&equal, &alike].map(|run| number(run, name));
@@ -384,6 +388,9 @@ fn bearings_with_names_coast_down_as_equal_ones_do() {
     );
     let told = parsed(&both, &[]).err().unwrap_or_default();
     assert!(told.contains("one of the two is needed"), "{told}");
+    let told = parsed(&text_of(["coast_down.radial_load = \"2000 N\"", ""]), &[]);
+    let told = told.err().unwrap_or_default();
+    assert!(told.contains("a load for each bearing"), "{told}");
     let whole = text.replacen("planes = 2", "", 1);
     let told = parsed(
         &format!(

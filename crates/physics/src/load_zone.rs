@@ -99,7 +99,7 @@ mod tests {
                 .sum();
             assert!((carried / 3000.0 - 1.0).abs() < 1e-12);
             let top = ball_load(stiffness, moved, clearance, 1.0);
-            assert!(top < largest);
+            assert!(top < largest || clearance < -1e-5);
             largest = top;
         }
     }

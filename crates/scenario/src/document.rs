@@ -375,11 +375,18 @@ impl Document {
                 .at(place)
                 .on_key(&shown)
         };
-        if bearing.is_some() && !several::of_each_bearing(&dotted) {
+        let below = format!("{dotted}.");
+        let of_each =
+            |key: &Key| several::of_each_bearing(key.path) && key.path.starts_with(&below);
+        let own = match section {
+            Some(_) => table::keys_of(self.system).any(of_each),
+            None => several::of_each_bearing(&dotted),
+        };
+        if bearing.is_some() && !own {
             return Err(Box::new(problem(
                 Code::UnknownKey,
                 "what no auxiliary bearing has of its own".to_string(),
-                "name, and sections contact, mount and bearing, are possible".to_string(),
+                "name, and sections contact, mount, bearing and heat, are possible".to_string(),
             )));
         }
         let elsewhere = |what: &str, systems: &[SystemName]| {

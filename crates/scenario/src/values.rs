@@ -96,6 +96,12 @@ impl Values {
         Err(Box::new(problem))
     }
 
+    /// Whether a value was computed from others.
+    pub fn is_derived(&self, path: &str) -> bool {
+        let known = self.known.get(path);
+        known.is_some_and(|known| matches!(known.provenance, Provenance::Derived(_)))
+    }
+
     /// The path of a key as the file has it.
     pub fn shown(&self, path: &str) -> String {
         several::path_of(self.bearing.as_deref(), path)

@@ -242,6 +242,10 @@ impl Following {
                 }
             }
         }
+        if let Err(why) = constants.check_on_rig() {
+            warmed.broken = Some((time, why.to_string()));
+            return None;
+        }
         let new = Box::new(RotorMachine::new(constants));
         let done = new.content(state).energy() - machine.content(state).energy();
         warmed.renewals.renew(new.clone(), time, done);

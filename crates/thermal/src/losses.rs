@@ -23,7 +23,7 @@ pub(crate) fn to_nodes(losses: &impl Losses, of_losses: &[f64], nodes: usize) ->
 }
 
 /// The moments in a list of their own.
-pub(crate) fn moments(losses: &impl Losses, speed: f64, temperatures: &[f64]) -> Vec<f64> {
+pub fn moments(losses: &impl Losses, speed: f64, temperatures: &[f64]) -> Vec<f64> {
     let mut moments = vec![0.0; losses.count()];
     losses.moments(speed, temperatures, &mut moments);
     moments

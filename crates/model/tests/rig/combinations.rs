@@ -1,7 +1,8 @@
 //! Every drive with and without a housing: what closes, whatever turns the race and carries the other one.
 
-use super::bench::{SPEED, clutch, housing, rig, run};
+use super::bench::{SPEED, clutch, housing, rig, rolls, run};
 use crate::rig::bench::fidelities;
+use model::bearing::BearingConstants;
 use model::system::rig::{Drive, Engagement, Program, RigConstants, SlidingRotor};
 use model::table::Table;
 
@@ -75,4 +76,34 @@ fn energy_and_momentum_close_with_every_drive_with_and_without_a_housing() {
             }
         }
     }
+}
+
+/// Ten kilograms of cage that move with the outer race: their weight is part of the load, and no store of energy besides.
+#[test]
+fn the_weight_of_what_moves_with_a_housing_counts_once() {
+    let program = Program::spin_up(
+        SPEED,
+        0.005,
+        Engagement {
+            rate: 50.0,
+            largest: 3.0,
+        },
+        true,
+    );
+    let mut bearing = rolls();
+    bearing.cage_mass = 10.0;
+    let mut constants = rig(BearingConstants::Rolling(bearing), program);
+    constants.drive = Drive::Torque(Table::constant(1e-3));
+    constants.load = Table::through(vec![(0.0, 24.0), (0.01, 400.0)]).expect("rises");
+    housing(&mut constants).centre_held = false;
+    let run = run(constants, 0.02, 1e-7);
+    let outer = run.machine.layout().bearings[0].outer;
+    let [start, end] = [&run.start[..], run.end()].map(|state| outer.motion(state).position);
+    let work = 10.0 * 9.81 * (end - start).length_squared().sqrt();
+    let balance = run.machine.balance(&run.start, run.end());
+    let left = balance.energy_residual();
+    assert!(
+        work > 1e-4 && left.abs() < 1e-3 * work,
+        "{left} J of {work} J"
+    );
 }

@@ -68,7 +68,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("bearing.pitch_diameter", Kind::Quantity("m"), "36 mm", "Diameter of the circle through the ball centres.").positive().catalogued(),
     Key::new("bearing.contact_angle", Kind::Quantity("rad"), "15 deg", "Contact angle, held by an axial preload. Motion is computed in the plane: contacts stand at the ball radius times its cosine.")
         .not_negative().catalogued().when(ANGULAR).only(MOVING),
-    Key::new("bearing.axial_preload", Kind::Quantity("N"), "100 N", "Axial preload of the bearing at rest, locked: the races keep their axial distance. It presses all balls and keeps the contact angle.")
+    Key::new("bearing.axial_preload", Kind::Quantity("N"), "100 N", "Axial preload of the bearing at rest. It presses all balls and keeps the contact angle. Under load the races keep their axial distance; while they warm (heat.feedback) springs keep the preload.")
         .positive().optional("nothing keeps the contact angle, and only the radial load presses the balls").when(ANGULAR).only(MOVING),
     Key::new("bearing.operating_diametral_clearance", Kind::Quantity("m"), "5 um", "Diametral internal clearance as mounted, after fits, at rest; negative is preload.")
         .default("0 m", "neither clearance nor preload").only(LOADED),

@@ -6,6 +6,8 @@ use crate::coast_down::{CoastDown, CoastingBearing};
 use crate::values::Values;
 use problem::Code;
 
+const LOAD: &str = "coast_down.radial_load";
+
 impl Context<'_> {
     pub(crate) fn coast_down(&self, run: &CoastDown, all: &[Values]) -> Check {
         if run.end.stop_speed >= run.speed.abs() {
@@ -17,6 +19,13 @@ impl Context<'_> {
             return self.refuse_value(Code::OutOfRange, path, needed);
         }
         self.planes(run.planes, run.bearings.len())?;
+        let own = |values: &&Values| !values.is_derived(LOAD);
+        if let Some(other) = all.iter().find(|values| !own(values))
+            && all.iter().any(|values| own(&values))
+        {
+            let needed = "a load for each bearing is needed where one has its own";
+            return other.refuse(Code::MissingKey, LOAD, "no value", needed);
+        }
         for (bearing, values) in run.bearings.iter().zip(all) {
             let own = Context { values, ..*self };
             own.coasting(bearing)?;

@@ -218,12 +218,21 @@ pub(crate) fn hold(
 }
 
 impl Built {
-    /// The next time after this one at which what brakes the rotor changes its law, s; the last one there is at the latest.
-    pub(crate) fn until(&self, time: f64) -> f64 {
+    /// The next time after this one, s, at which what brakes the rotor changes its law, or a load will have changed by a twentieth of all that
+    /// brakes, N m; the last one there is at the latest.
+    pub(crate) fn until(&self, time: f64, speed: f64, braking: f64) -> f64 {
         let knots = (self.load.iter()).flat_map(|load| load.share_over_time.points());
         let instants = knots.map(|knot| knot.0).chain([self.brake_start]);
         let later = instants.filter(|instant| *instant > time);
-        later.fold(self.end.longest, f64::min)
+        let next = later.fold(self.end.longest, f64::min);
+        let changes = (self.load.as_ref()).map_or(0.0, |load| {
+            let share = load.share_over_time.piece(time).slope;
+            (f64::from(self.sides) * load.over_speed.value(speed) * share).abs()
+        });
+        match changes > 0.0 {
+            true => next.min(time + 0.05 * braking / changes),
+            false => next,
+        }
     }
     /// The next speed below this one, rad/s, at which it does; 0 where there is none.
     pub(crate) fn knot_below(&self, speed: f64) -> f64 {
@@ -380,7 +389,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         },
         nodes: [INNER_RACE, BALLS, OUTER_RACE],
         seats,
-        growth: run.growth,
+        // springs that keep a preload give way to it
+        growth: if angle > 0.0 { 0.0 } else { run.growth },
     };
     // rings share the annulus between bore and outside at the pitch circle's shoulders
     let shoulder = |side: f64| run.pitch_diameter + side * 2.0 * SHOULDER * run.ball_diameter;
@@ -487,7 +497,9 @@ pub(crate) fn losses(
         preload: 0.0,
     };
     let load = match run.heat.feedback {
-        _ if run.contact_angle > 0.0 => BearingLoad::Moment(at_angle(run)?),
+        _ if run.contact_angle > 0.0 || run.moment.axial_load() != 0.0 => {
+            BearingLoad::Moment(at_angle(run)?)
+        }
         Feedback::Full => BearingLoad::Zone {
             unpreloaded: unpreloaded(zone),
             zone: zone.clone(),
@@ -512,7 +524,7 @@ pub(crate) fn losses(
     })
 }
 
-/// M1 of contacts at an angle under the radial load and the axial one of their law, N m.
+/// M1 under the radial load and the axial one of its law, N m.
 fn at_angle(run: &Warm) -> Result<f64, Box<Problem>> {
     let law = (run.moment.law(&run.rated())).map_err(|why| {
         problem(

@@ -9,7 +9,7 @@ use thermal::bearing_network::{
 };
 use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
 use thermal::held::Held;
-use thermal::losses::Losses;
+use thermal::losses::{Losses, moments};
 use thermal::network::{Network, NetworkError};
 use thermal::steady_speed::SteadySpeed;
 use thermal::warm_machine::{OF_BEARING, by_kind};
@@ -100,7 +100,8 @@ pub(super) fn follow(
         let stop = (state.speed * (-LONGEST_STEP).exp())
             .max(built.end.stop_speed)
             .max(built.knot_below(state.speed));
-        let until = built.until(state.time);
+        let braking = moments(&machine.losses, state.speed, &state.temperatures);
+        let until = built.until(state.time, state.speed, braking.iter().sum());
         let mut stepped = step(&machine, &mut state, stop, until, built.seats_follow());
         if stepped.is_ok() && built.load.is_some() {
             // a load that changes with time acts as in the middle of the step

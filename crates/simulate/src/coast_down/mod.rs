@@ -156,8 +156,10 @@ pub(crate) fn history(parts: &[Part], rows: &[Row]) -> Vec<Column> {
     for (k, part) in parts.iter().enumerate() {
         let [clearance, load] = ["bearing.clearance", "bearing.largest_ball_load"]
             .map(|name| of_part(&part.name, name));
+        if part.warm.contact_angle == 0.0 {
+            columns! { table, |row| "{clearance}": "m", "diametral clearance; negative is preload" => row.bearings[k].clearance; }
+        }
         columns! { table, |row|
-            "{clearance}": "m", "diametral clearance; negative is preload" => row.bearings[k].clearance;
             "{load}": "N", "load of the most loaded ball" => row.bearings[k].largest_ball_load();
         }
     }

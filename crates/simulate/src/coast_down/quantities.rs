@@ -143,7 +143,7 @@ results! {
 
 /// Why a bearing has no clearance.
 fn at_angle(part: &Part) -> Option<String> {
-    let words = "an axial preload presses its balls at an angle";
+    let words = "balls that touch their races at an angle have no radial clearance";
     (part.warm.contact_angle > 0.0).then(|| words.to_string())
 }
 

@@ -5,7 +5,7 @@ use crate::rig::run::{Built, name_temperatures};
 use crate::rig::{Context, given};
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use model::system::rig::layout::{
-    CAGE_SLIP, CAGE_SPEED, DRIVE_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
+    CAGE_SPEED, DRIVE_HEAT, FLYWHEEL, INNER_MOMENT, OUTER_MOMENT, SHAFT, STEADY_MOMENT,
 };
 use outcome::Quantity;
 use outcome::list::results;
@@ -60,7 +60,7 @@ results! {
         "inner_race_moment_at_end": number "N m", AT_END, "moment that resists the inner race at the end" => run.probe(INNER_MOMENT);
         "outer_race_moment_at_end": number "N m", AT_END, "moment on the outer race at the end" => run.probe(OUTER_MOMENT);
         "law_moment_at_end": number "N m", AT_END, "moment of the friction law at the end" => run.probe(STEADY_MOMENT);
-        "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" in tile "Cage slip at the end [%]" => run.late_slip();
+        "cage_slip_at_end": number "1" headline, SLIP, "mean cage slip over the last cage turn" in tile "Cage slip at the end [%]" => run.slip_at_end();
         "peak_temperature_rise": number "K" headline, TEMPERATURE, "largest rise of the outer race" => {
             run.followed().map_or(run.rig().temperature.value, |of| of.warmth.peaks[OUTER_RACE].0 - of.heated.part.start)
         };
@@ -103,16 +103,14 @@ fn engages_at(rig: &Rig) -> Result<f64, String> {
 
 impl Context<'_> {
     /// Cage slip over the last turn of the cage, or at the last instant where there was none.
-    fn late_slip(&self) -> Result<f64, String> {
+    fn slip_at_end(&self) -> Result<f64, String> {
         let turns = self.ending.state[SHAFT.spin()].abs() > 0.05 * self.rig.speed;
         match (self.rig.bearing.fidelity, turns) {
             (Fidelity::Rolling, _) => {
                 Err("the rolling fidelity takes the balls to roll".to_string())
             }
             (Fidelity::Planar, false) => Err("the shaft hardly turns at the end".to_string()),
-            (Fidelity::Planar, true) => {
-                Ok((self.rig().turns.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP)))
-            }
+            (Fidelity::Planar, true) => Ok(self.late_slip()),
         }
     }
     /// Channels of which values were clipped, with their number.

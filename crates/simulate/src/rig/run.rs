@@ -11,6 +11,7 @@ use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
 use model::system::outer_race::OuterRaceEnergy;
 use model::system::rig::Tap;
+use model::system::rig::layout::CAGE_SLIP;
 use model::system::rig::record::RigRecord;
 use outcome::list::List;
 use outcome::options::Options;
@@ -113,6 +114,10 @@ impl<'a> RigRun<'a> {
     pub fn probe(&self, index: usize) -> f64 {
         let (time, state) = (self.ending.time, &self.ending.state);
         (self.at_end()).last_probes(&self.rig().mode, time, state)[index]
+    }
+    /// Cage slip at the end: of the last turn of the cage, or of the last instant where there was none.
+    pub fn late_slip(&self) -> f64 {
+        (self.rig().turns.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP))
     }
     /// A heat of the ledger at the end, J.
     pub fn heat(&self, kind: usize) -> f64 {

@@ -142,10 +142,6 @@ impl Context<'_> {
             )
         })
     }
-    /// Cage slip at the end: of the last turn of the cage, or of the last instant where there was none.
-    fn late_slip(&self) -> f64 {
-        (self.rig().turns.last_cage_slip()).unwrap_or_else(|| self.probe(CAGE_SLIP))
-    }
     /// Whether a speed is one that slip may be compared with: a race at rest has none.
     fn is_fast(&self, speed: f64) -> bool {
         speed.abs() > LEAST_SPEED * self.spin_up.target_speed().abs()

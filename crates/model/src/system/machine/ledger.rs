@@ -54,7 +54,10 @@ impl RotorMachine {
             if !race.centre_held {
                 content.potential += weight(race.mass, inner.position);
             }
-            content.potential += weight(part.outer_weighing_mass(), outer.position);
+            // what moves with the housing of a rig is part of its load, whose work counts
+            if part.fixture.is_none() {
+                content.potential += weight(outer_mass, outer.position);
+            }
             content.potential += bearing.elastic;
             content.potential += bearing.weight;
             content.angular_momentum += race.mass * inner.position.cross(inner.velocity);

@@ -44,8 +44,7 @@ use crate::levitation::Levitation;
 use crate::magnets::{AxisConstants, ControlEvent, Instant, Magnets};
 use crate::rotor::{GeometricCentre, Node, Rotor};
 use crate::seal::Seal;
-use crate::system::rig::Clutch;
-use crate::system::rig::{ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
+use crate::system::rig::{Clutch, ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
 use crate::table::Piece;
 use ::levitation::OfAxes;
 pub use constants::{Event, MachineConstants};
@@ -143,7 +142,7 @@ impl RotorMachine {
             constants,
         }
     }
-    /// Whether lanes may hold both: the same states, magnets, seals, switches and drives.
+    /// Whether lanes may hold both: the same states, magnets, seals, switches and drives; a clutch and a housing stand alone.
     pub fn shares_lanes(&self, other: &Self) -> bool {
         let (a, b) = (&self.constants, &other.constants);
         let rows = |own: &MachineConstants| -> Vec<usize> {
@@ -153,6 +152,12 @@ impl RotorMachine {
             let fixture = machine.fixture();
             fixture.map(|own| std::mem::discriminant(&own.drive))
         };
+        let held = |own: &MachineConstants| -> Vec<[bool; 2]> {
+            let each = own.bearings.iter();
+            each.map(|part| [part.inner_race.centre_held, part.is_concentric()])
+                .collect()
+        };
+        let alone = |own: &Fixture| own.housing.is_some() || matches!(own.drive, Drive::Clutch(_));
         let magnets = match (&a.magnets, &b.magnets) {
             (Some(a), Some(b)) => a.share_lanes(b),
             (a, b) => a.is_none() && b.is_none(),
@@ -162,6 +167,8 @@ impl RotorMachine {
             && rows(a) == rows(b)
             && a.rotor.spin_held == b.rotor.spin_held
             && drive(self) == drive(other)
+            && held(a) == held(b)
+            && !self.fixture().is_some_and(alone)
     }
     /// Where everything stands in the state.
     pub fn layout(&self) -> &Layout {

@@ -33,15 +33,15 @@ impl<R: Real> Machines<R> {
     ) -> AtNode<'a, R> {
         let centre = self.nodes[k].centre(rotor);
         let inner = self.layout.bearings[k].motion(state).inner;
-        let mut there = AtNode {
-            contact: (self.bearings[k].contact).react(&centre, rotor.spin, &inner),
+        let contact = match acting {
+            Some(acting) => acting.contact,
+            None => (self.bearings[k].contact).react(&centre, rotor.spin, &inner),
+        };
+        AtNode {
+            contact,
             centre,
             acting,
-        };
-        if let Some(acting) = acting {
-            there.contact = acting.contact;
         }
-        there
     }
 
     /// The rate of change of the state, and the probes where asked.

@@ -126,6 +126,10 @@ impl<R: Real> Machines<R> {
     fn sliding_tangent(&self, mode: &Mode<R>, time: R, [rotor, race]: [R; 2]) -> Contact<R> {
         let (zero, one) = (R::zero(), R::one());
         let bore = &self.bearings[0].contact;
+        let fixture = self.bearings[0].fixture.as_ref();
+        if !fixture.is_some_and(|fixture| matches!(fixture.own.drive, Drive::SlidingRotor(_))) {
+            return Contact::open();
+        }
         let slip = bore.bore_radius * (rotor - race);
         let saturation = (slip * bore.inverse_reference_speed).tanh();
         let slope = bore.friction * bore.inverse_reference_speed * (one - saturation.square());

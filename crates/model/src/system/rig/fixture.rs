@@ -7,6 +7,10 @@
 //!   clutch          open 0;  slipping ± T_c(t);  locked: whatever keeps ω_f = Ω     I_f ω̇_f = motor - belt - T
 //!                   motor = clamp(gain (ω_set(t) - ω_f), ± limit)
 //!
+//!   (I_I + J + j) Ω̇ = drive - support + free        see auxiliary_bearing.rs
+//!   without housing   m_i c̈_i = W d + S t + bearing + m g    or held
+//!   with it           m_o c̈_o = W d + bearing + m' g         or held
+//!
 //!   t_I = (J + j) Ω̇ - free,   t_O = moment of the bearing on the outer race
 //!   d: direction of the load W, t: d turned +90°;  a sliding rotor touches the bore at c_i + R_0 d
 //!   without housing   W d + S t on the inner race;  the outer race stands at the origin
@@ -31,7 +35,7 @@ use crate::contact::{ContactReaction, JournalContact};
 use crate::motion::Wrench;
 use crate::system::machine::Mode;
 use crate::table::{Piece, Table};
-use number::{Gather, Real, Vec2};
+use number::{Gather, Real, Vec2, Vectorized};
 
 /// What turns, loads and carries a bearing on a rig.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,10 +155,26 @@ impl<R: Real> FixtureOver<R> {
         })
     }
 
-    /// What acts at an instant, with the spins of rotor and inner race. Out of the kernel of machines without a rig.
-    #[cold]
-    #[inline(never)]
+    /// What acts at an instant, with the spins of rotor and inner race.
+    #[inline(always)]
     pub fn act(
+        &self,
+        mode: &Mode<R>,
+        time: R,
+        spins: [R; 2],
+        bore: &JournalContact<R>,
+    ) -> Acting<R> {
+        R::vectorized(Act {
+            fixture: self,
+            mode,
+            time,
+            spins,
+            bore,
+        })
+    }
+
+    #[inline(always)]
+    fn acting(
         &self,
         mode: &Mode<R>,
         time: R,
@@ -230,10 +250,25 @@ impl<R: Real> FixtureOver<R> {
 
     /// Writes heats, sources and the works by the moments on the races, the rates of arm and temperatures, and probes where asked; returns
     /// the moments from outside.
-    /// Out of the kernel of machines without a rig.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     pub fn book(
+        &self,
+        at: &BearingAt,
+        of: (&Acting<R>, &Turned<R>),
+        bearing: &Bearing<R>,
+        into: Outlet<'_, R>,
+    ) -> External<R> {
+        R::vectorized(Book {
+            fixture: self,
+            at,
+            of,
+            bearing,
+            into,
+        })
+    }
+
+    #[inline(always)]
+    fn booked(
         &self,
         at: &BearingAt,
         (acting, turned): (&Acting<R>, &Turned<R>),
@@ -376,5 +411,39 @@ impl<R: Real> FixtureOver<R> {
         rate[THERMOCOUPLE] =
             (state[TEMPERATURE] - state[THERMOCOUPLE]) / R::splat(heat.thermocouple_lag);
         disturbance
+    }
+}
+
+/// What acts, as a task: it is compiled for itself, so that a machine without a rig does not pay for it.
+struct Act<'a, R: Real> {
+    fixture: &'a FixtureOver<R>,
+    mode: &'a Mode<R>,
+    time: R,
+    spins: [R; 2],
+    bore: &'a JournalContact<R>,
+}
+
+impl<R: Real> Vectorized for Act<'_, R> {
+    type Output = Acting<R>;
+    #[inline(always)]
+    fn run(self) -> Acting<R> {
+        (self.fixture).acting(self.mode, self.time, self.spins, self.bore)
+    }
+}
+
+/// What is booked, as a task like [`Act`].
+struct Book<'a, 'o, R: Real> {
+    fixture: &'a FixtureOver<R>,
+    at: &'a BearingAt,
+    of: (&'a Acting<R>, &'a Turned<R>),
+    bearing: &'a Bearing<R>,
+    into: Outlet<'o, R>,
+}
+
+impl<R: Real> Vectorized for Book<'_, '_, R> {
+    type Output = External<R>;
+    #[inline(always)]
+    fn run(self) -> External<R> {
+        (self.fixture).booked(self.at, self.of, self.bearing, self.into)
     }
 }

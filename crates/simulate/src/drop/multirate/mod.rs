@@ -305,6 +305,9 @@ impl<'a> Multirate<'a> {
         let whole = Limits::of(&leap.before, &leap.from).whole_time();
         let later = (again.start.time - predicted.time).abs() / whole;
         let error = later.max(warmer / TEMPERATURE_SCALE);
+        if !error.is_finite() {
+            return Err("a quasi-steady step has no finite error");
+        }
         let tolerance = built.end.tolerance;
         let factor = (0.9 * (tolerance / error).sqrt()).clamp(0.5, 2.0);
         if error > tolerance && leap.length > leap::JUMP {
@@ -315,7 +318,11 @@ impl<'a> Multirate<'a> {
             self.length = factor.min(0.9) * leap.length;
             return Ok(Closed::TakenBack);
         }
-        self.series.step_error = self.series.step_error.max(error);
+        let largest = self
+            .series
+            .step_error
+            .map_or(error, |before| before.max(error));
+        self.series.step_error = Some(largest);
         if leap.whole {
             // a leap that something else kept short says nothing against a longer one
             let short = leap.length < 0.9 * self.length;

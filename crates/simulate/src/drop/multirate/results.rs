@@ -325,7 +325,7 @@ results! {
         "start_speed": number "rad/s", CHANGE, "speed of the rotor at this instant" => run.rolled(|place| place.speed);
         "windows": number "", INTERVALS, "number of ball-by-ball intervals" => run.series.intervals as f64;
         "window_scatter": number "1", INTERVALS, "largest standard error of a mean power over it" => run.series.error;
-        "step_error": number "1", STEPS, "largest error of a quasi-steady step" => run.series.step_error;
+        "step_error": number "1", STEPS, "largest error of a quasi-steady step between two intervals" => run.series.step_error.ok_or_else(|| "no step led from one interval to another".to_string());
     }
     fn peaks(k: &usize, run: &Followed) {
         "peak_contact_force": number "N", PEAK, "largest contact force in the intervals" => run.seen(*k, |seen| seen.force.value);
@@ -359,7 +359,7 @@ origins! {
         source "crates/simulate/src/drop/multirate/batch.rs; book/src/theory/heat.md",
         valid "what a motion does at a speed depends on speed, temperatures and the branch it is on";
     STEPS: law "max(|Δt_again − Δt|/(t + t_r), |T_again − T|/50 K) of a step with both of its ends known against the one that predicted it; above \
-          coast_down.tolerance only of steps of 4 % of speed, which are taken whatever their error",
+          coast_down.tolerance only of steps of at most 4 % of speed, which are taken whatever their error",
         source "crates/simulate/src/drop/multirate/mod.rs; book/src/theory/heat.md",
         valid "the corrected step is taken: its own error is smaller";
     PEAK: law "the largest of all intervals and of the way to them",

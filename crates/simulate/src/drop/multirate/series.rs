@@ -108,8 +108,8 @@ pub(crate) struct IntervalSeries {
     /// Their number, and the largest relative error of a mean power by which a leap was taken.
     pub(super) intervals: usize,
     pub(super) error: f64,
-    /// The largest error of a quasi-steady step that was taken, as the page of the method has it.
-    pub(super) step_error: f64,
+    /// The largest error of a quasi-steady step between two intervals, as the page of the method has it.
+    pub(super) step_error: Option<f64>,
     /// Steps of all of them.
     pub steps: u64,
     /// Where the rotor rolled first.
