@@ -13,7 +13,7 @@
 //! The work `other` of [`WORKS`](crate::system::outer_race::WORKS) is that of t_g Ω - (c_i × F_i + c_o × F_o) Ω + F_i·v_i + F_o·v_o,
 //! F of the races on the balls, and of the growth of the inner race: drags to the ground, weight, a race that moves or grows.
 //! What a converter samples comes first: it is cheap to read between two steps ([`taps`](super::taps)).
-//! The probes of any auxiliary bearing come first: [`probe`](crate::auxiliary_bearing::probe).
+//! The probes of any auxiliary bearing come first: [`probe`].
 
 use crate::auxiliary_bearing::probe;
 use crate::bearing;
