@@ -168,6 +168,8 @@ mod tests {
         std::fs::create_dir_all(&folder).unwrap();
         let git = |arguments: &[&str]| {
             let mut command = Command::new("git");
+            // a repository that the caller's environment names is another one
+            command.env_remove("GIT_DIR").env_remove("GIT_WORK_TREE");
             let author = ["-c", "user.name=a", "-c", "user.email=a@b.c"];
             let output = command.args(author).args(arguments).current_dir(&folder);
             assert!(output.output().unwrap().status.success(), "{arguments:?}");
