@@ -10,7 +10,7 @@ use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 /// Computes what a file of this system asks for.
 pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit, Box<Problem>> {
     let mut scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
-    if wanted == SystemName::Rotor
+    if !wanted.reads_measurements()
         && let Some(rotor) = scenario.rotor_alone()
     {
         scenario = rotor?;
