@@ -46,6 +46,28 @@
 //! # }
 //! ```
 //!
+//! # Step with inputs
+//!
+//! ```
+//! use auxbear::{BuiltIn, Input, Scenario, build, template};
+//!
+//! # fn main() -> Result<(), Box<auxbear::Problem>> {
+//! let text = template("drop").unwrap();
+//! let sets = ["rotor.spin=braked", "rotor.brake_torque=5 N m", "rotor.brake_start=1 s"];
+//! let scenario = Scenario::parse(&text, "drop.toml", &sets.map(String::from), &BuiltIn)?;
+//! let machine = build(&scenario)?;
+//! let mut simulation = machine.simulation()?;
+//! // a controller of one's own: it brakes as soon as the rotor lies deep in its clearance
+//! for step in 1..=20 {
+//!     assert!(simulation.advance(1e-3 * f64::from(step)).is_none());
+//!     let low = simulation.value("rotor.y").unwrap() < -0.2e-3;
+//!     simulation.change(Input::Brake(low))?;
+//! }
+//! assert!(simulation.value("rotor.speed").unwrap() > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Study
 //!
 //! ```
@@ -116,10 +138,10 @@ pub use ::report::export::export;
 pub use ::run::study::answer::Answer;
 pub use ::run::study::table::Table;
 pub use ::run::study::{Study, evaluate};
-pub use ::run::{Machine, build, run};
+pub use ::run::{Input, Machine, Simulation, build, run};
 pub use ::scenario::{
-    BearingSource, BuiltIn, KINDS, Limit, NoBearings, Resolved, Scenario, StudyFile, System,
-    SystemName, schema, template,
+    BearingSource, BuiltIn, Limit, Resolved, Scenario, StudyFile, System, SystemName, schema,
+    template,
 };
 
 // The crates behind it, for the command, the Python package and their tests: what they hold may change.

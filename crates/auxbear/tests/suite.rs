@@ -31,6 +31,7 @@ mod scenario;
 mod signals;
 mod signals_analysis;
 mod signals_files;
+mod simulation;
 mod speed_channel;
 mod studies;
 mod torque;

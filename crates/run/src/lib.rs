@@ -24,10 +24,11 @@ pub use outcome::options::Options;
 pub use outcome::{self, Outcome};
 use outcome::{Column, Quantity};
 use outcome::{host, limits};
-use problem::Problem;
+use problem::{Code, Problem};
 #[cfg(feature = "files")]
 pub use recording::file::parquet::panic_is_caught;
-use scenario::{CoastDown, Rig, Scenario, SpinUp, System};
+use scenario::{CoastDown, Rig, Scenario, SpinUp, System, problem_at};
+pub use simulate::simulation::{Input, Simulation};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
 
@@ -90,6 +91,25 @@ impl Machine<'_> {
         let declared: Vec<_> = warnings::declared().collect();
         outcome.limits = limits::of(self.scenario, &outcome, &declared);
         outcome
+    }
+
+    /// The machine at its start, to be driven from outside.
+    ///
+    /// # Errors
+    /// Where nothing moves in time, or temperatures act on the motion.
+    pub fn simulation(&self) -> Result<Simulation, Box<Problem>> {
+        let driven = match &self.system {
+            Built::Drop(built, _) => Simulation::of_drop(self.scenario, built),
+            Built::SpinUp(of, built) => Ok(spin_up::simulation(of, built)),
+            Built::Rig(of, built) => Ok(rig::simulation(of, built)),
+            _ => {
+                let found = self.scenario.system.name().word().to_string();
+                let needed =
+                    "a drop, a machine, a spin-up or a rig is needed: nothing else moves in time";
+                Err(problem_at(Code::Impossible, "system", found, needed))
+            }
+        };
+        driven.map_err(|problem| self.scenario.locate(problem))
     }
 
     fn computed(&self, options: &Options) -> Outcome {

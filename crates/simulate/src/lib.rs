@@ -12,6 +12,7 @@
 //! | `stepping` | which steps a run takes, and how exact they are |
 //! | [`ensemble`] | runs machines, in lanes and threads |
 //! | `following` | what of a machine follows the temperatures of its bearings |
+//! | [`simulation`] | a machine that is driven from outside, from stop to stop |
 //! | `ending` | settings of the integration, and how a run ended |
 
 #![forbid(unsafe_code)]
@@ -28,6 +29,7 @@ mod following;
 pub mod levitated;
 pub mod rig;
 pub mod rotor;
+pub mod simulation;
 pub mod spin_up;
 pub mod static_safety;
 pub mod stepping;

@@ -4,6 +4,7 @@ use crate::attempt::Explicit;
 use crate::bogacki_shampine::BOGACKI_SHAMPINE;
 use crate::heun::HEUN;
 use crate::implicit::{Implicit, Tangents};
+use crate::lane::Held;
 use crate::method::Method;
 use crate::scheme::Scheme;
 use crate::step::Step;
@@ -200,7 +201,7 @@ where
     assert!(count >= 1, "at least one machine");
     assert!(starts.len() == count && observers.len() == count);
     let start = |member: usize| Start {
-        machine: machines[member],
+        machine: Held::Borrowed(machines[member]),
         state: &starts[member],
         observer: member,
         settings: *settings,

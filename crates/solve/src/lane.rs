@@ -6,6 +6,8 @@ use crate::stepper::{Pause, Start};
 use crate::system::Machine;
 use crate::workspace::{Judgement, Workspace, with_lane};
 use number::Real;
+use std::ops::Deref;
+use std::sync::Arc;
 
 /// Smallest step relative to the time it starts from: below, time no longer advances reliably.
 const SMALLEST_STEP: f64 = 64.0 * f64::EPSILON;
@@ -17,12 +19,39 @@ const HOPELESS_LEAST: u64 = 10_000;
 /// …when its pace would need the limit so many times over.
 const HOPELESS_FACTOR: u64 = 10;
 
+/// A machine that a lane holds: somebody else's, or its own.
+#[derive(Debug)]
+pub enum Held<'m, M> {
+    /// Somebody else's.
+    Borrowed(&'m M),
+    /// Its own.
+    Own(Arc<M>),
+}
+
+impl<M> Clone for Held<'_, M> {
+    fn clone(&self) -> Self {
+        match self {
+            Held::Borrowed(machine) => Held::Borrowed(machine),
+            Held::Own(machine) => Held::Own(machine.clone()),
+        }
+    }
+}
+
+impl<M> Deref for Held<'_, M> {
+    type Target = M;
+    fn deref(&self) -> &M {
+        match self {
+            Held::Borrowed(machine) => machine,
+            Held::Own(machine) => machine,
+        }
+    }
+}
+
 /// What the stepper keeps per lane.
 #[derive(Clone)]
 pub(crate) struct Lane<'m, M: Machine> {
-    pub machine: &'m M,
-    /// The same with other constants, once its observer has renewed it.
-    pub renewed: Option<Box<M>>,
+    /// The machine, as it is now: another one once its observer has renewed it.
+    pub machine: Held<'m, M>,
     pub observer: usize,
     pub settings: Settings,
     pub pause_at_events: bool,
@@ -46,11 +75,10 @@ pub(crate) struct Lane<'m, M: Machine> {
 }
 
 impl<'m, M: Machine> Lane<'m, M> {
-    pub fn of(start: &Start<'m, M>) -> Self {
-        let (machine, settings) = (start.machine, start.settings);
+    pub fn of(start: &Start<'m, '_, M>) -> Self {
+        let (machine, settings) = (&start.machine, start.settings);
         Lane {
-            machine,
-            renewed: None,
+            machine: machine.clone(),
             observer: start.observer,
             settings,
             pause_at_events: start.pause_at_events,
@@ -69,13 +97,9 @@ impl<'m, M: Machine> Lane<'m, M> {
             told: false,
         }
     }
-    /// The machine, as it is now.
-    pub fn machine(&self) -> &M {
-        self.renewed.as_deref().unwrap_or(self.machine)
-    }
     /// The next instant to land on, s.
     pub fn due(&self) -> f64 {
-        self.machine().due(&self.mode, self.next_landing)
+        self.machine.due(&self.mode, self.next_landing)
     }
     /// Whether it paused since [`Stepper::advance`] began.
     pub fn has_news(&self) -> bool {
@@ -83,7 +107,7 @@ impl<'m, M: Machine> Lane<'m, M> {
     }
     /// After a jump of the mode or the state.
     pub fn jumped<R: Real>(&mut self, work: &mut Workspace<R>, lane: usize) {
-        if self.machine().starts_afresh() {
+        if self.machine.starts_afresh() {
             self.length = self.settings.first_step;
             self.after_rejection = false;
             work.last_logarithm = with_lane(work.last_logarithm, lane, 0.0);

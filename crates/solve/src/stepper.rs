@@ -9,7 +9,7 @@
 use crate::attempt::{Advance, Explicit};
 use crate::drive::{Ending, Flow, Observer, Settings, Stop};
 use crate::implicit::{Implicit, Tangents};
-use crate::lane::Lane;
+use crate::lane::{Held, Lane};
 use crate::method::{Method, Place};
 use crate::scheme::Scheme;
 use crate::state_event::{Event, find_event};
@@ -21,11 +21,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A machine to put on a lane.
 #[derive(Debug)]
-pub struct Start<'m, M> {
+pub struct Start<'m, 's, M> {
     /// The machine.
-    pub machine: &'m M,
+    pub machine: Held<'m, M>,
     /// Its state.
-    pub state: &'m [f64],
+    pub state: &'s [f64],
     /// Its place among the observers.
     pub observer: usize,
     /// How to integrate; it goes on to the end of these.
@@ -54,8 +54,8 @@ pub enum Pause {
 #[derive(Clone)]
 pub struct Saved<'m, M: Machine> {
     lane: Lane<'m, M>,
-    /// State, rates, probes at its time.
-    values: [Vec<f64>; 3],
+    /// State, rates, probes at its time, and reciprocals of the errors that are allowed.
+    values: [Vec<f64>; 4],
     last_logarithm: f64,
     method: Vec<f64>,
 }
@@ -81,7 +81,7 @@ impl<'m, R: Real, B: Batch<R>> Stepper<'m, R, B, Explicit> {
     ///
     /// # Panics
     /// When there are no machines, or more than lanes.
-    pub fn explicit(scheme: &Scheme, starts: &[Start<'m, B::Machine>]) -> Self {
+    pub fn explicit(scheme: &Scheme, starts: &[Start<'m, '_, B::Machine>]) -> Self {
         Self::new(|_| Explicit(*scheme), starts)
     }
 }
@@ -91,7 +91,7 @@ impl<'m, R: Real, B: Tangents<R>> Stepper<'m, R, B, Implicit<R, B::Room>> {
     ///
     /// # Panics
     /// As [`explicit`](Stepper::explicit).
-    pub fn implicit(starts: &[Start<'m, B::Machine>]) -> Self {
+    pub fn implicit(starts: &[Start<'m, '_, B::Machine>]) -> Self {
         Self::new(
             |batch| Implicit::new(batch, starts[0].machine.dimension()),
             starts,
@@ -100,7 +100,7 @@ impl<'m, R: Real, B: Tangents<R>> Stepper<'m, R, B, Implicit<R, B::Room>> {
 }
 
 impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
-    pub(crate) fn new(method: impl FnOnce(&B) -> S, starts: &[Start<'m, B::Machine>]) -> Self {
+    pub(crate) fn new(method: impl FnOnce(&B) -> S, starts: &[Start<'m, '_, B::Machine>]) -> Self {
         assert!((1..=R::LANES).contains(&starts.len()), "one machine a lane");
         // spare lanes copy the last machine and stand still
         let start = |lane: usize| &starts[lane.min(starts.len() - 1)];
@@ -108,12 +108,12 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         for spare in &mut lanes[starts.len()..] {
             spare.pause = Some(Pause::Ended(Stop::Finished));
         }
-        let machine = starts[0].machine;
+        let machine = &*starts[0].machine;
         let mut work = Workspace::<R>::of(machine);
         for lane in 0..R::LANES {
             load(&mut work, lane, start(lane));
         }
-        let batch = B::gather(&|lane| lanes[lane].machine());
+        let batch = B::gather(&|lane| &*lanes[lane].machine);
         Stepper {
             method: method(&batch),
             mode: B::gather_mode(&|lane| lanes[lane].mode),
@@ -127,7 +127,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     }
 
     /// Puts a machine at its start on a lane, whatever stood there.
-    pub fn load(&mut self, lane: usize, start: &Start<'m, B::Machine>) {
+    pub fn load(&mut self, lane: usize, start: &Start<'m, '_, B::Machine>) {
         self.lanes[lane] = Lane::of(start);
         load(&mut self.work, lane, start);
         self.fresh |= 1 << lane;
@@ -163,7 +163,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     }
     /// The machine on a lane, as it is now.
     pub fn machine(&self, lane: usize) -> &B::Machine {
-        self.lanes[lane].machine()
+        &self.lanes[lane].machine
     }
     /// Its mode.
     pub fn mode(&self, lane: usize) -> ModeOf<R, B> {
@@ -196,7 +196,8 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         let w = &self.work;
         Saved {
             lane: self.lanes[lane].clone(),
-            values: [&w.state, &w.first, &w.probe].map(|list| lane_of(list, lane)),
+            values: [&w.state, &w.first, &w.probe, &w.inverse_error]
+                .map(|list| lane_of(list, lane)),
             last_logarithm: w.last_logarithm.lane(lane),
             method: self.method.save(lane),
         }
@@ -208,12 +209,9 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     {
         self.renew_fresh();
         self.lanes[lane] = saved.lane.clone();
-        let (own, w) = (&self.lanes[lane], &mut self.work);
-        let tolerance = own.settings.tolerance;
-        put(&mut w.inverse_error, lane, |channel| {
-            1.0 / (tolerance * own.machine.error_scale(channel))
-        });
-        let [state, first, probe] = &saved.values;
+        let w = &mut self.work;
+        let [state, first, probe, inverse_error] = &saved.values;
+        put(&mut w.inverse_error, lane, |channel| inverse_error[channel]);
         put(&mut w.state, lane, |channel| state[channel]);
         put(&mut w.first, lane, |channel| first[channel]);
         put(&mut w.probe, lane, |channel| probe[channel]);
@@ -226,7 +224,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     /// The batch and the modes of what stands on the lanes.
     fn gather(&mut self) {
         let lanes = &self.lanes;
-        self.batch = B::gather(&|lane| lanes[lane].machine());
+        self.batch = B::gather(&|lane| &*lanes[lane].machine);
         self.mode = B::gather_mode(&|lane| lanes[lane].mode);
         self.work.time = R::from_lanes(|lane| lanes[lane].time);
     }
@@ -310,7 +308,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             scratch.copied = 0;
             let mut retake = lane.retake;
             let mut step = Step {
-                machine: lane.machine(),
+                machine: &*lane.machine,
                 mode: &lane.mode,
                 start: lane.time,
                 end: lane.step_end,
@@ -362,8 +360,8 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             }
             self.scratch.take(&self.work, index);
             let state = &self.scratch.state;
-            if let Some(new) = observers[lane.observer].renewed(lane.machine(), lane.time, state) {
-                lane.renewed = Some(new);
+            if let Some(new) = observers[lane.observer].renewed(&lane.machine, lane.time, state) {
+                lane.machine = Held::Own(new.into());
                 renewed = true;
             }
         }
@@ -383,17 +381,17 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             let mut mode = lane.mode;
             let mut pause = Pause::Event;
             if crossed {
-                lane.machine().cross(lane.time, &mut mode, state);
+                lane.machine.cross(lane.time, &mut mode, state);
                 lane.mode = mode;
             }
             while lane.due() <= lane.time {
                 pause = Pause::Landing(lane.next_landing);
-                (lane.machine()).transition(lane.next_landing, &mut mode, state);
+                lane.machine.transition(lane.next_landing, &mut mode, state);
                 lane.mode = mode;
                 lane.next_landing += 1;
             }
             let flow =
-                observers[lane.observer].switched(lane.machine(), &lane.mode, lane.time, state);
+                observers[lane.observer].switched(&lane.machine, &lane.mode, lane.time, state);
             if let Flow::Halt(why) = flow {
                 lane.pause = Some(Pause::Ended(Stop::Halted(why)));
             } else if lane.pause_at_events {

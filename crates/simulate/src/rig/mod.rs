@@ -20,6 +20,7 @@ pub mod warnings;
 
 use crate::bearing::warm::Followed;
 use crate::ending::DESIGN;
+use crate::simulation::Simulation;
 use crate::stepping::Stepping;
 use chain::{Happened, Sampled};
 use model::system::rig::Taps;
@@ -70,13 +71,22 @@ fn given(rig: &Rig) -> RunInput<'_> {
     }
 }
 
+/// Explicit steps of design accuracy: the logger reads between them.
+const STEPPING: Stepping = Stepping {
+    steps: Steps::Explicit,
+    tolerance: DESIGN,
+};
+
+/// A test at its start, to be driven from outside.
+pub fn simulation(rig: &Rig, built: &Built) -> Simulation {
+    let machine = built.machine.clone();
+    let start = machine.start();
+    Simulation::of(machine, &start, &rig.run, STEPPING)
+}
+
 /// Runs a test.
 pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
-    let stepping = Stepping {
-        steps: Steps::Explicit,
-        tolerance: DESIGN,
-    };
-    let run = RigRun::of(built, given(rig), stepping, &chain::taps(rig), options);
+    let run = RigRun::of(built, given(rig), STEPPING, &chain::taps(rig), options);
     let bead = run.followed().map(|followed| bead(rig, &followed));
     let happened = happened(rig, &run.rig().taps, bead.as_ref());
     let raw = chain::raw(rig, &happened);

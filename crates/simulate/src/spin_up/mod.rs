@@ -6,6 +6,7 @@ mod quantities;
 pub mod warnings;
 
 use crate::rig::run::{Built, RigRun, RunInput};
+use crate::simulation::Simulation;
 use crate::stepping::Asked;
 use outcome::options::Options;
 use outcome::{Column, Outcome, Quantity};
@@ -38,6 +39,14 @@ pub fn columns(spin_up: &SpinUp, built: &Built) -> Vec<Column> {
 /// The results of a spin-up, without values.
 pub fn results(spin_up: &SpinUp, built: &Built) -> Vec<Quantity> {
     quantities::name(spin_up, built, None)
+}
+
+/// A spin-up at its start, to be driven from outside.
+pub fn simulation(spin_up: &SpinUp, built: &Built) -> Simulation {
+    let machine = built.machine.clone();
+    let start = machine.start();
+    let stepping = asked(spin_up, built).stepping(|| 0.0);
+    Simulation::of(machine, &start, &spin_up.run, stepping)
 }
 
 /// What decides the steps of a spin-up.

@@ -2,7 +2,7 @@
 
 use crate::problems::{Alone, Blind, Problem, adaptive, equal_steps};
 use solve::{
-    Batch, Ending, Flow, Machine, Observer, Settings, Start, Step, Stepper, Stop, Tangents,
+    Batch, Ending, Flow, Held, Machine, Observer, Settings, Start, Step, Stepper, Stop, Tangents,
     run_implicit,
 };
 use std::sync::atomic::AtomicBool;
@@ -253,7 +253,7 @@ fn no_step_passes_over_the_onset_of_a_contact() {
 fn a_run_saved_at_each_stop_has_the_bits_of_one_that_is_not() {
     let (problem, never) = (van_der_pol(), AtomicBool::new(false));
     let starts = [Start {
-        machine: &problem,
+        machine: Held::Borrowed(&problem),
         state: &[2.0, 10.0, 0.0, 0.0],
         observer: 0,
         settings: adaptive(3.0, 1e-5),

@@ -3,7 +3,7 @@
 use crate::problems::Blind;
 use number::{Level, Real, Task};
 use solve::{
-    BOGACKI_SHAMPINE, Batch, Ending, Flow, Machine, Observer, Pause, Settings, Start, Step,
+    BOGACKI_SHAMPINE, Batch, Ending, Flow, Held, Machine, Observer, Pause, Settings, Start, Step,
     Stepper, Stop,
 };
 use std::f64::consts::PI;
@@ -272,7 +272,7 @@ impl Task for Stops<'_> {
         let never = AtomicBool::new(false);
         let count = self.machines.len().min(R::LANES);
         let start = |observer: usize| Start {
-            machine: &self.machines[observer],
+            machine: Held::Borrowed(&self.machines[observer]),
             state: &[0.0, 0.0],
             observer,
             settings: settings(10.0),
@@ -337,7 +337,7 @@ fn a_lane_pauses_at_its_events_where_asked_and_its_neighbour_goes_on() {
         pull: 0.5,
     };
     let start = Start {
-        machine: &machine,
+        machine: Held::Borrowed(&machine),
         state: &[0.0, 0.0],
         observer: 0,
         settings: settings(10.0),
