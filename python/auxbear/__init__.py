@@ -17,6 +17,7 @@ from auxbear.catalogue import bearing, bearings
 from auxbear.recording import Recording
 from auxbear.result import Declared, Evaluated, ModelWarning, Quantity, Result, RunWarning, Spread, Table
 from auxbear.scenario import Scenario, explain, schema, template
+from auxbear.simulation import Simulation
 from auxbear.study import Study, StudyResult
 
 if _TYPE_CHECKING:
@@ -37,6 +38,7 @@ __all__ = [
     "Result",
     "RunWarning",
     "Scenario",
+    "Simulation",
     "Spread",
     "Study",
     "StudyResult",

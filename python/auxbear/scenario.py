@@ -15,6 +15,7 @@ from typing import Any
 from auxbear import _auxbear, _progress, _toml
 from auxbear._progress import Progress
 from auxbear.result import Declared, Evaluated, ModelWarning, Result, RunWarning, Table
+from auxbear.simulation import Simulation
 
 
 class Scenario:
@@ -153,6 +154,10 @@ class Scenario:
         for warning in result.warnings:
             warnings.warn(f"{warning.code}: {warning.text}", ModelWarning, stacklevel=2)
         return result
+
+    def simulation(self) -> Simulation:
+        """The machine at its start, to be driven step by step with inputs of one's own: a drop, a spin-up or a test on a rig."""
+        return Simulation(self._native.simulation())
 
     def evaluate(
         self,

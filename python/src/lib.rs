@@ -8,6 +8,7 @@
 //! | `table` | columns of numbers as an Arrow stream |
 //! | `scenario` | what is simulated |
 //! | `outcome` | what comes out |
+//! | `simulation` | a machine that is driven from outside |
 //! | `study` | many runs, here or in parts elsewhere |
 //! | `recording` | channels from memory, as a file that the readers take |
 //! | `laws` | laws over arrays |
@@ -19,6 +20,7 @@ mod outcome;
 mod problem;
 mod recording;
 mod scenario;
+mod simulation;
 mod study;
 mod table;
 mod watched;
@@ -37,6 +39,8 @@ mod _auxbear {
     use super::scenario::{
         Scenario, bearing_json, bearings_json, explain, number_in, schema, template, version,
     };
+    #[pymodule_export]
+    use super::simulation::Simulation;
     #[pymodule_export]
     use super::study::{Parts, Study, read_study};
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 use crate::outcome::{Outcome, Warned, warned};
 use crate::problem::raised;
+use crate::simulation::Simulation;
 use crate::table::Table;
 use crate::watched::{PATIENCE, watched};
 use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
@@ -16,7 +17,7 @@ use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// A scenario that was read and checked. It does not change.
 #[pyclass(frozen)]
@@ -108,6 +109,16 @@ impl Scenario {
             self.0.clone(),
             found.map_err(|problem| raised(py, problem))?,
         )
+    }
+
+    /// The machine at its start, to be driven from outside.
+    fn simulation(&self, py: Python<'_>) -> PyResult<Simulation> {
+        let scenario = self.0.clone();
+        let found = watched(py, None, None, PATIENCE, move |_, _| {
+            build(&scenario)?.simulation()
+        })?;
+        let driven = found.map_err(|problem| raised(py, problem))?;
+        Ok(Simulation(Mutex::new(driven)))
     }
 
     /// Runs it with each of these lists of changes: results, a row each, and the reasons of the rows that failed.
