@@ -6,11 +6,9 @@ import auxbear
 from auxbear import Scenario
 
 
-def drop(**more: str) -> Scenario:
-    scenario = Scenario.parse(auxbear.template("drop")).set("run.duration", "12 ms").set("run.method", "explicit")
-    for path, value in more.items():
-        scenario.set(f"rotor.{path}", value)
-    return scenario
+def drop(rotor: str = "") -> Scenario:
+    text = auxbear.template("drop").replace("[rotor]", f"[rotor]\n{rotor}", 1)
+    return Scenario.parse(text).set("run.duration", "12 ms").set("run.method", "explicit")
 
 
 def test_without_inputs_it_is_a_run() -> None:
@@ -25,8 +23,7 @@ def test_without_inputs_it_is_a_run() -> None:
 
 
 def test_a_controller_of_ones_own_brakes() -> None:
-    braked = drop(spin="braked", brake_torque="5 N m", brake_start="1 s")
-    simulation = braked.simulation()
+    simulation = drop('spin = "braked"\nbrake_torque = "5 N m"\nbrake_start = "1 s"').simulation()
     free = simulation["rotor.speed"]
     while simulation.advance(simulation.time + 1e-3):
         simulation.brake(simulation.time >= 2e-3)
