@@ -15,6 +15,35 @@
 //! | [`uff`] | the universal file format, sets 58 and 58b: reader |
 //! | [`wav`] | WAV: reader |
 
+/// What a reader says of its file, where it keeps that in fields of these names.
+macro_rules! contents {
+    () => {
+        fn channels(&self) -> &[$crate::Channel] {
+            &self.channels
+        }
+        fn properties(&self) -> &[$crate::Property] {
+            &self.properties
+        }
+        fn notes(&self) -> &[$crate::Note] {
+            &self.notes
+        }
+    };
+}
+
+/// Shows a reader by its channels and notes.
+macro_rules! shown_by_contents {
+    ($Reader:ident) => {
+        impl<S> std::fmt::Debug for $Reader<S> {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.debug_struct(stringify!($Reader))
+                    .field("channels", &self.channels)
+                    .field("notes", &self.notes)
+                    .finish_non_exhaustive()
+            }
+        }
+    };
+}
+
 mod clock;
 mod columns;
 pub mod csv;
@@ -115,43 +144,26 @@ struct Row {
     open: Open,
 }
 
+/// The row of a format, whose reader has its name.
+macro_rules! row {
+    ($Format:ident, $module:ident, $recognise:ident) => {
+        Row {
+            format: Format::$Format,
+            recognise: $module::$recognise,
+            open: |file, path| Ok(Box::new($module::$Format::from_source(file, path)?)),
+        }
+    };
+}
+
 /// The formats that can be read, the most certain signature first; text, which has none, is last.
 const FORMATS: &[Row] = &[
-    Row {
-        format: Format::Tdms,
-        recognise: tdms::is_tdms,
-        open: |file, path| Ok(Box::new(tdms::Tdms::from_source(file, path)?)),
-    },
-    Row {
-        format: Format::Hdf5,
-        recognise: hdf5::is_hdf5,
-        open: |file, path| Ok(Box::new(hdf5::Hdf5::from_source(file, path)?)),
-    },
-    Row {
-        format: Format::Parquet,
-        recognise: parquet::is_parquet,
-        open: |file, path| Ok(Box::new(parquet::Parquet::from_source(file, path)?)),
-    },
-    Row {
-        format: Format::Mat5,
-        recognise: mat5::is_mat5,
-        open: |file, path| Ok(Box::new(mat5::Mat5::from_source(file, path)?)),
-    },
-    Row {
-        format: Format::Wav,
-        recognise: wav::is_wav,
-        open: |file, path| Ok(Box::new(wav::Wav::from_source(file, path)?)),
-    },
-    Row {
-        format: Format::Uff,
-        recognise: uff::is_uff,
-        open: |file, path| Ok(Box::new(uff::Uff::from_source(file, path)?)),
-    },
-    Row {
-        format: Format::Csv,
-        recognise: csv::is_csv,
-        open: |file, path| Ok(Box::new(csv::Csv::from_source(file, path)?)),
-    },
+    row!(Tdms, tdms, is_tdms),
+    row!(Hdf5, hdf5, is_hdf5),
+    row!(Parquet, parquet, is_parquet),
+    row!(Mat5, mat5, is_mat5),
+    row!(Wav, wav, is_wav),
+    row!(Uff, uff, is_uff),
+    row!(Csv, csv, is_csv),
 ];
 
 /// The names of the formats that can be read, for messages.

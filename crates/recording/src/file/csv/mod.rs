@@ -21,7 +21,6 @@ mod lines;
 mod moment;
 mod write;
 
-use std::fmt;
 use std::io::{Read, Seek};
 use std::path::Path;
 
@@ -103,14 +102,7 @@ pub struct Csv<S> {
     kept: Vec<(usize, Vec<f64>)>,
 }
 
-impl<S> fmt::Debug for Csv<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Csv")
-            .field("channels", &self.channels)
-            .field("notes", &self.notes)
-            .finish_non_exhaustive()
-    }
-}
+shown_by_contents!(Csv);
 
 impl<S: Read + Seek> Csv<S> {
     /// Reads the table once, without keeping the values of large files; errors name `path`.
@@ -469,17 +461,7 @@ fn cells_after(line: &[u8], between: cell::Between, width: usize) -> bool {
 }
 
 impl<S: Read + Seek> Recording for Csv<S> {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.properties
-    }
-
-    fn notes(&self) -> &[Note] {
-        &self.notes
-    }
+    contents!();
 
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let entry = self.channels.get(channel);

@@ -45,7 +45,6 @@ mod storage;
 mod survey;
 mod tree;
 
-use std::fmt;
 use std::io::{Read, Seek};
 use std::path::Path;
 
@@ -78,14 +77,7 @@ pub struct Hdf5<S> {
     notes: Vec<Note>,
 }
 
-impl<S> fmt::Debug for Hdf5<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Hdf5")
-            .field("channels", &self.channels)
-            .field("notes", &self.notes)
-            .finish_non_exhaustive()
-    }
-}
+shown_by_contents!(Hdf5);
 
 impl<S: Read + Seek> Hdf5<S> {
     /// Reads what the file holds, without the values; errors name `path`.
@@ -130,17 +122,7 @@ impl<S: Read + Seek> Hdf5<S> {
 }
 
 impl<S: Read + Seek> Recording for Hdf5<S> {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.properties
-    }
-
-    fn notes(&self) -> &[Note] {
-        &self.notes
-    }
+    contents!();
 
     fn contradicts_checksum(&self, channel: usize) -> bool {
         let line = self.lines.get(channel);

@@ -14,7 +14,6 @@ mod stream;
 mod survey;
 mod values;
 
-use std::fmt;
 use std::io::{Read, Seek};
 use std::path::Path;
 
@@ -52,14 +51,7 @@ pub struct Mat5<S> {
     places: Vec<(usize, Stream)>,
 }
 
-impl<S> fmt::Debug for Mat5<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Mat5")
-            .field("channels", &self.channels)
-            .field("notes", &self.notes)
-            .finish_non_exhaustive()
-    }
-}
+shown_by_contents!(Mat5);
 
 impl<S: Read + Seek> Mat5<S> {
     /// Reads which variables the file holds, without the values; errors name `path`.
@@ -157,17 +149,7 @@ impl<S: Read + Seek> Mat5<S> {
 }
 
 impl<S: Read + Seek> Recording for Mat5<S> {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.properties
-    }
-
-    fn notes(&self) -> &[Note] {
-        &self.notes
-    }
+    contents!();
 
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let Some(entry) = self.channels.get(channel) else {

@@ -13,7 +13,6 @@ mod pages;
 mod write;
 
 use std::cell::Cell;
-use std::fmt;
 use std::io::{self, Read, Seek};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -144,14 +143,7 @@ pub struct Parquet<S> {
     cursors: Vec<(usize, usize, Option<Cursor>)>,
 }
 
-impl<S> fmt::Debug for Parquet<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Parquet")
-            .field("channels", &self.channels)
-            .field("notes", &self.notes)
-            .finish_non_exhaustive()
-    }
-}
+shown_by_contents!(Parquet);
 
 thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
@@ -472,17 +464,7 @@ impl About {
 }
 
 impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.properties
-    }
-
-    fn notes(&self) -> &[Note] {
-        &self.notes
-    }
+    contents!();
 
     fn contradicts_checksum(&self, channel: usize) -> bool {
         self.damage.get(channel) == Some(&Damage::Contradicted)
