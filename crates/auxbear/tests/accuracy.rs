@@ -9,6 +9,7 @@ use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
 
 const DROP: &str = include_str!("../../../scenarios/reference_drop.toml");
+const FLEXIBLE: &str = include_str!("../../../scenarios/amb_rig_drop.toml");
 
 /// Drops of each accuracy, and how long they are.
 fn extent() -> (u64, &'static str) {
@@ -28,7 +29,11 @@ fn outcome(machine: &[&str], accuracy: &str) -> Outcome {
         format!("repeat.count={members}"),
         "repeat.unbalance_angle=random".to_string(),
     ]);
-    let scenario = Scenario::parse(DROP, "drop.toml", &sets, &BuiltIn).expect("it is right");
+    ran(DROP, &sets)
+}
+
+fn ran(text: &str, sets: &[String]) -> Outcome {
+    let scenario = Scenario::parse(text, "drop.toml", sets, &BuiltIn).expect("it is right");
     let interrupt = AtomicBool::new(false);
     let outcome = run(&scenario, &Options::unwatched(&interrupt)).expect("it builds");
     assert!(outcome.stop.complete());
@@ -101,4 +106,30 @@ fn screening_keeps_the_means_on_a_hard_mount_with_clearance_and_in_skid() {
     // the race bounces on its loose balls before the first contact: where it stands then is chaos
     compare("clearance", &clear, [1e-2, 2e-3, 5e-3, 2e-3, 2e-3]);
     compare("skid", &skid, [1e-2, 2e-3, 5e-3, 2e-3, 2e-3]);
+}
+
+/// Modes up to 20 000 rad/s let linearly implicit steps be long; those of a file that asks for more do not, and the run says so.
+#[test]
+fn screening_keeps_the_first_impacts_of_a_flexible_rotor() {
+    let of = |sets: &[&str]| {
+        let sets = sets.iter().chain(&["run.duration=20 ms"]);
+        ran(FLEXIBLE, &sets.map(ToString::to_string).collect::<Vec<_>>())
+    };
+    let number = |outcome: &Outcome, name: &str| outcome.number(name).expect(name);
+    let explicit = |outcome: &Outcome| outcome.warnings.iter().any(|told| told.code == "AB1124");
+    let (design, screening) = (of(&[]), of(&["run.accuracy=screening"]));
+    let all_modes = of(&["run.accuracy=screening", "rotor.cutoff=60000 rad/s"]);
+    for end in ["drive_end", "other_end"] {
+        let name = format!("{end}.first_impact_force");
+        let ratio = number(&screening, &name) / number(&design, &name);
+        assert!((ratio - 1.0).abs() < 0.02, "{name}: {ratio}");
+    }
+    assert_eq!(number(&design, "rotor_cutoff"), 60e3);
+    assert_eq!(number(&screening, "rotor_cutoff"), 20e3);
+    assert!(number(&screening, "energy_residual").abs() < 2e-4);
+    assert!(!explicit(&screening) && explicit(&all_modes));
+    assert!(2 * screening.work.steps < design.work.steps);
+    // a rotor that turns as fast as its modes bend keeps ten times that
+    let fast = of(&["run.accuracy=screening", "rotor.speed=3000 rad/s"]);
+    assert_eq!(number(&fast, "rotor_cutoff"), 30e3);
 }

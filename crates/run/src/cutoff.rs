@@ -4,6 +4,7 @@ use outcome::list::results;
 use outcome::list::{List, origins};
 use outcome::options::Options;
 use outcome::{Outcome, Quantity};
+use problem::Problem;
 use scenario::Scenario;
 use simulate::drop::{Shaft, each};
 
@@ -20,32 +21,34 @@ pub(super) fn changes(
     let Some(time) = shaft.cutoff_check else {
         return Vec::new();
     };
-    let with = |cutoff: f64| {
-        let set = |path: &str, value: f64, unit: &str| {
-            let value = units::number_text(value);
-            (path.to_string(), format!("\"{value} {unit}\""))
-        };
-        scenario.with(&[
-            set("run.duration", time, "s"),
-            set("rotor.cutoff", cutoff, "rad/s"),
-            ("repeat.count".to_string(), "1".to_string()),
-        ])
+    let tried = both(scenario, time, options);
+    name(known, Some(&tried.map_err(|problem| problem.to_string())))
+}
+
+/// The beginning of a drop until a time, s, as it is and with twice the cutoff.
+fn both(scenario: &Scenario, time: f64, options: &Options) -> Result<Vec<Outcome>, Box<Problem>> {
+    let set = |path: &str, value: f64, unit: &str| {
+        let value = units::number_text(value);
+        (path.to_string(), format!("\"{value} {unit}\""))
     };
+    let one = ("repeat.count".to_string(), "1".to_string());
+    let short = scenario.with(&[set("run.duration", time, "s"), one])?;
+    let once = built(&short)?;
+    let cutoff = once.built.shaft.as_ref().map_or(0.0, |shaft| shaft.cutoff);
+    let doubled = short.with(&[set("rotor.cutoff", 2.0 * cutoff, "rad/s")])?;
     let quiet = Options {
         progress: &|_| {},
         ..*options
     };
-    let scenarios = [with(shaft.cutoff), with(2.0 * shaft.cutoff)];
-    let drops = scenarios.iter().map(|scenario| match scenario {
-        Ok(scenario) => match scenario.drop() {
-            Some(drop) => each::one(scenario, drop),
-            None => unreachable!("a cutoff makes no other system of a drop"),
-        },
-        Err(problem) => Err(problem.clone()),
-    });
-    let drops: Result<Vec<_>, _> = drops.collect();
-    let tried = drops.map(|drops| each::run(&drops, &quiet));
-    name(known, Some(&tried.map_err(|problem| problem.to_string())))
+    let twice = built(&doubled)?;
+    Ok(each::run(&[once, twice], &quiet))
+}
+
+fn built(scenario: &Scenario) -> Result<each::One<'_>, Box<Problem>> {
+    match scenario.drop() {
+        Some(drop) => each::one(scenario, drop),
+        None => unreachable!("neither duration nor cutoff makes another system of a drop"),
+    }
 }
 
 /// Both runs, or why there are none.

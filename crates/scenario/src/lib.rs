@@ -55,8 +55,8 @@ pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;
 pub use drop::{
-    AuxiliaryBearing, BearingPlace, Body, Contact, Drop, Gravity, Levitation, Mount, Repeat,
-    RigidBody, Rotor, Shaft, Spin,
+    AuxiliaryBearing, BearingPlace, Body, CUTOFFS, Contact, Drop, Gravity, Levitation, Mount,
+    Repeat, RigidBody, Rotor, Shaft, Spin,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};

@@ -174,7 +174,7 @@ const RUN: &[Key] = &[
     Key::new("run.accuracy", Kind::Word(Accuracy::WORDS), "screening", "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.")
         .default("design", "numbers that a design may rest on").only(STEPPED),
     Key::new("run.tolerance", Kind::Coefficient, "1e-4", "Allowed error of a step, relative to each channel's own scale, such as a clearance, the full speed and the energy turned over.")
-        .within(Range::FromTo(1e-12, 1e-1)).optional("1e-4, by linearly implicit steps 2e-4, of a spin-up 5e-5, where the rotor bends 2e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor bends 3e-3; 1e-3 by explicit ones"),
+        .within(Range::FromTo(1e-12, 1e-1)).optional("1e-4, by linearly implicit steps 2e-4, of a spin-up 5e-5, where the rotor bends 2e-5; at screening accuracy 3e-2 by linearly implicit steps, of a spin-up 2e-3, where the rotor has modes above 20000 rad/s 3e-3; 1e-2 by explicit ones"),
     Key::new("run.output_interval", Kind::Quantity("s"), "0.1 ms", "Time between rows of the history. Peaks and instants do not depend on it.")
         .positive().default("0.1 ms", "5000 rows for the default duration"),
     Key::new("run.largest_step", Kind::Quantity("s"), "1 ms", "Largest step of the time integration.")

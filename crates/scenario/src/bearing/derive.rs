@@ -65,6 +65,7 @@ impl Values {
                 "unbalance / mass",
             )?;
         }
+        self.cutoff()?;
         if self.chosen(FIDELITY) == Some(Modelled::Bushing) {
             return self.bushing();
         }

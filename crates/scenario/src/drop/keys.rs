@@ -70,7 +70,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("rotor.torque_share_over_time", Kind::Table("s", "1"), "[[\"0 s\", 1.0], [\"0.5 s\", 0.2]]", "Share of rotor.torque_over_speed that acts, over the time from the start of the run: of a drive that fades, or of a gas whose pressure falls after the trip. Straight between the rows and constant beyond them.")
         .not_negative().when(&[TURNS]).optional("all of rotor.torque_over_speed acts").only(FALLING),
     Key::new("rotor.cutoff", Kind::Quantity("rad/s"), "60000 rad/s", "Modes of the free rotor up to this frequency are coordinates of the run, with the residual flexibility at each place that carries something.")
-        .positive().default("60000 rad/s", "first impacts of a rotor whose first mode bends at 655 rad/s within half a percent of those of all modes").only(MACHINE),
+        .positive().derived("60000 rad/s; at screening accuracy ten times the speed or the first bending mode, at least 20000 and at most 60000 rad/s").only(MACHINE),
     Key::new("rotor.cutoff_check", Kind::Quantity("s"), "20 ms", "The drop until then is run twice more, as it is and with twice rotor.cutoff: the change of first impacts and displacements on doubling is given, which is no bound of their error.")
         .positive().optional("what the modes left out would change is not told").only(MACHINE),
     Key::new("rotor.planes", Kind::Count, "2", "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated. Pairs at two places are 4 bearings, each with half of the mount of its place.")

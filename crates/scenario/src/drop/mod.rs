@@ -20,7 +20,7 @@ use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
 use physics::heat_conduction::ThermalMaterial;
 use problem::Problem;
-pub use shaft::{BearingPlace, Shaft};
+pub use shaft::{BearingPlace, CUTOFFS, Shaft};
 use std::f64::consts::PI;
 
 /// A levitated rotor that is released onto its auxiliary bearings. All values are SI.

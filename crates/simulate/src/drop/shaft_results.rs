@@ -5,7 +5,7 @@ use crate::bearing::run::BearingRun;
 use crate::drawing::{self, GIVEN};
 use crate::drop::Shaft;
 use crate::drop::context::{Context, Setup};
-use crate::drop::shaft::{BuiltShaft, HeldMode};
+use crate::drop::shaft::{BuiltShaft, HeldMode, least_cutoff};
 use crate::drop::warning_table::{COMPARED, ShaftWarning};
 use crate::rotor::RotorModel;
 use outcome::columns::columns;
@@ -50,6 +50,7 @@ results! {
             let mut bends = bent.frequencies().filter(|omega| *omega > 0.0);
             bends.next().ok_or_else(|| "the rotor does not bend".to_string())
         };
+        "rotor_cutoff": number "rad/s", BASIS, "frequency up to which free modes are coordinates" => bent.built.cutoff;
         "highest_frequency": number "rad/s", BASIS, "highest frequency of a coordinate" => bent.frequencies().last().unwrap_or(0.0);
         "coordinates": number "", BASIS, "number of coordinates" => bent.built.rotor.coordinates.len() as f64;
         "levitated_mode_frequencies": list "rad/s", HELD, "frequencies of the rotor's modes on its magnets or supports" => bent.modes(|mode| mode.frequency);
@@ -151,16 +152,12 @@ pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> 
     (peak.value >= clearance).then(|| (peak.value - clearance, warning.into()))
 }
 
-/// Modes up to fewer than so many times the speed and the first bending mode leave out what an impact bends.
-const FEW_MODES: f64 = 10.0;
-
 /// Modes that are too few for impacts.
 pub(crate) fn few_modes(context: &Context) -> Option<Warning> {
-    let (given, built) = context.setup.bent()?;
-    let bends = built.rotor.coordinates.iter().map(|own| own.frequency);
-    let bends = bends.into_iter().find(|omega| *omega > 0.0)?;
-    let needed = FEW_MODES * bends.max(context.release_speed());
-    let cutoff = given.cutoff;
+    let (_, built) = context.setup.bent()?;
+    let frequencies = built.rotor.coordinates.iter().map(|own| own.frequency);
+    let needed = least_cutoff(frequencies, context.release_speed())?;
+    let cutoff = built.cutoff;
     (cutoff < needed).then(|| ShaftWarning::FewModes { cutoff, needed }.into())
 }
 
@@ -169,7 +166,7 @@ const DEPTH: f64 = 1e-5;
 
 /// Contacts and mounts so stiff that the default number of modes was not shown to do.
 pub(crate) fn stiff(context: &Context) -> Option<Warning> {
-    let given = context.setup.drop().shaft.as_ref()?;
+    let (_, built) = context.setup.bent()?;
     let (contact, mount, cutoff) = COMPARED;
     let slope = |part: &AuxiliaryBearing| {
         let own = &part.contact;
@@ -180,9 +177,9 @@ pub(crate) fn stiff(context: &Context) -> Option<Warning> {
     let warning = ShaftWarning::StiffContact {
         contact: slope(hard),
         mount: hard.mount.stiffness,
-        cutoff: given.cutoff,
+        cutoff: built.cutoff,
     };
-    (given.cutoff <= cutoff).then(|| Warning::from(warning).of_part(&hard.name))
+    (built.cutoff <= cutoff).then(|| Warning::from(warning).of_part(&hard.name))
 }
 
 /// Supports and seals whose coefficients drive whirl of one sense, as xy differs from yx, about a rotor that turns backward.

@@ -23,7 +23,7 @@ const LARGEST_DAMPING: f64 = 0.5;
 
 /// What decides the steps of a drop.
 fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
-    method::asked(context.setup.drop(), context.setup.machine.tangents())
+    method::asked(context.setup.built, context.setup.machine.tangents())
 }
 
 /// A warning of one member, and how grave it is there.

@@ -54,7 +54,7 @@ fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
     Asked {
         run: &spin_up.run,
         known: built.machine.tangents(),
-        bends: false,
+        quickest_mode: 0.0,
         design: [DESIGN; 2],
         screening: SCREENING,
     }
