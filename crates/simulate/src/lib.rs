@@ -6,7 +6,7 @@
 //! | [`mod@drop`] | a rotor falls onto its auxiliary bearing |
 //! | [`spin_up`] | the inner race is brought to speed |
 //! | [`rig`] | a test on a rig, and what its logger would have written |
-//! | [`coast_down`] | a rotor coasts down on its warming bearings, in slow time |
+//! | [`coast_down`] | a rotor coasts down on its warming bearings, in quasi-steady steps |
 //! | [`rotor`] | the model of a flexible rotor and its magnets |
 //! | `levitated` | levitations that do not hold their rotor |
 //! | `stepping` | which steps a run takes, and how exact they are |

@@ -30,8 +30,44 @@ pub(super) fn factor<R: Real>(a: &mut [R], n: usize) {
 }
 
 /// Solves with those factors, in place.
+///
+/// A step solves four times and waits for one value after the other: of a point rotor in one or two bearings, and of a flexible one in two, the
+/// number of rows is known when this is compiled, and they stay in registers.
 #[inline(always)]
 pub(super) fn solve<R: Real>(a: &[R], n: usize, side: &mut [R]) {
+    match n {
+        2 => solve_rows::<R, 2>(a, side),
+        9 => solve_rows::<R, 9>(a, side),
+        15 => solve_rows::<R, 15>(a, side),
+        17 => solve_rows::<R, 17>(a, side),
+        _ => solve_along(a, n, side),
+    }
+}
+
+/// The same of so many rows.
+#[inline(always)]
+fn solve_rows<R: Real, const N: usize>(a: &[R], side: &mut [R]) {
+    let (rows, _) = a.as_chunks::<N>();
+    let (side, _) = side.as_chunks_mut::<N>();
+    let mut u = side[0];
+    for k in 0..N {
+        let value = u[k];
+        u[k] = value * rows[k][k];
+        for i in k + 1..N {
+            u[i] -= rows[k][i] * value;
+        }
+    }
+    for k in (0..N).rev() {
+        for i in 0..k {
+            u[i] -= rows[k][i] * u[k];
+        }
+    }
+    side[0] = u;
+}
+
+/// The same of any number of rows.
+#[inline(always)]
+fn solve_along<R: Real>(a: &[R], n: usize, side: &mut [R]) {
     for (k, row) in a.chunks_exact(n).enumerate() {
         let (known, rest) = side.split_at_mut(k + 1);
         let value = known[k];

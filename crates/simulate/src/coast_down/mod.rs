@@ -1,4 +1,4 @@
-//! A rotor that coasts down on its auxiliary bearings, which warm: from full speed to a stop in slow time.
+//! A rotor that coasts down on its auxiliary bearings, which warm: from full speed to a stop in quasi-steady steps.
 //!
 //! The rotor rolls; what whirls, bounces or slides needs a run in motion before it. Speed, temperatures of a network of seven
 //! nodes and what follows them (viscosity, clearance, ball loads, conductances) are integrated in steps of the speed, and the heat

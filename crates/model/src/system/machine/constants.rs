@@ -6,7 +6,6 @@ use crate::magnets::{ControlEvent, MagnetsConstants};
 use crate::rotor::RotorConstants;
 use crate::schedule::Schedule;
 use crate::seal::SealConstants;
-use crate::system::rig::Drive;
 use crate::system::rig::refusal::{self, Refusal};
 use number::Vec2;
 
@@ -68,10 +67,8 @@ impl MachineConstants {
     pub fn check_on_rig(&self) -> Result<(), Refusal> {
         let mut rigs =
             (self.bearings.iter()).filter_map(|part| Some((part, part.fixture.as_ref()?)));
-        rigs.try_for_each(|(part, fixture)| {
-            let given_speed = matches!(fixture.drive, Drive::Speed(_));
-            let free_inertia = (!given_speed).then_some(part.inner_race.inertia);
-            refusal::of_bearing(&part.bearing, free_inertia)
+        rigs.try_for_each(|(part, rig)| {
+            refusal::of_bearing(&part.bearing, &rig.drive, part.inner_race.inertia)
         })
     }
     /// Chooses where the springs of all mounts are free, so that each carries its bearing's weight.

@@ -45,9 +45,8 @@ impl RigConstants {
         if !self.load.points().iter().all(is_load) {
             return Err(Refusal::NegativeLoad);
         }
+        refusal::of_bearing(&self.bearing, &self.drive, self.race.inertia)?;
         let given_speed = matches!(self.drive, Drive::Speed(_));
-        let free_inertia = (!given_speed).then_some(self.race.inertia);
-        refusal::of_bearing(&self.bearing, free_inertia)?;
         let rolls = matches!(self.bearing, BearingConstants::Rolling(_));
         if rolls && given_speed && self.drive.race_speed() != 0.0 {
             return Err(Refusal::StepOfRollingBalls);

@@ -1,5 +1,6 @@
 //! Why a rig cannot be built.
 
+use super::Drive;
 use crate::bearing::BearingConstants;
 use std::fmt;
 
@@ -76,8 +77,12 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Refuses a bearing that has no meaning; `free_inertia` is that of an inner race whose speed is not given, kg m².
-pub fn of_bearing(bearing: &BearingConstants, free_inertia: Option<f64>) -> Result<(), Refusal> {
+/// Refuses a bearing that has no meaning under a drive, on an inner race with this inertia, kg m².
+pub fn of_bearing(
+    bearing: &BearingConstants,
+    drive: &Drive,
+    race_inertia: f64,
+) -> Result<(), Refusal> {
     if (bearing.lubricant()).is_some_and(|lubricant| !lubricant.is_valid()) {
         return Err(Refusal::LubricantState);
     }
@@ -87,7 +92,8 @@ pub fn of_bearing(bearing: &BearingConstants, free_inertia: Option<f64>) -> Resu
                 return Err(Refusal::LossCreatesEnergy);
             }
             let loss = bearing.set.pocket_friction_arm() * bearing.loss.largest_per_acceleration();
-            if free_inertia.is_some_and(|inertia| loss >= inertia + bearing.set.inner_inertia()) {
+            let is_free = !matches!(drive, Drive::Speed(_));
+            if is_free && loss >= race_inertia + bearing.set.inner_inertia() {
                 return Err(Refusal::LossExceedsInertia);
             }
         }

@@ -42,7 +42,7 @@ pub(crate) struct After {
     pub warnings: Vec<Warning>,
     /// How all of it ended.
     pub stop: Stop,
-    /// Steps in slow time.
+    /// Quasi-steady steps.
     pub steps: u64,
 }
 
