@@ -7,7 +7,7 @@ use crate::identify::read::{Asked, Test};
 use crate::interruptible::{INTERRUPTED, interruptible};
 use crate::signals;
 use identify::coasting::Windage;
-use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts, reading};
+use identify::data_checks::{CheckSettings, Doubt, doubts, reading};
 use identify::dissipation::{Dissipation, dissipation};
 use identify::explain::{
     self, Candidate, Conclusion, PredictionErrors, Priors, Verdict, with_prediction_errors,
@@ -478,8 +478,7 @@ fn doubted(
         &CheckSettings {
             wanted_speed: wanted.is_finite().then_some(wanted),
             ball_count: Some(wish.ball_count as u32),
-            masses_known: true,
-            temperature: Some(ByTemperature::MomentPerKelvin(Uncertain::new(change, open))),
+            moment_per_kelvin: Some(Uncertain::new(change, open)),
             ..CheckSettings::default()
         },
     )
