@@ -15,12 +15,12 @@ pub fn perform(wish: &Import) -> Result<(), Box<Problem>> {
         None => console::print(&imported.toml)?,
         Some(path) => {
             let mut file = File::create_new(path).map_err(|error| match error.kind() {
-                ErrorKind::AlreadyExists => Box::new(Problem::at_path(
+                ErrorKind::AlreadyExists => Problem::at_path(
                     Code::OutputExists,
                     path,
                     "something of this name",
                     "a file is never written over another: choose another path",
-                )),
+                ),
                 _ => misplaced(path, &error),
             })?;
             file.write_all(imported.toml.as_bytes())

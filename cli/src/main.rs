@@ -119,11 +119,9 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             } else {
                 report.to_text()
             })?;
-            let damaged: Vec<Problem> = report.problems().collect();
-            for problem in &damaged {
-                console::report(&problem.to_string());
-            }
-            if !damaged.is_empty() {
+            let mut damaged = report.problems().peekable();
+            if damaged.peek().is_some() {
+                damaged.for_each(|problem| console::report(&problem.to_string()));
                 return Ok(Exit::WrongInput);
             }
             if !report.passed() {

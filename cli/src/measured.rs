@@ -26,7 +26,7 @@ pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit, Box<Problem>
                 wanted.word()
             ),
         );
-        return Err(Box::new(problem.on_key("system")));
+        return Err(problem.on_key("system"));
     }
     let path = wish.out.clone().unwrap_or_else(|| {
         let stem = wish.file.file_stem().unwrap_or_default();

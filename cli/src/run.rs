@@ -43,7 +43,7 @@ pub fn threads(text: &str) -> Result<NonZeroUsize, Box<Problem>> {
     text.trim().parse().map_err(|_| {
         let found = format!("\"{text}\"");
         let needed = "a whole number from 1 on is needed; without it all cores are used";
-        Box::new(Problem::new(Code::OutOfRange, "auxbear run", found, needed).on_key("--threads"))
+        Problem::new(Code::OutOfRange, "auxbear run", found, needed).on_key("--threads")
     })
 }
 

@@ -48,12 +48,12 @@ fn occasion(text: &str) -> Result<Occasion, Box<Problem>> {
             count,
             directory: PathBuf::from(path),
         }),
-        _ => Err(Box::new(Problem::new(
+        _ => Err(Problem::new(
             Code::WrongType,
             "auxbear service",
             format!("\"{text}\""),
             "the number of drops and the directory of a run of one are needed, e.g. 40:runs/full_speed".to_string(),
-        ))),
+        )),
     }
 }
 

@@ -46,7 +46,7 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
             let found = format!("member {k} of a study of {} members", study.members());
             let allowed = format!("a number from 0 to {} is needed", study.members() - 1);
             let problem = Problem::at_path(Code::OutOfRange, &wish.file, found, allowed);
-            return Err(Box::new(problem.on_key("--member")));
+            return Err(problem.on_key("--member"));
         }
         let scenario = study.scenario(k)?;
         let path = wish
@@ -111,7 +111,7 @@ fn whole(text: &str, key: &str) -> Result<usize, Box<Problem>> {
             format!("\"{text}\""),
             needed,
         );
-        Box::new(problem.on_key(key))
+        problem.on_key(key)
     })
 }
 

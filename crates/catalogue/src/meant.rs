@@ -36,7 +36,7 @@ impl Catalogue {
         let known = |name: &str| self.find(name).is_some();
         let own = match designation::read(name, &known) {
             Some(Designation::Known { name, left_out }) => Some((name, left_out)),
-            Some(Designation::Missing(why)) => return Err(Box::new(problem(why))),
+            Some(Designation::Missing(why)) => return Err(problem(why)),
             None => None,
         };
         let meant = own.and_then(|(own, left_out)| Some((self.find(&own)?, left_out)));
@@ -51,12 +51,10 @@ impl Catalogue {
                 let near = did_you_mean(name, names.iter().map(String::as_str));
                 let listed = names[..names.len().min(MOST_NAMES)].join(", ");
                 let count = names.len();
-                Err(Box::new(
-                    problem(format!(
+                Err(problem(format!(
                         "one of its {count} bearings is needed ({listed}, …); auxbear bearings list names them"
                     ))
-                    .with_hint(near),
-                ))
+                    .with_hint(near))
             }
         }
     }

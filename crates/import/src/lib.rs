@@ -143,22 +143,17 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
             _ => Code::FileUnreadable,
         };
         let found = format!("no file that can be read ({error})");
-        Box::new(Problem::at_path(
+        Problem::at_path(
             code,
             path,
             found,
             "a rotor or a table of sections is needed",
-        ))
+        )
     })?;
     if bytes.len() as u64 > LARGEST {
         let found = format!("a file of more than {LARGEST} bytes");
         let needed = "a rotor or a table of sections is needed";
-        return Err(Box::new(Problem::at_path(
-            Code::FileTooLarge,
-            path,
-            found,
-            needed,
-        )));
+        return Err(Problem::at_path(Code::FileTooLarge, path, found, needed));
     }
     // a workbook is a ZIP archive
     if bytes.starts_with(b"PK\x03\x04") {
@@ -193,5 +188,5 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
 /// A file that is none of those that are understood.
 fn unknown(name: &str, found: &str) -> Box<Problem> {
     let allowed = "a rotor saved by ROSS 2 or 3 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header, is needed";
-    Box::new(Problem::new(Code::ImportFormat, name, found, allowed))
+    Problem::new(Code::ImportFormat, name, found, allowed)
 }

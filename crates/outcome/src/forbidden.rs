@@ -22,7 +22,7 @@ pub(super) fn check(
     let allowed = "the code of a warning is needed, e.g. AB2030".to_string();
     let problem = limit.problem(Code::UnknownQuantity, found, allowed);
     let hint = did_you_mean(code, declared.iter().map(|kind| kind.code));
-    Err(Box::new(problem.with_hint(hint)))
+    Err(problem.with_hint(hint))
 }
 
 /// Warnings of a run that must not come.

@@ -61,7 +61,7 @@ pub fn check(
             let found = format!("\"{}\", which is {kind}", limit.quantity);
             let allowed = "the name of a result that is a number is needed".to_string();
             let code = Code::UnknownQuantity;
-            return Err(Box::new(limit.problem(code, found, allowed)));
+            return Err(limit.problem(code, found, allowed));
         }
         if let Value::None { why } = &quantity.value
             && why.ends_with(NOT_GIVEN)
@@ -72,7 +72,7 @@ pub fn check(
             );
             let allowed = "what it is computed from, or no limit of it, is needed".to_string();
             let code = Code::UnknownQuantity;
-            return Err(Box::new(limit.problem(code, found, allowed)));
+            return Err(limit.problem(code, found, allowed));
         }
         let wanted = dimension_of(quantity.unit);
         if wanted.is_some_and(|wanted| wanted != limit.dimension) {
@@ -87,7 +87,7 @@ pub fn check(
                 wanted.map_or(quantity.unit.to_string(), is)
             );
             let code = Code::WrongDimension;
-            return Err(Box::new(limit.bound_problem(code, found, allowed)));
+            return Err(limit.bound_problem(code, found, allowed));
         }
     }
     Ok(())
@@ -165,7 +165,7 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
         )
     };
     let found = format!("\"{name}\", which is no result of this run");
-    Box::new((limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(meant(name, &names)))
+    (limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(meant(name, &names))
 }
 
 /// The verdicts of a run.

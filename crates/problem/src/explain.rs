@@ -13,7 +13,7 @@ pub fn explain(code: &str) -> Result<String, Box<Problem>> {
         let found = format!("\"{code}\"");
         let needed = "a code is needed as messages print it, e.g. AB1007";
         let problem = Problem::new(Code::UnknownWord, "auxbear explain", found, needed);
-        return Err(Box::new(problem.with_hint(did_you_mean(&wanted, known()))));
+        return Err(problem.with_hint(did_you_mean(&wanted, known())));
     };
     Ok(format!(
         "{code}\n\n{}\n",

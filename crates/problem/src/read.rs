@@ -48,7 +48,7 @@ impl<'a> Reader<'a> {
         place: Place,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, self.file, found, allowed)
             .at(place)
             .on_key(&self.path)
@@ -75,12 +75,12 @@ impl<'a> Reader<'a> {
         if let Some(number) = value.number()
             && !key.range.holds(number)
         {
-            return Err(Box::new(self.problem(
+            return Err(self.problem(
                 Code::OutOfRange,
                 given.place,
                 key.literal(&text),
                 key.needed(),
-            )));
+            ));
         }
         Ok(Known {
             value,
@@ -115,12 +115,12 @@ impl<'a> Reader<'a> {
             match (name.as_str(), raw) {
                 ("value", raw) => value = Some(raw),
                 ("source" | "assumed", Raw::Text(_)) if provenance.is_some() => {
-                    return Err(Box::new(self.problem(
+                    return Err(self.problem(
                         Code::Conflict,
                         given.place,
                         "both source and assumed",
                         form,
-                    )));
+                    ));
                 }
                 ("source", Raw::Text(text)) => {
                     provenance = Some(Provenance::GivenWithSource(text.clone()));
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
                 ("from", raw) => {
                     let words: Vec<String> = FILLED_IN.iter().map(|word| quoted(word)).collect();
                     let part = Reader::of(self.file, format!("{}.from", self.path));
-                    return Err(Box::new(part.problem(
+                    return Err(part.problem(
                         Code::UnknownWord,
                         given.place,
                         raw.text(),
@@ -140,23 +140,22 @@ impl<'a> Reader<'a> {
                             "{} is needed, as the program writes it into a resolved file",
                             words.join(" or ")
                         ),
-                    )));
+                    ));
                 }
                 ("source" | "assumed", raw) => {
-                    return Err(Box::new(self.problem(
+                    return Err(self.problem(
                         Code::WrongType,
                         given.place,
                         format!("{} for {name}", raw.text()),
                         form,
-                    )));
+                    ));
                 }
                 (unknown, _) => {
                     let hint = did_you_mean(unknown, ["value", "source", "assumed"]);
                     let part = Reader::of(self.file, format!("{}.{unknown}", self.path));
-                    return Err(Box::new(
-                        part.problem(Code::UnknownKey, given.place, "an unknown key", form)
-                            .with_hint(hint),
-                    ));
+                    return Err(part
+                        .problem(Code::UnknownKey, given.place, "an unknown key", form)
+                        .with_hint(hint));
                 }
             }
         }
@@ -166,12 +165,7 @@ impl<'a> Reader<'a> {
                 provenance: provenance.unwrap_or(Provenance::Given),
                 filled_in,
             }),
-            None => Err(Box::new(self.problem(
-                Code::MissingKey,
-                given.place,
-                "a table without value",
-                form,
-            ))),
+            None => Err(self.problem(Code::MissingKey, given.place, "a table without value", form)),
         }
     }
 
@@ -185,7 +179,7 @@ impl<'a> Reader<'a> {
         raw: &Raw,
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
-        let wrong = |code, found: String| Box::new(self.problem(code, place, found, key.needed()));
+        let wrong = |code, found: String| self.problem(code, place, found, key.needed());
         match (key.kind, raw) {
             (Kind::Quantity(_) | Kind::ContactStiffness { .. }, Raw::Text(text)) => {
                 self.read_quantity(key, text, place)
@@ -196,7 +190,7 @@ impl<'a> Reader<'a> {
             ) => {
                 let number = raw.text();
                 let number = number.trim_start_matches("the number ");
-                Err(Box::new(self.problem(
+                Err(self.problem(
                     Code::BareNumber,
                     place,
                     format!("a bare number {number}"),
@@ -204,7 +198,7 @@ impl<'a> Reader<'a> {
                         "a quantity with a unit is needed, e.g. {}",
                         key.literal(key.example)
                     ),
-                )))
+                ))
             }
             (Kind::Coefficient | Kind::Exponent, Raw::Float(value)) => {
                 Ok((Value::Number(*value), format!("{value:?}")))
@@ -253,10 +247,8 @@ impl<'a> Reader<'a> {
         let text = text.trim();
         let quantity = parse_quantity(text).map_err(|error| {
             let (code, found, hint) = unreadable(&error, text, key.dimension());
-            Box::new(
-                self.problem(code, place, found, key.needed())
-                    .with_hint(hint),
-            )
+            self.problem(code, place, found, key.needed())
+                .with_hint(hint)
         })?;
         let (fits, wanted) = match key.kind {
             Kind::ContactStiffness { .. } => {
@@ -295,15 +287,14 @@ impl<'a> Reader<'a> {
                 "That frequency in cycles per second is \"{speed:.6} rad/s\" as an angular speed"
             )
         });
-        Err(Box::new(
-            self.problem(
+        Err(self
+            .problem(
                 Code::WrongDimension,
                 place,
                 format!("\"{text}\", which is {}", described(quantity.dimension)),
                 wanted,
             )
-            .with_hint(hint),
-        ))
+            .with_hint(hint))
     }
 
     /// The value of a default.

@@ -16,10 +16,8 @@ impl Reader<'_> {
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
         let wrong = |code, found: String, hint| {
-            Box::new(
-                self.problem(code, place, found, key.needed())
-                    .with_hint(hint),
-            )
+            self.problem(code, place, found, key.needed())
+                .with_hint(hint)
         };
         let single = std::slice::from_ref(raw);
         let (entries, alone): (&[Raw], bool) = match raw {

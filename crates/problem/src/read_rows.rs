@@ -16,7 +16,7 @@ impl Reader<'_> {
         rows: &[Raw],
         place: Place,
     ) -> Result<(Value, String), Box<Problem>> {
-        let wrong = |code, found: String| Box::new(self.problem(code, place, found, key.needed()));
+        let wrong = |code, found: String| self.problem(code, place, found, key.needed());
         if rows.len() < 2 {
             let found = if rows.is_empty() {
                 "an empty list"

@@ -55,7 +55,7 @@ impl<S> Table<S> {
                     false => (Code::UnknownKey, "an unknown key".to_string()),
                 };
                 let problem = table.problem(code, name, found, allowed).at(*place);
-                return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
+                return Err(problem.with_hint(did_you_mean(name, names())));
             };
             let given = Given {
                 raw: raw.clone(),
@@ -146,7 +146,7 @@ impl<S> Table<S> {
         name: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         let place = self.known.get(name).map(|known| known.place);
         let place = place.filter(|place| *place != Place::Whole);
         Problem::new(code, &self.file, found, allowed)
@@ -165,7 +165,7 @@ impl<S> Table<S> {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Result<T, Box<Problem>> {
-        Err(Box::new(self.problem(code, name, found, allowed)))
+        Err(self.problem(code, name, found, allowed))
     }
 
     /// Where a key stands; nowhere where it is not given.

@@ -52,23 +52,23 @@ impl NewDirectory {
             return Err(taken(path));
         }
         let partial = partial_of(path).ok_or_else(|| {
-            Box::new(Problem::at_path(
+            Problem::at_path(
                 Code::OutputPlace,
                 path,
                 "no name of a directory",
                 "a directory with a name of its own is needed",
-            ))
+            )
         })?;
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| misplaced(parent, &error))?;
         }
         let in_use = || {
-            Box::new(Problem::at_path(
+            Problem::at_path(
                 Code::OutputExists,
                 &partial,
                 "what another run is writing or left behind",
                 "choose another directory, or remove this one if no run is using it",
-            ))
+            )
         };
         let lock = match fs::create_dir(&partial) {
             Ok(()) => match locked(&partial) {
@@ -119,7 +119,7 @@ impl NewDirectory {
                 let _ = fs::remove_file(name);
             }
             let told = self.kept();
-            Box::new((*problem).with_hint(told))
+            problem.with_hint(told)
         })
     }
 
@@ -209,7 +209,7 @@ impl NewDirectory {
             .map_err(|error| {
                 let found = format!("that it cannot be written ({error})");
                 let path = self.path.join(name);
-                Box::new(Problem::at_path(Code::OutputFailed, &path, found, WRITABLE))
+                Problem::at_path(Code::OutputFailed, &path, found, WRITABLE)
             })
     }
 
@@ -323,12 +323,12 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
             ErrorKind::InvalidData => (Code::FileNotUtf8, "bytes that are not UTF-8 text".into()),
             _ => (Code::FileUnreadable, error.to_string()),
         };
-        Box::new(Problem::at_path(code, path, found, NEEDED))
+        Problem::at_path(code, path, found, NEEDED)
     };
     let text = |name: &str, damage: fn(&str) -> Option<String>| -> Result<String, Box<Problem>> {
         let path = path.join(name);
         let of_directory =
-            |found: String| Box::new(Problem::at_path(Code::FileUnreadable, &path, found, NEEDED));
+            |found: String| Problem::at_path(Code::FileUnreadable, &path, found, NEEDED);
         let mut text = String::new();
         let file = open_file(&path).map_err(|error| unreadable(&path, &error))?;
         let length = file.metadata().map_or(0, |about| about.len());
@@ -349,12 +349,12 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         return Err(unreadable(path, &missing));
     }
     if !path.is_dir() {
-        return Err(Box::new(Problem::at_path(
+        return Err(Problem::at_path(
             Code::FileUnreadable,
             path,
             "a file",
             NEEDED,
-        )));
+        ));
     }
     let history = path.join(HISTORY);
     let columns = open_file(&history)
@@ -362,12 +362,12 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         .and_then(|file| {
             history::read(file, &history).map_err(|error| {
                 let what = format!("{} {}", error.place, error.found);
-                Box::new(Problem::at_path(
+                Problem::at_path(
                     Code::FileUnreadable,
                     &history,
                     format!("what cannot be read as a history ({})", what.trim()),
                     NEEDED,
-                ))
+                )
             })
         });
     Ok(PageRun {
@@ -444,32 +444,32 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
         Some("html" | "htm") => false,
         Some("svg") => true,
         _ => {
-            return Err(Box::new(Problem::at_path(
+            return Err(Problem::at_path(
                 Code::UnknownWord,
                 file,
                 "a name of no kind that the report has",
                 "*.html is needed, or *.svg for the picture of one run; a browser prints the page to PDF, and history.parquet of the run holds the columns",
-            )));
+            ));
         }
     };
     let text = match (picture, runs.as_slice()) {
         (false, _) => page::html(&runs),
         (true, [run]) if picture::shows(run) => picture::orbit_svg(run),
         (true, [run]) => {
-            return Err(Box::new(Problem::at_path(
+            return Err(Problem::at_path(
                 Code::Conflict,
                 file,
                 format!("a picture of {}, which is no drop", run.name),
                 "a picture (*.svg) shows the orbit of a drop; name a *.html file",
-            )));
+            ));
         }
         (true, _) => {
-            return Err(Box::new(Problem::at_path(
+            return Err(Problem::at_path(
                 Code::Conflict,
                 file,
                 format!("a picture of {} runs", runs.len()),
                 "a picture (*.svg) shows one run; name one directory, or a *.html file",
-            )));
+            ));
         }
     };
     new_file(file, |mut out| out.write_all(text.as_bytes()))
@@ -553,12 +553,12 @@ fn name_of(path: &Path) -> String {
 }
 
 pub(super) fn taken(path: &Path) -> Box<Problem> {
-    Box::new(Problem::at_path(
+    Problem::at_path(
         Code::OutputExists,
         path,
         "something of this name",
         "results are never written over others: choose another --out, or remove it",
-    ))
+    )
 }
 
 /// Why nothing can be made at a path that was given: the place is wrong, or the disk is full.
@@ -567,7 +567,7 @@ pub fn misplaced(path: &Path, error: &std::io::Error) -> Box<Problem> {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => failed(path, error),
         _ => {
             let found = format!("that nothing can be made there ({error})");
-            Box::new(Problem::at_path(Code::OutputPlace, path, found, WRITABLE))
+            Problem::at_path(Code::OutputPlace, path, found, WRITABLE)
         }
     }
 }
@@ -575,7 +575,7 @@ pub fn misplaced(path: &Path, error: &std::io::Error) -> Box<Problem> {
 /// What the system refused to write.
 pub fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
     let found = format!("that it cannot be written ({error})");
-    Box::new(Problem::at_path(Code::OutputFailed, path, found, WRITABLE))
+    Problem::at_path(Code::OutputFailed, path, found, WRITABLE)
 }
 
 /// The error of the system inside one of Parquet, where there is one; else its words.

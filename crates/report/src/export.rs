@@ -54,7 +54,7 @@ pub fn export(
         let found = format!("what cannot be read as a summary ({error})");
         let needed = "a run directory, as auxbear run writes it, is needed";
         let path = directory.join("summary.json");
-        Box::new(Problem::at_path(Code::FileUnreadable, &path, found, needed))
+        Problem::at_path(Code::FileUnreadable, &path, found, needed)
     })?;
     // the first format had none
     for warning in &mut summary.warnings {
@@ -96,7 +96,7 @@ fn keep(
         let found = format!("\"{unknown}\", which is no result and no column of this run");
         let needed = "a name that auxbear results FILE lists is needed, or a pattern with * for a name between dots";
         let problem = Problem::at_path(Code::UnknownQuantity, directory, found, needed);
-        return Err(Box::new(problem.with_hint(meant(unknown, &known))));
+        return Err(problem.with_hint(meant(unknown, &known)));
     }
     let wanted = |name: &str| only.iter().any(|only| stands_for(only, name));
     summary.quantities.0.retain(|(name, _)| wanted(name));

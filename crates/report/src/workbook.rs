@@ -37,7 +37,7 @@ pub(super) fn create(file: &Path, tables: &[Table]) -> Result<(), Box<Problem>> 
     if let Some(found) = tables.iter().find_map(too_large) {
         let needed = format!("{LARGEST}: use --csv, or history.parquet itself");
         let problem = Problem::at_path(Code::TooManyRows, file, found, needed);
-        return Err(Box::new(problem));
+        return Err(problem);
     }
     new_file(file, |out| write(out, tables))
 }

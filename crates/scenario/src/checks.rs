@@ -26,7 +26,7 @@ impl Context<'_> {
         path: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, self.file, found, allowed)
             .at(self.values.place(path))
             .on_key(self.values.shown(path))
@@ -40,7 +40,7 @@ impl Context<'_> {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Check {
-        Err(Box::new(self.problem(code, path, found, allowed)))
+        Err(self.problem(code, path, found, allowed))
     }
 
     /// Refuses the value of a key as it is written.

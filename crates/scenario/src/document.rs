@@ -178,41 +178,36 @@ impl Document {
             let found = "a section that has no effect".to_string();
             let systems = SystemName::list(COASTING_DOWN);
             let allowed = format!("it is used only with system = {systems}");
-            return Err(Box::new(problem(Code::UnusedKey, start, found, &allowed)));
+            return Err(problem(Code::UnusedKey, start, found, &allowed));
         }
         let DeValue::Array(list) = value else {
             let found = raw(value).text();
-            return Err(Box::new(problem(Code::WrongType, start, found, TABLES)));
+            return Err(problem(Code::WrongType, start, found, TABLES));
         };
         let mut all = Vec::new();
         for item in list.iter() {
             let start = item.span().start;
             let DeValue::Table(table) = item.get_ref() else {
                 let found = raw(item.get_ref()).text();
-                return Err(Box::new(problem(Code::WrongType, start, found, TABLES)));
+                return Err(problem(Code::WrongType, start, found, TABLES));
             };
             let Some((key, name)) = table.get_key_value("name") else {
                 let found = "an auxiliary bearing without a name".to_string();
-                return Err(Box::new(problem(Code::MissingKey, start, found, NAME)));
+                return Err(problem(Code::MissingKey, start, found, NAME));
             };
             let at = key.span().start;
             let name = match name.get_ref() {
                 DeValue::String(name) if is_name(name) => name.to_string(),
                 DeValue::String(name) => {
-                    return Err(Box::new(problem(Code::UnknownWord, at, quoted(name), NAME)));
+                    return Err(problem(Code::UnknownWord, at, quoted(name), NAME));
                 }
                 other => {
-                    return Err(Box::new(problem(
-                        Code::WrongType,
-                        at,
-                        raw(other).text(),
-                        NAME,
-                    )));
+                    return Err(problem(Code::WrongType, at, raw(other).text(), NAME));
                 }
             };
             if all.iter().any(|(other, _): &(String, _)| *other == name) {
                 let found = format!("the name {} twice", quoted(&name));
-                return Err(Box::new(problem(Code::Conflict, at, found, NAME)));
+                return Err(problem(Code::Conflict, at, found, NAME));
             }
             let mut entries = Vec::new();
             flatten(self.system, table, &[], &mut entries);
@@ -252,7 +247,7 @@ impl Document {
             let found = raw(value).text();
             let allowed = format!("a section [{VARY}] of paths and distributions is needed");
             let problem = Problem::new(Code::WrongType, &self.file, found, allowed);
-            return Err(Box::new(problem.at(place).on_key(VARY)));
+            return Err(problem.at(place).on_key(VARY));
         };
         collect(text, table, "", &mut self.vary);
         // as they stand in the text: what is drawn first depends on it
@@ -273,7 +268,7 @@ impl Document {
             "a section that has no effect",
             "it is used only with system = \"drop\" or \"machine\", whose runs are repeated",
         );
-        Err(Box::new(problem.at(place).on_key(VARY)))
+        Err(problem.at(place).on_key(VARY))
     }
 
     /// An override of a value that one auxiliary bearing has: its path behind `auxiliary_bearing.NAME`.
@@ -291,7 +286,7 @@ impl Document {
                 names => format!("one of {} is needed", names.join(", ")),
             };
             let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);
-            return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
+            return Err(problem.at(Place::Set).on_key(path.join(".")));
         };
         let mut document = Document {
             bearing: Some(named.to_string()),
@@ -305,15 +300,13 @@ impl Document {
 
     pub(crate) fn add_override(&mut self, set: &str) -> Result<(), Box<Problem>> {
         let unreadable = |found: String| {
-            Box::new(
-                Problem::new(
-                    Code::UnreadableSet,
-                    &self.file,
-                    found,
-                    "path=value is needed, e.g. --set \"rotor.speed=9000 rpm\"",
-                )
-                .at(Place::Set),
+            Problem::new(
+                Code::UnreadableSet,
+                &self.file,
+                found,
+                "path=value is needed, e.g. --set \"rotor.speed=9000 rpm\"",
             )
+            .at(Place::Set)
         };
         let (path, typed) = set
             .split_once('=')
@@ -383,11 +376,11 @@ impl Document {
             None => several::of_each_bearing(&dotted),
         };
         if bearing.is_some() && !own {
-            return Err(Box::new(problem(
+            return Err(problem(
                 Code::UnknownKey,
                 "what no auxiliary bearing has of its own".to_string(),
                 "name, and sections contact, mount, bearing and heat, are possible".to_string(),
-            )));
+            ));
         }
         let elsewhere = |what: &str, systems: &[SystemName]| {
             problem(
@@ -404,18 +397,18 @@ impl Document {
             self.system.bends() && path.first().is_some_and(|first| *first == table::ANALYSIS);
         if let Some(section) = section {
             if !section.systems.contains(&self.system) && !for_analysis {
-                return Err(Box::new(elsewhere("section", section.systems)));
+                return Err(elsewhere("section", section.systems));
             }
             return match raw {
                 None => {
                     self.sections.insert(shown, place);
                     Ok(())
                 }
-                Some(raw) => Err(Box::new(problem(
+                Some(raw) => Err(problem(
                     Code::WrongType,
                     raw.text(),
                     format!("a section [{dotted}] with keys is needed"),
-                ))),
+                )),
             };
         }
         let key = table::key(&dotted);
@@ -424,9 +417,7 @@ impl Document {
             && !for_analysis
         {
             let hint = meant::namesake(path, self.system);
-            return Err(Box::new(
-                elsewhere("key", table::systems(key)).with_hint(hint),
-            ));
+            return Err(elsewhere("key", table::systems(key)).with_hint(hint));
         }
         match (key, raw) {
             (Some(key), Some(raw)) => {
@@ -440,7 +431,7 @@ impl Document {
                 {
                     let found = "a key of what is not modelled yet".to_string();
                     let told = problem(Code::NotModelled, found, absent.allowed());
-                    return Err(Box::new(told.with_hint(absent.hint())));
+                    return Err(told.with_hint(absent.hint()));
                 }
                 let (code, found) = match (key, raw) {
                     (Some(_), _) => (Code::WrongType, "a section".to_string()),
@@ -454,7 +445,7 @@ impl Document {
                 } else {
                     None
                 };
-                Err(Box::new(problem(code, found, allowed).with_hint(hint)))
+                Err(problem(code, found, allowed).with_hint(hint))
             }
         }
     }
@@ -473,9 +464,7 @@ fn is_name(name: &str) -> bool {
 fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<Problem>> {
     let needed = format!("format = \"{}\" is needed", table::FORMAT);
     let Some((key, value)) = root.get_key_value("format") else {
-        return Err(Box::new(
-            Problem::new(Code::UnknownFormat, file, "nothing", needed).on_key("format"),
-        ));
+        return Err(Problem::new(Code::UnknownFormat, file, "nothing", needed).on_key("format"));
     };
     let found = match value.get_ref() {
         DeValue::String(found) if found == table::FORMAT => return Ok(()),
@@ -485,12 +474,10 @@ fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<
     let newer = found
         .starts_with("\"auxbear.scenario/")
         .then(|| "A file of a newer format needs a newer program".to_string());
-    Err(Box::new(
-        Problem::new(Code::UnknownFormat, file, found, needed)
-            .at(Place::of_offset(text, key.span().start))
-            .on_key("format")
-            .with_hint(newer),
-    ))
+    Err(Problem::new(Code::UnknownFormat, file, found, needed)
+        .at(Place::of_offset(text, key.span().start))
+        .on_key("format")
+        .with_hint(newer))
 }
 
 /// The system comes next: what it does not have is told as such. An override counts, the last of several.
@@ -516,11 +503,7 @@ fn find_system(
         Some((raw(value.get_ref()), place))
     };
     let Some((raw, place)) = set.or_else(given) else {
-        return Err(Box::new(problem(
-            Code::MissingKey,
-            "no value".to_string(),
-            needed,
-        )));
+        return Err(problem(Code::MissingKey, "no value".to_string(), needed));
     };
     let raw = match raw {
         Raw::Table(parts) => match parts.into_iter().find(|(name, _)| name == "value") {
@@ -530,21 +513,19 @@ fn find_system(
         raw => raw,
     };
     let Raw::Text(word) = raw else {
-        return Err(Box::new(
-            problem(Code::WrongType, raw.text(), needed).at(place),
-        ));
+        return Err(problem(Code::WrongType, raw.text(), needed).at(place));
     };
     if let Some(system) = SystemName::of(&word) {
         return Ok(system);
     }
-    Err(Box::new(if SystemName::PLANNED.contains(&word.as_str()) {
+    Err(if SystemName::PLANNED.contains(&word.as_str()) {
         let found = format!("\"{word}\", which is planned but not built yet");
         problem(Code::NotBuilt, found, needed).at(place)
     } else {
         problem(Code::UnknownWord, quoted(&word), needed)
             .at(place)
             .with_hint(did_you_mean(&word, SystemName::WORDS.iter().copied()))
-    }))
+    })
 }
 
 fn quoted_words(words: &[&str]) -> String {

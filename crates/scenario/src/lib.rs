@@ -269,12 +269,12 @@ impl Scenario {
     ) -> Result<Scenario, Box<Problem>> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
-            return Err(Box::new(Problem::new(
+            return Err(Problem::new(
                 Code::FileEmpty,
                 name,
                 "an empty file",
                 "a scenario is needed; auxbear new drop writes one to start from",
-            )));
+            ));
         }
         Scenario::of(document::Document::read(text, name, sets)?, bearings)
     }
@@ -413,7 +413,7 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
         return None;
     }
     let name = path.display();
-    Some(Box::new(Problem::at_path(
+    Some(Problem::at_path(
         Code::MeasurementInstead,
         path,
         "a file of measured values",
@@ -421,5 +421,5 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
             "a scenario that names it is needed: auxbear new signals writes one, with signals.file = \"{name}\", for auxbear signals; \
              auxbear new identify one for auxbear identify"
         ),
-    )))
+    ))
 }

@@ -156,14 +156,14 @@ impl Limit {
     }
 
     /// A problem with the name of the result.
-    pub fn problem(&self, code: Code, found: String, allowed: String) -> Problem {
+    pub fn problem(&self, code: Code, found: String, allowed: String) -> Box<Problem> {
         let problem = Problem::new(code, UNNAMED, found, allowed);
         let key = (self.forbids.as_ref()).map_or("quantity", |forbids| forbids.written().0);
         problem.at(self.place).on_key(format!("{LIMIT}.{key}"))
     }
 
     /// A problem with the bound.
-    pub fn bound_problem(&self, code: Code, found: String, allowed: String) -> Problem {
+    pub fn bound_problem(&self, code: Code, found: String, allowed: String) -> Box<Problem> {
         let problem = Problem::new(code, UNNAMED, found, allowed);
         let key = format!("{LIMIT}.{}", self.side.word());
         problem.at(self.bound_place).on_key(key)
@@ -261,7 +261,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Pr
             let needed = format!("one of {} is needed", words.join(", "));
             let hint = did_you_mean(word, words);
             let problem = table.problem(Code::UnknownWord, key, quoted(word), needed);
-            return Err(Box::new(problem.with_hint(hint)));
+            return Err(problem.with_hint(hint));
         }
     };
     let (key, word) = forbids.written();
@@ -323,9 +323,8 @@ fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Probl
 /// A bound in SI, its dimension, and as a file has it.
 fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String), Box<Problem>> {
     let raw = table.raw(side).unwrap_or(&Raw::Other("nothing"));
-    amount(raw).map_err(|(code, found, hint)| {
-        Box::new(table.problem(code, side, found, BOUND).with_hint(hint))
-    })
+    amount(raw)
+        .map_err(|(code, found, hint)| table.problem(code, side, found, BOUND).with_hint(hint))
 }
 
 /// Why a value is none: code, what was found, a hint.

@@ -64,7 +64,7 @@ impl Values {
                                 .is_some_and(|key| key.ends_with(unmet.path))
                         }) => {}
                     Some(given) => {
-                        return Err(Box::new(values.unused(key, given, &unmet, document)));
+                        return Err(values.unused(key, given, &unmet, document));
                     }
                     None => {}
                 }
@@ -93,14 +93,14 @@ impl Values {
         }
         values.record = record;
         if !missing.is_empty() {
-            return Err(Box::new(values.all_missing(missing)));
+            return Err(values.all_missing(missing));
         }
         values.derive()?;
         Ok(values)
     }
 
     /// The first missing key, with the names of all others: one round is enough to give them.
-    fn all_missing(&self, mut missing: Vec<Problem>) -> Problem {
+    fn all_missing(&self, mut missing: Vec<Problem>) -> Box<Problem> {
         let mut others: Vec<String> = (missing.iter().skip(1))
             .filter_map(|problem| problem.key.clone())
             .collect();
@@ -108,7 +108,7 @@ impl Values {
         if self.lacks_bearings(&missing) {
             return self.without_bearings(&missing);
         }
-        let mut first = missing.swap_remove(0);
+        let mut first = Box::new(missing.swap_remove(0));
         if !others.is_empty() {
             let others = format!("Missing as well: {}", others.join(", "));
             first.hint = Some(match first.hint {
@@ -126,7 +126,7 @@ impl Values {
     }
 
     /// What a machine without auxiliary bearings needs first, with all keys that are missing.
-    fn without_bearings(&self, missing: &[Problem]) -> Problem {
+    fn without_bearings(&self, missing: &[Problem]) -> Box<Problem> {
         let keys: Vec<&str> = (missing.iter())
             .filter_map(|problem| problem.key.as_deref())
             .collect();
@@ -187,7 +187,13 @@ impl Values {
                 .any(|law| unmet.values.contains(law))
     }
 
-    fn unused(&self, key: &Key, given: &Given, unmet: &Condition, document: &Document) -> Problem {
+    fn unused(
+        &self,
+        key: &Key,
+        given: &Given,
+        unmet: &Condition,
+        document: &Document,
+    ) -> Box<Problem> {
         let here = self.known.get(unmet.path).map_or(String::new(), |known| {
             format!("; here it is {}", quoted(&known.text))
         });
@@ -245,13 +251,13 @@ impl Values {
         } else {
             (key.path, given.place, other)
         };
-        Err(Box::new(self.problem(
+        Err(self.problem(
             Code::Conflict,
             path,
             place,
             format!("this and {first}, which give the same thing"),
             "one of the two is needed",
-        )))
+        ))
     }
 
     fn without(
@@ -275,11 +281,10 @@ impl Values {
             Presence::DefaultWhen(_, _, Otherwise::Fallback(fallback)) => {
                 self.reader(key).fall_back(key, &fallback).map(Some)
             }
-            Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
-                self.missing(key)
-                    .with_hint(format!("It has a default only with {}", condition.text())),
-            )),
-            Presence::Required => Err(Box::new(self.missing(key))),
+            Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(self
+                .missing(key)
+                .with_hint(format!("It has a default only with {}", condition.text()))),
+            Presence::Required => Err(self.missing(key)),
             Presence::FromBearing => {
                 let hint = match record {
                     Some(record) => {
@@ -287,7 +292,7 @@ impl Values {
                     }
                     None => "bearing.name takes it from the catalogue".to_string(),
                 };
-                Err(Box::new(self.missing(key).with_hint(hint)))
+                Err(self.missing(key).with_hint(hint))
             }
         }
     }
@@ -314,7 +319,7 @@ impl Values {
         }
     }
 
-    fn missing(&self, key: &Key) -> Problem {
+    fn missing(&self, key: &Key) -> Box<Problem> {
         self.problem(
             Code::MissingKey,
             key.path,

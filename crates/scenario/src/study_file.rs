@@ -207,7 +207,7 @@ impl StudyFile {
                     "factorials and sweeps are complete as they are, a sobol design has at most {MOST_SOBOL} points, any other {MOST_MEMBERS} members"
                 );
                 let problem = Problem::new(Code::StudyDesign, &self.file, found, allowed);
-                return Err(Box::new(problem.on_key("--add")));
+                return Err(problem.on_key("--add"));
             }
         }
         self.added += more;
@@ -305,9 +305,7 @@ fn require_format(file: &str, head: &[Written]) -> Result<(), Box<Problem>> {
     };
     let allowed =
         format!("format = \"{STUDY_FORMAT}\" is needed; auxbear new study writes such a file");
-    Err(Box::new(
-        Problem::new(Code::UnknownFormat, file, found, allowed).on_key("format"),
-    ))
+    Err(Problem::new(Code::UnknownFormat, file, found, allowed).on_key("format"))
 }
 
 /// The kind of the design, on which its other keys depend.

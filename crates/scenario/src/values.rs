@@ -78,7 +78,7 @@ impl Values {
         place: Place,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, &self.file, found, allowed)
             .at(place)
             .on_key(self.shown(path))
@@ -93,7 +93,7 @@ impl Values {
         allowed: impl Into<String>,
     ) -> Result<T, Box<Problem>> {
         let problem = self.problem(code, path, self.place(path), found, allowed);
-        Err(Box::new(problem))
+        Err(problem)
     }
 
     /// Whether a value was computed from others.

@@ -291,11 +291,9 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, 
     }
     let shown = format!("{VARY}.{path}");
     let problem = |code, found: String, allowed: &str| {
-        Box::new(
-            Problem::new(code, all[0].file(), found, allowed)
-                .at(place)
-                .on_key(&shown),
-        )
+        Problem::new(code, all[0].file(), found, allowed)
+            .at(place)
+            .on_key(&shown)
     };
     let (of, plain) = match path.strip_prefix(AUXILIARY_BEARING) {
         Some(rest) => {
@@ -317,7 +315,7 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, 
             "the dotted path of a key is needed",
         );
         let known = table::keys_of(system).map(|key| key.path);
-        return Err(Box::new(unknown.with_hint(did_you_mean(plain, known))));
+        return Err(unknown.with_hint(did_you_mean(plain, known)));
     };
     if ["format", "system", "title", "description", "catalogue"].contains(&plain)
         || ["run.", "repeat."]
@@ -461,11 +459,9 @@ fn is_of_part(path: &str) -> bool {
 fn of_part(path: &str, raw: &Raw, place: Place, file: &str) -> Result<Vary, Box<Problem>> {
     let needed = "uniform = [\"1 kg\", \"2 kg\"], triangular with three values or choice with texts is needed for a part of a rotor";
     let problem = |code| {
-        Box::new(
-            Problem::new(code, file, raw.text(), needed)
-                .at(place)
-                .on_key(path),
-        )
+        Problem::new(code, file, raw.text(), needed)
+            .at(place)
+            .on_key(path)
     };
     let Raw::Table(parts) = raw else {
         return Err(problem(Code::WrongType));

@@ -156,7 +156,7 @@ fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
             "nothing there",
             "a folder of cases is needed",
         );
-        return Err(Box::new(problem));
+        return Err(problem);
     }
     if !folder.is_dir() {
         let problem = Problem::at_path(
@@ -165,26 +165,21 @@ fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
             "a file",
             "a folder of cases is needed",
         );
-        return Err(Box::new(problem));
+        return Err(problem);
     }
     let mut paths = Vec::new();
     collect(folder, 0, &mut paths).map_err(|error| {
-        Box::new(Problem::at_path(
+        Problem::at_path(
             Code::FileUnreadable,
             folder,
             error.to_string(),
             "a readable folder of cases that are files is needed",
-        ))
+        )
     })?;
     if paths.len() > MOST_FILES {
         let found = format!("{} files of cases", paths.len());
         let allowed = format!("at most {MOST_FILES} are read at once");
-        return Err(Box::new(Problem::at_path(
-            Code::FileTooLarge,
-            folder,
-            found,
-            allowed,
-        )));
+        return Err(Problem::at_path(Code::FileTooLarge, folder, found, allowed));
     }
     let stem = |path: &Path| {
         path.file_stem()

@@ -210,7 +210,7 @@ impl<'a> Source<'a> {
             let hints = [did_you_mean(name, names()), self.unread(name)];
             let hints: Vec<String> = hints.into_iter().flatten().collect();
             let hint = (!hints.is_empty()).then(|| hints.join(" "));
-            return Err(Box::new(problem.with_hint(hint)));
+            return Err(problem.with_hint(hint));
         };
         let channel = channels[index].clone();
         let found = match (channel.content, channel.count) {
@@ -221,7 +221,7 @@ impl<'a> Source<'a> {
         let found = format!("channel \"{name}\", {found}");
         let needed = "a channel of numbers is needed";
         let problem = self.problem(Code::UnknownChannel, key, found, needed);
-        Err(Box::new(problem.with_hint(self.unread(name))))
+        Err(problem.with_hint(self.unread(name)))
     }
 
     /// What the reader found wrong with the file, for a message that misses a channel: of this one first. A file cut by a crash

@@ -83,7 +83,7 @@ impl Directory {
                     found,
                     "one process a study is possible",
                 );
-                return Err(Box::new(problem));
+                return Err(problem);
             }
             Err(TryLockError::Error(_)) => None,
         };
@@ -349,12 +349,12 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
         let path = path.join(name);
         fs::read_to_string(&path).map_err(|error| {
             let found = format!("what cannot be read ({error})");
-            Box::new(Problem::at_path(
+            Problem::at_path(
                 Code::StudyDamaged,
                 &path,
                 found,
                 "a study directory is needed",
-            ))
+            )
         })
     };
     let before = read(STUDY)?;
@@ -376,12 +376,7 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
             line(now)
         );
         let allowed = "a study goes on with the same files and version; another one needs another --out, more members --add";
-        Err(Box::new(Problem::at_path(
-            Code::StudyChanged,
-            &known,
-            found,
-            allowed,
-        )))
+        Err(Problem::at_path(Code::StudyChanged, &known, found, allowed))
     };
     let now = headed(&file);
     if before != now {

@@ -134,5 +134,5 @@ pub(super) fn csv(study: &Study, table: &Table) -> String {
 /// A part that is not what this study wrote.
 pub(super) fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
     let allowed = "a part as auxbear study writes it is needed; without the file its members are computed again";
-    Box::new(Problem::at_path(Code::StudyDamaged, path, found, allowed))
+    Problem::at_path(Code::StudyDamaged, path, found, allowed)
 }

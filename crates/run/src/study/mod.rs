@@ -142,7 +142,7 @@ impl Study {
                     "the name of a result is needed; auxbear results FILE lists them",
                 );
                 let problem = problem.at(*place).on_key(key);
-                return Err(Box::new(problem.with_hint(limits::meant(name, &names))));
+                return Err(problem.with_hint(limits::meant(name, &names)));
             }
         }
         Ok(Study { file, known })

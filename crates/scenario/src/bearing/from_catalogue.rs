@@ -118,16 +118,15 @@ impl Values {
                 }
             )
         };
-        Err(Box::new(
-            self.problem(
+        Err(self
+            .problem(
                 Code::UnknownBearing,
                 "bearing.name",
                 known.place,
                 format!("\"{name}\", which is not in the catalogue"),
                 allowed,
             )
-            .with_hint(near),
-        ))
+            .with_hint(near))
     }
 
     pub(crate) fn catalogued(
@@ -157,13 +156,13 @@ impl Values {
             _ => return Ok(None),
         };
         if !key.range.holds(*si) {
-            return Err(Box::new(self.problem(
+            return Err(self.problem(
                 Code::OutOfRange,
                 key.path,
                 Place::Whole,
                 format!("{text} in the catalogue for \"{}\"", record.name),
                 key.needed(),
-            )));
+            ));
         }
         Ok(Some(Known {
             value,

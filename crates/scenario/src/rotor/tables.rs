@@ -64,7 +64,7 @@ pub fn read_all(
         }
         let start = key.span().start;
         let place = Place::of_offset(text, start);
-        let refuse = |problem: Problem| Err(Box::new(problem.at(place).on_key(kind.path())));
+        let refuse = |problem: Box<Problem>| Err(problem.at(place).on_key(kind.path()));
         if !system.has_shaft() {
             return refuse(no_effect(kind, file));
         }
@@ -113,7 +113,7 @@ pub fn is_part(system: SystemName, kind: &PartKind, value: &DeValue<'_>) -> bool
 }
 
 /// What is said of a part in a file of another system.
-fn no_effect(kind: &PartKind, file: &str) -> Problem {
+fn no_effect(kind: &PartKind, file: &str) -> Box<Problem> {
     if let Some(absent) = not_modelled::of(&kind.path(), SystemName::Rotor) {
         let found = "a key of what is not modelled yet";
         let problem = Problem::new(Code::NotModelled, file, found, absent.allowed());
@@ -155,7 +155,7 @@ pub fn set(
             names.join(", ")
         );
         let problem = Problem::new(Code::UnknownKey, file, quoted(named), allowed);
-        return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
+        return Err(problem.at(Place::Set).on_key(path.join(".")));
     };
     parts[at].keys.retain(|(other, ..)| other != key);
     parts[at].keys.push((key.clone(), raw, Place::Set));
@@ -211,12 +211,12 @@ pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Pr
     if document.parts.len() > MOST_PARTS {
         let found = format!("{} parts of a rotor", document.parts.len());
         let allowed = format!("at most {MOST_PARTS} are possible");
-        return Err(Box::new(Problem::new(
+        return Err(Problem::new(
             Code::RotorGeometry,
             &values.file,
             found,
             allowed,
-        )));
+        ));
     }
     let mut all: Vec<Part> = Vec::new();
     for kind in PARTS {

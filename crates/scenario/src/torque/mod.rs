@@ -139,13 +139,13 @@ fn lubricants(values: &Values) -> Result<Vec<Lubricant>, Box<Problem>> {
     let texts = values.texts(LISTED);
     let listed = texts.iter().map(|text| {
         Lubricant::parse(text).map_err(|why| {
-            Box::new(values.problem(
+            values.problem(
                 Code::NoLawData,
                 LISTED,
                 values.place(LISTED),
                 format!("\"{text}\": {why}"),
                 "viscosities are needed, e.g. \"ISO VG 68, 8.7 mm^2/s at 100 degC\"",
-            ))
+            )
         })
     });
     let points = values.rows("bearing.moment.viscosity_points");
