@@ -3,13 +3,13 @@
 use crate::arguments::Import;
 use crate::console;
 use auxbear::import::{Compared, import};
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::{failed, misplaced};
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 
 /// Writes the scenario of a rotor of another program, and tells what was not understood.
-pub fn perform(wish: &Import) -> Result<(), Box<Problem>> {
+pub fn perform(wish: &Import) -> Result<()> {
     let imported = import(&wish.file)?;
     match &wish.out {
         None => console::print(&imported.toml)?,

@@ -1,7 +1,7 @@
 //! `auxbear new`.
 
 use crate::console;
-use auxbear::problem::{Code, Problem, did_you_mean};
+use auxbear::problem::{Code, Problem, Result, did_you_mean};
 use auxbear::report::directory::{failed, misplaced};
 use auxbear::scenario::{KINDS, template};
 use std::fs::{self, File};
@@ -12,7 +12,7 @@ use std::path::Path;
 const PLANNED: [&str; 2] = ["qualify", "mount"];
 
 /// Prints or writes the starting file of a kind.
-pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
+pub fn perform(kind: &str, path: Option<&Path>) -> Result<()> {
     let text = template(kind).ok_or_else(|| unknown("auxbear new", kind, KINDS))?;
     // A dash stands for the standard output.
     let Some(path) = path.filter(|path| *path != Path::new("-")) else {

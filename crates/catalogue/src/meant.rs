@@ -2,7 +2,7 @@
 
 use super::designation::{self, Designation};
 use super::{Bearing, Catalogue};
-use problem::{Code, Problem, did_you_mean};
+use problem::{Code, Problem, Result, did_you_mean};
 
 /// Most names that a message lists.
 const MOST_NAMES: usize = 8;
@@ -23,7 +23,7 @@ impl Catalogue {
     ///
     /// # Errors
     /// Where there is none: which names are near, or what is missing.
-    pub fn meant(&self, name: &str, place: &str) -> Result<Meant<'_>, Box<Problem>> {
+    pub fn meant(&self, name: &str, place: &str) -> Result<Meant<'_>> {
         if let Some(bearing) = self.find(name) {
             return Ok(Meant {
                 bearing,

@@ -11,7 +11,7 @@
 
 use crate::draft::{Draft, cleaned};
 use physics::shaft::{Annulus, MATERIALS, Material};
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use rotor::{Disk, Element};
 use units::Unit;
 
@@ -57,7 +57,7 @@ struct Column {
 }
 
 /// The draft of a table.
-pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Problem>> {
+pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft> {
     let problem = |line: usize, found: String, allowed: &str| {
         Problem::new(Code::SectionTable, file, found, allowed).at(Place::Line { line, column: 1 })
     };
@@ -128,7 +128,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                 .and_then(|k| row.get(k))
                 .filter(|text| !text.is_empty())
         };
-        let number = |name: &str| -> Result<Option<f64>, Box<Problem>> {
+        let number = |name: &str| -> Result<Option<f64>> {
             let Some(written) = text(name) else {
                 return Ok(None);
             };
@@ -155,7 +155,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
             let unit = at(name).and_then(|k| columns[k].as_ref()?.unit);
             Ok(Some(unit.map_or(value, |unit| cleaned(unit.to_si(value)))))
         };
-        let needed = |name: &str| -> Result<f64, Box<Problem>> {
+        let needed = |name: &str| -> Result<f64> {
             number(name)?.filter(|value| *value > 0.0).ok_or_else(|| {
                 problem(
                     line,
@@ -188,7 +188,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
         let left = draft.nodes.len() - 1;
         if let Some(mass) = number("disk mass")?.filter(|mass| *mass > 0.0) {
             let name = format!("disk_{}", draft.disks.len() + 1);
-            let mut inertia = |which: &str| -> Result<f64, Box<Problem>> {
+            let mut inertia = |which: &str| -> Result<f64> {
                 let given = number(&format!("disk {which} inertia"))?;
                 if given.is_none() {
                     notes.push(format!(

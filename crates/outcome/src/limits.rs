@@ -18,7 +18,7 @@ use crate::forbidden;
 use crate::list::NOT_GIVEN;
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
-use problem::{Code, Problem, did_you_mean, question};
+use problem::{Code, Problem, Result, did_you_mean, question};
 use scenario::notes::NO_QUALIFICATION;
 use scenario::{Limit, Scenario, Side, UNBALANCE_ANGLE, present_name};
 use statistics::share::{
@@ -36,11 +36,7 @@ const MOST_NAMES: usize = 8;
 
 /// Refuses limits of results that a run does not have, or of another dimension; `known` are its results, without values
 /// where these are not known before the run. A `*` in the name of one stands for what the run finds.
-pub fn check(
-    limits: &[Limit],
-    known: &[Quantity],
-    declared: &[&'static Declared],
-) -> Result<(), Box<Problem>> {
+pub fn check(limits: &[Limit], known: &[Quantity], declared: &[&'static Declared]) -> Result<()> {
     for limit in limits {
         if let Some(forbids) = &limit.forbids {
             forbidden::check(limit, forbids, declared)?;

@@ -1,7 +1,7 @@
 //! Files of input: opened and read with one message for each way in which that fails. Nothing else that computes asks for a file; without the
 //! feature `files` there are none.
 
-use crate::{Code, Place, Problem};
+use crate::{Code, Place, Problem, Result};
 #[cfg(feature = "files")]
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
@@ -48,7 +48,7 @@ pub fn lasting(path: PathBuf) -> PathBuf {
 ///
 /// # Errors
 /// No file, a folder, a file that is too large, cannot be read or is not UTF-8.
-pub fn read_text(path: &Path, what: &str) -> Result<String, Box<Problem>> {
+pub fn read_text(path: &Path, what: &str) -> Result<String> {
     let problem = |code, found: &str| {
         let needed = format!("the path of {what} is needed");
         Problem::at_path(code, path, found, needed)

@@ -42,6 +42,9 @@ pub struct Problem {
     pub hint: Option<String>,
 }
 
+/// What is read or made, or what is wrong with it.
+pub type Result<T, E = Box<Problem>> = std::result::Result<T, E>;
+
 impl Problem {
     /// A problem of a file as a whole; the other methods add what else is known.
     pub fn new(

@@ -4,7 +4,7 @@ use crate::key::{Fallback, Key, Kind, article, quoted};
 use crate::provenance::Provenance;
 use crate::raw::{Given, Raw, as_toml};
 use crate::value::{Known, Value};
-use crate::{Code, Place, Problem, did_you_mean, question};
+use crate::{Code, Place, Problem, Result, did_you_mean, question};
 use units::{Dimension, ParseError, Rational, as_product, parse_quantity};
 
 /// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value of another kind, dimension or range than the key takes.
-    pub fn read<S>(&self, key: &Key<S>, given: &Given) -> Result<Known, Box<Problem>> {
+    pub fn read<S>(&self, key: &Key<S>, given: &Given) -> Result<Known> {
         let Unwrapped {
             raw,
             provenance,
@@ -92,11 +92,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The value of `{ value = …, source = … }`, or the value itself.
-    fn unwrap_table<'v, S>(
-        &self,
-        key: &Key<S>,
-        given: &'v Given,
-    ) -> Result<Unwrapped<'v>, Box<Problem>> {
+    fn unwrap_table<'v, S>(&self, key: &Key<S>, given: &'v Given) -> Result<Unwrapped<'v>> {
         let (Raw::Table(parts), false) = (&given.raw, matches!(key.kind, Kind::Any(_))) else {
             return Ok(Unwrapped {
                 raw: &given.raw,
@@ -173,12 +169,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value of another kind or dimension than the key takes.
-    pub fn read_raw<S>(
-        &self,
-        key: &Key<S>,
-        raw: &Raw,
-        place: Place,
-    ) -> Result<(Value, String), Box<Problem>> {
+    pub fn read_raw<S>(&self, key: &Key<S>, raw: &Raw, place: Place) -> Result<(Value, String)> {
         let wrong = |code, found: String| self.problem(code, place, found, key.needed());
         match (key.kind, raw) {
             (Kind::Quantity(_) | Kind::ContactStiffness { .. }, Raw::Text(text)) => {
@@ -238,12 +229,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn read_quantity<S>(
-        &self,
-        key: &Key<S>,
-        text: &str,
-        place: Place,
-    ) -> Result<(Value, String), Box<Problem>> {
+    fn read_quantity<S>(&self, key: &Key<S>, text: &str, place: Place) -> Result<(Value, String)> {
         let text = text.trim();
         let quantity = parse_quantity(text).map_err(|error| {
             let (code, found, hint) = unreadable(&error, text, key.dimension());
@@ -301,7 +287,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A default that its own key does not take.
-    pub fn fall_back<S>(&self, key: &Key<S>, fallback: &Fallback) -> Result<Known, Box<Problem>> {
+    pub fn fall_back<S>(&self, key: &Key<S>, fallback: &Fallback) -> Result<Known> {
         let raw = match key.kind {
             Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
             Kind::Switch => Raw::Switch(fallback.text == "true"),

@@ -18,7 +18,7 @@ use super::table::{Cell, Table};
 #[cfg(feature = "xlsx")]
 use super::workbook;
 use outcome::limits::{meant, stands_for};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use run::warnings::rank;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -48,7 +48,7 @@ pub fn export(
     format: Format,
     out: Option<&Path>,
     only: &[String],
-) -> Result<PathBuf, Box<Problem>> {
+) -> Result<PathBuf> {
     let mut run = read(directory)?;
     let mut summary: Summary = serde_json::from_str(&run.summary_json).map_err(|error| {
         let found = format!("what cannot be read as a summary ({error})");
@@ -82,12 +82,7 @@ pub fn export(
 }
 
 /// Leaves results and columns that one of these names stands for; with columns the first one, over which they are.
-fn keep(
-    directory: &Path,
-    run: &mut PageRun,
-    summary: &mut Summary,
-    only: &[String],
-) -> Result<(), Box<Problem>> {
+fn keep(directory: &Path, run: &mut PageRun, summary: &mut Summary, only: &[String]) -> Result<()> {
     let results = summary.quantities.0.iter().map(|(name, _)| name.as_str());
     let columns = run.columns.iter().map(|column| column.name.as_str());
     let known: Vec<&str> = results.chain(columns).collect();
@@ -341,7 +336,7 @@ fn members(summary: &Summary) -> Table<'_> {
 }
 
 /// Writes a folder of CSV files, whole or not at all.
-fn csv(folder: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
+fn csv(folder: &Path, tables: &[Table]) -> Result<()> {
     let place = NewDirectory::reserve(folder)?;
     for table in tables {
         place.file(&format!("{}.csv", table.name), |file| {

@@ -18,7 +18,7 @@
 use super::directory::read;
 use model::system::layout::of_part;
 use physics::life::{add_points, bearing_damage, mean_damage, repetitions, survival};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -87,7 +87,7 @@ struct Found {
 }
 
 /// Adds up the drops of a service.
-pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
+pub fn service(occasions: &[Occasion]) -> Result<Service> {
     let mut runs = Vec::new();
     for occasion in occasions {
         let run = read(&occasion.directory)?;

@@ -10,7 +10,7 @@ use crate::system::{COASTING_DOWN, SystemName};
 use crate::table;
 pub use problem::raw::{Given, Raw, as_toml};
 use problem::raw::{Written, collect, raw, table_raw, tables};
-use problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Problem, Result, did_you_mean};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
@@ -53,7 +53,7 @@ struct Entry {
 
 impl Document {
     /// Reads a text and the overrides; refuses what is no TOML and what is no key.
-    pub fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
+    pub fn read(text: &str, file: &str, sets: &[String]) -> Result<Document> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         require_format(text, root.get_ref(), file)?;
         let mut document = Document {
@@ -163,12 +163,7 @@ impl Document {
     }
 
     /// Reads the array of tables of several auxiliary bearings.
-    fn add_bearings(
-        &mut self,
-        text: &str,
-        start: usize,
-        value: &DeValue<'_>,
-    ) -> Result<(), Box<Problem>> {
+    fn add_bearings(&mut self, text: &str, start: usize, value: &DeValue<'_>) -> Result<()> {
         let problem = |code, start, found: String, allowed: &str| {
             Problem::new(code, &self.file, found, allowed)
                 .at(Place::of_offset(text, start))
@@ -235,12 +230,7 @@ impl Document {
     }
 
     /// Reads what repeated runs vary; a path may stand in quotes or as nested tables.
-    fn add_varied(
-        &mut self,
-        text: &str,
-        start: usize,
-        value: &DeValue<'_>,
-    ) -> Result<(), Box<Problem>> {
+    fn add_varied(&mut self, text: &str, start: usize, value: &DeValue<'_>) -> Result<()> {
         let place = Place::of_offset(text, start);
         self.only_drops_vary(place)?;
         let DeValue::Table(table) = value else {
@@ -258,7 +248,7 @@ impl Document {
         Ok(())
     }
 
-    fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
+    fn only_drops_vary(&self, place: Place) -> Result<()> {
         if self.system.falls() {
             return Ok(());
         }
@@ -272,12 +262,7 @@ impl Document {
     }
 
     /// An override of a value that one auxiliary bearing has: its path behind `auxiliary_bearing.NAME`.
-    fn add_to_bearing(
-        &mut self,
-        path: &[String],
-        raw: Raw,
-        typed: String,
-    ) -> Result<(), Box<Problem>> {
+    fn add_to_bearing(&mut self, path: &[String], raw: Raw, typed: String) -> Result<()> {
         let named = path.get(1).map_or("", String::as_str);
         let Some(place) = self.own.iter().position(|own| own.name == named) else {
             let names: Vec<String> = self.own.iter().map(|own| quoted(&own.name)).collect();
@@ -298,7 +283,7 @@ impl Document {
         added
     }
 
-    pub(crate) fn add_override(&mut self, set: &str) -> Result<(), Box<Problem>> {
+    pub(crate) fn add_override(&mut self, set: &str) -> Result<()> {
         let unreadable = |found: String| {
             Problem::new(
                 Code::UnreadableSet,
@@ -354,7 +339,7 @@ impl Document {
         raw: Option<Raw>,
         typed: Option<String>,
         place: Place,
-    ) -> Result<(), Box<Problem>> {
+    ) -> Result<()> {
         let dotted = path.join(".");
         let section = table::sections().find(|section| section.path == dotted);
         let bearing = self.bearing.as_deref();
@@ -461,7 +446,7 @@ fn is_name(name: &str) -> bool {
 }
 
 /// The format comes first: a file of another format would fail on its keys with misleading words.
-fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<Problem>> {
+fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<()> {
     let needed = format!("format = \"{}\" is needed", table::FORMAT);
     let Some((key, value)) = root.get_key_value("format") else {
         return Err(Problem::new(Code::UnknownFormat, file, "nothing", needed).on_key("format"));
@@ -481,12 +466,7 @@ fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<
 }
 
 /// The system comes next: what it does not have is told as such. An override counts, the last of several.
-fn find_system(
-    text: &str,
-    root: &DeTable<'_>,
-    file: &str,
-    sets: &[String],
-) -> Result<SystemName, Box<Problem>> {
+fn find_system(text: &str, root: &DeTable<'_>, file: &str, sets: &[String]) -> Result<SystemName> {
     let needed = format!("one of {} is needed", quoted_words(SystemName::WORDS));
     let problem = |code, found: String, allowed: String| {
         Problem::new(code, file, found, allowed).on_key("system")

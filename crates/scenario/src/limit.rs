@@ -20,7 +20,7 @@ use problem::raw::{Raw, Written};
 use problem::read::unreadable;
 use problem::table::Table;
 use problem::warning::Severity;
-use problem::{Code, Place, Problem, did_you_mean, question};
+use problem::{Code, Place, Problem, Result, did_you_mean, question};
 use units::{Dimension, parse_quantity};
 
 /// What a result must hold.
@@ -171,7 +171,7 @@ impl Limit {
 }
 
 /// The limits of a file; those of overrides change or follow them.
-pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
+pub fn of(document: &Document) -> Result<Vec<Limit>> {
     let mut limits: Vec<Limit> = Vec::new();
     for written in &document.limits {
         let table = read(document, written)?;
@@ -228,7 +228,7 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
 }
 
 /// A limit of warnings: at most 0 of them in a member. None where a result is limited.
-fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Problem>> {
+fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>> {
     let refused =
         |code, key: &str, found: String, needed: &str| table.refuse(code, key, found, needed);
     let given = |key: &&str| table.text(key).is_some() || table.raw(key).is_some();
@@ -278,7 +278,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Pr
     }))
 }
 
-fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>> {
+fn read(document: &Document, written: &[Written]) -> Result<Table> {
     let table = Table::read(
         &document.file,
         (LIMIT.to_string(), "[[limit]]"),
@@ -302,7 +302,7 @@ fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>>
 }
 
 /// The share of the members, of systems whose runs are repeated.
-fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Problem>> {
+fn share_of(document: &Document, table: &Table) -> Result<Option<f64>> {
     let Some(raw) = table.raw("share") else {
         return Ok(None);
     };
@@ -321,7 +321,7 @@ fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Probl
 }
 
 /// A bound in SI, its dimension, and as a file has it.
-fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String), Box<Problem>> {
+fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String)> {
     let raw = table.raw(side).unwrap_or(&Raw::Other("nothing"));
     amount(raw)
         .map_err(|(code, found, hint)| table.problem(code, side, found, BOUND).with_hint(hint))

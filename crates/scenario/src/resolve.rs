@@ -9,17 +9,14 @@ use crate::table;
 use crate::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
 use problem::provenance::Provenance;
 use problem::read::POWER_TOLERANCE;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Rational, parse_quantity};
 
 impl Values {
     /// Reads every given value and fills the rest from catalogue and defaults.
-    pub fn resolve(
-        document: &Document,
-        bearings: &dyn BearingSource,
-    ) -> Result<Values, Box<Problem>> {
+    pub fn resolve(document: &Document, bearings: &dyn BearingSource) -> Result<Values> {
         let mut values = Values {
             file: document.file.clone(),
             system: document.system,
@@ -234,12 +231,7 @@ impl Values {
         Some(format!("Remove {word} {}, or {back}", lines.join(", ")))
     }
 
-    fn refuse_conflict(
-        &self,
-        key: &Key,
-        given: &Given,
-        document: &Document,
-    ) -> Result<(), Box<Problem>> {
+    fn refuse_conflict(&self, key: &Key, given: &Given, document: &Document) -> Result<()> {
         let Some(other) = key.excludes else {
             return Ok(());
         };
@@ -265,7 +257,7 @@ impl Values {
         key: &Key,
         record: Option<&BearingRecord>,
         document: &Document,
-    ) -> Result<Option<Known>, Box<Problem>> {
+    ) -> Result<Option<Known>> {
         let replaced = table::keys().any(|other| {
             other.excludes == Some(key.path) && document.values.contains_key(other.path)
         });

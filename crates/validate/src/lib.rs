@@ -33,7 +33,7 @@ pub use report::{Report, Row, Tolerance, Verdict};
 pub use simulation::Simulation;
 pub use simulator::{LawsOnly, Simulator};
 
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -47,7 +47,7 @@ const MOST_FILES: usize = 2000;
 const DEEPEST: usize = 8;
 
 /// Runs the shipped cases and, with a folder, every `*.toml` and `*.json` in and below it.
-pub fn run(folder: Option<&Path>, simulator: &dyn Simulator) -> Result<Report, Box<Problem>> {
+pub fn run(folder: Option<&Path>, simulator: &dyn Simulator) -> Result<Report> {
     let mut rows = Vec::new();
     for (name, text) in shipped::CASES {
         rows.extend(named(name, case::rows(text, simulator)));
@@ -148,7 +148,7 @@ fn of_toml(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
 }
 
 /// Case name and path of every file to read, by name: the file's stem, with its folders where two share a stem.
-fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
+fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>> {
     if !folder.exists() {
         let problem = Problem::at_path(
             Code::FileMissing,

@@ -15,7 +15,7 @@ use physics::viscosity::Viscosity;
 use problem::provenance::Provenance;
 use problem::value::quantity_text;
 use problem::words::Words;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Result};
 
 pub(super) const F0: &str = "bearing.moment.f0";
 pub(super) const F1_FACTOR: &str = "bearing.moment.f1_factor";
@@ -40,7 +40,7 @@ const SPEED_WITHOUT_LIMIT: f64 = 1000.0;
 /// Radial load over static load rating where no load is given.
 const LOAD_SHARE: f64 = 0.01;
 
-type Done = Result<(), Box<Problem>>;
+type Done = Result<()>;
 
 impl Values {
     /// A bushing is what a rotor drops into; nothing of it follows from other values.

@@ -8,10 +8,10 @@ use crate::rotor::{Disk, FlexibleRotor, Node, Piece, PointMass, Support, Unbalan
 use crate::values::Values;
 use physics::shaft::{Annulus, Layer, MATERIALS, Material, SAME_PLACE};
 use physics::support::{Block, Coefficients};
-use problem::{Code, Problem, did_you_mean};
+use problem::{Code, Result, did_you_mean};
 use units::number_text;
 
-pub(super) type Checked<T> = Result<T, Box<Problem>>;
+pub(super) type Checked<T> = Result<T>;
 
 /// The parts of one kind, by its word.
 pub(super) type OfKind<'a, 'b> = &'b dyn Fn(&str) -> Vec<&'a Part>;

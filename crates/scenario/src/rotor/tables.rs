@@ -10,7 +10,7 @@ use physics::shaft::MATERIALS;
 use problem::key::quoted;
 use problem::raw::{Raw, Written, collect, raw, tables};
 use problem::table::Table;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use std::ops::Deref;
 use toml::de::{DeTable, DeValue};
 use units::number_text;
@@ -48,7 +48,7 @@ pub fn read_all(
     root: &DeTable<'_>,
     file: &str,
     system: SystemName,
-) -> Result<Vec<WrittenPart>, Box<Problem>> {
+) -> Result<Vec<WrittenPart>> {
     let mut parts = Vec::new();
     for kind in PARTS {
         let table = root.get(kind.table()).map(|value| value.get_ref());
@@ -125,12 +125,7 @@ fn no_effect(kind: &PartKind, file: &str) -> Box<Problem> {
 }
 
 /// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
-pub fn set(
-    parts: &mut [WrittenPart],
-    file: &str,
-    path: &[String],
-    raw: Raw,
-) -> Result<(), Box<Problem>> {
+pub fn set(parts: &mut [WrittenPart], file: &str, path: &[String], raw: Raw) -> Result<()> {
     let [_, kind, named, keys @ ..] = path else {
         return Ok(());
     };
@@ -207,7 +202,7 @@ impl Part {
 const MOST_PARTS: usize = 2000;
 
 /// All parts of a document, completed.
-pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>> {
     if document.parts.len() > MOST_PARTS {
         let found = format!("{} parts of a rotor", document.parts.len());
         let allowed = format!("at most {MOST_PARTS} are possible");
@@ -238,7 +233,7 @@ pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Pr
 }
 
 /// The materials known by name that parts are of, as the file could give them.
-fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>> {
     let Some(kind) = PARTS.iter().find(|kind| kind.word == "material") else {
         return Ok(Vec::new());
     };
@@ -300,12 +295,7 @@ pub fn place(parts: &[WrittenPart], path: &str) -> Option<Place> {
     own.or(first).map(|(.., place)| *place)
 }
 
-fn read(
-    kind: &'static PartKind,
-    number: usize,
-    written: &WrittenPart,
-    file: &str,
-) -> Result<Part, Box<Problem>> {
+fn read(kind: &'static PartKind, number: usize, written: &WrittenPart, file: &str) -> Result<Part> {
     let label = written.label(number);
     let place = (
         format!("{}.{label}", kind.path()),
