@@ -3,12 +3,12 @@
 use crate::arguments::Bearings;
 use crate::console;
 use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Origin};
-use auxbear::problem::Problem;
+use auxbear::problem::Result;
 use auxbear::units;
 use std::path::Path;
 
 /// Lists the catalogue or shows one bearing.
-pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
+pub fn perform(command: &Bearings) -> Result<()> {
     match command {
         Bearings::List {
             bore,
@@ -61,7 +61,7 @@ pub fn perform(command: &Bearings) -> Result<(), Box<Problem>> {
     Ok(())
 }
 
-fn read(file: Option<&Path>) -> Result<Catalogue, Box<Problem>> {
+fn read(file: Option<&Path>) -> Result<Catalogue> {
     file.map_or(Ok(Catalogue::built_in()), Catalogue::with_file)
 }
 

@@ -1,13 +1,13 @@
 //! Printing that outlives its reader: a closed pipe ends the output, not the program.
 
 use auxbear::outcome::Warning;
-use auxbear::problem::Problem;
+use auxbear::problem::Result;
 use auxbear::report::directory::failed;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
 /// Prints results. A problem where they cannot be written, as on a full disk.
-pub fn print(text: &str) -> Result<(), Box<Problem>> {
+pub fn print(text: &str) -> Result<()> {
     let mut out = stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         // The reader may have left, as `head` does; there is nobody to tell.

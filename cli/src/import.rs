@@ -3,24 +3,24 @@
 use crate::arguments::Import;
 use crate::console;
 use auxbear::import::{Compared, import};
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::{failed, misplaced};
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 
 /// Writes the scenario of a rotor of another program, and tells what was not understood.
-pub fn perform(wish: &Import) -> Result<(), Box<Problem>> {
+pub fn perform(wish: &Import) -> Result<()> {
     let imported = import(&wish.file)?;
     match &wish.out {
         None => console::print(&imported.toml)?,
         Some(path) => {
             let mut file = File::create_new(path).map_err(|error| match error.kind() {
-                ErrorKind::AlreadyExists => Box::new(Problem::at_path(
+                ErrorKind::AlreadyExists => Problem::at_path(
                     Code::OutputExists,
                     path,
                     "something of this name",
                     "a file is never written over another: choose another path",
-                )),
+                ),
                 _ => misplaced(path, &error),
             })?;
             file.write_all(imported.toml.as_bytes())

@@ -23,7 +23,7 @@ mod torque_tables;
 
 use arguments::{Arguments, Command};
 use auxbear::problem::explain::explain;
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Result};
 use auxbear::report::directory;
 use auxbear::report::export::{self, Format};
 use auxbear::run::panic_is_caught;
@@ -79,7 +79,7 @@ fn full_files_are_errors() {
     }
 }
 
-fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
+fn perform(command: &Command) -> Result<Exit> {
     match command {
         Command::Run(wish) => return run::perform(wish),
         Command::Study(wish) => return study::perform(wish),
@@ -119,11 +119,9 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
             } else {
                 report.to_text()
             })?;
-            let damaged: Vec<Problem> = report.problems().collect();
-            for problem in &damaged {
-                console::report(&problem.to_string());
-            }
-            if !damaged.is_empty() {
+            let mut damaged = report.problems().peekable();
+            if damaged.peek().is_some() {
+                damaged.for_each(|problem| console::report(&problem.to_string()));
                 return Ok(Exit::WrongInput);
             }
             if !report.passed() {
@@ -137,7 +135,7 @@ fn perform(command: &Command) -> Result<Exit, Box<Problem>> {
     Ok(Exit::Done)
 }
 
-fn report(directories: &[PathBuf], out: Option<&Path>) -> Result<(), Box<Problem>> {
+fn report(directories: &[PathBuf], out: Option<&Path>) -> Result<()> {
     let written = match (directories, out) {
         ([only], None) => directory::rewrite_report(only)?,
         (_, out) => {

@@ -3,12 +3,12 @@
 use crate::arguments::Measured;
 use crate::exit::Exit;
 use crate::run;
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::free_path;
 use auxbear::scenario::{BuiltIn, Scenario, SystemName};
 
 /// Computes what a file of this system asks for.
-pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit, Box<Problem>> {
+pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit> {
     let mut scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
     if !wanted.reads_measurements()
         && let Some(rotor) = scenario.rotor_alone()
@@ -26,7 +26,7 @@ pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit, Box<Problem>
                 wanted.word()
             ),
         );
-        return Err(Box::new(problem.on_key("system")));
+        return Err(problem.on_key("system"));
     }
     let path = wish.out.clone().unwrap_or_else(|| {
         let stem = wish.file.file_stem().unwrap_or_default();

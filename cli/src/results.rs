@@ -2,7 +2,7 @@
 
 use crate::console;
 use crate::run::listen;
-use auxbear::problem::Problem;
+use auxbear::problem::Result;
 use auxbear::scenario::{BuiltIn, STUDY_FORMAT, Scenario, StudyFile};
 use std::path::Path;
 
@@ -11,7 +11,7 @@ const PATTERNS: &str = "\n* stands for a number or name that only the run or its
 /// Marks a column that a run may lack.
 const OPTIONAL: &str = " (if found)";
 
-pub fn perform(file: &Path, sets: &[String]) -> Result<(), Box<Problem>> {
+pub fn perform(file: &Path, sets: &[String]) -> Result<()> {
     // of a study its scenario
     let scenario = match Scenario::read(file, sets, &BuiltIn) {
         Err(problem) if problem.found.contains(STUDY_FORMAT) => StudyFile::read(file)?.scenario,

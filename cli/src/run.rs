@@ -5,7 +5,7 @@ use crate::exit::Exit;
 use crate::progress::{Busy, Progress};
 use crate::{console, summary};
 use auxbear::outcome::Stop;
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::{NewDirectory, free_path};
 use auxbear::run::Options;
 use auxbear::scenario::{BuiltIn, Scenario};
@@ -25,7 +25,7 @@ static PARTIAL: Mutex<Option<PathBuf>> = Mutex::new(None);
 const ECHO: Duration = Duration::from_millis(500);
 
 /// Simulates a scenario and writes its run directory.
-pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
+pub fn perform(wish: &Run) -> Result<Exit> {
     let threads = wish.threads.as_deref().map(threads).transpose()?;
     let mut sets = wish.set.clone();
     // As an override it is checked like any value, and the resolved file repeats it.
@@ -39,11 +39,11 @@ pub fn perform(wish: &Run) -> Result<Exit, Box<Problem>> {
 }
 
 /// The number of threads asked for.
-pub fn threads(text: &str) -> Result<NonZeroUsize, Box<Problem>> {
+pub fn threads(text: &str) -> Result<NonZeroUsize> {
     text.trim().parse().map_err(|_| {
         let found = format!("\"{text}\"");
         let needed = "a whole number from 1 on is needed; without it all cores are used";
-        Box::new(Problem::new(Code::OutOfRange, "auxbear run", found, needed).on_key("--threads"))
+        Problem::new(Code::OutOfRange, "auxbear run", found, needed).on_key("--threads")
     })
 }
 
@@ -53,7 +53,7 @@ pub fn execute(
     path: &Path,
     threads: Option<NonZeroUsize>,
     quiet: bool,
-) -> Result<Exit, Box<Problem>> {
+) -> Result<Exit> {
     listen(false);
     let progress = Progress::new(quiet);
     let options = Options {

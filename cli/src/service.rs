@@ -3,7 +3,7 @@
 use crate::arguments::Service;
 use crate::console;
 use crate::digits::{four_digits, readable};
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::service::{Mode, Occasion, service};
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 const DECISIVE: f64 = 1000.0;
 
 /// Prints what many drops do to the bearings together.
-pub fn perform(wish: &Service) -> Result<(), Box<Problem>> {
+pub fn perform(wish: &Service) -> Result<()> {
     let occasions: Vec<Occasion> = wish
         .occasions
         .iter()
@@ -39,7 +39,7 @@ pub fn perform(wish: &Service) -> Result<(), Box<Problem>> {
 }
 
 /// `40:runs/full_speed`.
-fn occasion(text: &str) -> Result<Occasion, Box<Problem>> {
+fn occasion(text: &str) -> Result<Occasion> {
     let parts = text
         .split_once(':')
         .and_then(|(count, path)| Some((count.trim().parse().ok()?, path)));
@@ -48,12 +48,12 @@ fn occasion(text: &str) -> Result<Occasion, Box<Problem>> {
             count,
             directory: PathBuf::from(path),
         }),
-        _ => Err(Box::new(Problem::new(
+        _ => Err(Problem::new(
             Code::WrongType,
             "auxbear service",
             format!("\"{text}\""),
             "the number of drops and the directory of a run of one are needed, e.g. 40:runs/full_speed".to_string(),
-        ))),
+        )),
     }
 }
 

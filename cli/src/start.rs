@@ -1,7 +1,7 @@
 //! `auxbear new`.
 
 use crate::console;
-use auxbear::problem::{Code, Problem, did_you_mean};
+use auxbear::problem::{Code, Problem, Result, did_you_mean};
 use auxbear::report::directory::{failed, misplaced};
 use auxbear::scenario::{KINDS, template};
 use std::fs::{self, File};
@@ -12,19 +12,19 @@ use std::path::Path;
 const PLANNED: [&str; 2] = ["qualify", "mount"];
 
 /// Prints or writes the starting file of a kind.
-pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
+pub fn perform(kind: &str, path: Option<&Path>) -> Result<()> {
     let text = template(kind).ok_or_else(|| unknown("auxbear new", kind, KINDS))?;
     // A dash stands for the standard output.
     let Some(path) = path.filter(|path| *path != Path::new("-")) else {
         return console::print(&text);
     };
     let mut file = File::create_new(path).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Box::new(Problem::at_path(
+        ErrorKind::AlreadyExists => Problem::at_path(
             Code::OutputExists,
             path,
             "something of this name",
             "a starting file is never written over another: choose another path",
-        )),
+        ),
         _ => misplaced(path, &error),
     })?;
     file.write_all(text.as_bytes()).map_err(|error| {
@@ -36,11 +36,11 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<(), Box<Problem>> {
 /// What is wrong with a kind of file that a command does not have; it has these.
 pub fn unknown(command: &str, kind: &str, kinds: &[&str]) -> Box<Problem> {
     let needed = format!("a kind is needed: {}", kinds.join(", "));
-    Box::new(if PLANNED.contains(&kind) {
+    if PLANNED.contains(&kind) {
         let found = format!("\"{kind}\", which is planned but not built yet");
         Problem::new(Code::NotBuilt, command, found, needed)
     } else {
         Problem::new(Code::UnknownWord, command, format!("\"{kind}\""), needed)
             .with_hint(did_you_mean(kind, kinds.iter().copied()))
-    })
+    }
 }

@@ -4,7 +4,7 @@ use crate::arguments::Study as Wish;
 use crate::digits::readable;
 use crate::exit::Exit;
 use crate::{console, run};
-use auxbear::problem::{Code, Problem};
+use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::free_path;
 use auxbear::report::study::{Directory, Done, chosen};
 use auxbear::run::Options;
@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 const PAUSE: Duration = Duration::from_secs(2);
 
 /// Begins a study or goes on with it, or runs one of its members with its full report.
-pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
+pub fn perform(wish: &Wish) -> Result<Exit> {
     let threads = wish.threads.as_deref().map(run::threads).transpose()?;
     let file = StudyFile::read(&wish.file)?;
     let name = wish
@@ -46,7 +46,7 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
             let found = format!("member {k} of a study of {} members", study.members());
             let allowed = format!("a number from 0 to {} is needed", study.members() - 1);
             let problem = Problem::at_path(Code::OutOfRange, &wish.file, found, allowed);
-            return Err(Box::new(problem.on_key("--member")));
+            return Err(problem.on_key("--member"));
         }
         let scenario = study.scenario(k)?;
         let path = wish
@@ -102,7 +102,7 @@ pub fn perform(wish: &Wish) -> Result<Exit, Box<Problem>> {
     }
 }
 
-fn whole(text: &str, key: &str) -> Result<usize, Box<Problem>> {
+fn whole(text: &str, key: &str) -> Result<usize> {
     text.trim().parse().map_err(|_| {
         let needed = "a whole number is needed";
         let problem = Problem::new(
@@ -111,7 +111,7 @@ fn whole(text: &str, key: &str) -> Result<usize, Box<Problem>> {
             format!("\"{text}\""),
             needed,
         );
-        Box::new(problem.on_key(key))
+        problem.on_key(key)
     })
 }
 

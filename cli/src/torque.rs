@@ -3,7 +3,7 @@
 use crate::arguments::Torque;
 use crate::exit::Exit;
 use crate::run;
-use auxbear::problem::Problem;
+use auxbear::problem::Result;
 use auxbear::report::directory::free_path;
 use auxbear::scenario::{BuiltIn, FORMAT, Scenario};
 
@@ -11,7 +11,7 @@ use auxbear::scenario::{BuiltIn, FORMAT, Scenario};
 const PLACE: &str = "auxbear torque";
 
 /// Computes the moments of one bearing, by the scenario that the words of the command line make.
-pub fn perform(wish: &Torque) -> Result<Exit, Box<Problem>> {
+pub fn perform(wish: &Torque) -> Result<Exit> {
     let text = format!("format = \"{FORMAT}\"\nsystem = \"torque\"\n");
     let scenario = Scenario::parse(&text, PLACE, &overrides(wish), &BuiltIn)?;
     let path = wish

@@ -1,10 +1,10 @@
 //! A bearing while its file is read.
 
 use super::bearing::Bearing;
-use problem::Problem;
+use problem::Result;
 use std::collections::BTreeMap;
 
-pub(super) type Read<T> = Result<T, Box<Problem>>;
+pub(super) type Read<T> = Result<T>;
 
 /// A file while it is read.
 pub(super) struct Reader<'a> {

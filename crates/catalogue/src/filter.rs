@@ -6,7 +6,7 @@ use super::key;
 use problem::key::Kind;
 use problem::raw::Raw;
 use problem::read::Reader as ValueReader;
-use problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Problem, Result, did_you_mean};
 use std::collections::BTreeMap;
 
 /// How far a bore may be from the one asked for and still be it: inches converted to a tenth of a micrometre.
@@ -36,7 +36,7 @@ pub struct Filter {
 
 impl Filter {
     /// Reads what was typed; `place` stands for the file in messages, and keys appear as `--bore`.
-    pub fn read(texts: &FilterTexts<'_>, place: &str) -> Result<Filter, Box<Problem>> {
+    pub fn read(texts: &FilterTexts<'_>, place: &str) -> Result<Filter> {
         let reader = Reader {
             text: "",
             file: place,

@@ -57,7 +57,7 @@ pub use json::to_json;
 pub use meant::Meant;
 pub use ring::Ring;
 
-use problem::Problem;
+use problem::Result;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -117,7 +117,7 @@ impl Catalogue {
     }
 
     /// The built-in bearings with those of a file, which replace built-in ones of the same name.
-    pub fn with_file(path: &Path) -> Result<Catalogue, Box<Problem>> {
+    pub fn with_file(path: &Path) -> Result<Catalogue> {
         Catalogue::with_text(
             &problem::read_text(path, "a file of bearings")?,
             &path.display().to_string(),
@@ -125,7 +125,7 @@ impl Catalogue {
     }
 
     /// The same from a text; the name stands for the file in messages.
-    pub fn with_text(text: &str, file: &str) -> Result<Catalogue, Box<Problem>> {
+    pub fn with_text(text: &str, file: &str) -> Result<Catalogue> {
         let mut added = read::read(text, file, false)?;
         for bearing in &mut added {
             bearing.origin = Origin::File {

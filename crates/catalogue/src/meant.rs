@@ -2,7 +2,7 @@
 
 use super::designation::{self, Designation};
 use super::{Bearing, Catalogue};
-use problem::{Code, Problem, did_you_mean};
+use problem::{Code, Problem, Result, did_you_mean};
 
 /// Most names that a message lists.
 const MOST_NAMES: usize = 8;
@@ -23,7 +23,7 @@ impl Catalogue {
     ///
     /// # Errors
     /// Where there is none: which names are near, or what is missing.
-    pub fn meant(&self, name: &str, place: &str) -> Result<Meant<'_>, Box<Problem>> {
+    pub fn meant(&self, name: &str, place: &str) -> Result<Meant<'_>> {
         if let Some(bearing) = self.find(name) {
             return Ok(Meant {
                 bearing,
@@ -36,7 +36,7 @@ impl Catalogue {
         let known = |name: &str| self.find(name).is_some();
         let own = match designation::read(name, &known) {
             Some(Designation::Known { name, left_out }) => Some((name, left_out)),
-            Some(Designation::Missing(why)) => return Err(Box::new(problem(why))),
+            Some(Designation::Missing(why)) => return Err(problem(why)),
             None => None,
         };
         let meant = own.and_then(|(own, left_out)| Some((self.find(&own)?, left_out)));
@@ -51,12 +51,10 @@ impl Catalogue {
                 let near = did_you_mean(name, names.iter().map(String::as_str));
                 let listed = names[..names.len().min(MOST_NAMES)].join(", ");
                 let count = names.len();
-                Err(Box::new(
-                    problem(format!(
+                Err(problem(format!(
                         "one of its {count} bearings is needed ({listed}, …); auxbear bearings list names them"
                     ))
-                    .with_hint(near),
-                ))
+                    .with_hint(near))
             }
         }
     }

@@ -19,12 +19,12 @@ pub(super) fn read(text: &str, file: &str, built_in: bool) -> Read<Vec<Bearing>>
         sources: BTreeMap::new(),
     };
     if text.trim().is_empty() {
-        return Err(Box::new(Problem::new(
+        return Err(Problem::new(
             Code::FileEmpty,
             file,
             "an empty file",
             format!("bearings are needed, after format = \"{FORMAT}\""),
-        )));
+        ));
     }
     let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
     reader.whole(root.get_ref())
@@ -39,11 +39,9 @@ impl Reader<'_> {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Box<Problem> {
-        Box::new(
-            Problem::new(code, self.file, found, allowed)
-                .at(Place::of_offset(self.text, start))
-                .on_key(key),
-        )
+        Problem::new(code, self.file, found, allowed)
+            .at(Place::of_offset(self.text, start))
+            .on_key(key)
     }
 
     fn whole(&mut self, root: &DeTable<'_>) -> Read<Vec<Bearing>> {
@@ -102,7 +100,7 @@ impl Reader<'_> {
         let (start, found) = match root.get_key_value("format") {
             None => {
                 let problem = Problem::new(Code::UnknownFormat, self.file, "nothing", needed);
-                return Err(Box::new(problem.on_key("format")));
+                return Err(problem.on_key("format"));
             }
             Some((key, value)) => match value.get_ref() {
                 DeValue::String(found) if found == FORMAT => return Ok(()),

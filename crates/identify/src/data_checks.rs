@@ -19,44 +19,26 @@ use physics::rolling::RollingSet;
 use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::uncertain::Uncertain;
 
-/// What a rise of temperature changes.
-#[derive(Clone, Copy)]
-pub enum ByTemperature<'a> {
-    /// The viscosity: ν(start + rise)/ν(start) for a rise in K.
-    Viscosity(&'a dyn Fn(f64) -> f64),
-    /// The viscosity: its relative change per kelvin, 1/K, from one bound to the other, as -0.06 to -0.03: ν ∝ e^(change·rise).
-    ViscosityPerKelvin(f64, f64),
-    /// The whole moment: its relative change per kelvin, 1/K: M ∝ e^(change·rise), within two deviations.
-    MomentPerKelvin(Uncertain),
-}
-
 /// What is known beside the tests.
 #[derive(Clone, Copy)]
-pub struct CheckSettings<'a> {
+pub struct CheckSettings {
     /// Speed at which the tests are to be analysed, rad/s.
     pub wanted_speed: Option<f64>,
     /// Number of balls with which the cage signal was made.
     pub ball_count: Option<u32>,
-    /// Whether the masses of balls and cage are known; if not the cage is taken from none to twice the balls.
-    pub masses_known: bool,
-    /// What temperature changes, where one is measured.
-    pub temperature: Option<ByTemperature<'a>>,
-    /// Part of M that depends on viscosity, from its least to its largest, 1; all of it where the change of the moment is given.
-    pub viscous_part: (f64, f64),
+    /// Relative change of the moment per kelvin, 1/K, where a temperature is measured: M ∝ e^(change·rise), within two deviations.
+    pub moment_per_kelvin: Option<Uncertain>,
     /// Shortest hold after a spin-up that shows whether the torque settles, s.
     pub shortest_hold: f64,
 }
 
-impl Default for CheckSettings<'_> {
-    /// Nothing known but the masses. The viscous part is from 0.3 to 1: a greased bearing under light load. The hold is 4 s: the
-    /// source paper's slow change takes 3 to 4 s.
+impl Default for CheckSettings {
+    /// Nothing known. The hold is 4 s: the source paper's slow change takes 3 to 4 s.
     fn default() -> Self {
         Self {
             wanted_speed: None,
             ball_count: None,
-            masses_known: true,
-            temperature: None,
-            viscous_part: (0.3, 1.0),
+            moment_per_kelvin: None,
             shortest_hold: 4.0,
         }
     }
@@ -125,15 +107,6 @@ pub enum Doubt {
     MixedLoads {
         /// Each test with its load, N.
         loads: Vec<(String, f64)>,
-    },
-    /// The masses of balls and cage are not known, and their inertia matters.
-    InertiaMissing {
-        /// Name of the test in which it matters most.
-        test: String,
-        /// Largest |Ω̇|, rad/s².
-        acceleration: f64,
-        /// Part of inertia in t_O there, N m, with no cage and with one of twice the balls' mass; none if the balls' mass is missing too.
-        torque: Option<(f64, f64)>,
     },
     /// The cage settles at another ratio than rolling, as it would if the balls had been counted wrongly.
     WrongBallCount {
@@ -216,7 +189,6 @@ pub fn doubts(
             loads: tests.iter().map(|t| (t.name.clone(), t.load)).collect(),
         });
     }
-    inertia(tests, set, settings, &mut found);
     for test in tests {
         let top = test.fastest();
         if let Some(wanted) = settings.wanted_speed
@@ -242,36 +214,6 @@ pub fn doubts(
         hold(test, steady, settings, &mut found);
     }
     Ok(found)
-}
-
-fn inertia(
-    tests: &[&Measurement],
-    set: &RollingSet<f64>,
-    settings: &CheckSettings,
-    found: &mut Vec<Doubt>,
-) {
-    let sound = |mass: f64| mass.is_finite() && mass > 0.0;
-    let balls = sound(set.balls_mass);
-    if settings.masses_known && balls && set.cage_mass.is_finite() && set.cage_mass >= 0.0 {
-        return;
-    }
-    let quickest = |test: &Measurement| {
-        test.acceleration
-            .iter()
-            .fold(0.0, |a: f64, x| a.max(x.abs()))
-    };
-    let Some(test) = tests
-        .iter()
-        .max_by(|a, b| quickest(a).total_cmp(&quickest(b)))
-    else {
-        return;
-    };
-    let with = |cage_mass: f64| RollingSet { cage_mass, ..*set }.outer_inertia() * quickest(test);
-    found.push(Doubt::InertiaMissing {
-        test: test.name.clone(),
-        acceleration: quickest(test),
-        torque: balls.then(|| (with(0.0), with(2.0 * set.balls_mass))),
-    });
 }
 
 fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
@@ -445,36 +387,15 @@ fn hold(
         return;
     };
     let rise = median(temperature);
-    let Some(changed) = settings.temperature else {
+    let Some(change) = settings.moment_per_kelvin else {
         return;
     };
-    let by_viscosity = |ratio: f64| ratio.powf(2.0 / 3.0) - 1.0;
-    let (effects, (few, much)) = match changed {
-        ByTemperature::Viscosity(law) => ([by_viscosity(law(rise)); 2], settings.viscous_part),
-        ByTemperature::ViscosityPerKelvin(a, b) => (
-            [a, b].map(|change| by_viscosity((change * rise).exp())),
-            settings.viscous_part,
-        ),
-        ByTemperature::MomentPerKelvin(change) => (
-            [-2.0, 2.0].map(|off| ((change.value + off * change.deviation) * rise).exp() - 1.0),
-            (1.0, 1.0),
-        ),
-    };
+    let bounds = [-2.0, 2.0].map(|off| change.value + off * change.deviation);
+    let effects = bounds.map(|change| moment.value.abs() * ((change * rise).exp() - 1.0));
     if !effects.iter().all(|effect| effect.is_finite()) {
         return;
     }
-    let effects = effects.map(|effect| moment.value.abs() * effect);
-    let all = [
-        few * effects[0],
-        much * effects[0],
-        few * effects[1],
-        much * effects[1],
-    ];
-    let expected = all
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
-            (a.min(*x), b.max(*x))
-        });
+    let expected = (effects[0].min(effects[1]), effects[0].max(effects[1]));
     let same_way = difference.value * (expected.0 + expected.1) > 0.0;
     let most = expected.0.abs().max(expected.1.abs());
     if same_way && most >= difference.value.abs() - 2.0 * difference.deviation {

@@ -14,33 +14,15 @@
 use crate::measurement::Measurement;
 use crate::moment::{CARRIED_ON, SteadyMoment};
 use crate::series::{RunningVariance, trapezoid};
-use crate::slip::{self, SlipSettings, slip_at};
+use crate::slip::{LIMIT, slip_at};
 use physics::rolling::RollingSet;
 use statistics::interpolation::between;
 use statistics::normal::{below, density};
 use statistics::uncertain::Uncertain;
 
-/// What is known beside a test.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SkidSettings {
-    /// What counts as rolling: the limit serves for the skid too.
-    pub slip: SlipSettings,
-    /// Mean of the prior of F, N; none for a tenth of M over the arm of F, which is assumed.
-    pub mean_friction: Option<f64>,
-    /// Bayes factor, or its inverse, from which on the data count as evidence, 1.
-    pub bayes_factor: f64,
-}
-
-impl Default for SkidSettings {
-    /// 3: evidence worth a mention by the usual scale (Kass and Raftery 1995, from memory).
-    fn default() -> Self {
-        Self {
-            slip: SlipSettings::default(),
-            mean_friction: None,
-            bayes_factor: 3.0,
-        }
-    }
-}
+/// Bayes factor, or its inverse, from which on the data count as evidence, 1: worth a mention by the usual scale (Kass and Raftery
+/// 1995, from memory).
+const BAYES_FACTOR: f64 = 3.0;
 
 /// Spin of the balls at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,18 +53,17 @@ pub struct Skid {
 /// - `test`: a spin-up from rest with a cage signal
 /// - `steady`: M(Ω) at its load; outside its speeds M is taken from the next of them, with half of it as deviation
 /// - `set`: balls and cage
-/// - `settings`: what counts as skid, prior of F
+/// - `mean_friction`: mean of the prior of F, N; none for a tenth of M over the arm of F, which is assumed
 ///
 /// Refused: no cage signal, no engagement.
 pub fn skid(
     test: &Measurement,
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
-    settings: &SkidSettings,
+    mean_friction: Option<f64>,
 ) -> Result<Skid, String> {
     test.sound()?;
     steady.sound()?;
-    slip::sound(&settings.slip)?;
     let (Some(cage), Some(start)) = (&test.cage, test.engagement) else {
         return Err(format!(
             "{}: the spin of the balls needs a cage signal and the time of engagement",
@@ -91,10 +72,7 @@ pub fn skid(
     };
     let (s, radius) = (set.ball_ratio, set.inner_track_radius);
     let inertia = 0.4 * set.balls_mass * s * radius * (1.0 + s);
-    if !(inertia > 0.0 && inertia.is_finite())
-        || settings.bayes_factor.is_nan()
-        || settings.bayes_factor < 1.0
-    {
+    if !(inertia > 0.0 && inertia.is_finite()) {
         return Err("masses and radii must be positive, and the Bayes factor at least 1".into());
     }
     let orbit = (set.balls_mass + set.cage_mass) * radius * (1.0 + s).powi(2);
@@ -129,10 +107,7 @@ pub fn skid(
                 .hypot(moment.deviation)
                 .hypot(test.scale_deviation * (test.torque[k] - moment.value))
             / arm;
-        friction += weight
-            * settings
-                .mean_friction
-                .unwrap_or(0.1 * moment.value.abs() / arm);
+        friction += weight * mean_friction.unwrap_or(0.1 * moment.value.abs() / arm);
         if k == first {
             // the jump at the engagement lies somewhere within a step of the record, or within its deviation
             shared += weight.max(test.engagement_deviation) * moment.value.abs() / arm;
@@ -144,7 +119,7 @@ pub fn skid(
         let Some(deviation) = between(&cage.time, &cage.deviation, time) else {
             continue;
         };
-        let Some(slip) = slip_at(test, set, &settings.slip, time) else {
+        let Some(slip) = slip_at(test, set, time) else {
             continue;
         };
         let rolling = set.ball_spin(speed);
@@ -163,7 +138,7 @@ pub fn skid(
         points.push(SkidPoint {
             time,
             spin_ratio: ratio,
-            skidding: probability(ratio, slip.slip.value.abs(), settings),
+            skidding: probability(ratio, slip.slip.value.abs()),
         });
     }
     if points.is_empty() {
@@ -181,7 +156,7 @@ pub fn skid(
 }
 
 /// Probability of a skid beyond the limit; none where neither case is favoured enough.
-fn probability(ratio: Uncertain, slip: f64, settings: &SkidSettings) -> Option<f64> {
+fn probability(ratio: Uncertain, slip: f64) -> Option<f64> {
     let deviation = ratio.deviation.max(1e-9);
     let place = |x: f64| (x - ratio.value) / deviation;
     // mean of the likelihood over an interval
@@ -195,7 +170,7 @@ fn probability(ratio: Uncertain, slip: f64, settings: &SkidSettings) -> Option<f
     let (least, most) = ((1.0 - slip).max(0.0), 1.0 + slip);
     let grips = mean(least, most);
     let skids = mean(0.0, least);
-    let limit = 1.0 - settings.slip.limit;
+    let limit = 1.0 - LIMIT;
     // far outside both, the nearer end counts
     let (grips, skids) = if grips + skids > 1e-300 {
         (grips, skids)
@@ -206,7 +181,7 @@ fn probability(ratio: Uncertain, slip: f64, settings: &SkidSettings) -> Option<f
     };
     if grips > 0.0 && skids > 0.0 {
         let factor = skids / grips;
-        if factor < settings.bayes_factor && factor > 1.0 / settings.bayes_factor {
+        if factor < BAYES_FACTOR && factor > 1.0 / BAYES_FACTOR {
             return None;
         }
     }

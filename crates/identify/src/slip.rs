@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   S = 1 - 2(1+s) ω_c/Ω          0 where the balls roll, 1 where the cage rests
-//!   σ_S² = (1-S)² [(σ_c/ω_c)² + (σ_Ω/Ω)² + σ_ratio²]
+//!   σ_S² = (1-S)² [(σ_c/ω_c)² + (σ_Ω/Ω)²]          the rolling ratio 1/(2(1+s)) is exact, as in a radial bearing
 //! ```
 //! Rolling is *known* where |S| < limit has a probability of 0.95 or more; it is *established* from the time on after which
 //! |S| > limit is less likely than not for the rest of the record.
@@ -22,28 +22,11 @@ use statistics::uncertain::Uncertain;
 /// Deviations from 0 beyond which a slip is one, however wide its band.
 const CERTAIN: f64 = 3.0;
 
-/// What counts as rolling.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlipSettings {
-    /// Largest |S| that counts as rolling, 1.
-    pub limit: f64,
-    /// Relative standard deviation of the rolling ratio 1/(2(1+s)), 1: of track radii and contact angle.
-    pub ratio_deviation: f64,
-    /// Slip is reported only above this part of the fastest speed of the test, 1.
-    pub least_part: f64,
-}
-
-impl Default for SlipSettings {
-    /// 1 %: the limit below which F is read from the rolling formula. The ratio is exact, as in a radial bearing. Below 5 % of
-    /// the fastest speed nothing is reported: balls that have just begun to turn have no slip worth the name.
-    fn default() -> Self {
-        Self {
-            limit: 0.01,
-            ratio_deviation: 0.0,
-            least_part: 0.05,
-        }
-    }
-}
+/// Largest |S| that counts as rolling, 1: the limit below which F is read from the rolling formula.
+pub const LIMIT: f64 = 0.01;
+/// Slip is reported only above this part of the fastest speed of the test, 1: balls that have just begun to turn have no slip worth
+/// the name.
+const LEAST_PART: f64 = 0.05;
 
 /// Slip at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,16 +78,10 @@ pub enum Established {
 ///
 /// - `test`: a test with a cage signal
 /// - `set`: for s
-/// - `settings`: what counts as rolling
 ///
 /// Refused: a test without a cage signal, or whose shaft never turns under it.
-pub fn cage_slip(
-    test: &Measurement,
-    set: &RollingSet<f64>,
-    settings: &SlipSettings,
-) -> Result<CageSlip, String> {
+pub fn cage_slip(test: &Measurement, set: &RollingSet<f64>) -> Result<CageSlip, String> {
     test.sound()?;
-    sound(settings)?;
     let Some(cage) = &test.cage else {
         return Err(format!(
             "{}: without a cage signal its slip is not known",
@@ -114,7 +91,7 @@ pub fn cage_slip(
     let points: Vec<SlipPoint> = cage
         .time
         .iter()
-        .filter_map(|&time| slip_at(test, set, settings, time))
+        .filter_map(|&time| slip_at(test, set, time))
         .collect();
     if points.is_empty() {
         return Err(format!(
@@ -128,12 +105,12 @@ pub fn cage_slip(
         .collect();
     // a band wider than the limit around no slip says nothing of it
     let shown = |p: &&&SlipPoint| {
-        p.slip.deviation <= settings.limit || p.slip.value.abs() > CERTAIN * p.slip.deviation
+        p.slip.deviation <= LIMIT || p.slip.value.abs() > CERTAIN * p.slip.deviation
     };
     let seen = after.iter().filter(shown).map(|p| p.slipping);
     let slipped = seen.reduce(f64::max);
     Ok(CageSlip {
-        limit: settings.limit,
+        limit: LIMIT,
         slipped,
         established: established(&after),
         points,
@@ -141,15 +118,10 @@ pub fn cage_slip(
 }
 
 /// Slip at a time, where shaft and cage are known and the shaft turns.
-pub(crate) fn slip_at(
-    test: &Measurement,
-    set: &RollingSet<f64>,
-    settings: &SlipSettings,
-    time: f64,
-) -> Option<SlipPoint> {
+pub(crate) fn slip_at(test: &Measurement, set: &RollingSet<f64>, time: f64) -> Option<SlipPoint> {
     let cage = test.cage.as_ref()?;
     let speed = between(&test.time, &test.speed, time)?;
-    if speed.abs() <= settings.least_part * test.fastest() || speed == 0.0 {
+    if speed.abs() <= LEAST_PART * test.fastest() || speed == 0.0 {
         return None;
     }
     let speed_deviation = between(&test.time, &test.speed_deviation, time)?;
@@ -159,32 +131,13 @@ pub(crate) fn slip_at(
     let ratio = own / rolling;
     let slip = Uncertain::new(
         1.0 - ratio,
-        (deviation / rolling)
-            .hypot(ratio * speed_deviation / speed)
-            .hypot(ratio * settings.ratio_deviation),
+        (deviation / rolling).hypot(ratio * speed_deviation / speed),
     );
     Some(SlipPoint {
         time,
         slip,
-        slipping: beyond(slip.value, slip.deviation, settings.limit),
+        slipping: beyond(slip.value, slip.deviation, LIMIT),
     })
-}
-
-pub(crate) fn sound(settings: &SlipSettings) -> Result<(), String> {
-    for (what, value, least) in [
-        ("limit of slip", settings.limit, f64::MIN_POSITIVE),
-        (
-            "deviation of the rolling ratio",
-            settings.ratio_deviation,
-            0.0,
-        ),
-        ("least part of the speed", settings.least_part, 0.0),
-    ] {
-        if !(value >= least && value < 1.0) {
-            return Err(format!("the {what} is {value}; it must be from 0 to 1"));
-        }
-    }
-    Ok(())
 }
 
 fn established(after: &[&SlipPoint]) -> Established {

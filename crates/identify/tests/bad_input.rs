@@ -5,8 +5,8 @@ use identify::data_checks::{CheckSettings, doubts};
 use identify::dissipation::dissipation;
 use identify::loss::{LossMap, LossSettings, Rolling, loss};
 use identify::moment::{MomentSettings, SteadyMoment, moment};
-use identify::skid::{SkidSettings, skid};
-use identify::slip::{SlipSettings, cage_slip};
+use identify::skid::skid;
+use identify::slip::cage_slip;
 use identify::{CageTrace, Measurement, SetDeviation};
 use physics::rolling::RollingSet;
 use proptest::prelude::*;
@@ -112,10 +112,10 @@ proptest! {
         }
         let _ = dissipation(&test, &set, &SetDeviation::default(), None);
         let _ = dissipation(&test, &set, &SetDeviation::default(), Some((odd(&mut random), odd(&mut random))));
-        if let Ok(found) = cage_slip(&test, &set, &SlipSettings::default()) {
+        if let Ok(found) = cage_slip(&test, &set) {
             prop_assert!(found.slipped.is_none_or(|p| (0.0..=1.0).contains(&p)));
         }
-        if let Ok(found) = skid(&test, &curve, &set, &SkidSettings::default()) {
+        if let Ok(found) = skid(&test, &curve, &set, None) {
             prop_assert!(found.skidded.is_none_or(|p| (0.0..=1.0).contains(&p)));
         }
     }

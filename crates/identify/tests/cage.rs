@@ -2,8 +2,8 @@
 
 use crate::made_up::{Random, covered, lagging_spin_up, rolling_spin_up, seeds, set, steady};
 use identify::moment::SteadyMoment;
-use identify::skid::{SkidSettings, skid};
-use identify::slip::{Established, SlipSettings, cage_slip};
+use identify::skid::skid;
+use identify::slip::{Established, cage_slip};
 use identify::{CageTrace, Measurement};
 
 /// A steady moment without error.
@@ -26,7 +26,7 @@ fn the_true_slip_lies_in_its_band() {
         let mut random = Random::new(7000 + seed);
         let lag = 0.01 + 0.04 * random.uniform();
         let run = lagging_spin_up(&mut random, 7200.0, lag, 0.0);
-        let found = cage_slip(&run.test, &set(), &SlipSettings::default()).unwrap();
+        let found = cage_slip(&run.test, &set()).unwrap();
         for point in &found.points {
             let k = (point.time / 1e-3).round() as usize;
             of += 1.0;
@@ -73,7 +73,7 @@ fn a_rolling_cage_never_slipped() {
         vec![0.005; test.time.len()],
     ));
     test.speed_deviation = vec![0.01; test.time.len()];
-    let found = cage_slip(&test, &set(), &SlipSettings::default()).unwrap();
+    let found = cage_slip(&test, &set()).unwrap();
     assert_eq!(found.established, Established::Throughout);
     assert!(found.slipped.unwrap() < 0.05, "{:?}", found.slipped);
     // slip is reported only where the shaft turns
@@ -85,7 +85,7 @@ fn a_rolling_cage_never_slipped() {
         .speed
         .iter_mut()
         .for_each(|s| *s = 0.0);
-    let found = cage_slip(&test, &set(), &SlipSettings::default()).unwrap();
+    let found = cage_slip(&test, &set()).unwrap();
     assert_eq!(found.established, Established::Never);
     assert!(
         found
@@ -98,9 +98,8 @@ fn a_rolling_cage_never_slipped() {
 #[test]
 fn without_a_cage_signal_slip_is_not_known() {
     let (test, _) = rolling_spin_up(&mut Random::new(9), 7200.0, 0.2, 0.0);
-    let settings = SlipSettings::default();
     assert!(
-        cage_slip(&test, &set(), &settings)
+        cage_slip(&test, &set())
             .unwrap_err()
             .contains("without a cage signal")
     );
@@ -110,18 +109,9 @@ fn without_a_cage_signal_slip_is_not_known() {
         ..test
     };
     assert!(
-        cage_slip(&test, &set(), &settings)
+        cage_slip(&test, &set())
             .unwrap_err()
             .contains("does not turn")
-    );
-    let bad = SlipSettings {
-        limit: f64::NAN,
-        ..settings
-    };
-    assert!(
-        cage_slip(&test, &set(), &bad)
-            .unwrap_err()
-            .contains("limit of slip")
     );
 }
 
@@ -133,7 +123,7 @@ fn skidding_balls_are_reported_only_by_a_good_torque() {
         for amount in [0.0, 0.8] {
             let run = lagging_spin_up(&mut Random::new(8000 + seed), 7200.0, 0.02, amount);
             // a lab's sensor: nothing beyond the spin-up
-            let found = skid(&run.test, &exact(), &set(), &SkidSettings::default()).unwrap();
+            let found = skid(&run.test, &exact(), &set(), None).unwrap();
             assert!(
                 found.known_until.is_none_or(|t| t < 0.3),
                 "{:?}",
@@ -154,11 +144,7 @@ fn skidding_balls_are_reported_only_by_a_good_torque() {
                 scale_deviation: 0.0,
                 ..run.test.clone()
             };
-            let settings = SkidSettings {
-                mean_friction: Some(0.002),
-                ..SkidSettings::default()
-            };
-            let found = skid(&test, &exact(), &set(), &settings).unwrap();
+            let found = skid(&test, &exact(), &set(), Some(0.002)).unwrap();
             // after the cage has caught up, before the balls have
             for point in found
                 .points
@@ -183,7 +169,6 @@ fn skidding_balls_are_reported_only_by_a_good_torque() {
 #[test]
 fn a_skid_needs_cage_and_engagement() {
     let run = lagging_spin_up(&mut Random::new(1), 7200.0, 0.02, 0.0);
-    let settings = SkidSettings::default();
     let without = Measurement {
         engagement: None,
         engagement_deviation: 0.0,
@@ -191,7 +176,7 @@ fn a_skid_needs_cage_and_engagement() {
         ..run.test.clone()
     };
     assert!(
-        skid(&without, &exact(), &set(), &settings)
+        skid(&without, &exact(), &set(), None)
             .unwrap_err()
             .contains("engagement")
     );
@@ -200,7 +185,7 @@ fn a_skid_needs_cage_and_engagement() {
         ..run.test
     };
     assert!(
-        skid(&without, &exact(), &set(), &settings)
+        skid(&without, &exact(), &set(), None)
             .unwrap_err()
             .contains("cage signal")
     );

@@ -31,7 +31,6 @@ fn a_known_friction_lies_in_its_band() {
             cage_mass: 0.05,
             inner_track_radius: 0.0,
         },
-        ..LossSettings::default()
     };
     let (mut inside, mut of, mut map_inside, mut map_of) = (0.0, 0.0, 0.0, 0.0);
     for seed in 0..count {

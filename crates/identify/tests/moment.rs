@@ -81,7 +81,6 @@ fn the_law_that_made_the_data_wins() {
     let settings = MomentSettings {
         viscosity: Some(viscosity),
         skf: Some(law),
-        ..MomentSettings::default()
     };
     let truths: [(Form, &dyn Fn(f64) -> f64); 3] = [
         (Form::Palmgren, &palmgren),

@@ -2,7 +2,7 @@
 
 use identify::CageTrace;
 use identify::signals::{Signals, measurement};
-use identify::slip::{SlipSettings, cage_slip};
+use identify::slip::cage_slip;
 use measure::pulse::{Edges, Wheel, number};
 use measure::speed::{Speed, SpeedSettings, Transient, smooth};
 use measure::torque_sensor::Torque;
@@ -228,6 +228,6 @@ fn a_cage_that_rolls_at_the_lock_does_not_slip() {
         cage: Some(trace),
         ..found
     };
-    let slip = cage_slip(&test, &set, &SlipSettings::default()).unwrap();
+    let slip = cage_slip(&test, &set).unwrap();
     assert!(slip.slipped.unwrap() < 1e-3, "{:?}", slip.slipped);
 }

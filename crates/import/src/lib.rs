@@ -19,7 +19,7 @@ mod workbook;
 use workbook::of_workbook;
 
 use draft::Draft;
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use rotor::{Analysis, C64};
 use scenario::{BuiltIn, Scenario};
 use simulate::rotor::RotorModel;
@@ -71,7 +71,7 @@ const LARGEST: u64 = 10_000_000;
 ///
 /// # Errors
 /// Where the file is none that is understood.
-pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
+pub fn import(path: &Path) -> Result<Imported> {
     let name = path.display().to_string();
     let draft = read(path, &name)?;
     let toml = draft.toml();
@@ -117,7 +117,7 @@ pub fn import(path: &Path) -> Result<Imported, Box<Problem>> {
         })
     });
     Ok(Imported {
-        eigenvalues: compared.collect::<Result<_, Box<Problem>>>()?,
+        eigenvalues: compared.collect::<Result<_>>()?,
         kind: draft.kind.clone(),
         notes: draft.notes.clone(),
         toml,
@@ -131,7 +131,7 @@ fn of_workbook(_bytes: &[u8]) -> Result<Vec<Vec<String>>, String> {
 }
 
 /// The draft of a file, recognised by its content.
-fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
+fn read(path: &Path, name: &str) -> Result<Draft> {
     let opened = problem::open_file(path).and_then(|file| {
         let mut bytes = Vec::new();
         file.take(LARGEST + 1).read_to_end(&mut bytes)?;
@@ -143,22 +143,17 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
             _ => Code::FileUnreadable,
         };
         let found = format!("no file that can be read ({error})");
-        Box::new(Problem::at_path(
+        Problem::at_path(
             code,
             path,
             found,
             "a rotor or a table of sections is needed",
-        ))
+        )
     })?;
     if bytes.len() as u64 > LARGEST {
         let found = format!("a file of more than {LARGEST} bytes");
         let needed = "a rotor or a table of sections is needed";
-        return Err(Box::new(Problem::at_path(
-            Code::FileTooLarge,
-            path,
-            found,
-            needed,
-        )));
+        return Err(Problem::at_path(Code::FileTooLarge, path, found, needed));
     }
     // a workbook is a ZIP archive
     if bytes.starts_with(b"PK\x03\x04") {
@@ -193,5 +188,5 @@ fn read(path: &Path, name: &str) -> Result<Draft, Box<Problem>> {
 /// A file that is none of those that are understood.
 fn unknown(name: &str, found: &str) -> Box<Problem> {
     let allowed = "a rotor saved by ROSS 2 or 3 (TOML or JSON), or a table of sections (CSV or XLSX) with units in its header, is needed";
-    Box::new(Problem::new(Code::ImportFormat, name, found, allowed))
+    Problem::new(Code::ImportFormat, name, found, allowed)
 }

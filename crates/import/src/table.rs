@@ -11,7 +11,7 @@
 
 use crate::draft::{Draft, cleaned};
 use physics::shaft::{Annulus, MATERIALS, Material};
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use rotor::{Disk, Element};
 use units::Unit;
 
@@ -57,28 +57,27 @@ struct Column {
 }
 
 /// The draft of a table.
-pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Problem>> {
+pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft> {
     let problem = |line: usize, found: String, allowed: &str| {
         Problem::new(Code::SectionTable, file, found, allowed).at(Place::Line { line, column: 1 })
     };
     let Some((head, rows)) = rows.split_first() else {
         let found = "an empty table".to_string();
-        return Err(Box::new(problem(
+        return Err(problem(
             1,
             found,
             "a header and a row for each section are needed",
-        )));
+        ));
     };
     if rows.len() > MOST_ROWS {
         let found = format!("{} rows of sections", rows.len());
         let allowed = format!("at most {MOST_ROWS} are possible");
-        return Err(Box::new(problem(1, found, &allowed)));
+        return Err(problem(1, found, &allowed));
     }
     let mut notes = Vec::new();
     let mut columns: Vec<Option<Column>> = Vec::new();
     for text in head {
-        columns
-            .push(column(text).map_err(|(found, allowed)| Box::new(problem(1, found, &allowed)))?);
+        columns.push(column(text).map_err(|(found, allowed)| problem(1, found, &allowed))?);
         if columns.last().is_some_and(Option::is_none) && !text.is_empty() {
             notes.push(format!("column \"{text}\": not understood, left out"));
         }
@@ -92,7 +91,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
         let others = columns.iter().flatten().take(at);
         if others.into_iter().any(|other| other.name == name) {
             let found = format!("two columns {name}");
-            return Err(Box::new(problem(1, found, "each column is possible once")));
+            return Err(problem(1, found, "each column is possible once"));
         }
     }
     let has = |name: &str| columns.iter().flatten().any(|column| column.name == name);
@@ -100,7 +99,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
         if !has(name) {
             let found = format!("a header without {name}");
             let allowed = "columns \"length [mm]\" and \"outer diameter [mm]\" are needed";
-            return Err(Box::new(problem(1, found, allowed)));
+            return Err(problem(1, found, allowed));
         }
     }
     let mut draft = Draft {
@@ -117,7 +116,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
         if let Some(text) = row.iter().skip(head.len()).find(|text| !text.is_empty()) {
             let found = format!("\"{text}\" in a column without a name");
             let allowed = "cells below the header alone are possible";
-            return Err(Box::new(problem(line, found, allowed)));
+            return Err(problem(line, found, allowed));
         }
         let at = |name: &str| {
             columns
@@ -129,7 +128,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                 .and_then(|k| row.get(k))
                 .filter(|text| !text.is_empty())
         };
-        let number = |name: &str| -> Result<Option<f64>, Box<Problem>> {
+        let number = |name: &str| -> Result<Option<f64>> {
             let Some(written) = text(name) else {
                 return Ok(None);
             };
@@ -141,28 +140,28 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                 let found =
                     format!("\"{written}\" as {name}, which may be a decimal comma or thousands");
                 let allowed = "a point before decimals, and no mark between thousands, is needed";
-                return Err(Box::new(problem(line, found, allowed)));
+                return Err(problem(line, found, allowed));
             }
             let value: Option<f64> = written.replace(',', ".").parse().ok();
             let value = value
                 .filter(|value: &f64| value.is_finite() && *value >= 0.0)
                 .ok_or_else(|| {
-                    Box::new(problem(
+                    problem(
                         line,
                         format!("\"{written}\" as {name}"),
                         "a number not below 0 is needed",
-                    ))
+                    )
                 })?;
             let unit = at(name).and_then(|k| columns[k].as_ref()?.unit);
             Ok(Some(unit.map_or(value, |unit| cleaned(unit.to_si(value)))))
         };
-        let needed = |name: &str| -> Result<f64, Box<Problem>> {
+        let needed = |name: &str| -> Result<f64> {
             number(name)?.filter(|value| *value > 0.0).ok_or_else(|| {
-                Box::new(problem(
+                problem(
                     line,
                     format!("a row without {name}"),
                     "a number above 0 is needed in each row",
-                ))
+                )
             })
         };
         let (length, outer) = (needed("length")?, needed("outer diameter")?);
@@ -182,14 +181,14 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
                     "a column material with one of {}, or columns \"youngs modulus [GPa]\" and \"density [kg/m^3]\", is needed",
                     names.join(", ")
                 );
-                return Err(Box::new(problem(line, found, &allowed)));
+                return Err(problem(line, found, &allowed));
             }
         };
         let index = draft.material(name, material);
         let left = draft.nodes.len() - 1;
         if let Some(mass) = number("disk mass")?.filter(|mass| *mass > 0.0) {
             let name = format!("disk_{}", draft.disks.len() + 1);
-            let mut inertia = |which: &str| -> Result<f64, Box<Problem>> {
+            let mut inertia = |which: &str| -> Result<f64> {
                 let given = number(&format!("disk {which} inertia"))?;
                 if given.is_none() {
                     notes.push(format!(
@@ -214,7 +213,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
         if let Some(own) = [start, end].iter().find(|own| own.inner >= own.outer) {
             let found = format!("an inner diameter of {} m in {} m", own.inner, own.outer);
             let allowed = "an inner diameter below the outer one is needed";
-            return Err(Box::new(problem(line, found, allowed)));
+            return Err(problem(line, found, allowed));
         }
         draft.nodes.push(cleaned(draft.nodes[left] + length));
         draft.pieces.push((
@@ -234,11 +233,7 @@ pub(super) fn draft(rows: &[Vec<String>], file: &str) -> Result<Draft, Box<Probl
     }
     if draft.pieces.is_empty() {
         let found = "a header without rows".to_string();
-        return Err(Box::new(problem(
-            1,
-            found,
-            "a row for each section is needed",
-        )));
+        return Err(problem(1, found, "a row for each section is needed"));
     }
     draft.notes = notes;
     Ok(draft)

@@ -17,7 +17,7 @@
 use std::f64::consts::TAU;
 
 use crate::synthetic::wheel::{Truth, optical, shaped};
-use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
+use measure::pulse::{Flank, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, marks_needed, smooth};
 
 /// Samples per second of the pickup: one of four channels of a converter of 42 kHz.
@@ -34,7 +34,7 @@ const BREAKS_AWAY: Shape = (|x| 0.2 + 0.8 * x, (0.1 + 0.8 / 6.0) / 0.6);
 
 fn passages(truth: &Truth, seed: u64, marks: usize) -> Pulses {
     let samples = optical(truth, seed, marks, RATE);
-    let found = edges(0.0, RATE.recip(), &samples, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, RATE.recip(), &samples, Flank::Rising).unwrap();
     number(&found, &Wheel { marks, missing: 0 }).unwrap()
 }
 

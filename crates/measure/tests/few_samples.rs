@@ -16,7 +16,7 @@
 use std::f64::consts::TAU;
 
 use crate::synthetic::wheel::{Truth, optical, shaped};
-use measure::pulse::{EdgeSettings, Marks, Wheel, calibrate, check_marks, edges, number};
+use measure::pulse::{Flank, Marks, Wheel, calibrate, check_marks, edges, number};
 use measure::speed::{Change, Speed, SpeedSettings, smooth};
 
 const MARKS: usize = 100;
@@ -33,7 +33,7 @@ fn seeds() -> u64 {
 fn smoothed(truth: &Truth, seed: u64, samples: f64) -> (Speed, Marks) {
     let rate = samples * REACHED * MARKS as f64 / TAU;
     let signal = optical(truth, seed, MARKS, rate);
-    let found = edges(0.0, rate.recip(), &signal, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, rate.recip(), &signal, Flank::Rising).unwrap();
     let wheel = Wheel {
         marks: MARKS,
         missing: 0,

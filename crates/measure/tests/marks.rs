@@ -1,9 +1,7 @@
 //! Marks per revolution: wrong ones are detected, right ones raise no alarm, whatever the speed is to the sampling.
 
 use crate::synthetic::wheel::Random;
-use measure::pulse::{
-    EdgeSettings, Edges, Marks, Pulses, Wheel, check_marks, edges, number, period,
-};
+use measure::pulse::{Edges, Flank, Marks, Pulses, Wheel, check_marks, edges, number, period};
 use std::f64::consts::TAU;
 
 const RATE: f64 = 10_000.0;
@@ -26,7 +24,7 @@ fn pulses(errors: &[f64], speed: f64, slope: f64, digital: bool, stated: usize) 
             2.5 + 2.4 * steep + 0.02 * random.normal()
         })
         .collect();
-    let found = edges(0.0, 1.0 / RATE, &samples, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, 1.0 / RATE, &samples, Flank::Rising).unwrap();
     let wheel = Wheel {
         marks: stated,
         missing: 0,
@@ -226,7 +224,7 @@ impl Record {
 
     fn pulses(&self, stated: usize) -> Pulses {
         let found = match &self.samples {
-            Some((samples, interval)) => edges(0.0, *interval, samples, &EdgeSettings::default()),
+            Some((samples, interval)) => edges(0.0, *interval, samples, Flank::Rising),
             None => {
                 let (times, clock) = &self.stamps;
                 Edges::stamped(times.clone(), clock / 12f64.sqrt(), None)

@@ -1,7 +1,7 @@
 //! Pickups whose pulses are not square, and pickups that fall silent.
 
 use crate::synthetic::wheel::Random;
-use measure::pulse::{EdgeSettings, Pulses, Wheel, calibrate, edges, number};
+use measure::pulse::{Flank, Pulses, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
 use std::f64::consts::TAU;
 
@@ -89,7 +89,7 @@ fn found(samples: &[f64]) -> Result<(Pulses, Speed), String> {
         marks: 60,
         missing: 0,
     };
-    let edges = edges(0.0, RATE.recip(), samples, &EdgeSettings::default());
+    let edges = edges(0.0, RATE.recip(), samples, Flank::Rising);
     let pulses = number(&edges.map_err(|why| why.to_string())?, &wheel);
     let pulses = pulses.map_err(|why| why.to_string())?;
     let pitch = calibrate(&pulses).ok();

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use crate::synthetic::wheel::Random;
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Marks, Pulses, Wheel, calibrate, check_marks, edges, number, period,
+    Edges, Flank, Marks, Pulses, Wheel, calibrate, check_marks, edges, number, period,
 };
 use measure::speed::{SpeedSettings, Transient, smooth};
 use proptest::prelude::*;
@@ -38,16 +38,7 @@ fn middle_of_a_flank_is_found_between_samples_at_any_duty_noise_and_drift() {
             .map(|(time, x)| 4.0 * x - 1.0 + drift * time + 4.0 * noise * random.normal())
             .collect();
         for flank in [Flank::Rising, Flank::Falling] {
-            let found = edges(
-                0.0,
-                1e-4,
-                &samples,
-                &EdgeSettings {
-                    flank,
-                    ..Default::default()
-                },
-            )
-            .unwrap();
+            let found = edges(0.0, 1e-4, &samples, flank).unwrap();
             assert!(
                 (found.times.len() as i64 - 146).abs() <= 1,
                 "{} flanks",
@@ -88,7 +79,7 @@ fn hidden_flanks(seed: u64) -> Vec<(f64, f64)> {
             2.5 + 2.5 * (6.0 * (TAU * turned).cos()).tanh() + 0.05 * random.normal()
         })
         .collect();
-    let found = edges(0.0, rate.recip(), &samples, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, rate.recip(), &samples, Flank::Rising).unwrap();
     let passed = |k: usize| {
         // Rises through the middle three quarters of a pitch after each whole one.
         let wanted = (k as f64 + 0.75) * pitch;
@@ -124,18 +115,7 @@ fn both_flanks_and_their_middle() {
     let samples: Vec<f64> = trapezoids(50.0, 0.3, 0.05, 1.0)
         .map(|(_, x)| 5.0 * x)
         .collect();
-    let take = |flank| {
-        edges(
-            0.0,
-            1e-4,
-            &samples,
-            &EdgeSettings {
-                flank,
-                ..Default::default()
-            },
-        )
-        .unwrap()
-    };
+    let take = |flank| edges(0.0, 1e-4, &samples, flank).unwrap();
     let (rising, both, centre) = (take(Flank::Rising), take(Flank::Both), take(Flank::Centre));
     assert!(both.times.len() >= 2 * rising.times.len() - 1);
     for time in &centre.times {
@@ -152,7 +132,7 @@ fn noise_without_pulses_is_refused_and_so_is_a_constant() {
     let mut random = Random::new(2);
     let noise: Vec<f64> = (0..5000).map(|_| random.normal()).collect();
     for samples in [noise, vec![1.5; 5000], vec![f64::NAN; 100], vec![0.0; 2]] {
-        let refusal = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap_err();
+        let refusal = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap_err();
         assert!(!refusal.needed.is_empty(), "{refusal}");
     }
 }
@@ -161,7 +141,7 @@ fn noise_without_pulses_is_refused_and_so_is_a_constant() {
 fn a_gap_in_the_samples_is_reported_and_nothing_is_counted_across_it() {
     let mut samples: Vec<f64> = trapezoids(50.0, 0.5, 0.05, 1.0).map(|(_, x)| x).collect();
     samples[3000..3450].fill(f64::NAN);
-    let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
     assert!(found.notes[0].contains("1 gaps"), "{:?}", found.notes);
     assert!(found.times.iter().all(|t| !(0.2999..0.3451).contains(t)));
     let numbered = number(&found, &FULL(60)).unwrap();
@@ -356,7 +336,7 @@ fn sampled_pickups_do_not_mislead_about_the_marks() {
     for seed in 0..20 {
         let truth = wheel::spin_up(seed, 150.0, 7200.0, 0.6);
         let samples = wheel::pickup(&truth, seed, 60, 1e4);
-        let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
+        let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
         let pulses = number(&found, &FULL(60)).unwrap();
         assert!(pulses.notes.is_empty(), "{seed}: {:?}", pulses.notes);
         assert_eq!(check_marks(&pulses), Marks::Shown, "seed {seed}");
@@ -390,7 +370,7 @@ proptest! {
         4 => -1.0..1.0, 2 => Just(0.0), 2 => Just(5.0), 1 => Just(f64::NAN), 1 => Just(f64::INFINITY), 1 => Just(1e308)
     ], 0..400), marks in 0usize..80, missing in 0usize..3, both in any::<bool>()) {
         let flank = if both { Flank::Both } else { Flank::Rising };
-        if let Ok(found) = edges(0.0, 1e-3, &samples, &EdgeSettings { flank, ..Default::default() })
+        if let Ok(found) = edges(0.0, 1e-3, &samples, flank)
             && let Ok(pulses) = number(&found, &Wheel { marks, missing })
         {
             let pitch = calibrate(&pulses).ok();
@@ -424,16 +404,7 @@ fn speed_of_the_sweep_as_matlab_finds_it() {
             .collect()
     };
     let samples: Vec<f64> = column(&input).iter().map(|x| x.1).collect();
-    let found = edges(
-        0.0,
-        1e-3,
-        &samples,
-        &EdgeSettings {
-            flank: Flank::Centre,
-            ..Default::default()
-        },
-    )
-    .unwrap();
+    let found = edges(0.0, 1e-3, &samples, Flank::Centre).unwrap();
     assert_eq!(found.times.len(), 300);
     let pulses = number(&found, &FULL(1)).unwrap();
     assert!(pulses.notes.is_empty(), "{:?}", pulses.notes);
@@ -500,18 +471,7 @@ fn passages_of_a_proximity_probe() {
     };
     let (times, samples) = (values("time"), values("data"));
     let interval = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    let take = |flank| {
-        edges(
-            times[0],
-            interval,
-            &samples,
-            &EdgeSettings {
-                flank,
-                ..Default::default()
-            },
-        )
-        .unwrap()
-    };
+    let take = |flank| edges(times[0], interval, &samples, flank).unwrap();
     let (rising, falling, centre) = (
         take(Flank::Rising),
         take(Flank::Falling),

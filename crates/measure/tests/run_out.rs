@@ -107,7 +107,6 @@ impl Test {
             engagement: instant(self.spin.engaged),
             lock: instant(self.spin.engaged + self.spin.duration),
             zero: Uncertain::new(0.0, zero),
-            zero_wander: 0.0,
             scale_deviation: 0.005,
             disturbance_power: power,
         })

@@ -35,7 +35,6 @@ fn a_sensor_that_rings_at_another_frequency_than_stated_is_told() {
             engagement: Some(Uncertain::new(engaged, 1e-4)),
             lock: None,
             zero: Uncertain::new(0.0, 1.0),
-            zero_wander: 0.0,
             scale_deviation: 0.005,
             disturbance_power: None,
         });

@@ -3,7 +3,7 @@
 use crate::synthetic::pulses::pulses;
 use crate::synthetic::wheel;
 use crate::synthetic::wheel::Random;
-use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
+use measure::pulse::{Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, Transient, marks_needed, smooth};
 
 #[test]
@@ -194,7 +194,7 @@ fn a_clutch_that_engages_on_a_turning_shaft() {
 fn the_shaft_rests_before_the_engagement() {
     let truth = wheel::spin_up(8, 150.0, 1300.0, 0.3);
     let samples = wheel::pickup(&truth, 8, 60, 1e4);
-    let found = edges(0.0, 1e-4, &samples, &EdgeSettings::default()).unwrap();
+    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
     let train = number(
         &found,
         &Wheel {
@@ -348,16 +348,7 @@ fn few_pulses_and_odd_numbers_are_refused_or_survived() {
 fn ten_seconds_of_sixty_marks_are_smoothed() {
     let truth = wheel::spin_up(6, 150.0, 7200.0, 9.85);
     let samples = wheel::pickup(&truth, 6, 60, 1e4);
-    let found = edges(
-        0.0,
-        1e-4,
-        &samples,
-        &EdgeSettings {
-            flank: Flank::Rising,
-            ..Default::default()
-        },
-    )
-    .unwrap();
+    let found = edges(0.0, 1e-4, &samples, Flank::Rising).unwrap();
     let train = number(
         &found,
         &Wheel {

@@ -1,7 +1,7 @@
 //! Do the stated bands hold the truth? Made-up spin-ups, many a case, with models that differ from the estimator's.
 
 use crate::synthetic::wheel::{Truth, pickup, spin_up, stamps};
-use measure::pulse::{EdgeSettings, Edges, Flank, Wheel, calibrate, edges, number};
+use measure::pulse::{Edges, Flank, Wheel, calibrate, edges, number};
 use measure::speed::{Speed, SpeedSettings, smooth};
 
 /// Spin-ups of each case; `AUXBEAR_SEEDS=400` for the figures of the book.
@@ -34,12 +34,8 @@ fn estimate(case: &Case, truth: &Truth, seed: u64) -> Speed {
     let (found, latency) = match case.rate {
         Some(rate) => {
             let samples = pickup(truth, seed, case.marks, rate);
-            let settings = EdgeSettings {
-                flank: case.flank,
-                ..Default::default()
-            };
             // The data sheet of the pickup: some 10 µs, not corrected for.
-            (edges(0.0, 1.0 / rate, &samples, &settings).unwrap(), 1e-5)
+            (edges(0.0, 1.0 / rate, &samples, case.flank).unwrap(), 1e-5)
         }
         None => {
             let times = stamps(truth, seed, case.marks);

@@ -1,7 +1,7 @@
 //! A quick change in a record of ten seconds is found as well as in a short one.
 
 use crate::synthetic::wheel::Random;
-use measure::pulse::{EdgeSettings, Wheel, calibrate, edges, number};
+use measure::pulse::{Flank, Wheel, calibrate, edges, number};
 use measure::speed::{SpeedSettings, smooth};
 use std::f64::consts::{PI, TAU};
 
@@ -63,7 +63,7 @@ fn found(truth: &SpinUp, rate: f64, seed: u64) -> (f64, usize) {
             2.5 + 2.4 * (3.0 * (TAU * (place + off)).sin()).tanh() + 0.02 * random.normal()
         })
         .collect();
-    let edges = edges(0.0, 1.0 / rate, &samples, &EdgeSettings::default()).unwrap();
+    let edges = edges(0.0, 1.0 / rate, &samples, Flank::Rising).unwrap();
     let wheel = Wheel {
         marks: MARKS,
         missing: 0,

@@ -135,7 +135,6 @@ impl Test {
             engagement: Some(self.engagement),
             lock: None,
             zero: Uncertain::new(0.0, 100.0),
-            zero_wander: 0.0,
             // 1.3 % rms at 40 N mm are 0.5 % at 25 N mm.
             scale_deviation: 0.005,
             disturbance_power: None,
@@ -477,7 +476,6 @@ fn a_torque_that_hardly_changes_keeps_its_level() {
             engagement: None,
             lock: None,
             zero: Uncertain::new(0.0, zero),
-            zero_wander: 0.0,
             scale_deviation: 0.0,
             disturbance_power: None,
         })

@@ -135,7 +135,6 @@ fn ten_seconds_are_quick() {
             engagement: Some(Uncertain::new(0.5, 2e-4)),
             lock: None,
             zero: Uncertain::new(0.0, 10.0),
-            zero_wander: 0.0,
             scale_deviation: 0.005,
             disturbance_power: None,
         })
@@ -287,7 +286,6 @@ fn nonsense_is_survived() {
             engagement: Some(Uncertain::new(y, 0.0)),
             lock: None,
             zero: Uncertain::new(0.0, 1.0),
-            zero_wander: 0.0,
             scale_deviation: 0.0,
             disturbance_power: Some(number(r)),
         };

@@ -3,7 +3,7 @@
 use crate::limits::is_of;
 use crate::{Judged, Outcome, Quantity, Scope, Value, Verdict, Warning};
 use problem::warning::{Declared, Evaluation};
-use problem::{Code, Problem, did_you_mean};
+use problem::{Code, Result, did_you_mean};
 use scenario::{Forbidden, Limit, Scenario};
 
 /// Refuses a code that no warning has.
@@ -11,7 +11,7 @@ pub(super) fn check(
     limit: &Limit,
     forbids: &Forbidden,
     declared: &[&'static Declared],
-) -> Result<(), Box<Problem>> {
+) -> Result<()> {
     let Forbidden::Code(code) = forbids else {
         return Ok(());
     };
@@ -22,7 +22,7 @@ pub(super) fn check(
     let allowed = "the code of a warning is needed, e.g. AB2030".to_string();
     let problem = limit.problem(Code::UnknownQuantity, found, allowed);
     let hint = did_you_mean(code, declared.iter().map(|kind| kind.code));
-    Err(Box::new(problem.with_hint(hint)))
+    Err(problem.with_hint(hint))
 }
 
 /// Warnings of a run that must not come.

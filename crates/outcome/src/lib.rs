@@ -373,6 +373,12 @@ pub struct Stop {
 }
 
 impl Stop {
+    /// How a run ended, when, and that in a sentence.
+    pub fn new(reason: &'static str, time: f64, text: impl Into<String>) -> Stop {
+        let text = text.into();
+        Stop { reason, time, text }
+    }
+
     /// True where the whole run was computed: to its end or for as long as a coast-down may last.
     pub fn complete(&self) -> bool {
         ["finished", "still turning"].contains(&self.reason)
@@ -419,6 +425,19 @@ pub struct Picture {
     /// Number of balls.
     #[serde(rename = "ball_count")]
     pub balls: usize,
+}
+
+impl Picture {
+    /// That of a bearing in whose bore no rotor moves.
+    pub fn without_rotor(rolling_cage_ratio: f64, balls: usize) -> Picture {
+        Picture {
+            bearing: String::new(),
+            clearance: None,
+            pressure_limit: None,
+            rolling_cage_ratio,
+            balls,
+        }
+    }
 }
 
 #[cfg(test)]

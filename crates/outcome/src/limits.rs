@@ -18,7 +18,7 @@ use crate::forbidden;
 use crate::list::NOT_GIVEN;
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
-use problem::{Code, Problem, did_you_mean, question};
+use problem::{Code, Problem, Result, did_you_mean, question};
 use scenario::notes::NO_QUALIFICATION;
 use scenario::{Limit, Scenario, Side, UNBALANCE_ANGLE, present_name};
 use statistics::share::{
@@ -36,11 +36,7 @@ const MOST_NAMES: usize = 8;
 
 /// Refuses limits of results that a run does not have, or of another dimension; `known` are its results, without values
 /// where these are not known before the run. A `*` in the name of one stands for what the run finds.
-pub fn check(
-    limits: &[Limit],
-    known: &[Quantity],
-    declared: &[&'static Declared],
-) -> Result<(), Box<Problem>> {
+pub fn check(limits: &[Limit], known: &[Quantity], declared: &[&'static Declared]) -> Result<()> {
     for limit in limits {
         if let Some(forbids) = &limit.forbids {
             forbidden::check(limit, forbids, declared)?;
@@ -61,7 +57,7 @@ pub fn check(
             let found = format!("\"{}\", which is {kind}", limit.quantity);
             let allowed = "the name of a result that is a number is needed".to_string();
             let code = Code::UnknownQuantity;
-            return Err(Box::new(limit.problem(code, found, allowed)));
+            return Err(limit.problem(code, found, allowed));
         }
         if let Value::None { why } = &quantity.value
             && why.ends_with(NOT_GIVEN)
@@ -72,7 +68,7 @@ pub fn check(
             );
             let allowed = "what it is computed from, or no limit of it, is needed".to_string();
             let code = Code::UnknownQuantity;
-            return Err(Box::new(limit.problem(code, found, allowed)));
+            return Err(limit.problem(code, found, allowed));
         }
         let wanted = dimension_of(quantity.unit);
         if wanted.is_some_and(|wanted| wanted != limit.dimension) {
@@ -87,7 +83,7 @@ pub fn check(
                 wanted.map_or(quantity.unit.to_string(), is)
             );
             let code = Code::WrongDimension;
-            return Err(Box::new(limit.bound_problem(code, found, allowed)));
+            return Err(limit.bound_problem(code, found, allowed));
         }
     }
     Ok(())
@@ -165,7 +161,7 @@ fn unknown(limit: &Limit, known: &[Quantity]) -> Box<Problem> {
         )
     };
     let found = format!("\"{name}\", which is no result of this run");
-    Box::new((limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(meant(name, &names)))
+    (limit.problem(Code::UnknownQuantity, found, allowed)).with_hint(meant(name, &names))
 }
 
 /// The verdicts of a run.

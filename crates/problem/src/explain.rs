@@ -1,19 +1,19 @@
 //! What the book says of a code.
 
-use super::{Code, Problem, did_you_mean};
+use super::{Code, Problem, Result, did_you_mean};
 
 /// The book's page of codes: the one text of their meaning and remedy.
 const PAGE: &str = include_str!("codes.md");
 
 /// The section of a code, such as `AB1007`, as plain text; letters in any case.
-pub fn explain(code: &str) -> Result<String, Box<Problem>> {
+pub fn explain(code: &str) -> Result<String> {
     let wanted = code.trim().to_uppercase();
     let known = || sections().map(|(code, _)| code);
     let Some((code, section)) = sections().find(|(code, _)| *code == wanted) else {
         let found = format!("\"{code}\"");
         let needed = "a code is needed as messages print it, e.g. AB1007";
         let problem = Problem::new(Code::UnknownWord, "auxbear explain", found, needed);
-        return Err(Box::new(problem.with_hint(did_you_mean(&wanted, known()))));
+        return Err(problem.with_hint(did_you_mean(&wanted, known())));
     };
     Ok(format!(
         "{code}\n\n{}\n",

@@ -1,7 +1,7 @@
 //! Files of input: opened and read with one message for each way in which that fails. Nothing else that computes asks for a file; without the
 //! feature `files` there are none.
 
-use crate::{Code, Place, Problem};
+use crate::{Code, Place, Problem, Result};
 #[cfg(feature = "files")]
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
@@ -48,10 +48,10 @@ pub fn lasting(path: PathBuf) -> PathBuf {
 ///
 /// # Errors
 /// No file, a folder, a file that is too large, cannot be read or is not UTF-8.
-pub fn read_text(path: &Path, what: &str) -> Result<String, Box<Problem>> {
+pub fn read_text(path: &Path, what: &str) -> Result<String> {
     let problem = |code, found: &str| {
         let needed = format!("the path of {what} is needed");
-        Box::new(Problem::at_path(code, path, found, needed))
+        Problem::at_path(code, path, found, needed)
     };
     let unreadable = |error: io::Error| match error.kind() {
         ErrorKind::NotFound => problem(Code::FileMissing, "no file of this name"),
@@ -70,12 +70,7 @@ pub fn read_text(path: &Path, what: &str) -> Result<String, Box<Problem>> {
     if bytes.len() as u64 > LARGEST_TEXT {
         let needed = format!("{what} of at most 10 MB is needed");
         let found = "more than 10 MB";
-        return Err(Box::new(Problem::at_path(
-            Code::FileTooLarge,
-            path,
-            found,
-            needed,
-        )));
+        return Err(Problem::at_path(Code::FileTooLarge, path, found, needed));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -83,6 +78,6 @@ pub fn read_text(path: &Path, what: &str) -> Result<String, Box<Problem>> {
         let found = "bytes that are not UTF-8 text";
         let needed = "a text file in UTF-8 is needed";
         let problem = Problem::at_path(Code::FileNotUtf8, path, found, needed);
-        Box::new(problem.at(Place::of_offset(&text, valid)))
+        problem.at(Place::of_offset(&text, valid))
     })
 }

@@ -94,6 +94,18 @@ pub struct Fallback {
     pub assumed: bool,
 }
 
+impl Presence {
+    /// A default that is a plain convention.
+    pub const fn convention(text: &'static str, reason: &'static str) -> Presence {
+        Presence::Default(Fallback::convention(text, reason))
+    }
+
+    /// A default that is an assumption.
+    pub const fn assumption(text: &'static str, reason: &'static str) -> Presence {
+        Presence::Default(Fallback::assumption(text, reason))
+    }
+}
+
 impl Fallback {
     /// A default that is a plain convention.
     pub const fn convention(text: &'static str, reason: &'static str) -> Fallback {
@@ -221,12 +233,12 @@ impl<S: 'static> Key<S> {
 
     /// The same with a default that is a convention, and its reason.
     pub const fn default(self, text: &'static str, reason: &'static str) -> Key<S> {
-        self.present(Presence::Default(Fallback::convention(text, reason)))
+        self.present(Presence::convention(text, reason))
     }
 
     /// The same with a default that is an assumption, and its reason.
     pub const fn assumed(self, text: &'static str, reason: &'static str) -> Key<S> {
-        self.present(Presence::Default(Fallback::assumption(text, reason)))
+        self.present(Presence::assumption(text, reason))
     }
 
     /// The same with a default under a condition.
@@ -433,6 +445,22 @@ impl Range {
 }
 
 impl Condition {
+    /// That the key of a path has one of these values.
+    pub const fn new(path: &'static str, values: &'static [&'static str]) -> Condition {
+        let reason = "";
+        Condition {
+            path,
+            values,
+            reason,
+        }
+    }
+
+    /// The same with the reason why a key has no meaning otherwise.
+    pub const fn because(mut self, reason: &'static str) -> Condition {
+        self.reason = reason;
+        self
+    }
+
     /// The condition in words: `bearing.traction.law = "tanh" or "dry"`.
     pub fn text(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| quoted(value)).collect();

@@ -42,6 +42,9 @@ pub struct Problem {
     pub hint: Option<String>,
 }
 
+/// What is read or made, or what is wrong with it.
+pub type Result<T, E = Box<Problem>> = std::result::Result<T, E>;
+
 impl Problem {
     /// A problem of a file as a whole; the other methods add what else is known.
     pub fn new(
@@ -49,8 +52,8 @@ impl Problem {
         file: impl Into<String>,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
-        Problem {
+    ) -> Box<Problem> {
+        Box::new(Problem {
             code,
             file: file.into(),
             place: Place::Whole,
@@ -58,7 +61,7 @@ impl Problem {
             found: found.into(),
             allowed: allowed.into(),
             hint: None,
-        }
+        })
     }
 
     /// A problem at a path of the file system.
@@ -67,7 +70,7 @@ impl Problem {
         path: &Path,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, path.display().to_string(), found, allowed)
     }
 
@@ -77,23 +80,23 @@ impl Problem {
         let found = format!("what is not valid TOML ({})", clauses.join("; "));
         let needed = "lines of the form key = \"value\" are needed";
         let place = (error.span()).map_or(Place::Whole, |span| Place::of_offset(text, span.start));
-        Box::new(Problem::new(Code::Syntax, file, found, needed).at(place))
+        Problem::new(Code::Syntax, file, found, needed).at(place)
     }
 
     /// Adds the place.
-    pub fn at(mut self, place: Place) -> Problem {
+    pub fn at(mut self: Box<Self>, place: Place) -> Box<Problem> {
         self.place = place;
         self
     }
 
     /// Adds the dotted path of the key.
-    pub fn on_key(mut self, key: impl Into<String>) -> Problem {
+    pub fn on_key(mut self: Box<Self>, key: impl Into<String>) -> Box<Problem> {
         self.key = Some(key.into());
         self
     }
 
     /// Adds a hint; `None` adds nothing.
-    pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Problem {
+    pub fn with_hint(mut self: Box<Self>, hint: impl Into<Option<String>>) -> Box<Problem> {
         self.hint = hint.into();
         self
     }

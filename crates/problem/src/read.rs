@@ -4,7 +4,7 @@ use crate::key::{Fallback, Key, Kind, article, quoted};
 use crate::provenance::Provenance;
 use crate::raw::{Given, Raw, as_toml};
 use crate::value::{Known, Value};
-use crate::{Code, Place, Problem, did_you_mean, question};
+use crate::{Code, Place, Problem, Result, did_you_mean, question};
 use units::{Dimension, ParseError, Rational, as_product, parse_quantity};
 
 /// How far the power in the unit of a contact stiffness may be from its exponent: decimals of 10/9 are accepted.
@@ -48,7 +48,7 @@ impl<'a> Reader<'a> {
         place: Place,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, self.file, found, allowed)
             .at(place)
             .on_key(&self.path)
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value of another kind, dimension or range than the key takes.
-    pub fn read<S>(&self, key: &Key<S>, given: &Given) -> Result<Known, Box<Problem>> {
+    pub fn read<S>(&self, key: &Key<S>, given: &Given) -> Result<Known> {
         let Unwrapped {
             raw,
             provenance,
@@ -75,12 +75,12 @@ impl<'a> Reader<'a> {
         if let Some(number) = value.number()
             && !key.range.holds(number)
         {
-            return Err(Box::new(self.problem(
+            return Err(self.problem(
                 Code::OutOfRange,
                 given.place,
                 key.literal(&text),
                 key.needed(),
-            )));
+            ));
         }
         Ok(Known {
             value,
@@ -92,11 +92,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The value of `{ value = …, source = … }`, or the value itself.
-    fn unwrap_table<'v, S>(
-        &self,
-        key: &Key<S>,
-        given: &'v Given,
-    ) -> Result<Unwrapped<'v>, Box<Problem>> {
+    fn unwrap_table<'v, S>(&self, key: &Key<S>, given: &'v Given) -> Result<Unwrapped<'v>> {
         let (Raw::Table(parts), false) = (&given.raw, matches!(key.kind, Kind::Any(_))) else {
             return Ok(Unwrapped {
                 raw: &given.raw,
@@ -115,12 +111,12 @@ impl<'a> Reader<'a> {
             match (name.as_str(), raw) {
                 ("value", raw) => value = Some(raw),
                 ("source" | "assumed", Raw::Text(_)) if provenance.is_some() => {
-                    return Err(Box::new(self.problem(
+                    return Err(self.problem(
                         Code::Conflict,
                         given.place,
                         "both source and assumed",
                         form,
-                    )));
+                    ));
                 }
                 ("source", Raw::Text(text)) => {
                     provenance = Some(Provenance::GivenWithSource(text.clone()));
@@ -132,7 +128,7 @@ impl<'a> Reader<'a> {
                 ("from", raw) => {
                     let words: Vec<String> = FILLED_IN.iter().map(|word| quoted(word)).collect();
                     let part = Reader::of(self.file, format!("{}.from", self.path));
-                    return Err(Box::new(part.problem(
+                    return Err(part.problem(
                         Code::UnknownWord,
                         given.place,
                         raw.text(),
@@ -140,23 +136,22 @@ impl<'a> Reader<'a> {
                             "{} is needed, as the program writes it into a resolved file",
                             words.join(" or ")
                         ),
-                    )));
+                    ));
                 }
                 ("source" | "assumed", raw) => {
-                    return Err(Box::new(self.problem(
+                    return Err(self.problem(
                         Code::WrongType,
                         given.place,
                         format!("{} for {name}", raw.text()),
                         form,
-                    )));
+                    ));
                 }
                 (unknown, _) => {
                     let hint = did_you_mean(unknown, ["value", "source", "assumed"]);
                     let part = Reader::of(self.file, format!("{}.{unknown}", self.path));
-                    return Err(Box::new(
-                        part.problem(Code::UnknownKey, given.place, "an unknown key", form)
-                            .with_hint(hint),
-                    ));
+                    return Err(part
+                        .problem(Code::UnknownKey, given.place, "an unknown key", form)
+                        .with_hint(hint));
                 }
             }
         }
@@ -166,12 +161,7 @@ impl<'a> Reader<'a> {
                 provenance: provenance.unwrap_or(Provenance::Given),
                 filled_in,
             }),
-            None => Err(Box::new(self.problem(
-                Code::MissingKey,
-                given.place,
-                "a table without value",
-                form,
-            ))),
+            None => Err(self.problem(Code::MissingKey, given.place, "a table without value", form)),
         }
     }
 
@@ -179,13 +169,8 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value of another kind or dimension than the key takes.
-    pub fn read_raw<S>(
-        &self,
-        key: &Key<S>,
-        raw: &Raw,
-        place: Place,
-    ) -> Result<(Value, String), Box<Problem>> {
-        let wrong = |code, found: String| Box::new(self.problem(code, place, found, key.needed()));
+    pub fn read_raw<S>(&self, key: &Key<S>, raw: &Raw, place: Place) -> Result<(Value, String)> {
+        let wrong = |code, found: String| self.problem(code, place, found, key.needed());
         match (key.kind, raw) {
             (Kind::Quantity(_) | Kind::ContactStiffness { .. }, Raw::Text(text)) => {
                 self.read_quantity(key, text, place)
@@ -196,7 +181,7 @@ impl<'a> Reader<'a> {
             ) => {
                 let number = raw.text();
                 let number = number.trim_start_matches("the number ");
-                Err(Box::new(self.problem(
+                Err(self.problem(
                     Code::BareNumber,
                     place,
                     format!("a bare number {number}"),
@@ -204,7 +189,7 @@ impl<'a> Reader<'a> {
                         "a quantity with a unit is needed, e.g. {}",
                         key.literal(key.example)
                     ),
-                )))
+                ))
             }
             (Kind::Coefficient | Kind::Exponent, Raw::Float(value)) => {
                 Ok((Value::Number(*value), format!("{value:?}")))
@@ -244,19 +229,12 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn read_quantity<S>(
-        &self,
-        key: &Key<S>,
-        text: &str,
-        place: Place,
-    ) -> Result<(Value, String), Box<Problem>> {
+    fn read_quantity<S>(&self, key: &Key<S>, text: &str, place: Place) -> Result<(Value, String)> {
         let text = text.trim();
         let quantity = parse_quantity(text).map_err(|error| {
             let (code, found, hint) = unreadable(&error, text, key.dimension());
-            Box::new(
-                self.problem(code, place, found, key.needed())
-                    .with_hint(hint),
-            )
+            self.problem(code, place, found, key.needed())
+                .with_hint(hint)
         })?;
         let (fits, wanted) = match key.kind {
             Kind::ContactStiffness { .. } => {
@@ -295,22 +273,21 @@ impl<'a> Reader<'a> {
                 "That frequency in cycles per second is \"{speed:.6} rad/s\" as an angular speed"
             )
         });
-        Err(Box::new(
-            self.problem(
+        Err(self
+            .problem(
                 Code::WrongDimension,
                 place,
                 format!("\"{text}\", which is {}", described(quantity.dimension)),
                 wanted,
             )
-            .with_hint(hint),
-        ))
+            .with_hint(hint))
     }
 
     /// The value of a default.
     ///
     /// # Errors
     /// A default that its own key does not take.
-    pub fn fall_back<S>(&self, key: &Key<S>, fallback: &Fallback) -> Result<Known, Box<Problem>> {
+    pub fn fall_back<S>(&self, key: &Key<S>, fallback: &Fallback) -> Result<Known> {
         let raw = match key.kind {
             Kind::Count => Raw::Integer(fallback.text.to_string(), fallback.text.parse().ok()),
             Kind::Switch => Raw::Switch(fallback.text == "true"),

@@ -5,7 +5,7 @@ use crate::raw::Raw;
 use crate::read::Reader;
 use crate::read_rows::cell;
 use crate::value::Value;
-use crate::{Code, Place, Problem, did_you_mean};
+use crate::{Code, Place, Result, did_you_mean};
 
 impl Reader<'_> {
     /// Reads a list; a problem names the entry, counted from 1.
@@ -14,12 +14,10 @@ impl Reader<'_> {
         key: &Key<S>,
         raw: &Raw,
         place: Place,
-    ) -> Result<(Value, String), Box<Problem>> {
+    ) -> Result<(Value, String)> {
         let wrong = |code, found: String, hint| {
-            Box::new(
-                self.problem(code, place, found, key.needed())
-                    .with_hint(hint),
-            )
+            self.problem(code, place, found, key.needed())
+                .with_hint(hint)
         };
         let single = std::slice::from_ref(raw);
         let (entries, alone): (&[Raw], bool) = match raw {

@@ -4,7 +4,7 @@ use crate::key::{Key, quoted};
 use crate::raw::Raw;
 use crate::read::{Reader, described, unreadable};
 use crate::value::Value;
-use crate::{Code, Place, Problem};
+use crate::{Code, Place, Result};
 use units::{Unit, parse_quantity};
 
 impl Reader<'_> {
@@ -15,8 +15,8 @@ impl Reader<'_> {
         units: [&str; 2],
         rows: &[Raw],
         place: Place,
-    ) -> Result<(Value, String), Box<Problem>> {
-        let wrong = |code, found: String| Box::new(self.problem(code, place, found, key.needed()));
+    ) -> Result<(Value, String)> {
+        let wrong = |code, found: String| self.problem(code, place, found, key.needed());
         if rows.len() < 2 {
             let found = if rows.is_empty() {
                 "an empty list"

@@ -4,7 +4,7 @@ use crate::key::{Key, Presence};
 use crate::raw::{Given, Raw, Written};
 use crate::read::Reader;
 use crate::value::{Known, Value};
-use crate::{Code, Place, Problem, did_you_mean};
+use crate::{Code, Place, Problem, Result, did_you_mean};
 use std::collections::BTreeMap;
 
 /// A table with the values of its keys, defaults filled in.
@@ -33,7 +33,7 @@ impl<S> Table<S> {
         keys: &'static [Key<S>],
         written: &[Written],
         others: &[&str],
-    ) -> Result<Self, Box<Problem>> {
+    ) -> Result<Self> {
         let places = written.iter().map(|(.., place)| *place);
         let mut table = Table {
             file: file.to_string(),
@@ -55,7 +55,7 @@ impl<S> Table<S> {
                     false => (Code::UnknownKey, "an unknown key".to_string()),
                 };
                 let problem = table.problem(code, name, found, allowed).at(*place);
-                return Err(Box::new(problem.with_hint(did_you_mean(name, names()))));
+                return Err(problem.with_hint(did_you_mean(name, names())));
             };
             let given = Given {
                 raw: raw.clone(),
@@ -74,7 +74,7 @@ impl<S> Table<S> {
     }
 
     /// Fills in defaults; refuses what lacks a key, or has one beside another that excludes it or takes its effect.
-    fn complete(&mut self) -> Result<(), Box<Problem>> {
+    fn complete(&mut self) -> Result<()> {
         // whether a key has an effect depends on what is given, not on defaults
         let effects: Vec<_> = (self.keys.iter())
             .map(|key| self.without_effect(key))
@@ -114,7 +114,7 @@ impl<S> Table<S> {
     }
 
     /// The default of a key, where it has one.
-    fn fallen_back(&self, key: &Key<S>) -> Result<Option<Known>, Box<Problem>> {
+    fn fallen_back(&self, key: &Key<S>) -> Result<Option<Known>> {
         let Presence::Default(fallback) = key.presence else {
             return Ok(None);
         };
@@ -146,7 +146,7 @@ impl<S> Table<S> {
         name: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         let place = self.known.get(name).map(|known| known.place);
         let place = place.filter(|place| *place != Place::Whole);
         Problem::new(code, &self.file, found, allowed)
@@ -164,8 +164,8 @@ impl<S> Table<S> {
         name: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Result<T, Box<Problem>> {
-        Err(Box::new(self.problem(code, name, found, allowed)))
+    ) -> Result<T> {
+        Err(self.problem(code, name, found, allowed))
     }
 
     /// Where a key stands; nowhere where it is not given.

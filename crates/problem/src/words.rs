@@ -20,14 +20,14 @@ pub trait Words: Copy + PartialEq + 'static {
     }
 }
 
-/// An enum with the word of each value.
+/// An enum with the word of each value, which its documentation names.
 #[macro_export]
 macro_rules! words {
     ($(#[$of_enum:meta])* $vis:vis enum $Name:ident { $($(#[$of_value:meta])* $Value:ident = $word:literal,)+ }) => {
         $(#[$of_enum])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         $vis enum $Name {
-            $($(#[$of_value])* $Value,)+
+            $($(#[$of_value])* #[doc = concat!("\n\nIn a file: `", $word, "`.")] $Value,)+
         }
 
         impl $crate::words::Words for $Name {

@@ -115,6 +115,20 @@ pub struct Note {
     pub text: String,
 }
 
+impl Note {
+    /// A note of the file.
+    pub fn of_file(text: impl Into<String>) -> Note {
+        let (channel, text) = (None, text.into());
+        Note { channel, text }
+    }
+
+    /// A note of a channel.
+    pub fn of(channel: &str, text: impl Into<String>) -> Note {
+        let (channel, text) = (Some(channel.to_string()), text.into());
+        Note { channel, text }
+    }
+}
+
 /// A measurement file that is open for reading.
 pub trait Recording {
     /// Channels in the order of the file.

@@ -13,7 +13,7 @@ use super::picture;
 use super::{history, summary};
 use outcome::{Attached, Stop};
 use problem::open_file;
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use recording::Channel;
 use run::Outcome;
 use scenario::Scenario;
@@ -47,28 +47,28 @@ pub struct NewDirectory {
 
 impl NewDirectory {
     /// Reserves the place. What exists there is never touched: it is a problem.
-    pub fn reserve(path: &Path) -> Result<NewDirectory, Box<Problem>> {
+    pub fn reserve(path: &Path) -> Result<NewDirectory> {
         if exists(path) {
             return Err(taken(path));
         }
         let partial = partial_of(path).ok_or_else(|| {
-            Box::new(Problem::at_path(
+            Problem::at_path(
                 Code::OutputPlace,
                 path,
                 "no name of a directory",
                 "a directory with a name of its own is needed",
-            ))
+            )
         })?;
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| misplaced(parent, &error))?;
         }
         let in_use = || {
-            Box::new(Problem::at_path(
+            Problem::at_path(
                 Code::OutputExists,
                 &partial,
                 "what another run is writing or left behind",
                 "choose another directory, or remove this one if no run is using it",
-            ))
+            )
         };
         let lock = match fs::create_dir(&partial) {
             Ok(()) => match locked(&partial) {
@@ -103,7 +103,7 @@ impl NewDirectory {
 
     /// Writes the files and gives the directory its name. Where one cannot be written, the others are kept under another name,
     /// which the problem tells, and their summary says that they are not complete.
-    pub fn finish(self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+    pub fn finish(self, scenario: &Scenario, outcome: &Outcome) -> Result<()> {
         self.fill(scenario, outcome).map_err(|problem| {
             let stop = Stop {
                 reason: "not written",
@@ -119,7 +119,7 @@ impl NewDirectory {
                 let _ = fs::remove_file(name);
             }
             let told = self.kept();
-            Box::new((*problem).with_hint(told))
+            problem.with_hint(told)
         })
     }
 
@@ -140,7 +140,7 @@ impl NewDirectory {
     }
 
     /// Writes the files, each whatever became of the others; tells of the first that could not be written.
-    fn fill(&self, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+    fn fill(&self, scenario: &Scenario, outcome: &Outcome) -> Result<()> {
         // somebody may have removed it while the run was computed
         let _ = fs::create_dir(&self.partial);
         let summary_json = summary::of_page(scenario, outcome)
@@ -180,7 +180,7 @@ impl NewDirectory {
     }
 
     /// Gives the directory its name, when all files in it are whole.
-    pub(super) fn named(&self) -> Result<(), Box<Problem>> {
+    pub(super) fn named(&self) -> Result<()> {
         // On some systems a rename would replace an empty directory that appeared meanwhile.
         if exists(&self.path) {
             return Err(taken(&self.path));
@@ -189,7 +189,7 @@ impl NewDirectory {
     }
 
     /// Writes a measurement file.
-    fn recording(&self, name: &str, channels: &[(Channel, Vec<f64>)]) -> Result<(), Box<Problem>> {
+    fn recording(&self, name: &str, channels: &[(Channel, Vec<f64>)]) -> Result<()> {
         let (told, values): (Vec<Channel>, Vec<&[f64]>) = channels
             .iter()
             .map(|(channel, values)| (channel.clone(), values.as_slice()))
@@ -209,7 +209,7 @@ impl NewDirectory {
             .map_err(|error| {
                 let found = format!("that it cannot be written ({error})");
                 let path = self.path.join(name);
-                Box::new(Problem::at_path(Code::OutputFailed, &path, found, WRITABLE))
+                Problem::at_path(Code::OutputFailed, &path, found, WRITABLE)
             })
     }
 
@@ -218,7 +218,7 @@ impl NewDirectory {
         &self,
         name: &str,
         fill: impl FnOnce(&mut File) -> std::io::Result<()>,
-    ) -> Result<(), Box<Problem>> {
+    ) -> Result<()> {
         let place = self.partial.join(name);
         File::create_new(&place)
             .and_then(|mut file| {
@@ -245,11 +245,7 @@ impl Drop for NewDirectory {
 ///
 /// # Errors
 /// What cannot be told as JSON.
-pub fn page_run(
-    name: &str,
-    scenario: &Scenario,
-    outcome: &Outcome,
-) -> Result<PageRun, Box<Problem>> {
+pub fn page_run(name: &str, scenario: &Scenario, outcome: &Outcome) -> Result<PageRun> {
     let summary_json = summary::of_page(scenario, outcome)
         .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
     Ok(PageRun {
@@ -265,7 +261,7 @@ pub fn page_run(
 ///
 /// # Errors
 /// What cannot be told as JSON.
-pub fn summary_text(scenario: &Scenario, outcome: &Outcome) -> Result<String, Box<Problem>> {
+pub fn summary_text(scenario: &Scenario, outcome: &Outcome) -> Result<String> {
     let mut text = Vec::new();
     summary::write(&mut text, scenario, outcome, &outcome.stop)
         .map_err(|error| failed(Path::new(SUMMARY), &error.into()))?;
@@ -284,7 +280,7 @@ fn columns_of(outcome: &Outcome) -> Vec<PageColumn> {
 }
 
 /// Writes the run directory of a finished run.
-pub fn write(path: &Path, scenario: &Scenario, outcome: &Outcome) -> Result<(), Box<Problem>> {
+pub fn write(path: &Path, scenario: &Scenario, outcome: &Outcome) -> Result<()> {
     NewDirectory::reserve(path)?.finish(scenario, outcome)
 }
 
@@ -313,7 +309,7 @@ struct Head {
 }
 
 /// Reads a run directory back.
-pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
+pub fn read(path: &Path) -> Result<PageRun> {
     const NEEDED: &str = "a run directory, as auxbear run writes it, is needed";
     let unreadable = |path: &Path, error: &std::io::Error| {
         let (code, found) = match error.kind() {
@@ -323,12 +319,12 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
             ErrorKind::InvalidData => (Code::FileNotUtf8, "bytes that are not UTF-8 text".into()),
             _ => (Code::FileUnreadable, error.to_string()),
         };
-        Box::new(Problem::at_path(code, path, found, NEEDED))
+        Problem::at_path(code, path, found, NEEDED)
     };
-    let text = |name: &str, damage: fn(&str) -> Option<String>| -> Result<String, Box<Problem>> {
+    let text = |name: &str, damage: fn(&str) -> Option<String>| -> Result<String> {
         let path = path.join(name);
         let of_directory =
-            |found: String| Box::new(Problem::at_path(Code::FileUnreadable, &path, found, NEEDED));
+            |found: String| Problem::at_path(Code::FileUnreadable, &path, found, NEEDED);
         let mut text = String::new();
         let file = open_file(&path).map_err(|error| unreadable(&path, &error))?;
         let length = file.metadata().map_or(0, |about| about.len());
@@ -349,12 +345,12 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         return Err(unreadable(path, &missing));
     }
     if !path.is_dir() {
-        return Err(Box::new(Problem::at_path(
+        return Err(Problem::at_path(
             Code::FileUnreadable,
             path,
             "a file",
             NEEDED,
-        )));
+        ));
     }
     let history = path.join(HISTORY);
     let columns = open_file(&history)
@@ -362,12 +358,12 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
         .and_then(|file| {
             history::read(file, &history).map_err(|error| {
                 let what = format!("{} {}", error.place, error.found);
-                Box::new(Problem::at_path(
+                Problem::at_path(
                     Code::FileUnreadable,
                     &history,
                     format!("what cannot be read as a history ({})", what.trim()),
                     NEEDED,
-                ))
+                )
             })
         });
     Ok(PageRun {
@@ -398,7 +394,7 @@ pub fn read(path: &Path) -> Result<PageRun, Box<Problem>> {
 }
 
 /// Writes the report of one run directory into it again; what it replaces was drawn from the same files.
-pub fn rewrite_report(path: &Path) -> Result<PathBuf, Box<Problem>> {
+pub fn rewrite_report(path: &Path) -> Result<PathBuf> {
     let html = page::html(&[read(path)?]);
     let report = path.join(REPORT);
     aside(&report, |mut file| file.write_all(html.as_bytes()))?;
@@ -406,10 +402,7 @@ pub fn rewrite_report(path: &Path) -> Result<PathBuf, Box<Problem>> {
 }
 
 /// Writes a new file, whole or not at all, also where the process is killed.
-pub(super) fn new_file(
-    path: &Path,
-    write: impl FnOnce(File) -> std::io::Result<()>,
-) -> Result<(), Box<Problem>> {
+pub(super) fn new_file(path: &Path, write: impl FnOnce(File) -> std::io::Result<()>) -> Result<()> {
     match exists(path) {
         true => Err(taken(path)),
         false => aside(path, write),
@@ -417,10 +410,7 @@ pub(super) fn new_file(
 }
 
 /// Writes a file as `FILE.partial`, which gets its name when it is whole. One that a killed process left is written over.
-pub(super) fn aside(
-    path: &Path,
-    write: impl FnOnce(File) -> std::io::Result<()>,
-) -> Result<(), Box<Problem>> {
+pub(super) fn aside(path: &Path, write: impl FnOnce(File) -> std::io::Result<()>) -> Result<()> {
     let nameless = || misplaced(path, &ErrorKind::InvalidFilename.into());
     let fresh = partial_of(path).ok_or_else(nameless)?;
     let file = File::create(&fresh).map_err(|error| misplaced(path, &error))?;
@@ -435,7 +425,7 @@ pub(super) fn aside(
 
 /// Writes the page of one run directory, or of several side by side, to a new file; to a file `*.svg` one run's orbit,
 /// contact force and speeds as a picture.
-pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Problem>> {
+pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<()> {
     let runs = directories
         .iter()
         .map(|path| read(path))
@@ -444,32 +434,32 @@ pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<(), Box<Prob
         Some("html" | "htm") => false,
         Some("svg") => true,
         _ => {
-            return Err(Box::new(Problem::at_path(
+            return Err(Problem::at_path(
                 Code::UnknownWord,
                 file,
                 "a name of no kind that the report has",
                 "*.html is needed, or *.svg for the picture of one run; a browser prints the page to PDF, and history.parquet of the run holds the columns",
-            )));
+            ));
         }
     };
     let text = match (picture, runs.as_slice()) {
         (false, _) => page::html(&runs),
         (true, [run]) if picture::shows(run) => picture::orbit_svg(run),
         (true, [run]) => {
-            return Err(Box::new(Problem::at_path(
+            return Err(Problem::at_path(
                 Code::Conflict,
                 file,
                 format!("a picture of {}, which is no drop", run.name),
                 "a picture (*.svg) shows the orbit of a drop; name a *.html file",
-            )));
+            ));
         }
         (true, _) => {
-            return Err(Box::new(Problem::at_path(
+            return Err(Problem::at_path(
                 Code::Conflict,
                 file,
                 format!("a picture of {} runs", runs.len()),
                 "a picture (*.svg) shows one run; name one directory, or a *.html file",
-            )));
+            ));
         }
     };
     new_file(file, |mut out| out.write_all(text.as_bytes()))
@@ -553,12 +543,12 @@ fn name_of(path: &Path) -> String {
 }
 
 pub(super) fn taken(path: &Path) -> Box<Problem> {
-    Box::new(Problem::at_path(
+    Problem::at_path(
         Code::OutputExists,
         path,
         "something of this name",
         "results are never written over others: choose another --out, or remove it",
-    ))
+    )
 }
 
 /// Why nothing can be made at a path that was given: the place is wrong, or the disk is full.
@@ -567,7 +557,7 @@ pub fn misplaced(path: &Path, error: &std::io::Error) -> Box<Problem> {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => failed(path, error),
         _ => {
             let found = format!("that nothing can be made there ({error})");
-            Box::new(Problem::at_path(Code::OutputPlace, path, found, WRITABLE))
+            Problem::at_path(Code::OutputPlace, path, found, WRITABLE)
         }
     }
 }
@@ -575,7 +565,7 @@ pub fn misplaced(path: &Path, error: &std::io::Error) -> Box<Problem> {
 /// What the system refused to write.
 pub fn failed(path: &Path, error: &std::io::Error) -> Box<Problem> {
     let found = format!("that it cannot be written ({error})");
-    Box::new(Problem::at_path(Code::OutputFailed, path, found, WRITABLE))
+    Problem::at_path(Code::OutputFailed, path, found, WRITABLE)
 }
 
 /// The error of the system inside one of Parquet, where there is one; else its words.

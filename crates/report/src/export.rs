@@ -18,7 +18,7 @@ use super::table::{Cell, Table};
 #[cfg(feature = "xlsx")]
 use super::workbook;
 use outcome::limits::{meant, stands_for};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use run::warnings::rank;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
@@ -48,13 +48,13 @@ pub fn export(
     format: Format,
     out: Option<&Path>,
     only: &[String],
-) -> Result<PathBuf, Box<Problem>> {
+) -> Result<PathBuf> {
     let mut run = read(directory)?;
     let mut summary: Summary = serde_json::from_str(&run.summary_json).map_err(|error| {
         let found = format!("what cannot be read as a summary ({error})");
         let needed = "a run directory, as auxbear run writes it, is needed";
         let path = directory.join("summary.json");
-        Box::new(Problem::at_path(Code::FileUnreadable, &path, found, needed))
+        Problem::at_path(Code::FileUnreadable, &path, found, needed)
     })?;
     // the first format had none
     for warning in &mut summary.warnings {
@@ -82,12 +82,7 @@ pub fn export(
 }
 
 /// Leaves results and columns that one of these names stands for; with columns the first one, over which they are.
-fn keep(
-    directory: &Path,
-    run: &mut PageRun,
-    summary: &mut Summary,
-    only: &[String],
-) -> Result<(), Box<Problem>> {
+fn keep(directory: &Path, run: &mut PageRun, summary: &mut Summary, only: &[String]) -> Result<()> {
     let results = summary.quantities.0.iter().map(|(name, _)| name.as_str());
     let columns = run.columns.iter().map(|column| column.name.as_str());
     let known: Vec<&str> = results.chain(columns).collect();
@@ -96,7 +91,7 @@ fn keep(
         let found = format!("\"{unknown}\", which is no result and no column of this run");
         let needed = "a name that auxbear results FILE lists is needed, or a pattern with * for a name between dots";
         let problem = Problem::at_path(Code::UnknownQuantity, directory, found, needed);
-        return Err(Box::new(problem.with_hint(meant(unknown, &known))));
+        return Err(problem.with_hint(meant(unknown, &known)));
     }
     let wanted = |name: &str| only.iter().any(|only| stands_for(only, name));
     summary.quantities.0.retain(|(name, _)| wanted(name));
@@ -341,7 +336,7 @@ fn members(summary: &Summary) -> Table<'_> {
 }
 
 /// Writes a folder of CSV files, whole or not at all.
-fn csv(folder: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
+fn csv(folder: &Path, tables: &[Table]) -> Result<()> {
     let place = NewDirectory::reserve(folder)?;
     for table in tables {
         place.file(&format!("{}.csv", table.name), |file| {

@@ -8,16 +8,13 @@
 use super::page::PageColumn;
 use crc32fast::Hasher;
 use outcome::Column;
-use parquet::basic::{Compression, Encoding, Repetition, Type as Physical};
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
-use recording::file::parquet::arrow_schema::{self, Field};
-use recording::file::parquet::{COLUMNS, Parquet};
+use recording::file::parquet::write::{Head, properties, schema};
+use recording::file::parquet::{COLUMNS, Parquet, arrow_schema};
 use recording::{Content, FileError, Recording};
 use serde::Serialize;
 use std::fs::File;
@@ -30,19 +27,13 @@ const CHECKSUM: &str = "auxbear.crc32";
 /// Rows of a row group: a reader holds one of them at a time.
 const GROUP_ROWS: usize = 1 << 17;
 
-/// What is known of a column besides its values.
+/// A column to be written; what is known of it besides its values stands as JSON in the file.
 #[derive(Serialize)]
-struct About<'a> {
-    name: &'a str,
-    unit: &'a str,
-    meaning: &'a str,
-}
-
-/// A column to be written.
 pub(super) struct View<'a> {
     pub name: &'a str,
     pub unit: &'a str,
     pub meaning: &'a str,
+    #[serde(skip)]
     pub values: &'a [f64],
 }
 
@@ -66,27 +57,25 @@ pub(super) fn write_table(
     columns: &[View],
     more: Vec<KeyValue>,
 ) -> Result<(), ParquetError> {
-    let schema = Arc::new(
-        Type::group_type_builder(name)
-            .with_fields(
-                columns
-                    .iter()
-                    .map(|column| {
-                        let repetition = if is_whole(column) {
-                            Repetition::REQUIRED
-                        } else {
-                            Repetition::OPTIONAL
-                        };
-                        Type::primitive_type_builder(column.name, Physical::DOUBLE)
-                            .with_repetition(repetition)
-                            .build()
-                            .map(Arc::new)
-                    })
-                    .collect::<Result<_, _>>()?,
-            )
-            .build()?,
-    );
-    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties(columns, more)?))?;
+    let heads: Vec<Head> = (columns.iter())
+        .map(|column| Head {
+            name: column.name,
+            unit: column.unit,
+            meaning: column.meaning,
+            nullable: !is_whole(column),
+        })
+        .collect();
+    let about = serde_json::to_string(columns);
+    let about = about.map_err(|error| ParquetError::External(Box::new(error)))?;
+    let mut sum = Checksum::default();
+    for column in columns {
+        sum.column([column.name, column.unit, column.meaning], column.values);
+    }
+    let mut keys = vec![KeyValue::new(CHECKSUM.to_string(), sum.text(&more))];
+    keys.extend(more);
+    let schema = Arc::new(schema(name, &heads)?);
+    let properties = Arc::new(properties(&heads, about, keys));
+    let mut writer = SerializedFileWriter::new(file, schema, properties)?;
     let rows = columns.iter().map(|column| column.values.len()).max();
     for begin in (0..rows.unwrap_or(0)).step_by(GROUP_ROWS) {
         let mut group = writer.next_row_group()?;
@@ -114,54 +103,6 @@ pub(super) fn write_table(
 
 fn is_whole(column: &View) -> bool {
     column.values.iter().all(|value| value.is_finite())
-}
-
-fn properties(columns: &[View], more: Vec<KeyValue>) -> Result<WriterProperties, ParquetError> {
-    let metadata: Vec<[(&str, &str); 2]> = columns
-        .iter()
-        .map(|column| [("unit", column.unit), ("meaning", column.meaning)])
-        .collect();
-    let fields: Vec<Field> = columns
-        .iter()
-        .zip(&metadata)
-        .map(|(column, metadata)| Field {
-            name: column.name,
-            nullable: !is_whole(column),
-            metadata,
-        })
-        .collect();
-    let about: Vec<About> = columns
-        .iter()
-        .map(|column| About {
-            name: column.name,
-            unit: column.unit,
-            meaning: column.meaning,
-        })
-        .collect();
-    let about =
-        serde_json::to_string(&about).map_err(|error| ParquetError::External(Box::new(error)))?;
-    let mut sum = Checksum::default();
-    for column in columns {
-        sum.column([column.name, column.unit, column.meaning], column.values);
-    }
-    let mut keys = vec![
-        KeyValue::new(
-            arrow_schema::KEY.to_string(),
-            arrow_schema::encoded(&fields),
-        ),
-        KeyValue::new(COLUMNS.to_string(), about),
-        KeyValue::new(CHECKSUM.to_string(), sum.text(&more)),
-    ];
-    keys.extend(more);
-    Ok(WriterProperties::builder()
-        .set_created_by(format!("auxbear {}", env!("CARGO_PKG_VERSION")))
-        .set_key_value_metadata(Some(keys))
-        // Doubles of a simulation hardly repeat, so a dictionary only adds to them; their bytes of equal rank do.
-        .set_dictionary_enabled(false)
-        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
-        .set_compression(Compression::SNAPPY)
-        .set_statistics_enabled(EnabledStatistics::Chunk)
-        .build())
 }
 
 /// The checksum of a file on its way.

@@ -18,7 +18,7 @@
 use super::directory::read;
 use model::system::layout::of_part;
 use physics::life::{add_points, bearing_damage, mean_damage, repetitions, survival};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -87,7 +87,7 @@ struct Found {
 }
 
 /// Adds up the drops of a service.
-pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
+pub fn service(occasions: &[Occasion]) -> Result<Service> {
     let mut runs = Vec::new();
     for occasion in occasions {
         let run = read(&occasion.directory)?;
@@ -106,20 +106,20 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
             let needed =
                 "the run made again is needed: its summary does not say what uses a bearing up";
             let (code, path) = (Code::Conflict, run.directory);
-            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+            return Err(Problem::at_path(code, path, found, needed));
         }
         if run.bearings().is_empty() {
             let system = run.summary["system"].as_str().unwrap_or("unknown");
             let found = format!("a run of system {system}");
             let needed = "a drop or a machine is needed: a service is so many drops";
             let (code, path) = (Code::Conflict, run.directory);
-            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+            return Err(Problem::at_path(code, path, found, needed));
         }
         if run.summary["complete"] == false {
             let (code, path) = (Code::Conflict, run.directory);
             let needed = "a drop that ended as planned is needed";
             let found = "a run that is not complete";
-            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+            return Err(Problem::at_path(code, path, found, needed));
         }
         if run.bearings() != bearings {
             let found = format!("a run with the bearings {}", listed(&run.bearings()));
@@ -128,7 +128,7 @@ pub fn service(occasions: &[Occasion]) -> Result<Service, Box<Problem>> {
                 listed(&bearings)
             );
             let (code, path) = (Code::Conflict, run.directory);
-            return Err(Box::new(Problem::at_path(code, path, found, needed)));
+            return Err(Problem::at_path(code, path, found, needed));
         }
     }
     let modes: Vec<Mode> = (bearings.iter())

@@ -3,7 +3,7 @@
 
 use super::directory::new_file;
 use super::table::{Cell, Table};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook, Worksheet, XlsxError};
 use std::io::{self, Seek, Write};
 use std::path::Path;
@@ -33,11 +33,11 @@ fn too_large(table: &Table) -> Option<String> {
 }
 
 /// Writes a workbook, whole or not at all.
-pub(super) fn create(file: &Path, tables: &[Table]) -> Result<(), Box<Problem>> {
+pub(super) fn create(file: &Path, tables: &[Table]) -> Result<()> {
     if let Some(found) = tables.iter().find_map(too_large) {
         let needed = format!("{LARGEST}: use --csv, or history.parquet itself");
         let problem = Problem::at_path(Code::TooManyRows, file, found, needed);
-        return Err(Box::new(problem));
+        return Err(problem);
     }
     new_file(file, |out| write(out, tables))
 }

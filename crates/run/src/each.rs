@@ -4,7 +4,7 @@ use crate::{build, known};
 use outcome::host::{self, in_pool};
 use outcome::options::Options;
 use outcome::{Outcome, Stop};
-use problem::Problem;
+use problem::{Problem, Result};
 use scenario::Scenario;
 use simulate::drop::each::{self, One};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,11 +22,11 @@ fn not_built(problem: &Problem) -> Box<Outcome> {
 
 /// Runs each scenario once; drops of one kind share lanes. A scenario that could not be read or built is a result that says
 /// why; histories are not kept. The numbers of one depend on its scenario alone.
-pub fn each(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Outcome> {
+pub fn each(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     in_pool(options.threads, || of_pool(scenarios, options))
 }
 
-fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> Vec<Outcome> {
+fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     let done = AtomicUsize::new(0);
     let stages = host::each(scenarios, |_, scenario| {
         let stage = staged(scenario, options);
@@ -68,10 +68,7 @@ fn of_pool(scenarios: &[Result<Scenario, Box<Problem>>], options: &Options) -> V
 }
 
 /// Builds a drop; runs anything else at once, on the thread that has it.
-fn staged<'a>(
-    scenario: &'a Result<Scenario, Box<Problem>>,
-    options: &Options,
-) -> Result<One<'a>, Box<Outcome>> {
+fn staged<'a>(scenario: &'a Result<Scenario>, options: &Options) -> Result<One<'a>, Box<Outcome>> {
     let scenario = match scenario {
         Ok(scenario) => scenario,
         Err(problem) => return Err(not_built(problem)),

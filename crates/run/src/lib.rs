@@ -24,7 +24,7 @@ pub use outcome::options::Options;
 pub use outcome::{self, Outcome};
 use outcome::{Column, Quantity};
 use outcome::{host, limits};
-use problem::{Code, Problem};
+use problem::{Code, Result};
 #[cfg(feature = "files")]
 pub use recording::file::parquet::panic_is_caught;
 use scenario::{CoastDown, Rig, Scenario, SpinUp, System, problem_at};
@@ -51,7 +51,7 @@ enum Built<'a> {
 }
 
 /// Builds the machine that the scenario describes; runs nothing.
-pub fn build(scenario: &Scenario) -> Result<Machine<'_>, Box<Problem>> {
+pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
             let others = drop::repetition::others(scenario, &built)?;
@@ -97,7 +97,7 @@ impl Machine<'_> {
     ///
     /// # Errors
     /// Where nothing moves in time, or temperatures act on the motion.
-    pub fn simulation(&self) -> Result<Simulation, Box<Problem>> {
+    pub fn simulation(&self) -> Result<Simulation> {
         let driven = match &self.system {
             Built::Drop(built, _) => Simulation::of_drop(self.scenario, built),
             Built::SpinUp(of, built) => Ok(spin_up::simulation(of, built)),
@@ -176,6 +176,6 @@ impl Machine<'_> {
 }
 
 /// Builds and simulates what the scenario describes.
-pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome, Box<Problem>> {
+pub fn run(scenario: &Scenario, options: &Options) -> Result<Outcome> {
     Ok(build(scenario)?.run(options))
 }

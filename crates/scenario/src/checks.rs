@@ -2,7 +2,7 @@
 
 use crate::run::Run;
 use crate::values::Values;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 
 /// Most values of a history, in memory at the end of a run: 1.6 GB.
 const MOST_VALUES: f64 = 2e8;
@@ -11,7 +11,7 @@ const VALUES_PER_ROW: f64 = 100.0;
 /// Values of a row for each ball, likewise.
 const VALUES_PER_BALL: f64 = 20.0;
 
-pub(crate) type Check = Result<(), Box<Problem>>;
+pub(crate) type Check = Result<()>;
 
 /// What every check needs to tell a problem.
 pub struct Context<'a> {
@@ -26,7 +26,7 @@ impl Context<'_> {
         path: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, self.file, found, allowed)
             .at(self.values.place(path))
             .on_key(self.values.shown(path))
@@ -40,7 +40,7 @@ impl Context<'_> {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Check {
-        Err(Box::new(self.problem(code, path, found, allowed)))
+        Err(self.problem(code, path, found, allowed))
     }
 
     /// Refuses the value of a key as it is written.

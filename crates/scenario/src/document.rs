@@ -10,7 +10,7 @@ use crate::system::{COASTING_DOWN, SystemName};
 use crate::table;
 pub use problem::raw::{Given, Raw, as_toml};
 use problem::raw::{Written, collect, raw, table_raw, tables};
-use problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Problem, Result, did_you_mean};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
@@ -53,7 +53,7 @@ struct Entry {
 
 impl Document {
     /// Reads a text and the overrides; refuses what is no TOML and what is no key.
-    pub fn read(text: &str, file: &str, sets: &[String]) -> Result<Document, Box<Problem>> {
+    pub fn read(text: &str, file: &str, sets: &[String]) -> Result<Document> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         require_format(text, root.get_ref(), file)?;
         let mut document = Document {
@@ -163,12 +163,7 @@ impl Document {
     }
 
     /// Reads the array of tables of several auxiliary bearings.
-    fn add_bearings(
-        &mut self,
-        text: &str,
-        start: usize,
-        value: &DeValue<'_>,
-    ) -> Result<(), Box<Problem>> {
+    fn add_bearings(&mut self, text: &str, start: usize, value: &DeValue<'_>) -> Result<()> {
         let problem = |code, start, found: String, allowed: &str| {
             Problem::new(code, &self.file, found, allowed)
                 .at(Place::of_offset(text, start))
@@ -178,41 +173,36 @@ impl Document {
             let found = "a section that has no effect".to_string();
             let systems = SystemName::list(COASTING_DOWN);
             let allowed = format!("it is used only with system = {systems}");
-            return Err(Box::new(problem(Code::UnusedKey, start, found, &allowed)));
+            return Err(problem(Code::UnusedKey, start, found, &allowed));
         }
         let DeValue::Array(list) = value else {
             let found = raw(value).text();
-            return Err(Box::new(problem(Code::WrongType, start, found, TABLES)));
+            return Err(problem(Code::WrongType, start, found, TABLES));
         };
         let mut all = Vec::new();
         for item in list.iter() {
             let start = item.span().start;
             let DeValue::Table(table) = item.get_ref() else {
                 let found = raw(item.get_ref()).text();
-                return Err(Box::new(problem(Code::WrongType, start, found, TABLES)));
+                return Err(problem(Code::WrongType, start, found, TABLES));
             };
             let Some((key, name)) = table.get_key_value("name") else {
                 let found = "an auxiliary bearing without a name".to_string();
-                return Err(Box::new(problem(Code::MissingKey, start, found, NAME)));
+                return Err(problem(Code::MissingKey, start, found, NAME));
             };
             let at = key.span().start;
             let name = match name.get_ref() {
                 DeValue::String(name) if is_name(name) => name.to_string(),
                 DeValue::String(name) => {
-                    return Err(Box::new(problem(Code::UnknownWord, at, quoted(name), NAME)));
+                    return Err(problem(Code::UnknownWord, at, quoted(name), NAME));
                 }
                 other => {
-                    return Err(Box::new(problem(
-                        Code::WrongType,
-                        at,
-                        raw(other).text(),
-                        NAME,
-                    )));
+                    return Err(problem(Code::WrongType, at, raw(other).text(), NAME));
                 }
             };
             if all.iter().any(|(other, _): &(String, _)| *other == name) {
                 let found = format!("the name {} twice", quoted(&name));
-                return Err(Box::new(problem(Code::Conflict, at, found, NAME)));
+                return Err(problem(Code::Conflict, at, found, NAME));
             }
             let mut entries = Vec::new();
             flatten(self.system, table, &[], &mut entries);
@@ -240,19 +230,14 @@ impl Document {
     }
 
     /// Reads what repeated runs vary; a path may stand in quotes or as nested tables.
-    fn add_varied(
-        &mut self,
-        text: &str,
-        start: usize,
-        value: &DeValue<'_>,
-    ) -> Result<(), Box<Problem>> {
+    fn add_varied(&mut self, text: &str, start: usize, value: &DeValue<'_>) -> Result<()> {
         let place = Place::of_offset(text, start);
         self.only_drops_vary(place)?;
         let DeValue::Table(table) = value else {
             let found = raw(value).text();
             let allowed = format!("a section [{VARY}] of paths and distributions is needed");
             let problem = Problem::new(Code::WrongType, &self.file, found, allowed);
-            return Err(Box::new(problem.at(place).on_key(VARY)));
+            return Err(problem.at(place).on_key(VARY));
         };
         collect(text, table, "", &mut self.vary);
         // as they stand in the text: what is drawn first depends on it
@@ -263,7 +248,7 @@ impl Document {
         Ok(())
     }
 
-    fn only_drops_vary(&self, place: Place) -> Result<(), Box<Problem>> {
+    fn only_drops_vary(&self, place: Place) -> Result<()> {
         if self.system.falls() {
             return Ok(());
         }
@@ -273,16 +258,11 @@ impl Document {
             "a section that has no effect",
             "it is used only with system = \"drop\" or \"machine\", whose runs are repeated",
         );
-        Err(Box::new(problem.at(place).on_key(VARY)))
+        Err(problem.at(place).on_key(VARY))
     }
 
     /// An override of a value that one auxiliary bearing has: its path behind `auxiliary_bearing.NAME`.
-    fn add_to_bearing(
-        &mut self,
-        path: &[String],
-        raw: Raw,
-        typed: String,
-    ) -> Result<(), Box<Problem>> {
+    fn add_to_bearing(&mut self, path: &[String], raw: Raw, typed: String) -> Result<()> {
         let named = path.get(1).map_or("", String::as_str);
         let Some(place) = self.own.iter().position(|own| own.name == named) else {
             let names: Vec<String> = self.own.iter().map(|own| quoted(&own.name)).collect();
@@ -291,7 +271,7 @@ impl Document {
                 names => format!("one of {} is needed", names.join(", ")),
             };
             let problem = Problem::new(Code::UnknownKey, &self.file, quoted(named), allowed);
-            return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
+            return Err(problem.at(Place::Set).on_key(path.join(".")));
         };
         let mut document = Document {
             bearing: Some(named.to_string()),
@@ -303,17 +283,15 @@ impl Document {
         added
     }
 
-    pub(crate) fn add_override(&mut self, set: &str) -> Result<(), Box<Problem>> {
+    pub(crate) fn add_override(&mut self, set: &str) -> Result<()> {
         let unreadable = |found: String| {
-            Box::new(
-                Problem::new(
-                    Code::UnreadableSet,
-                    &self.file,
-                    found,
-                    "path=value is needed, e.g. --set \"rotor.speed=9000 rpm\"",
-                )
-                .at(Place::Set),
+            Problem::new(
+                Code::UnreadableSet,
+                &self.file,
+                found,
+                "path=value is needed, e.g. --set \"rotor.speed=9000 rpm\"",
             )
+            .at(Place::Set)
         };
         let (path, typed) = set
             .split_once('=')
@@ -361,7 +339,7 @@ impl Document {
         raw: Option<Raw>,
         typed: Option<String>,
         place: Place,
-    ) -> Result<(), Box<Problem>> {
+    ) -> Result<()> {
         let dotted = path.join(".");
         let section = table::sections().find(|section| section.path == dotted);
         let bearing = self.bearing.as_deref();
@@ -383,11 +361,11 @@ impl Document {
             None => several::of_each_bearing(&dotted),
         };
         if bearing.is_some() && !own {
-            return Err(Box::new(problem(
+            return Err(problem(
                 Code::UnknownKey,
                 "what no auxiliary bearing has of its own".to_string(),
                 "name, and sections contact, mount, bearing and heat, are possible".to_string(),
-            )));
+            ));
         }
         let elsewhere = |what: &str, systems: &[SystemName]| {
             problem(
@@ -404,18 +382,18 @@ impl Document {
             self.system.bends() && path.first().is_some_and(|first| *first == table::ANALYSIS);
         if let Some(section) = section {
             if !section.systems.contains(&self.system) && !for_analysis {
-                return Err(Box::new(elsewhere("section", section.systems)));
+                return Err(elsewhere("section", section.systems));
             }
             return match raw {
                 None => {
                     self.sections.insert(shown, place);
                     Ok(())
                 }
-                Some(raw) => Err(Box::new(problem(
+                Some(raw) => Err(problem(
                     Code::WrongType,
                     raw.text(),
                     format!("a section [{dotted}] with keys is needed"),
-                ))),
+                )),
             };
         }
         let key = table::key(&dotted);
@@ -424,9 +402,7 @@ impl Document {
             && !for_analysis
         {
             let hint = meant::namesake(path, self.system);
-            return Err(Box::new(
-                elsewhere("key", table::systems(key)).with_hint(hint),
-            ));
+            return Err(elsewhere("key", table::systems(key)).with_hint(hint));
         }
         match (key, raw) {
             (Some(key), Some(raw)) => {
@@ -440,7 +416,7 @@ impl Document {
                 {
                     let found = "a key of what is not modelled yet".to_string();
                     let told = problem(Code::NotModelled, found, absent.allowed());
-                    return Err(Box::new(told.with_hint(absent.hint())));
+                    return Err(told.with_hint(absent.hint()));
                 }
                 let (code, found) = match (key, raw) {
                     (Some(_), _) => (Code::WrongType, "a section".to_string()),
@@ -454,7 +430,7 @@ impl Document {
                 } else {
                     None
                 };
-                Err(Box::new(problem(code, found, allowed).with_hint(hint)))
+                Err(problem(code, found, allowed).with_hint(hint))
             }
         }
     }
@@ -470,12 +446,10 @@ fn is_name(name: &str) -> bool {
 }
 
 /// The format comes first: a file of another format would fail on its keys with misleading words.
-fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<Problem>> {
+fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<()> {
     let needed = format!("format = \"{}\" is needed", table::FORMAT);
     let Some((key, value)) = root.get_key_value("format") else {
-        return Err(Box::new(
-            Problem::new(Code::UnknownFormat, file, "nothing", needed).on_key("format"),
-        ));
+        return Err(Problem::new(Code::UnknownFormat, file, "nothing", needed).on_key("format"));
     };
     let found = match value.get_ref() {
         DeValue::String(found) if found == table::FORMAT => return Ok(()),
@@ -485,21 +459,14 @@ fn require_format(text: &str, root: &DeTable<'_>, file: &str) -> Result<(), Box<
     let newer = found
         .starts_with("\"auxbear.scenario/")
         .then(|| "A file of a newer format needs a newer program".to_string());
-    Err(Box::new(
-        Problem::new(Code::UnknownFormat, file, found, needed)
-            .at(Place::of_offset(text, key.span().start))
-            .on_key("format")
-            .with_hint(newer),
-    ))
+    Err(Problem::new(Code::UnknownFormat, file, found, needed)
+        .at(Place::of_offset(text, key.span().start))
+        .on_key("format")
+        .with_hint(newer))
 }
 
 /// The system comes next: what it does not have is told as such. An override counts, the last of several.
-fn find_system(
-    text: &str,
-    root: &DeTable<'_>,
-    file: &str,
-    sets: &[String],
-) -> Result<SystemName, Box<Problem>> {
+fn find_system(text: &str, root: &DeTable<'_>, file: &str, sets: &[String]) -> Result<SystemName> {
     let needed = format!("one of {} is needed", quoted_words(SystemName::WORDS));
     let problem = |code, found: String, allowed: String| {
         Problem::new(code, file, found, allowed).on_key("system")
@@ -516,11 +483,7 @@ fn find_system(
         Some((raw(value.get_ref()), place))
     };
     let Some((raw, place)) = set.or_else(given) else {
-        return Err(Box::new(problem(
-            Code::MissingKey,
-            "no value".to_string(),
-            needed,
-        )));
+        return Err(problem(Code::MissingKey, "no value".to_string(), needed));
     };
     let raw = match raw {
         Raw::Table(parts) => match parts.into_iter().find(|(name, _)| name == "value") {
@@ -530,21 +493,19 @@ fn find_system(
         raw => raw,
     };
     let Raw::Text(word) = raw else {
-        return Err(Box::new(
-            problem(Code::WrongType, raw.text(), needed).at(place),
-        ));
+        return Err(problem(Code::WrongType, raw.text(), needed).at(place));
     };
     if let Some(system) = SystemName::of(&word) {
         return Ok(system);
     }
-    Err(Box::new(if SystemName::PLANNED.contains(&word.as_str()) {
+    Err(if SystemName::PLANNED.contains(&word.as_str()) {
         let found = format!("\"{word}\", which is planned but not built yet");
         problem(Code::NotBuilt, found, needed).at(place)
     } else {
         problem(Code::UnknownWord, quoted(&word), needed)
             .at(place)
             .with_hint(did_you_mean(&word, SystemName::WORDS.iter().copied()))
-    }))
+    })
 }
 
 fn quoted_words(words: &[&str]) -> String {

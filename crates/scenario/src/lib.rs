@@ -91,7 +91,7 @@ pub use vary::UNBALANCE_ANGLE;
 pub use vary::{Distribution, Vary};
 
 use problem::warning::Warning;
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use std::path::Path;
 
 /// Ends of the names of measurement files.
@@ -154,7 +154,7 @@ impl System {
         all: &[values::Values],
         bearings: &dyn BearingSource,
         file: &str,
-    ) -> Result<System, Box<Problem>> {
+    ) -> Result<System> {
         let values = &all[0];
         for own in all {
             for path in SPEEDS_OF_BEARINGS {
@@ -248,11 +248,7 @@ impl Scenario {
     }
 
     /// Reads a file. An override is `path=value`, as after `--set`.
-    pub fn read(
-        path: &Path,
-        sets: &[String],
-        bearings: &dyn BearingSource,
-    ) -> Result<Scenario, Box<Problem>> {
+    pub fn read(path: &Path, sets: &[String], bearings: &dyn BearingSource) -> Result<Scenario> {
         if let Some(measurement) = measurement(path) {
             return Err(measurement);
         }
@@ -266,15 +262,15 @@ impl Scenario {
         name: &str,
         sets: &[String],
         bearings: &dyn BearingSource,
-    ) -> Result<Scenario, Box<Problem>> {
+    ) -> Result<Scenario> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.trim().is_empty() {
-            return Err(Box::new(Problem::new(
+            return Err(Problem::new(
                 Code::FileEmpty,
                 name,
                 "an empty file",
                 "a scenario is needed; auxbear new drop writes one to start from",
-            )));
+            ));
         }
         Scenario::of(document::Document::read(text, name, sets)?, bearings)
     }
@@ -284,7 +280,7 @@ impl Scenario {
     ///
     /// # Errors
     /// What an override of this value would be refused for.
-    pub fn with(&self, changes: &[(String, String)]) -> Result<Scenario, Box<Problem>> {
+    pub fn with(&self, changes: &[(String, String)]) -> Result<Scenario> {
         let mut document = self.document.clone();
         for (path, value) in changes {
             document.add_override(&format!("{path}={value}"))?;
@@ -296,7 +292,7 @@ impl Scenario {
     ///
     /// # Errors
     /// What this rotor would be refused for.
-    pub fn rotor_alone(&self) -> Option<Result<Scenario, Box<Problem>>> {
+    pub fn rotor_alone(&self) -> Option<Result<Scenario>> {
         (self.system.name() == SystemName::Machine)
             .then(|| Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn))
     }
@@ -318,12 +314,7 @@ impl Scenario {
     }
 
     /// What a study varies of it: a path with its distribution as a table of one word.
-    pub fn varied(
-        &self,
-        path: &str,
-        raw: &document::Raw,
-        place: problem::Place,
-    ) -> Result<Vary, Box<Problem>> {
+    pub fn varied(&self, path: &str, raw: &document::Raw, place: problem::Place) -> Result<Vary> {
         let documents = self.document.of_each_bearing();
         let values = (documents.iter())
             .map(|document| values::Values::resolve(document, &BuiltIn))
@@ -334,7 +325,7 @@ impl Scenario {
     }
 
     /// Refuses what varies values of parts that are not there.
-    fn with_parts(&self, list: &[Vary]) -> Result<(), Box<Problem>> {
+    fn with_parts(&self, list: &[Vary]) -> Result<()> {
         let middle = statistics::design::Coordinate::Share(0.5);
         let parts = list.iter().filter(|vary| vary.is_of_part());
         let values: Vec<_> = parts.flat_map(|vary| vary.at(middle).0).collect();
@@ -351,7 +342,7 @@ impl Scenario {
         &self,
         file: &str,
         tables: Vec<Vec<problem::raw::Written>>,
-    ) -> Result<Vec<Limit>, Box<Problem>> {
+    ) -> Result<Vec<Limit>> {
         let mut document = self.document.clone();
         document.file = file.to_string();
         document.limits = tables;
@@ -359,10 +350,7 @@ impl Scenario {
     }
 
     /// Resolves and checks what was read.
-    fn of(
-        document: document::Document,
-        bearings: &dyn BearingSource,
-    ) -> Result<Scenario, Box<Problem>> {
+    fn of(document: document::Document, bearings: &dyn BearingSource) -> Result<Scenario> {
         let name = &document.file.clone();
         let documents = document.of_each_bearing();
         let values = (documents.iter())
@@ -413,7 +401,7 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
         return None;
     }
     let name = path.display();
-    Some(Box::new(Problem::at_path(
+    Some(Problem::at_path(
         Code::MeasurementInstead,
         path,
         "a file of measured values",
@@ -421,5 +409,5 @@ fn measurement(path: &Path) -> Option<Box<Problem>> {
             "a scenario that names it is needed: auxbear new signals writes one, with signals.file = \"{name}\", for auxbear signals; \
              auxbear new identify one for auxbear identify"
         ),
-    )))
+    ))
 }

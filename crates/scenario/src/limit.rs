@@ -20,7 +20,7 @@ use problem::raw::{Raw, Written};
 use problem::read::unreadable;
 use problem::table::Table;
 use problem::warning::Severity;
-use problem::{Code, Place, Problem, did_you_mean, question};
+use problem::{Code, Place, Problem, Result, did_you_mean, question};
 use units::{Dimension, parse_quantity};
 
 /// What a result must hold.
@@ -156,14 +156,14 @@ impl Limit {
     }
 
     /// A problem with the name of the result.
-    pub fn problem(&self, code: Code, found: String, allowed: String) -> Problem {
+    pub fn problem(&self, code: Code, found: String, allowed: String) -> Box<Problem> {
         let problem = Problem::new(code, UNNAMED, found, allowed);
         let key = (self.forbids.as_ref()).map_or("quantity", |forbids| forbids.written().0);
         problem.at(self.place).on_key(format!("{LIMIT}.{key}"))
     }
 
     /// A problem with the bound.
-    pub fn bound_problem(&self, code: Code, found: String, allowed: String) -> Problem {
+    pub fn bound_problem(&self, code: Code, found: String, allowed: String) -> Box<Problem> {
         let problem = Problem::new(code, UNNAMED, found, allowed);
         let key = format!("{LIMIT}.{}", self.side.word());
         problem.at(self.bound_place).on_key(key)
@@ -171,7 +171,7 @@ impl Limit {
 }
 
 /// The limits of a file; those of overrides change or follow them.
-pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
+pub fn of(document: &Document) -> Result<Vec<Limit>> {
     let mut limits: Vec<Limit> = Vec::new();
     for written in &document.limits {
         let table = read(document, written)?;
@@ -228,7 +228,7 @@ pub fn of(document: &Document) -> Result<Vec<Limit>, Box<Problem>> {
 }
 
 /// A limit of warnings: at most 0 of them in a member. None where a result is limited.
-fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Problem>> {
+fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>> {
     let refused =
         |code, key: &str, found: String, needed: &str| table.refuse(code, key, found, needed);
     let given = |key: &&str| table.text(key).is_some() || table.raw(key).is_some();
@@ -261,7 +261,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Pr
             let needed = format!("one of {} is needed", words.join(", "));
             let hint = did_you_mean(word, words);
             let problem = table.problem(Code::UnknownWord, key, quoted(word), needed);
-            return Err(Box::new(problem.with_hint(hint)));
+            return Err(problem.with_hint(hint));
         }
     };
     let (key, word) = forbids.written();
@@ -278,7 +278,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>, Box<Pr
     }))
 }
 
-fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>> {
+fn read(document: &Document, written: &[Written]) -> Result<Table> {
     let table = Table::read(
         &document.file,
         (LIMIT.to_string(), "[[limit]]"),
@@ -302,7 +302,7 @@ fn read(document: &Document, written: &[Written]) -> Result<Table, Box<Problem>>
 }
 
 /// The share of the members, of systems whose runs are repeated.
-fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Problem>> {
+fn share_of(document: &Document, table: &Table) -> Result<Option<f64>> {
     let Some(raw) = table.raw("share") else {
         return Ok(None);
     };
@@ -321,11 +321,10 @@ fn share_of(document: &Document, table: &Table) -> Result<Option<f64>, Box<Probl
 }
 
 /// A bound in SI, its dimension, and as a file has it.
-fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String), Box<Problem>> {
+fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String)> {
     let raw = table.raw(side).unwrap_or(&Raw::Other("nothing"));
-    amount(raw).map_err(|(code, found, hint)| {
-        Box::new(table.problem(code, side, found, BOUND).with_hint(hint))
-    })
+    amount(raw)
+        .map_err(|(code, found, hint)| table.problem(code, side, found, BOUND).with_hint(hint))
 }
 
 /// Why a value is none: code, what was found, a hint.

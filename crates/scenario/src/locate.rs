@@ -15,7 +15,7 @@ pub fn problem_at(
     found: impl Into<String>,
     allowed: impl Into<String>,
 ) -> Box<Problem> {
-    Box::new(Problem::new(code, UNNAMED, found, allowed).on_key(key))
+    Problem::new(code, UNNAMED, found, allowed).on_key(key)
 }
 
 impl Document {

@@ -9,17 +9,14 @@ use crate::table;
 use crate::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
 use problem::provenance::Provenance;
 use problem::read::POWER_TOLERANCE;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Rational, parse_quantity};
 
 impl Values {
     /// Reads every given value and fills the rest from catalogue and defaults.
-    pub fn resolve(
-        document: &Document,
-        bearings: &dyn BearingSource,
-    ) -> Result<Values, Box<Problem>> {
+    pub fn resolve(document: &Document, bearings: &dyn BearingSource) -> Result<Values> {
         let mut values = Values {
             file: document.file.clone(),
             system: document.system,
@@ -64,7 +61,7 @@ impl Values {
                                 .is_some_and(|key| key.ends_with(unmet.path))
                         }) => {}
                     Some(given) => {
-                        return Err(Box::new(values.unused(key, given, &unmet, document)));
+                        return Err(values.unused(key, given, &unmet, document));
                     }
                     None => {}
                 }
@@ -93,14 +90,14 @@ impl Values {
         }
         values.record = record;
         if !missing.is_empty() {
-            return Err(Box::new(values.all_missing(missing)));
+            return Err(values.all_missing(missing));
         }
         values.derive()?;
         Ok(values)
     }
 
     /// The first missing key, with the names of all others: one round is enough to give them.
-    fn all_missing(&self, mut missing: Vec<Problem>) -> Problem {
+    fn all_missing(&self, mut missing: Vec<Problem>) -> Box<Problem> {
         let mut others: Vec<String> = (missing.iter().skip(1))
             .filter_map(|problem| problem.key.clone())
             .collect();
@@ -108,7 +105,7 @@ impl Values {
         if self.lacks_bearings(&missing) {
             return self.without_bearings(&missing);
         }
-        let mut first = missing.swap_remove(0);
+        let mut first = Box::new(missing.swap_remove(0));
         if !others.is_empty() {
             let others = format!("Missing as well: {}", others.join(", "));
             first.hint = Some(match first.hint {
@@ -126,7 +123,7 @@ impl Values {
     }
 
     /// What a machine without auxiliary bearings needs first, with all keys that are missing.
-    fn without_bearings(&self, missing: &[Problem]) -> Problem {
+    fn without_bearings(&self, missing: &[Problem]) -> Box<Problem> {
         let keys: Vec<&str> = (missing.iter())
             .filter_map(|problem| problem.key.as_deref())
             .collect();
@@ -187,7 +184,13 @@ impl Values {
                 .any(|law| unmet.values.contains(law))
     }
 
-    fn unused(&self, key: &Key, given: &Given, unmet: &Condition, document: &Document) -> Problem {
+    fn unused(
+        &self,
+        key: &Key,
+        given: &Given,
+        unmet: &Condition,
+        document: &Document,
+    ) -> Box<Problem> {
         let here = self.known.get(unmet.path).map_or(String::new(), |known| {
             format!("; here it is {}", quoted(&known.text))
         });
@@ -228,12 +231,7 @@ impl Values {
         Some(format!("Remove {word} {}, or {back}", lines.join(", ")))
     }
 
-    fn refuse_conflict(
-        &self,
-        key: &Key,
-        given: &Given,
-        document: &Document,
-    ) -> Result<(), Box<Problem>> {
+    fn refuse_conflict(&self, key: &Key, given: &Given, document: &Document) -> Result<()> {
         let Some(other) = key.excludes else {
             return Ok(());
         };
@@ -245,13 +243,13 @@ impl Values {
         } else {
             (key.path, given.place, other)
         };
-        Err(Box::new(self.problem(
+        Err(self.problem(
             Code::Conflict,
             path,
             place,
             format!("this and {first}, which give the same thing"),
             "one of the two is needed",
-        )))
+        ))
     }
 
     fn without(
@@ -259,7 +257,7 @@ impl Values {
         key: &Key,
         record: Option<&BearingRecord>,
         document: &Document,
-    ) -> Result<Option<Known>, Box<Problem>> {
+    ) -> Result<Option<Known>> {
         let replaced = table::keys().any(|other| {
             other.excludes == Some(key.path) && document.values.contains_key(other.path)
         });
@@ -275,11 +273,10 @@ impl Values {
             Presence::DefaultWhen(_, _, Otherwise::Fallback(fallback)) => {
                 self.reader(key).fall_back(key, &fallback).map(Some)
             }
-            Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(Box::new(
-                self.missing(key)
-                    .with_hint(format!("It has a default only with {}", condition.text())),
-            )),
-            Presence::Required => Err(Box::new(self.missing(key))),
+            Presence::DefaultWhen(condition, _, Otherwise::Required) => Err(self
+                .missing(key)
+                .with_hint(format!("It has a default only with {}", condition.text()))),
+            Presence::Required => Err(self.missing(key)),
             Presence::FromBearing => {
                 let hint = match record {
                     Some(record) => {
@@ -287,7 +284,7 @@ impl Values {
                     }
                     None => "bearing.name takes it from the catalogue".to_string(),
                 };
-                Err(Box::new(self.missing(key).with_hint(hint)))
+                Err(self.missing(key).with_hint(hint))
             }
         }
     }
@@ -314,7 +311,7 @@ impl Values {
         }
     }
 
-    fn missing(&self, key: &Key) -> Problem {
+    fn missing(&self, key: &Key) -> Box<Problem> {
         self.problem(
             Code::MissingKey,
             key.path,

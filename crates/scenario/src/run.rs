@@ -45,7 +45,6 @@ words! {
 pub enum Method {
     /// By the stiffness of friction.
     Auto = "auto",
-    /// Explicit.
     Explicit = "explicit",
     /// Linearly implicit.
     Implicit = "implicit",

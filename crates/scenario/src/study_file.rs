@@ -28,7 +28,7 @@ use crate::{Accuracy, BuiltIn, Distribution, Limit, Scenario};
 use problem::key::{Key, Kind, Range, quoted};
 use problem::raw::{Raw, Sections, Written};
 use problem::table::Table;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use statistics::correlation::Correlation;
 use statistics::design::{Design, MOST_SOBOL, MOST_SOBOL_INPUTS};
 use std::path::{Path, PathBuf};
@@ -123,7 +123,7 @@ impl StudyFile {
     ///
     /// # Errors
     /// What is wrong with either, with file, line and key.
-    pub fn read(path: &Path) -> Result<StudyFile, Box<Problem>> {
+    pub fn read(path: &Path) -> Result<StudyFile> {
         let text = problem::read_text(path, "a study file")?;
         let file = path.display().to_string();
         StudyFile::parse(text.trim_start_matches('\u{feff}'), &file, path.parent())
@@ -133,7 +133,7 @@ impl StudyFile {
     ///
     /// # Errors
     /// What is wrong with it or its scenario, with file, line and key.
-    pub fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile, Box<Problem>> {
+    pub fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
         let names = ["design", "input", "limit", "correlation", "question"];
         let sections = Sections::of(text, root.get_ref(), &names);
@@ -197,7 +197,7 @@ impl StudyFile {
     ///
     /// # Errors
     /// Where the design is complete as it is, or becomes too large.
-    pub fn extended(mut self, more: usize) -> Result<StudyFile, Box<Problem>> {
+    pub fn extended(mut self, more: usize) -> Result<StudyFile> {
         let longer = self.design.extended(more);
         match longer.filter(is_possible) {
             Some(design) => self.design = design,
@@ -207,7 +207,7 @@ impl StudyFile {
                     "factorials and sweeps are complete as they are, a sobol design has at most {MOST_SOBOL} points, any other {MOST_MEMBERS} members"
                 );
                 let problem = Problem::new(Code::StudyDesign, &self.file, found, allowed);
-                return Err(Box::new(problem.on_key("--add")));
+                return Err(problem.on_key("--add"));
             }
         }
         self.added += more;
@@ -296,7 +296,7 @@ fn single(scenario: &Scenario) -> Result<(), String> {
 }
 
 /// A study begins with its format: a file of another one would fail on its keys with misleading words.
-fn require_format(file: &str, head: &[Written]) -> Result<(), Box<Problem>> {
+fn require_format(file: &str, head: &[Written]) -> Result<()> {
     let format = head.iter().find(|(key, ..)| key == "format");
     let found = match format {
         Some((_, Raw::Text(word), _)) if word == STUDY_FORMAT => return Ok(()),
@@ -305,13 +305,11 @@ fn require_format(file: &str, head: &[Written]) -> Result<(), Box<Problem>> {
     };
     let allowed =
         format!("format = \"{STUDY_FORMAT}\" is needed; auxbear new study writes such a file");
-    Err(Box::new(
-        Problem::new(Code::UnknownFormat, file, found, allowed).on_key("format"),
-    ))
+    Err(Problem::new(Code::UnknownFormat, file, found, allowed).on_key("format"))
 }
 
 /// The kind of the design, on which its other keys depend.
-fn kind_of(file: &str, written: &[Written]) -> Result<&'static str, Box<Problem>> {
+fn kind_of(file: &str, written: &[Written]) -> Result<&'static str> {
     let kinds = written.iter().filter(|(key, ..)| key == "kind");
     let plain = |raw: &Raw| match raw {
         Raw::Text(text) => Raw::Text(text.replace('_', " ")),
@@ -356,7 +354,7 @@ fn design_of(
     written: &[Written],
     kind: &str,
     inputs: &[StudyInput],
-) -> Result<(Design, usize, usize), Box<Problem>> {
+) -> Result<(Design, usize, usize)> {
     let count = inputs.len();
     let levels = || inputs.iter().map(|input| input.levels).collect();
     let keys: &[Key] = match kind {
@@ -417,7 +415,7 @@ fn correlated(
     tables: &[Vec<Written>],
     inputs: &[StudyInput],
     kind: &str,
-) -> Result<Correlated, Box<Problem>> {
+) -> Result<Correlated> {
     let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
     let mut first = None;
     for written in tables {

@@ -5,7 +5,7 @@ use crate::{BuiltIn, Distribution, Scenario, Vary};
 use problem::key::{Key, Kind, Range, quoted};
 use problem::raw::{Raw, Written};
 use problem::table::Table;
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 
 /// Levels of an input of a factorial or a sweep, unless given.
 const LEVELS: usize = 5;
@@ -52,9 +52,9 @@ const KEYS: &[Key] = &[
 ];
 
 /// `catalogue = { bore_diameter = "35 mm", outer_diameter = ["0 mm", "62 mm"] }` as the choice of all bearings that fit.
-fn fitting(table: &Table, raw: &Raw) -> Result<Raw, Box<Problem>> {
+fn fitting(table: &Table, raw: &Raw) -> Result<Raw> {
     let path = table.text("path").unwrap_or_default();
-    let wrong = |found: String| Box::new(table.problem(Code::WrongType, CATALOGUE, found, SIZES));
+    let wrong = |found: String| table.problem(Code::WrongType, CATALOGUE, found, SIZES);
     let (true, Raw::Table(sizes)) = (path.ends_with("bearing.name"), raw) else {
         return Err(wrong(format!("{} of {}", raw.text(), quoted(path))));
     };
@@ -106,7 +106,7 @@ pub(super) fn inputs_of(
     scenario: &Scenario,
     tables: &[Vec<Written>],
     kind: &str,
-) -> Result<Vec<StudyInput>, Box<Problem>> {
+) -> Result<Vec<StudyInput>> {
     let mut inputs: Vec<StudyInput> = Vec::new();
     for written in tables {
         let table: Table =
@@ -179,11 +179,8 @@ pub(super) fn inputs_of(
             levels_given: given.is_some(),
         });
     }
-    let missing = |found, allowed| {
-        Err(Box::new(
-            Problem::new(Code::MissingKey, file, found, allowed).on_key("input"),
-        ))
-    };
+    let missing =
+        |found, allowed| Err(Problem::new(Code::MissingKey, file, found, allowed).on_key("input"));
     if kind == "selection" && inputs.iter().all(|input| input.levels == 0) {
         return missing(
             "nothing to choose",

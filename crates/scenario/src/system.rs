@@ -14,6 +14,8 @@ pub const KINDS: &[&str] = &[
     "study",
 ];
 
+use SystemName::{CoastDown, Drop, Identify, Machine, Rig, Rotor, Signals, SpinUp, Torque};
+
 /// Name of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemName {
@@ -58,15 +60,7 @@ const SEARCHING: &str = "searching the engagement that gives the wanted accelera
 impl SystemName {
     /// All systems.
     pub const ALL: &'static [SystemName] = &[
-        SystemName::Drop,
-        SystemName::SpinUp,
-        SystemName::Torque,
-        SystemName::Signals,
-        SystemName::Rig,
-        SystemName::Identify,
-        SystemName::Rotor,
-        SystemName::Machine,
-        SystemName::CoastDown,
+        Drop, SpinUp, Torque, Signals, Rig, Identify, Rotor, Machine, CoastDown,
     ];
     /// Their words, in the same order.
     pub const WORDS: &'static [&'static str] = KINDS.split_last().expect("systems").1;
@@ -136,122 +130,72 @@ impl SystemName {
 }
 
 /// A rigid rotor that falls.
-pub const DROP: &[SystemName] = &[SystemName::Drop];
+pub const DROP: &[SystemName] = &[Drop];
 /// A flexible rotor that falls.
-pub const MACHINE: &[SystemName] = &[SystemName::Machine];
+pub const MACHINE: &[SystemName] = &[Machine];
 /// A spin-up.
-pub const SPIN_UP: &[SystemName] = &[SystemName::SpinUp];
+pub const SPIN_UP: &[SystemName] = &[SpinUp];
 /// The torque of a bearing.
-pub const TORQUE: &[SystemName] = &[SystemName::Torque];
+pub const TORQUE: &[SystemName] = &[Torque];
 /// A measurement.
-pub const SIGNALS: &[SystemName] = &[SystemName::Signals];
+pub const SIGNALS: &[SystemName] = &[Signals];
 /// A test on a rig.
-pub const RIG: &[SystemName] = &[SystemName::Rig];
+pub const RIG: &[SystemName] = &[Rig];
 /// What tests tell of a bearing.
-pub const IDENTIFY: &[SystemName] = &[SystemName::Identify];
+pub const IDENTIFY: &[SystemName] = &[Identify];
 /// The analysis of a flexible rotor.
-pub const ROTOR: &[SystemName] = &[SystemName::Rotor];
+pub const ROTOR: &[SystemName] = &[Rotor];
 /// A rotor that coasts down.
-pub const COAST_DOWN: &[SystemName] = &[SystemName::CoastDown];
+pub const COAST_DOWN: &[SystemName] = &[CoastDown];
 
 /// Systems that read measurements.
-pub const MEASURED: &[SystemName] = &[SystemName::Signals, SystemName::Identify];
+pub const MEASURED: &[SystemName] = &[Signals, Identify];
 /// Systems with a rotor.
-pub const WITH_ROTOR: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::Rotor,
-    SystemName::Machine,
-    SystemName::CoastDown,
-];
+pub const WITH_ROTOR: &[SystemName] = &[Drop, Rotor, Machine, CoastDown];
 /// Systems whose rotor is a mass with an inertia.
-pub const RIGID: &[SystemName] = &[SystemName::Drop, SystemName::CoastDown];
+pub const RIGID: &[SystemName] = &[Drop, CoastDown];
 /// Systems in which gas brakes the rotor.
-pub const IN_GAS: &[SystemName] = &[SystemName::Machine, SystemName::CoastDown];
+pub const IN_GAS: &[SystemName] = &[Machine, CoastDown];
 /// Systems with magnetic bearings.
-pub const LEVITATED: &[SystemName] = &[SystemName::Drop, SystemName::Rotor, SystemName::Machine];
+pub const LEVITATED: &[SystemName] = &[Drop, Rotor, Machine];
 /// Systems whose bearing is tested alone.
-pub const TESTED: &[SystemName] = &[SystemName::SpinUp, SystemName::Torque, SystemName::Rig];
+pub const TESTED: &[SystemName] = &[SpinUp, Torque, Rig];
 /// Systems whose inner race sits on a shaft of the rig.
-pub const ON_RIG: &[SystemName] = &[SystemName::SpinUp, SystemName::Rig];
+pub const ON_RIG: &[SystemName] = &[SpinUp, Rig];
 
 /// Systems in which something moves.
-pub const MOVING: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Rig,
-    SystemName::Machine,
-];
+pub const MOVING: &[SystemName] = &[Drop, SpinUp, Rig, Machine];
 
 /// Systems in which a levitated rotor falls.
-pub const FALLING: &[SystemName] = &[SystemName::Drop, SystemName::Machine];
+pub const FALLING: &[SystemName] = &[Drop, Machine];
 /// Systems that coast down, by themselves or after a drop.
-pub const COASTING_DOWN: &[SystemName] =
-    &[SystemName::Drop, SystemName::Machine, SystemName::CoastDown];
+pub const COASTING_DOWN: &[SystemName] = &[Drop, Machine, CoastDown];
 
 /// Systems whose bearings may warm in time, where that is wanted.
 pub const WARMING: &[SystemName] = MOVING;
 /// All systems with a network of heat.
-pub const WITH_NETWORK: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Rig,
-    SystemName::Machine,
-    SystemName::CoastDown,
-];
+pub const WITH_NETWORK: &[SystemName] = &[Drop, SpinUp, Rig, Machine, CoastDown];
 
 /// Systems whose runs have a choice of steps.
-pub const STEPPED: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
+pub const STEPPED: &[SystemName] = &[Drop, SpinUp, Machine];
 
 /// Systems whose rotor is a shaft of parts.
-pub const SHAFT: &[SystemName] = &[SystemName::Rotor, SystemName::Machine];
+pub const SHAFT: &[SystemName] = &[Rotor, Machine];
 
 /// Systems in which a cage turns as a body, or its inertia counts.
-pub const WITH_CAGE: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-    SystemName::Identify,
-    SystemName::Machine,
-];
+pub const WITH_CAGE: &[SystemName] = &[Drop, SpinUp, Torque, Rig, Identify, Machine];
 
 /// Systems whose balls carry loads by their contacts.
-pub const WITH_BALLS: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Rig,
-    SystemName::Machine,
-    SystemName::CoastDown,
-];
+pub const WITH_BALLS: &[SystemName] = &[Drop, SpinUp, Rig, Machine, CoastDown];
 
 /// Systems in which the inner race has a mass of its own.
-pub const RACE_MASS: &[SystemName] = &[
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Machine,
-    SystemName::CoastDown,
-];
+pub const RACE_MASS: &[SystemName] = &[Drop, SpinUp, Machine, CoastDown];
 
 /// Systems in which the inner race is a body of its own, not a part of a shaft.
-pub const FREE_RACE: &[SystemName] = &[SystemName::Drop, SystemName::SpinUp, SystemName::Machine];
+pub const FREE_RACE: &[SystemName] = &[Drop, SpinUp, Machine];
 
 /// Systems with a bearing.
-pub const WITH_BEARING: &[SystemName] = &[
-    SystemName::CoastDown,
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-    SystemName::Identify,
-    SystemName::Machine,
-];
+pub const WITH_BEARING: &[SystemName] = &[CoastDown, Drop, SpinUp, Torque, Rig, Identify, Machine];
 
 /// Systems with a friction moment of a bearing.
-pub const WITH_MOMENT: &[SystemName] = &[
-    SystemName::CoastDown,
-    SystemName::Drop,
-    SystemName::SpinUp,
-    SystemName::Torque,
-    SystemName::Rig,
-    SystemName::Machine,
-];
+pub const WITH_MOMENT: &[SystemName] = &[CoastDown, Drop, SpinUp, Torque, Rig, Machine];

@@ -5,7 +5,10 @@
 
 use crate::key::{Key, Kind, Presence, Range, Section};
 use crate::run::{Accuracy, Method, Until};
-use crate::system::{FALLING, MOVING, STEPPED, SystemName, WITH_BEARING};
+use crate::system::SystemName::{
+    self, CoastDown, Drop, Identify, Machine, Rig, Rotor, Signals, SpinUp, Torque,
+};
+use crate::system::{FALLING, MOVING, STEPPED, WITH_BEARING};
 use problem::words::Words;
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -112,15 +115,11 @@ pub fn systems(key: &Key) -> &'static [SystemName] {
 /// What a system does without a key: mostly what all systems do.
 pub fn presence(key: &Key, system: SystemName) -> Presence {
     let own = match system {
-        SystemName::Torque => crate::torque::keys::PRESENCES,
-        SystemName::SpinUp => crate::spin_up::keys::PRESENCES,
-        SystemName::Rig => crate::rig::keys::PRESENCES,
-        SystemName::CoastDown => crate::coast_down::keys::PRESENCES,
-        SystemName::Drop
-        | SystemName::Signals
-        | SystemName::Identify
-        | SystemName::Rotor
-        | SystemName::Machine => &[],
+        Torque => crate::torque::keys::PRESENCES,
+        SpinUp => crate::spin_up::keys::PRESENCES,
+        Rig => crate::rig::keys::PRESENCES,
+        CoastDown => crate::coast_down::keys::PRESENCES,
+        Drop | Signals | Identify | Rotor | Machine => &[],
     };
     let own = own.iter().find(|(path, _)| *path == key.path);
     own.map_or(key.presence, |(_, presence)| *presence)
@@ -132,15 +131,10 @@ pub fn starts_with(key: &Key, system: SystemName) -> bool {
         return true;
     }
     match system {
-        SystemName::Signals => crate::signals::keys::GIVEN.contains(&key.path),
-        SystemName::Rig => crate::rig::keys::GIVEN.contains(&key.path),
-        SystemName::Identify => crate::identify::keys::GIVEN.contains(&key.path),
-        SystemName::Drop
-        | SystemName::SpinUp
-        | SystemName::Torque
-        | SystemName::Rotor
-        | SystemName::Machine
-        | SystemName::CoastDown => false,
+        Signals => crate::signals::keys::GIVEN.contains(&key.path),
+        Rig => crate::rig::keys::GIVEN.contains(&key.path),
+        Identify => crate::identify::keys::GIVEN.contains(&key.path),
+        Drop | SpinUp | Torque | Rotor | Machine | CoastDown => false,
     }
 }
 

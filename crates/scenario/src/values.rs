@@ -8,7 +8,7 @@ use problem::provenance::Provenance;
 use problem::read::Reader;
 pub use problem::value::{Known, Value};
 use problem::words::Words;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ const FASTEST_SURFACE: f64 = 2000.0;
 
 impl Values {
     /// Refuses a speed at which a radius, m, would move faster than any rotor holds together.
-    pub fn holds_together(&self, path: &str, speed: f64, radius: f64) -> Result<(), Box<Problem>> {
+    pub fn holds_together(&self, path: &str, speed: f64, radius: f64) -> Result<()> {
         let surface = speed.abs() * radius;
         if surface <= FASTEST_SURFACE {
             return Ok(());
@@ -78,7 +78,7 @@ impl Values {
         place: Place,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Problem {
+    ) -> Box<Problem> {
         Problem::new(code, &self.file, found, allowed)
             .at(place)
             .on_key(self.shown(path))
@@ -91,9 +91,9 @@ impl Values {
         path: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Result<T, Box<Problem>> {
+    ) -> Result<T> {
         let problem = self.problem(code, path, self.place(path), found, allowed);
-        Err(Box::new(problem))
+        Err(problem)
     }
 
     /// Whether a value was computed from others.
@@ -195,7 +195,7 @@ impl Values {
     }
 
     /// Refuses what lacks a value that is needed.
-    pub fn complete(&self) -> Result<(), Box<Problem>> {
+    pub fn complete(&self) -> Result<()> {
         match self.lacking.borrow().first() {
             None => Ok(()),
             Some(path) => self.refuse(Code::MissingKey, path, "no value", "a value is needed"),

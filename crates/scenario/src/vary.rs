@@ -18,7 +18,7 @@ use crate::rotor::keys::kind_at;
 use crate::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::table;
 use crate::values::Values;
-use problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Problem, Result, did_you_mean};
 use statistics::design::Coordinate;
 use statistics::distribution::{self as law, triangular};
 use statistics::random::Random;
@@ -224,7 +224,7 @@ pub fn of_drop(
     repeat: &Repeat,
     entries: &[(String, Raw, Place)],
     all: &[Values],
-) -> Result<Vec<Vary>, Box<Problem>> {
+) -> Result<Vec<Vary>> {
     let deviations = [
         (
             "contact.friction_coefficient",
@@ -285,17 +285,15 @@ fn target(key: &Key, values: &Values) -> Option<Target> {
 const WORDS: &str = "one of lognormal, normal, uniform, triangular, choice is needed, e.g. { lognormal = 0.2 }, { uniform = [\"1 mm\", \"2 mm\"] }";
 
 /// One value that is varied, with its distribution as a table of one word.
-pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, Box<Problem>> {
+pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary> {
     if all[0].system().has_shaft() && is_of_part(path) {
         return of_part(path, raw, place, all[0].file());
     }
     let shown = format!("{VARY}.{path}");
     let problem = |code, found: String, allowed: &str| {
-        Box::new(
-            Problem::new(code, all[0].file(), found, allowed)
-                .at(place)
-                .on_key(&shown),
-        )
+        Problem::new(code, all[0].file(), found, allowed)
+            .at(place)
+            .on_key(&shown)
     };
     let (of, plain) = match path.strip_prefix(AUXILIARY_BEARING) {
         Some(rest) => {
@@ -317,7 +315,7 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, 
             "the dotted path of a key is needed",
         );
         let known = table::keys_of(system).map(|key| key.path);
-        return Err(Box::new(unknown.with_hint(did_you_mean(plain, known))));
+        return Err(unknown.with_hint(did_you_mean(plain, known)));
     };
     if ["format", "system", "title", "description", "catalogue"].contains(&plain)
         || ["run.", "repeat."]
@@ -337,7 +335,7 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, 
     let [(word, given)] = parts.as_slice() else {
         return Err(problem(Code::WrongType, raw.text(), WORDS));
     };
-    let number = |raw: &Raw| -> Result<f64, Box<Problem>> {
+    let number = |raw: &Raw| -> Result<f64> {
         let (value, _) = (of[0].reader(key).read_raw(key, raw, place)).map_err(|mut wrong| {
             wrong.key = Some(shown.clone());
             wrong
@@ -345,7 +343,7 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary, 
         let number = value.number().filter(|number| number.is_finite());
         number.ok_or_else(|| problem(Code::WrongType, raw.text(), "a number is needed"))
     };
-    let numbers = |count: usize| -> Result<Vec<f64>, Box<Problem>> {
+    let numbers = |count: usize| -> Result<Vec<f64>> {
         let needed = format!("a list of {count} values, rising, is needed");
         let Raw::List(list) = given else {
             return Err(problem(Code::WrongType, given.text(), &needed));
@@ -458,14 +456,12 @@ fn is_of_part(path: &str) -> bool {
 }
 
 /// A value of a part of a flexible rotor that is varied: between values that are given, since none is taken from the part.
-fn of_part(path: &str, raw: &Raw, place: Place, file: &str) -> Result<Vary, Box<Problem>> {
+fn of_part(path: &str, raw: &Raw, place: Place, file: &str) -> Result<Vary> {
     let needed = "uniform = [\"1 kg\", \"2 kg\"], triangular with three values or choice with texts is needed for a part of a rotor";
     let problem = |code| {
-        Box::new(
-            Problem::new(code, file, raw.text(), needed)
-                .at(place)
-                .on_key(path),
-        )
+        Problem::new(code, file, raw.text(), needed)
+            .at(place)
+            .on_key(path)
     };
     let Raw::Table(parts) = raw else {
         return Err(problem(Code::WrongType));

@@ -6,7 +6,7 @@
 //!
 //! The film is steady and isothermal: neither squeeze nor heating of the inlet.
 
-use super::inputs::{BallOnRace, Computed, Inputs, ball_on_race, law, positive};
+use super::inputs::{BallOnRace, Computed, Inputs, ball_on_race, law, positive, ratio};
 use physics::film::{EntrainedContact, FilmThickness, lambda_ratio};
 use units::Dimension;
 
@@ -29,23 +29,19 @@ pub(super) fn film_thickness(inputs: &mut Inputs) -> Result<Vec<Computed>, Strin
     let groups = contact.groups(viscosity, pressure_coefficient, entrainment, given.load);
     let film = FilmThickness::new(&contact, viscosity, pressure_coefficient, supply);
     let minimum = film.minimum(entrainment, given.load);
-    let number = |quantity, value| law(quantity, Dimension::NONE, value);
     let thickness = |quantity, value| law(quantity, Dimension::LENGTH, value);
     let mut computed = vec![
         law("entrainment", Dimension::SPEED, entrainment),
-        number("speed_parameter", groups.speed),
-        number("material_parameter", groups.material),
-        number("load_parameter", groups.load),
-        number("ellipticity", contact.ellipticity),
+        ratio("speed_parameter", groups.speed),
+        ratio("material_parameter", groups.material),
+        ratio("load_parameter", groups.load),
+        ratio("ellipticity", contact.ellipticity),
         thickness("central_film", film.central(entrainment, given.load)),
         thickness("minimum_film", minimum),
     ];
     if let Some(roughness) = inputs.maybe_quantity("combined_roughness", Dimension::LENGTH)? {
         let roughness = positive("combined_roughness", roughness)?;
-        computed.push(number(
-            "lambda_ratio",
-            lambda_ratio(minimum, roughness, 0.0),
-        ));
+        computed.push(ratio("lambda_ratio", lambda_ratio(minimum, roughness, 0.0)));
     }
     Ok(computed)
 }

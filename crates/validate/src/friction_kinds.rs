@@ -6,7 +6,7 @@
 //! | `palmgren_factors` | `type` ("deep_groove", "angular_contact", "angular_contact_double_row", "four_point_contact"), `series`, `lubrication` ("grease_or_oil_mist", "oil_bath") | `viscous_factor`, `load_factor`, `load_exponent` |
 //! | `oil_viscosity` | `first_temperature`, `first_viscosity`, `second_temperature`, `second_viscosity`, `temperature` | `viscosity` |
 
-use super::inputs::{Computed, Inputs, law, length, positive};
+use super::inputs::{Computed, Inputs, law, length, positive, ratio};
 use physics::palmgren_factors::{FactorType, Lubrication, palmgren_factors};
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
 use physics::viscosity::Viscosity;
@@ -86,17 +86,16 @@ pub(super) fn skf_friction(inputs: &mut Inputs) -> Result<Vec<Computed>, String>
         .moment(&lubricant)
         .map_err(|refusal| refusal.to_string())?;
     let model = moment.intermediates(speed, radial, axial);
-    let number = |quantity, value| law(quantity, Dimension::NONE, value);
     // the model's own moments are in N mm
     let torque = |quantity, value| law(quantity, Dimension::TORQUE, 1e-3 * value);
     Ok(vec![
-        number("rolling_variable", model.rolling_variable),
+        ratio("rolling_variable", model.rolling_variable),
         torque("rolling_moment", model.rolling_moment),
-        number("inlet_shear_factor", model.inlet_shear_factor),
-        number("starvation_factor", model.starvation_factor),
-        number("sliding_variable", model.sliding_variable),
-        number("boundary_share", model.boundary_share),
-        number("sliding_friction", model.sliding_friction),
+        ratio("inlet_shear_factor", model.inlet_shear_factor),
+        ratio("starvation_factor", model.starvation_factor),
+        ratio("sliding_variable", model.sliding_variable),
+        ratio("boundary_share", model.boundary_share),
+        ratio("sliding_friction", model.sliding_friction),
         torque("sliding_moment", model.sliding_moment),
         torque("drag_moment", model.drag_moment),
         law(
@@ -139,9 +138,9 @@ pub(super) fn factors(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
     let factors =
         palmgren_factors(kind, &series, lubrication).map_err(|refusal| refusal.to_string())?;
     Ok(vec![
-        law("viscous_factor", Dimension::NONE, factors.viscous_factor),
-        law("load_factor", Dimension::NONE, factors.load_factor),
-        law("load_exponent", Dimension::NONE, factors.load_exponent),
+        ratio("viscous_factor", factors.viscous_factor),
+        ratio("load_factor", factors.load_factor),
+        ratio("load_exponent", factors.load_exponent),
     ])
 }
 

@@ -150,6 +150,11 @@ pub(super) fn law(quantity: &'static str, dimension: Dimension, value: f64) -> C
     }
 }
 
+/// A ratio or count that a kind computed.
+pub(super) fn ratio(quantity: &'static str, value: f64) -> Computed {
+    law(quantity, Dimension::NONE, value)
+}
+
 pub(super) fn positive(key: &str, value: f64) -> Result<f64, String> {
     if value > 0.0 {
         Ok(value)

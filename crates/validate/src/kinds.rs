@@ -11,7 +11,7 @@
 //! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
 //! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
 
-use super::inputs::{Computed, Inputs, ball_on_race, law, length, positive};
+use super::inputs::{Computed, Inputs, ball_on_race, law, length, positive, ratio};
 use super::simulator::{ElasticBounce, FreeFall, Simulator};
 use super::{film_kinds, friction_kinds};
 use physics::hertz::{PointContact, maximum_pressure};
@@ -67,27 +67,18 @@ fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
     let stiffness_dimension = units::parse_quantity("1 N/m^1.5")
         .map_err(|error| error.to_string())?
         .dimension;
+    let length = |quantity, value| law(quantity, Dimension::LENGTH, value);
+    let pressure = |quantity, value| law(quantity, Dimension::PRESSURE, value);
+    let maximum = maximum_pressure(contact.pressure_factor, load);
     Ok(vec![
         law("stiffness", stiffness_dimension, contact.stiffness),
-        law("ellipticity", Dimension::NONE, contact.ellipticity),
-        law(
-            "semi_major_axis",
-            Dimension::LENGTH,
-            contact.semi_major(load),
-        ),
-        law(
-            "semi_minor_axis",
-            Dimension::LENGTH,
-            contact.semi_minor(load),
-        ),
-        law("approach", Dimension::LENGTH, contact.approach(load)),
-        law(
-            "max_pressure",
-            Dimension::PRESSURE,
-            maximum_pressure(contact.pressure_factor, load),
-        ),
-        law("max_shear", Dimension::PRESSURE, shear.shear),
-        law("max_shear_depth", Dimension::LENGTH, shear.depth),
+        ratio("ellipticity", contact.ellipticity),
+        length("semi_major_axis", contact.semi_major(load)),
+        length("semi_minor_axis", contact.semi_minor(load)),
+        length("approach", contact.approach(load)),
+        pressure("max_pressure", maximum),
+        pressure("max_shear", shear.shear),
+        length("max_shear_depth", shear.depth),
     ])
 }
 
@@ -102,10 +93,10 @@ fn bearing_kinematics(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
     }
     .passing_orders();
     Ok(vec![
-        law("ball_pass_outer", Dimension::NONE, orders.outer_race),
-        law("ball_pass_inner", Dimension::NONE, orders.inner_race),
-        law("ball_spin", Dimension::NONE, orders.ball_spin),
-        law("cage", Dimension::NONE, orders.cage),
+        ratio("ball_pass_outer", orders.outer_race),
+        ratio("ball_pass_inner", orders.inner_race),
+        ratio("ball_spin", orders.ball_spin),
+        ratio("cage", orders.cage),
     ])
 }
 
@@ -132,24 +123,14 @@ fn rolling_moments(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
         set.inner_traction(motion, friction),
         set.outer_traction(motion, friction),
     );
+    let force = |quantity, value| law(quantity, Dimension::FORCE, value);
+    let torque = |quantity, value| law(quantity, Dimension::TORQUE, value);
     Ok(vec![
-        law("inner_traction", Dimension::FORCE, inner),
-        law("outer_traction", Dimension::FORCE, outer),
-        law(
-            "inner_moment",
-            Dimension::TORQUE,
-            set.inner_moment(steady, inner),
-        ),
-        law(
-            "outer_moment",
-            Dimension::TORQUE,
-            set.outer_moment(steady, outer),
-        ),
-        law(
-            "cage_load",
-            Dimension::FORCE,
-            set.cage_load(motion.cage, friction),
-        ),
+        force("inner_traction", inner),
+        force("outer_traction", outer),
+        torque("inner_moment", set.inner_moment(steady, inner)),
+        torque("outer_moment", set.outer_moment(steady, outer)),
+        force("cage_load", set.cage_load(motion.cage, friction)),
     ])
 }
 
@@ -172,7 +153,7 @@ fn palmgren_moment(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
             load,
             inputs.quantity("static_load_rating", Dimension::FORCE)?,
         );
-        computed.push(law("load_friction_factor", Dimension::NONE, factor));
+        computed.push(ratio("load_friction_factor", factor));
         let moment = load_moment(factor, load, pitch_diameter);
         computed.push(law("load_moment", Dimension::TORQUE, moment));
     }

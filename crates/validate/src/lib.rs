@@ -33,7 +33,7 @@ pub use report::{Report, Row, Tolerance, Verdict};
 pub use simulation::Simulation;
 pub use simulator::{LawsOnly, Simulator};
 
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -47,7 +47,7 @@ const MOST_FILES: usize = 2000;
 const DEEPEST: usize = 8;
 
 /// Runs the shipped cases and, with a folder, every `*.toml` and `*.json` in and below it.
-pub fn run(folder: Option<&Path>, simulator: &dyn Simulator) -> Result<Report, Box<Problem>> {
+pub fn run(folder: Option<&Path>, simulator: &dyn Simulator) -> Result<Report> {
     let mut rows = Vec::new();
     for (name, text) in shipped::CASES {
         rows.extend(named(name, case::rows(text, simulator)));
@@ -148,7 +148,7 @@ fn of_toml(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
 }
 
 /// Case name and path of every file to read, by name: the file's stem, with its folders where two share a stem.
-fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
+fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>> {
     if !folder.exists() {
         let problem = Problem::at_path(
             Code::FileMissing,
@@ -156,7 +156,7 @@ fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
             "nothing there",
             "a folder of cases is needed",
         );
-        return Err(Box::new(problem));
+        return Err(problem);
     }
     if !folder.is_dir() {
         let problem = Problem::at_path(
@@ -165,26 +165,21 @@ fn files(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Box<Problem>> {
             "a file",
             "a folder of cases is needed",
         );
-        return Err(Box::new(problem));
+        return Err(problem);
     }
     let mut paths = Vec::new();
     collect(folder, 0, &mut paths).map_err(|error| {
-        Box::new(Problem::at_path(
+        Problem::at_path(
             Code::FileUnreadable,
             folder,
             error.to_string(),
             "a readable folder of cases that are files is needed",
-        ))
+        )
     })?;
     if paths.len() > MOST_FILES {
         let found = format!("{} files of cases", paths.len());
         let allowed = format!("at most {MOST_FILES} are read at once");
-        return Err(Box::new(Problem::at_path(
-            Code::FileTooLarge,
-            folder,
-            found,
-            allowed,
-        )));
+        return Err(Problem::at_path(Code::FileTooLarge, folder, found, allowed));
     }
     let stem = |path: &Path| {
         path.file_stem()

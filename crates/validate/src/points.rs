@@ -213,7 +213,6 @@ fn scaled(name: &str, unit: &str, reference: f64, ours: f64, largest: f64, why: 
 #[cfg(test)]
 mod tests {
     use super::super::report::Verdict;
-    use super::super::simulator::{DropAnswer, ElasticBounce, FreeFall};
     use super::*;
 
     /// Answers with the reference itself, one value changed.
@@ -222,12 +221,6 @@ mod tests {
     }
 
     impl Simulator for Echo {
-        fn free_fall(&self, _: &FreeFall) -> Result<f64, String> {
-            Err("not asked".into())
-        }
-        fn elastic_bounce(&self, _: &ElasticBounce) -> Result<f64, String> {
-            Err("not asked".into())
-        }
         fn derivative(&self, point: &DerivativePoint) -> Result<DerivativeAnswer, String> {
             let mut answer = DerivativeAnswer {
                 rates: point.dy.clone(),
@@ -238,9 +231,6 @@ mod tests {
             };
             (self.change)(&mut answer);
             Ok(answer)
-        }
-        fn drop(&self, _: &super::super::simulator::DropReference) -> Result<DropAnswer, String> {
-            Err("not asked".into())
         }
     }
 

@@ -178,7 +178,7 @@ impl Report {
     }
 
     /// One problem for each damaged file.
-    pub fn problems(&self) -> impl Iterator<Item = Problem> {
+    pub fn problems(&self) -> impl Iterator<Item = Box<Problem>> {
         self.cases.iter().filter(|row| row.damaged).map(|row| {
             let found = format!("a case file that is {}", row.why);
             let needed = "a whole case file is needed; nothing of this one was compared";

@@ -18,6 +18,7 @@ use model::system::machine::{MachineConstants, RotorMachine};
 use number::Vec2;
 use physics::traction::{FourParameterTraction, TanhTraction, Traction};
 use solve::Settings;
+use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 /// Runs the cases with this program's model and solver.
@@ -106,20 +107,31 @@ impl Simulator for Simulation {
         let (record, end) = (&finished.record.bearings[0], &finished.ending.state);
         let heat = |name: &str| layout.heat_of(end, "", name).unwrap_or(f64::NAN);
         Ok(DropAnswer {
-            first_impact_force: record.contacts.first().map(|contact| contact.peak_force),
-            peak_contact_force: record.peak_contact_force().map(|peak| peak.value),
-            contact_count: Some(record.contacts.len() as f64),
-            inner_race_time_to_50_percent: record.inner_race_time_to_50_percent(),
-            inner_race_time_to_95_percent: record.inner_race_time_to_95_percent(),
-            cage_time_to_95_percent_of_rolling: record.cage_time_to_95_percent(),
-            rotor_race_friction_energy: Some(heat("rotor_race_friction")),
-            ball_slip_energy: Some(heat("inner_ball_slip") + heat("outer_ball_slip")),
-            dissipated_energy: Some(machine.flows(end).heat),
-            inner_race_final_speed: Some(end[layout.bearings[0].inner.spin()]),
-            cage_final_speed: Some(machine.cage_speed(0, end)),
-            rotor_final_speed: Some(end[layout.rotor.spin()]),
-            max_rotor_race_displacement: Some(record.rotor_race_displacement.value),
-            max_mount_displacement: Some(record.mount_displacement.value),
+            values: BTreeMap::from([
+                (
+                    "peak1",
+                    record.contacts.first().map(|contact| contact.peak_force),
+                ),
+                (
+                    "peak_all",
+                    record.peak_contact_force().map(|peak| peak.value),
+                ),
+                ("n_contacts", Some(record.contacts.len() as f64)),
+                ("t_inner_50%", record.inner_race_time_to_50_percent()),
+                ("t_inner_95%", record.inner_race_time_to_95_percent()),
+                ("t_cage_95%roll", record.cage_time_to_95_percent()),
+                ("fric", Some(heat("rotor_race_friction"))),
+                (
+                    "slip",
+                    Some(heat("inner_ball_slip") + heat("outer_ball_slip")),
+                ),
+                ("dissipated", Some(machine.flows(end).heat)),
+                ("wi_end", Some(end[layout.bearings[0].inner.spin()])),
+                ("wc_end", Some(machine.cage_speed(0, end))),
+                ("rotor_end", Some(end[layout.rotor.spin()])),
+                ("maxrel", Some(record.rotor_race_displacement.value)),
+                ("maxouter", Some(record.mount_displacement.value)),
+            ]),
             contact_start_times: record
                 .contacts
                 .iter()

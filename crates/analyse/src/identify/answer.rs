@@ -9,7 +9,7 @@ use identify::explain::{self, Candidate, Conclusion, Explanation, Verdict};
 use identify::loss::{LossMap, LossPoint};
 use identify::moment::{Form, Moment};
 use identify::rotor_friction::{FrictionPoint, RotorFriction};
-use identify::slip::{Established, SlipSettings};
+use identify::slip::{self, Established};
 use outcome::Quantity;
 use outcome::list::results;
 use outcome::list::{List, origins};
@@ -186,8 +186,8 @@ fn next_tests(all: &[Candidate]) -> String {
 
 /// From which slip on the comparison calls it slip, beside the narrower limit of the slip itself.
 fn slip_limits(found: &Found) -> String {
-    let least = 1e2 * explain::Settings::default().least_slip;
-    let limit = 1e2 * SlipSettings::default().limit;
+    let least = 1e2 * explain::LEAST_SLIP;
+    let limit = 1e2 * slip::LIMIT;
     let never = found.tests.iter().filter(
         |test| matches!(&test.slip, Ok(slip) if matches!(slip.established, Established::Never)),
     );

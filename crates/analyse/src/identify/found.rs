@@ -7,7 +7,7 @@ use crate::identify::read::{Asked, Test};
 use crate::interruptible::{INTERRUPTED, interruptible};
 use crate::signals;
 use identify::coasting::Windage;
-use identify::data_checks::{ByTemperature, CheckSettings, Doubt, doubts, reading};
+use identify::data_checks::{CheckSettings, Doubt, doubts, reading};
 use identify::dissipation::{Dissipation, dissipation};
 use identify::explain::{
     self, Candidate, Conclusion, PredictionErrors, Priors, Verdict, with_prediction_errors,
@@ -16,8 +16,8 @@ use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
 use identify::moment::{Moment, MomentSettings, moment, same_load};
 use identify::rotor_friction::{self, Race, RubbingSpinUp};
 use identify::signals::{Signals, before_the_stop, measurement};
-use identify::skid::{Skid, SkidSettings, skid};
-use identify::slip::{CageSlip, SlipSettings, cage_slip};
+use identify::skid::{Skid, skid};
+use identify::slip::{CageSlip, cage_slip};
 use identify::{Measurement, SetDeviation};
 use outcome::Warning;
 use outcome::options::Options;
@@ -203,7 +203,6 @@ impl Found {
                 false => Rolling::ByCage,
             },
             set_deviation: deviation,
-            ..LossSettings::default()
         };
         let curve = moment.as_ref().map(|moment| &moment.curve);
         let no_moment = || "the steady moment is not known".to_string();
@@ -215,8 +214,8 @@ impl Found {
                     Ok((
                         curve().and_then(|curve| loss(&own, curve, &set, &settings)),
                         dissipation(&own, &set, &deviation, None),
-                        cage_slip(&own, &set, &SlipSettings::default()),
-                        curve().and_then(|curve| skid(&own, curve, &set, &SkidSettings::default())),
+                        cage_slip(&own, &set),
+                        curve().and_then(|curve| skid(&own, curve, &set, None)),
                     ))
                 });
                 let (loss, dissipation, slip, skid) = parts.unwrap_or_else(|why| {
@@ -479,8 +478,7 @@ fn doubted(
         &CheckSettings {
             wanted_speed: wanted.is_finite().then_some(wanted),
             ball_count: Some(wish.ball_count as u32),
-            masses_known: true,
-            temperature: Some(ByTemperature::MomentPerKelvin(Uncertain::new(change, open))),
+            moment_per_kelvin: Some(Uncertain::new(change, open)),
             ..CheckSettings::default()
         },
     )
@@ -497,7 +495,6 @@ fn explained(
         seed: how.seed,
         decision: how.decide_at,
         settling_time,
-        ..explain::Settings::default()
     };
     let errors = PredictionErrors {
         locking_window: how.locking_window,

@@ -47,27 +47,24 @@ pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
     warnings.extend(assumed(scenario, asked));
     let history = history::columns(asked, Some(&found));
     let end = history.first().and_then(|time| time.values.last().copied());
+    let end = end.unwrap_or(0.0);
     let stop = match (&found.moment, found.interrupted) {
-        (Ok(_), false) if found.unused.is_some() => Stop {
-            reason: "not answered",
-            time: 0.0,
-            text: found.unused.clone().unwrap_or_default(),
-        },
-        (_, true) => Stop {
-            reason: "interrupted",
-            time: end.unwrap_or(0.0),
-            text: "Interrupted; what was found until then is kept.".to_string(),
-        },
-        (Ok(_), false) => Stop {
-            reason: "finished",
-            time: end.unwrap_or(0.0),
-            text: "Everything asked for was computed.".to_string(),
-        },
-        (Err(why), false) => Stop {
-            reason: "not answered",
-            time: 0.0,
-            text: format!("the slow tests do not give the steady moment: {why}"),
-        },
+        (Ok(_), false) if found.unused.is_some() => Stop::new(
+            "not answered",
+            0.0,
+            found.unused.clone().unwrap_or_default(),
+        ),
+        (_, true) => Stop::new(
+            "interrupted",
+            end,
+            "Interrupted; what was found until then is kept.",
+        ),
+        (Ok(_), false) => Stop::new("finished", end, "Everything asked for was computed."),
+        (Err(why), false) => Stop::new(
+            "not answered",
+            0.0,
+            format!("the slow tests do not give the steady moment: {why}"),
+        ),
     };
     Outcome {
         system: "identify",
@@ -77,13 +74,10 @@ pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
         history,
         stop,
         warnings,
-        pictures: vec![Picture {
-            bearing: String::new(),
-            clearance: None,
-            pressure_limit: None,
-            rolling_cage_ratio: found.set.cage_speed(1.0),
-            balls: asked.identify.ball_count,
-        }],
+        pictures: vec![Picture::without_rotor(
+            found.set.cage_speed(1.0),
+            asked.identify.ball_count,
+        )],
         ..Outcome::default()
     }
 }

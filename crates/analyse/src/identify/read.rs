@@ -1,7 +1,7 @@
 //! The signals files of the tests, and their channels.
 
 use crate::signals;
-use problem::{Code, Problem};
+use problem::{Code, Result};
 use scenario::{Identify, Signals, problem_at};
 use std::path::Path;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub struct Asked<'a> {
 
 impl Asked<'_> {
     /// Reads all files; refuses what is not there or not what it should be.
-    pub fn of(identify: &Identify) -> Result<Asked<'_>, Box<Problem>> {
+    pub fn of(identify: &Identify) -> Result<Asked<'_>> {
         let list = |key: &'static str, paths: &[std::path::PathBuf]| {
             let read = |path: &std::path::PathBuf| test(key, path, identify, true);
             paths.iter().map(read).collect::<Result<Vec<_>, _>>()
@@ -52,12 +52,7 @@ impl Asked<'_> {
     }
 }
 
-fn test(
-    key: &'static str,
-    path: &Path,
-    identify: &Identify,
-    with_torque: bool,
-) -> Result<Test, Box<Problem>> {
+fn test(key: &'static str, path: &Path, identify: &Identify, with_torque: bool) -> Result<Test> {
     let refuse = |code, found: String, needed: &str| {
         problem_at(code, key, format!("{}, {found}", path.display()), needed)
     };

@@ -2,7 +2,7 @@
 
 use crate::signals::read::{self, Listed, Series, Source, Stamps};
 use crate::signals::spectrum;
-use problem::{Code, Problem};
+use problem::{Code, Result};
 use scenario::{
     BuiltIn, CageKind, PickupFlank, PickupKind, Scenario, SensorSource, Signals, System, Windage,
     problem_at,
@@ -33,7 +33,7 @@ pub(crate) enum Signal {
 
 impl Asked {
     /// Reads what is asked for; refuses what is not there or not what it should be.
-    pub fn of(signals: &Signals) -> Result<Asked, Box<Problem>> {
+    pub fn of(signals: &Signals) -> Result<Asked> {
         let mut source = Source::open(&signals.file, "signals.file", signals)?;
         let listed = source.listed();
         let speed = match &signals.speed {
@@ -166,10 +166,7 @@ impl Asked {
 }
 
 /// Reads a signals file that another file names under a key.
-pub(crate) fn signals_file(
-    key: &'static str,
-    path: &Path,
-) -> Result<(Scenario, Signals), Box<Problem>> {
+pub(crate) fn signals_file(key: &'static str, path: &Path) -> Result<(Scenario, Signals)> {
     let refuse = |code, found: String, needed: String| {
         let found = format!("{}, {found}", path.display());
         problem_at(code, key, found, needed)
@@ -209,7 +206,7 @@ fn made_by(path: &Path) -> String {
 }
 
 /// A coast-down of the shaft without the bearing, its channels read.
-fn without_bearing(path: &Path) -> Result<Asked, Box<Problem>> {
+fn without_bearing(path: &Path) -> Result<Asked> {
     let key = "signals.steady.windage_file";
     let (scenario, signals) = signals_file(key, path)?;
     let refuse = |code, found: &str, needed: &str| {
@@ -249,7 +246,7 @@ pub(crate) fn in_newton_metres(
     name: &str,
     scale: Option<f64>,
     whole: bool,
-) -> Result<Series, Box<Problem>> {
+) -> Result<Series> {
     let mut series = source.series(key, name, whole)?;
     let factor = source.torque_factor(key, &series.unit, name, scale)?;
     series.scale(factor);

@@ -4,7 +4,7 @@ use crate::signals::asked::Signal;
 use crate::signals::shaft;
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
-use measure::pulse::{EdgeSettings, edges};
+use measure::pulse::{Flank, edges};
 use scenario::{CageKind, CageSignal};
 use statistics::uncertain::Uncertain;
 
@@ -91,13 +91,8 @@ impl Found {
                 from_vibration(first, interval, rest, &turning, &line)
             }
             (Signal::Sampled(series), _) => {
-                let found = edges(
-                    series.first,
-                    series.interval,
-                    &series.values,
-                    &EdgeSettings::default(),
-                )
-                .map_err(|refusal| refusal.to_string())?;
+                let found = edges(series.first, series.interval, &series.values, Flank::Rising)
+                    .map_err(|refusal| refusal.to_string())?;
                 notes.extend(found.notes.iter().cloned());
                 from_pulses(&found.times, &turning, balls, ratio, change)
             }

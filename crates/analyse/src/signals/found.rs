@@ -48,6 +48,12 @@ impl Found {
             .extend(all.map(|note| Warning::from(of(about.to_string(), note))));
     }
 
+    /// What a part answers; remembers why one does not.
+    pub(crate) fn answer<T>(&mut self, part: &'static str, answer: Result<T, String>) -> Option<T> {
+        let refused = |why| self.refused.push((part, why));
+        answer.map_err(refused).ok()
+    }
+
     /// Warns of what an estimator says of its result.
     pub(crate) fn note(&mut self, about: &str, notes: &[String]) {
         self.warn(about, notes, |about, note| SignalsWarning::Estimate {

@@ -77,12 +77,9 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
             (Some(series), Some(wish), Some(shaft)) => vibration::Found::of(series, wish, shaft),
             _ => no_shaft(),
         };
-        match interruptible(interrupt, vibration) {
-            Ok(vibration) => {
-                found.note("Vibration", &vibration.notes);
-                found.vibration = Some(vibration);
-            }
-            Err(why) => found.refused.push(("vibration", why)),
+        if let Some(vibration) = found.answer("vibration", interruptible(interrupt, vibration)) {
+            found.note("Vibration", &vibration.notes);
+            found.vibration = Some(vibration);
         }
     }
     if asked.signals.steady.is_none() {
@@ -101,19 +98,12 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
             _ => no_shaft(),
         }
     };
-    match interruptible(interrupt, steady) {
-        Ok(steady) => {
-            if let Some(doubt) = &steady.doubt {
-                found.warn(
-                    "Steady curve",
-                    std::slice::from_ref(doubt),
-                    |about, note| SignalsWarning::SteadyCurve { about, note },
-                );
-            }
-            found.note("Steady curve", &steady.notes);
-            found.steady = Some(steady);
-        }
-        Err(why) => found.refused.push(("steady", why)),
+    if let Some(steady) = found.answer("steady", interruptible(interrupt, steady)) {
+        found.warn("Steady curve", steady.doubt.as_slice(), |about, note| {
+            SignalsWarning::SteadyCurve { about, note }
+        });
+        found.note("Steady curve", &steady.notes);
+        found.steady = Some(steady);
     }
 }
 
@@ -172,33 +162,23 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             (Some(signal), Some(wish)) => shaft::Found::of(signal, wish, watched),
             _ => not_asked(),
         };
-        match interruptible(interrupt, shaft) {
-            Ok(shaft) => {
-                if let Some(doubt) = &shaft.doubt {
-                    found.warn(
-                        "Marks per revolution",
-                        std::slice::from_ref(doubt),
-                        |about, note| SignalsWarning::MarksPerRevolution { about, note },
-                    );
-                }
-                if let Some(odd) =
-                    (asked.signals.speed.as_ref()).and_then(|wish| shaft.beside_set(wish))
-                {
-                    found.warn("Largest speed", &[odd], |about, note| {
-                        SignalsWarning::LargestSpeed { about, note }
-                    });
-                }
-                if let shaft::Seen::Channel(channel) = &shaft.seen
-                    && let Some(doubt) = &channel.doubt
-                {
-                    found.warn("Speed", std::slice::from_ref(doubt), |about, note| {
-                        SignalsWarning::SpeedChannel { about, note }
-                    });
-                }
-                found.note("Speed", &shaft.notes);
-                found.shaft = Some(Arc::new(shaft));
+        if let Some(shaft) = found.answer("speed", interruptible(interrupt, shaft)) {
+            let marks = "Marks per revolution";
+            found.warn(marks, shaft.doubt.as_slice(), |about, note| {
+                SignalsWarning::MarksPerRevolution { about, note }
+            });
+            let wish = asked.signals.speed.as_ref();
+            let odd = wish.and_then(|wish| shaft.beside_set(wish));
+            found.warn("Largest speed", odd.as_slice(), |about, note| {
+                SignalsWarning::LargestSpeed { about, note }
+            });
+            if let shaft::Seen::Channel(channel) = &shaft.seen {
+                found.warn("Speed", channel.doubt.as_slice(), |about, note| {
+                    SignalsWarning::SpeedChannel { about, note }
+                });
             }
-            Err(why) => found.refused.push(("speed", why)),
+            found.note("Speed", &shaft.notes);
+            found.shaft = Some(Arc::new(shaft));
         }
     }
     if let (Some(series), Some(_)) = (&asked.torque, &asked.signals.torque) {
@@ -215,13 +195,10 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             }
             _ => not_asked(),
         };
-        match interruptible(interrupt, torque) {
-            Ok(torque) => {
-                found.warnings.extend(torque.doubts.iter().cloned());
-                found.note(torque::TORQUE, &torque.notes);
-                found.torque = Some(Arc::new(torque));
-            }
-            Err(why) => found.refused.push(("torque", why)),
+        if let Some(torque) = found.answer("torque", interruptible(interrupt, torque)) {
+            found.warnings.extend(torque.doubts.iter().cloned());
+            found.note(torque::TORQUE, &torque.notes);
+            found.torque = Some(Arc::new(torque));
         }
     }
     if let (Some(_), Some(wish)) = (&asked.cage, &asked.signals.cage) {
@@ -230,20 +207,17 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             (Some(signal), Some(wish), Some(shaft)) => cage::Found::of(signal, wish, shaft),
             _ => no_shaft(),
         };
-        match interruptible(interrupt, cage) {
-            Ok(cage) => {
-                found.note("Cage", &cage.notes);
-                let marks = asked.signals.speed.as_ref();
-                let marks = marks.map_or(0, |speed| speed.marks_per_revolution);
-                let shaft = found.shaft.as_deref();
-                if let Some(doubt) = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft)) {
-                    found.warn(&capital(&asked.place("cage")), &[doubt], |about, note| {
-                        SignalsWarning::Cage { about, note }
-                    });
-                }
-                found.cage = Some(cage);
-            }
-            Err(why) => found.refused.push(("cage", why)),
+        if let Some(cage) = found.answer("cage", interruptible(interrupt, cage)) {
+            found.note("Cage", &cage.notes);
+            let marks = asked.signals.speed.as_ref();
+            let marks = marks.map_or(0, |speed| speed.marks_per_revolution);
+            let shaft = found.shaft.as_deref();
+            let doubt = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft));
+            let place = capital(&asked.place("cage"));
+            found.warn(&place, doubt.as_slice(), |about, note| {
+                SignalsWarning::Cage { about, note }
+            });
+            found.cage = Some(cage);
         }
     }
     found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
@@ -281,6 +255,9 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
     found.warnings.extend(assumed(scenario, asked, &found));
     let history = history::columns(asked, Some(&found));
     let end = history.first().and_then(|time| time.values.last().copied());
+    let end = end.unwrap_or(0.0);
+    let cage = asked.signals.cage.as_ref();
+    let (ratio, balls) = cage.map_or((f64::NAN, 0), |cage| (cage.rolling_ratio, cage.ball_count));
     Outcome {
         system: "signals",
         title: scenario
@@ -290,38 +267,20 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
         quantities: answer::name(asked, Some(&found)),
         history,
         stop: match found.refused.as_slice() {
-            refused if refused.iter().any(|(_, why)| why == INTERRUPTED) => Stop {
-                reason: "interrupted",
-                time: end.unwrap_or(0.0),
-                text: "Interrupted; what was found until then is kept.".to_string(),
-            },
-            [] => Stop {
-                reason: "finished",
-                time: end.unwrap_or(0.0),
-                text: "Everything asked for was computed.".to_string(),
-            },
-            [(part, why), ..] => Stop {
-                reason: "not answered",
-                time: end.unwrap_or(0.0),
-                text: format!("the record does not carry the {part} asked for: {why}"),
-            },
+            refused if refused.iter().any(|(_, why)| why == INTERRUPTED) => Stop::new(
+                "interrupted",
+                end,
+                "Interrupted; what was found until then is kept.",
+            ),
+            [] => Stop::new("finished", end, "Everything asked for was computed."),
+            [(part, why), ..] => Stop::new(
+                "not answered",
+                end,
+                format!("the record does not carry the {part} asked for: {why}"),
+            ),
         },
         warnings: found.warnings,
-        pictures: vec![Picture {
-            bearing: String::new(),
-            clearance: None,
-            pressure_limit: None,
-            rolling_cage_ratio: asked
-                .signals
-                .cage
-                .as_ref()
-                .map_or(f64::NAN, |cage| cage.rolling_ratio),
-            balls: asked
-                .signals
-                .cage
-                .as_ref()
-                .map_or(0, |cage| cage.ball_count),
-        }],
+        pictures: vec![Picture::without_rotor(ratio, balls)],
         ..Outcome::default()
     }
 }

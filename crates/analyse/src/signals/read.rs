@@ -9,7 +9,7 @@ use timing::Timing;
 
 use crate::signals::unit::{no_signal, si_factor, speed_factor, unit_of};
 use measure::converter::Converter;
-use problem::{Code, Problem, did_you_mean};
+use problem::{Code, Problem, Result, did_you_mean};
 use recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use scenario::{Signals, problem_at};
 use std::path::Path;
@@ -107,11 +107,7 @@ fn open(path: &Path) -> Result<Box<dyn Recording>, FileError> {
 
 impl<'a> Source<'a> {
     /// Opens a file; `key` names it in the scenario.
-    pub fn open(
-        path: &Path,
-        key: &'static str,
-        signals: &'a Signals,
-    ) -> Result<Source<'a>, Box<Problem>> {
+    pub fn open(path: &Path, key: &'static str, signals: &'a Signals) -> Result<Source<'a>> {
         let recording = open(path).map_err(|error| of_file(&error, key))?;
         let name = short(path);
         Ok(Source {
@@ -162,7 +158,7 @@ impl<'a> Source<'a> {
         problem_at(code, key, found, needed)
     }
 
-    fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel), Box<Problem>> {
+    fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel)> {
         let channels = self.recording.channels();
         let alike = || (0..channels.len()).filter(|k| channels[*k].name == name);
         if let (Some(first), Some(second)) = (alike().next(), alike().nth(1)) {
@@ -210,7 +206,7 @@ impl<'a> Source<'a> {
             let hints = [did_you_mean(name, names()), self.unread(name)];
             let hints: Vec<String> = hints.into_iter().flatten().collect();
             let hint = (!hints.is_empty()).then(|| hints.join(" "));
-            return Err(Box::new(problem.with_hint(hint)));
+            return Err(problem.with_hint(hint));
         };
         let channel = channels[index].clone();
         let found = match (channel.content, channel.count) {
@@ -221,7 +217,7 @@ impl<'a> Source<'a> {
         let found = format!("channel \"{name}\", {found}");
         let needed = "a channel of numbers is needed";
         let problem = self.problem(Code::UnknownChannel, key, found, needed);
-        Err(Box::new(problem.with_hint(self.unread(name))))
+        Err(problem.with_hint(self.unread(name)))
     }
 
     /// What the reader found wrong with the file, for a message that misses a channel: of this one first. A file cut by a crash
@@ -280,12 +276,7 @@ impl<'a> Source<'a> {
     }
 
     /// The values of a channel at equal times, within the part that is looked at; all of it where `whole`.
-    pub fn series(
-        &mut self,
-        key: &'static str,
-        name: &str,
-        whole: bool,
-    ) -> Result<Series, Box<Problem>> {
+    pub fn series(&mut self, key: &'static str, name: &str, whole: bool) -> Result<Series> {
         self.sampled(key, name, whole, false)
     }
 
@@ -296,7 +287,7 @@ impl<'a> Source<'a> {
         name: &str,
         whole: bool,
         rising: bool,
-    ) -> Result<Series, Box<Problem>> {
+    ) -> Result<Series> {
         let (index, channel) = self.channel(key, name)?;
         let offset = self.offset(index, &channel);
         let part = match whole {
@@ -387,7 +378,7 @@ impl<'a> Source<'a> {
     }
 
     /// Refuses names of channels that the file does not have.
-    pub fn has(&self, key: &str, names: &[String]) -> Result<(), Box<Problem>> {
+    pub fn has(&self, key: &str, names: &[String]) -> Result<()> {
         names
             .iter()
             .try_for_each(|name| self.channel(key, name).map(|_| ()))
@@ -402,7 +393,7 @@ impl<'a> Source<'a> {
         highest: Option<f64>,
         series: &Series,
         resolved: f64,
-    ) -> Result<(), Box<Problem>> {
+    ) -> Result<()> {
         let half = 0.5 / series.interval;
         let least = FEWEST_LINES * resolved;
         match highest {
@@ -426,7 +417,7 @@ impl<'a> Source<'a> {
     }
 
     /// The values of a channel in which passing marks or balls are looked for; refuses what is another quantity by its unit.
-    pub fn passings(&mut self, key: &'static str, name: &str) -> Result<Series, Box<Problem>> {
+    pub fn passings(&mut self, key: &'static str, name: &str) -> Result<Series> {
         let series = self.series(key, name, false)?;
         match no_signal(&series.unit) {
             Some(quantity) => Err(self.problem(
@@ -449,12 +440,7 @@ impl<'a> Source<'a> {
     }
 
     /// The values of a channel that shows a speed, in rad/s, within the part that is looked at.
-    pub fn speeds(
-        &mut self,
-        key: &'static str,
-        name: &str,
-        scale: Option<f64>,
-    ) -> Result<Series, Box<Problem>> {
+    pub fn speeds(&mut self, key: &'static str, name: &str, scale: Option<f64>) -> Result<Series> {
         let mut series = self.sampled(key, name, false, true)?;
         let named = || format!("channel \"{}\" in \"{}\"", series.name, series.unit.trim());
         let factor = match (speed_factor(&series.unit), scale) {
@@ -491,7 +477,7 @@ impl<'a> Source<'a> {
         channel: usize,
         first: u64,
         count: usize,
-    ) -> Result<Vec<f64>, Box<Problem>> {
+    ) -> Result<Vec<f64>> {
         let mut values = vec![f64::NAN; count];
         let got = self
             .recording
@@ -517,7 +503,7 @@ impl<'a> Source<'a> {
         unit: &str,
         name: &str,
         scale: Option<f64>,
-    ) -> Result<f64, Box<Problem>> {
+    ) -> Result<f64> {
         let own = si_factor(unit, "N m");
         match (own, scale) {
             // a sensor may be mounted the other way round
@@ -548,11 +534,7 @@ impl<'a> Source<'a> {
     }
 
     /// The unit of a channel that must be a temperature.
-    pub fn temperature_unit(
-        &self,
-        key: &'static str,
-        series: &Series,
-    ) -> Result<Unit, Box<Problem>> {
+    pub fn temperature_unit(&self, key: &'static str, series: &Series) -> Result<Unit> {
         unit_of(&series.unit, "K").ok_or_else(|| {
             self.problem(
                 Code::ChannelUnit,

@@ -3,8 +3,7 @@
 use crate::signals::asked::Signal;
 use crate::signals::read::Series;
 use measure::pulse::{
-    EdgeSettings, Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges,
-    number,
+    Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
 };
 use measure::shaft::Shaft;
 use measure::speed::{Instrument, Motion, Speed, SpeedSettings, Transient, smooth, smooth_channel};
@@ -398,14 +397,11 @@ fn passages(
             series.first,
             series.interval,
             &series.values,
-            &EdgeSettings {
-                flank: match flank {
-                    PickupFlank::Rising => Flank::Rising,
-                    PickupFlank::Falling => Flank::Falling,
-                    PickupFlank::Both => Flank::Both,
-                    PickupFlank::Centre => Flank::Centre,
-                },
-                ..EdgeSettings::default()
+            match flank {
+                PickupFlank::Rising => Flank::Rising,
+                PickupFlank::Falling => Flank::Falling,
+                PickupFlank::Both => Flank::Both,
+                PickupFlank::Centre => Flank::Centre,
             },
         ),
         (

@@ -403,7 +403,6 @@ fn inverted(
             .and_then(|change| change.end)
             .map(|(time, deviation)| Uncertain::new(time, deviation)),
         zero,
-        zero_wander: 0.0,
         scale_deviation: wish.scale_deviation,
         disturbance_power: match wish.disturbance {
             Disturbance::Auto | Disturbance::None => None,

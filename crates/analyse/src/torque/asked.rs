@@ -3,7 +3,7 @@
 use model::bearing::AccelerationLoss;
 use physics::friction::{Friction, MomentParts};
 use physics::rolling::RollingSet;
-use problem::{Code, Problem};
+use problem::{Code, Result};
 use scenario::{Moment, Torque, problem_at};
 
 /// The moments at one speed, load and acceleration, N m.
@@ -41,7 +41,7 @@ pub struct Asked<'a> {
 
 impl Asked<'_> {
     /// Builds the laws of a bearing.
-    pub fn of(torque: &Torque) -> Result<Asked<'_>, Box<Problem>> {
+    pub fn of(torque: &Torque) -> Result<Asked<'_>> {
         let radius = 0.5 * torque.ball_diameter;
         let inner_track_radius = 0.5 * torque.pitch_diameter - radius;
         let ball = (torque.ball_mass)

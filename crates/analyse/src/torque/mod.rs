@@ -45,18 +45,11 @@ pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
         quantities,
         history,
         warnings: warnings::of(scenario, asked),
-        stop: Stop {
-            reason: "finished",
-            time: 0.0,
-            text: "Everything asked for was computed.".to_string(),
-        },
-        pictures: vec![Picture {
-            bearing: String::new(),
-            clearance: None,
-            pressure_limit: None,
-            rolling_cage_ratio: asked.set.cage_speed(1.0),
-            balls: torque.ball_count,
-        }],
+        stop: Stop::new("finished", 0.0, "Everything asked for was computed."),
+        pictures: vec![Picture::without_rotor(
+            asked.set.cage_speed(1.0),
+            torque.ball_count,
+        )],
         ..Outcome::default()
     }
 }

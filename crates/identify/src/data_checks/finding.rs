@@ -39,7 +39,6 @@ impl Doubt {
             | Doubt::OutsideMoment { test, .. }
             | Doubt::ForeignSteadyMoment { test, .. }
             | Doubt::LoadOfSteadyMoment { test, .. }
-            | Doubt::InertiaMissing { test, .. }
             | Doubt::WrongBallCount { test, .. }
             | Doubt::CageNeverRolls { test, .. }
             | Doubt::TemperatureExplains { test, .. }
@@ -107,20 +106,6 @@ impl Doubt {
                     each.join("; ")
                 )
             }
-            Doubt::InertiaMissing {
-                acceleration,
-                torque,
-                ..
-            } => match torque {
-                Some((least, most)) => format!(
-                    "the mass of the cage is not known: at {acceleration:.0} rad/s² inertia takes between {:.2} and {:.2} N mm from the torque (no cage to one of twice the balls' mass)",
-                    1e3 * least,
-                    1e3 * most
-                ),
-                None => format!(
-                    "the masses of balls and cage are not known: at {acceleration:.0} rad/s² inertia cannot be distinguished from friction"
-                ),
-            },
             Doubt::WrongBallCount {
                 stated,
                 fits,

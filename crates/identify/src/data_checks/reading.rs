@@ -7,7 +7,7 @@
 
 use super::{APART, Doubt, set_free_mean};
 use crate::Measurement;
-use crate::moment::MomentSettings;
+use crate::moment::{LEAST_SPEED, SLOW_ACCELERATION};
 use crate::series::trapezoid;
 use physics::palmgren::viscous_moment;
 use physics::rolling::RollingSet;
@@ -31,15 +31,14 @@ const TURNING: f64 = 0.05;
 /// - `viscosity`: m²/s, where it is known
 pub fn reading(test: &Measurement, set: &RollingSet<f64>, viscosity: Option<f64>) -> Option<Doubt> {
     test.sound().ok()?;
-    let slow = MomentSettings::default();
-    let least = slow.least_speed.max(TURNING * test.fastest());
+    let least = LEAST_SPEED.max(TURNING * test.fastest());
     let pitch_diameter = 2.0 * set.inner_track_radius * (1.0 + set.ball_ratio);
     let law = |viscosity: f64, speed: f64| viscous_moment(1.0, viscosity, speed, pitch_diameter);
     let (few, much) = viscosity.map_or(VISCOSITIES, |known| (known, known));
     let [mut time, mut moment, mut low, mut high] = [0.0; 4];
     for (k, weight) in trapezoid(&test.time).into_iter().enumerate() {
         let (speed, rate) = (test.speed[k], test.acceleration[k]);
-        if speed.abs() >= least && rate.abs() <= slow.slow_acceleration {
+        if speed.abs() >= least && rate.abs() <= SLOW_ACCELERATION {
             time += weight;
             moment += weight * speed.signum() * test.torque[k];
             low += weight * law(few, speed.abs());

@@ -1,7 +1,7 @@
 //! The explanations that are compared.
 
 /// An explanation of a torque transient. Each is a claim of its own: one without a noticeable effect
-/// ([`Settings::least_effect`](super::settings::Settings::least_effect)) is not that explanation but rolling.
+/// (`LEAST_EFFECT`) is not that explanation but rolling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Explanation {
     /// Balls roll, the lubricant is as in the coast-down.

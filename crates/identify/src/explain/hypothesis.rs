@@ -1,5 +1,6 @@
 //! What each explanation predicts.
 
+use super::settings::{LEAST_EFFECT, LEAST_SETTLING, LEAST_SLIP};
 use physics::lubricant_state::Grease;
 use physics::rolling::RollingSet;
 
@@ -168,22 +169,22 @@ impl Hypothesis {
             prediction.cage.append(&mut cage);
         }
         if self != Self::Rolling {
-            let size = effect / (bearing.settings.least_effect * bearing.table.reference);
+            let size = effect / (LEAST_EFFECT * bearing.table.reference);
             prediction.claim = if needs_slip {
-                let slip = size.min(largest_slip / bearing.settings.least_slip);
+                let slip = size.min(largest_slip / LEAST_SLIP);
                 if self == Self::HeatedSlip {
-                    slip.min(softened / bearing.settings.least_effect)
+                    slip.min(softened / LEAST_EFFECT)
                 } else {
                     slip
                 }
             } else if self == Self::SlowSensor {
-                size.min(values[0] / bearing.settings.least_settling)
+                size.min(values[0] / LEAST_SETTLING)
             } else if self == Self::Grease {
                 // both states must show, each where the other is as it is
                 let smaller = (tests.iter())
                     .map(|test| smaller_effect(self, &values, test, bearing))
                     .fold(0.0, f64::max);
-                smaller / (bearing.settings.least_effect * bearing.table.reference)
+                smaller / (LEAST_EFFECT * bearing.table.reference)
             } else {
                 size
             };

@@ -22,7 +22,7 @@
 //! number: see `evidence`, `noise` and `mode`. An explanation wins with a probability of
 //! [`Settings::decision`] and an acceptable fit; otherwise the verdict is "undecided" or "none of these".
 //!
-//! An explanation is a claim: what it says must show on the torque by [`Settings::least_effect`]. Grease claims that both
+//! An explanation is a claim: what it says must show on the torque by `LEAST_EFFECT`. Grease claims that both
 //! its states show, slip a cage that stays behind, heating a traction that still falls 0.3 s after the run-up, a slow
 //! sensor more than what any inversion smooths.
 //!
@@ -59,6 +59,7 @@ mod steady;
 mod verdict;
 
 use physics::rolling::RollingSet;
+use settings::DISCREPANCY;
 
 use crate::algebra::{dot, log_sum_exp};
 use crate::{Measurement, SteadyMoment};
@@ -76,7 +77,7 @@ pub use explanation::Explanation;
 pub use next_test::{Candidate, Proposal, next_test};
 pub use prediction_errors::{PredictionErrors, with_prediction_errors};
 pub use prior::{Priors, Range};
-pub use settings::Settings;
+pub use settings::{LEAST_FIT, LEAST_SLIP, Settings};
 pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, TorqueMean, Verdict};
 
 /// Which explanation the tests of one bearing support.
@@ -102,7 +103,7 @@ pub fn explain(
     // what is left by the most probable explanation says how many data the means are worth; which one it is depends on that little
     let (mut power, mut effective) = (1.0, 0.0);
     let mut pass = || -> Option<(Observed, Vec<Assessment>)> {
-        let observed = Observed::new(&records, &bearing, &settings.discrepancy, power)?;
+        let observed = Observed::new(&records, &bearing, &DISCREPANCY, power)?;
         let assess = |explanation| assess(explanation, &records, &bearing, &observed);
         let assessments: Vec<_> = Explanation::ALL.into_iter().map(assess).collect();
         let best = (assessments.iter().flat_map(|(_, best)| best))
@@ -162,10 +163,7 @@ fn torque_means(
 }
 
 fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
-    let fits = |a: &Assessment| {
-        a.fit
-            .is_some_and(|fit| fit.probability >= settings.least_fit)
-    };
+    let fits = |a: &Assessment| a.fit.is_some_and(|fit| fit.probability >= LEAST_FIT);
     let best = verdict.best();
     if best.probability >= settings.decision {
         return if fits(best) {
@@ -348,7 +346,7 @@ fn estimates(form: Hypothesis, mode: &Mode, bearing: &Bearing) -> Vec<Estimate> 
 /// freedom as there are means, where f is straight over the width of the posterior; mean over the amplitudes of the models' own
 /// error
 fn fit(prediction: &Prediction, at: &[f64], tests: &[Trial], bearing: &Bearing) -> Option<Fit> {
-    let allowed = (bearing.settings.discrepancy.iter()).filter(|amplitude| **amplitude <= COARSE);
+    let allowed = (DISCREPANCY.iter()).filter(|amplitude| **amplitude <= COARSE);
     let amplitudes: Vec<f64> = std::iter::once(&FINE).chain(allowed).copied().collect();
     let observed = Observed::new(tests, bearing, &amplitudes, 1.0)?;
     let mut fit = Fit {

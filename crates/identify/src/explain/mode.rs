@@ -11,6 +11,7 @@
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::noise::Observed;
 use super::record::Trial;
+use super::settings::{PRIOR_POINTS, STARTS};
 use crate::algebra::{Factor, dot, log_sum_exp};
 use nalgebra::{DMatrix, DVector};
 use statistics::random::{Random, quasi_normal};
@@ -63,7 +64,7 @@ impl<'a> Search<'a> {
 
     /// The most probable place; none where no parameters fulfil the claim.
     pub fn mode(&self) -> Option<Mode> {
-        let (starts, claimed) = self.explore(self.bearing.settings.prior_points);
+        let (starts, claimed) = self.explore(PRIOR_POINTS);
         let modes = starts.iter().filter_map(|start| {
             let wide = self.observed.amplitudes.len() - 1;
             let (z, _) = self.climb(start, wide, 6);
@@ -118,7 +119,7 @@ impl<'a> Search<'a> {
             if starts.iter().all(apart) {
                 starts.push(z);
             }
-            if starts.len() == self.bearing.settings.starts {
+            if starts.len() == STARTS {
                 break;
             }
         }

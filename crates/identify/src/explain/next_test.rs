@@ -10,6 +10,7 @@
 //!
 //! Does not model: what the new test shares with the old ones (zero, scale and level count as new), the effort of a test.
 
+use super::settings::DISCREPANCY;
 use nalgebra::DMatrix;
 use physics::rolling::RollingSet;
 use statistics::random::Random;
@@ -289,7 +290,7 @@ impl Planned<'_> {
     /// Expected information and the entropy that is left, nats.
     fn information(&self, verdict: &Verdict, random: &mut Random) -> Option<(f64, f64)> {
         let one = std::slice::from_ref(&self.test);
-        let observed = Observed::new(one, self.bearing, &self.bearing.settings.discrepancy, 1.0)?;
+        let observed = Observed::new(one, self.bearing, &DISCREPANCY, 1.0)?;
         let discrepancy = verdict.best().fit.map_or(0.02, |fit| fit.discrepancy);
         let nearest = |a: &f64| (a.ln() - discrepancy.max(1e-6).ln()).abs();
         let amplitude = (0..observed.amplitudes.len()).min_by(|i, j| {

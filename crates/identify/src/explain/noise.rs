@@ -18,6 +18,7 @@
 
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::record::{Bin, Trial};
+use super::settings::{INERTIA_DEVIATION, LAG_DEVIATION, LEVEL_DEVIATION};
 use crate::algebra::{Factor, dot};
 use crate::evidence::effective_number;
 use crate::moment::CARRIED_ON;
@@ -251,7 +252,6 @@ fn shared_torque(
     bearing: &Bearing,
 ) -> f64 {
     let ((test, a), (other_test, b)) = (one, other);
-    let settings = bearing.settings;
     let inertia = bearing.set.outer_inertia();
     let (j, k) = (inertia * a.acceleration, inertia * b.acceleration);
     let (m, n) = (bearing.table.at(a.speed).0, bearing.table.at(b.speed).0);
@@ -262,9 +262,9 @@ fn shared_torque(
     };
     zero + scale * a.torque * b.torque
         + bearing.steady.covariance_between(a.speed, b.speed)
-        + settings.level_deviation.powi(2) * m * n
-        + settings.inertia_deviation.powi(2) * j * k
-        + settings.lag_deviation.powi(2) * a.steepness * b.steepness
+        + LEVEL_DEVIATION.powi(2) * m * n
+        + INERTIA_DEVIATION.powi(2) * j * k
+        + LAG_DEVIATION.powi(2) * a.steepness * b.steepness
 }
 
 fn own_torque(amplitude: f64, bearing: &Bearing) -> impl Fn(&Bin) -> f64 {
@@ -281,7 +281,7 @@ fn own_torque(amplitude: f64, bearing: &Bearing) -> impl Fn(&Bin) -> f64 {
             + model.powi(2)
             + (carried_on * bin.below).powi(2)
             + (SMEAR * j).powi(2)
-            + (0.3 * bearing.settings.lag_deviation * bin.steepness).powi(2)
+            + (0.3 * LAG_DEVIATION * bin.steepness).powi(2)
             + (NEAR_REST * m * (-bin.speed / (0.03 * bearing.table.top_speed)).exp()).powi(2)
     }
 }

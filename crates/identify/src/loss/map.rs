@@ -389,13 +389,7 @@ fn errors(
         .map(|d| {
             let moment = steady.without_scale(d.speed).map_or(0.0, |m| m.value);
             let torque = moment + arm * d.friction - inertia * d.signed_rate;
-            scale_part(
-                tests[d.test].0,
-                steady,
-                settings.same_sensor,
-                torque,
-                moment,
-            ) / arm
+            scale_part(tests[d.test].0, torque, moment) / arm
         })
         .collect();
     let mut sum = DMatrix::zeros(data.len(), data.len());

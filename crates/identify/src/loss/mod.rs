@@ -27,10 +27,13 @@ pub use map::{LossMap, MapPlace};
 use crate::measurement::{Measurement, SetDeviation};
 use crate::moment::{SteadyMoment, same_load};
 use crate::series::rates;
-use crate::slip::{self, SlipSettings, slip_at};
+use crate::slip::slip_at;
 use physics::rolling::RollingSet;
 use statistics::interpolation::between;
 use statistics::uncertain::Uncertain;
+
+/// Window over which the acceleration of a slipping cage is taken, s: the time between two balls that pass at 150 rad/s.
+const CAGE_WINDOW: f64 = 0.01;
 
 /// What is known of the rolling of the balls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,25 +49,16 @@ pub enum Rolling {
 pub struct LossSettings {
     /// Whether the balls roll.
     pub rolling: Rolling,
-    /// What counts as rolling in the cage signal.
-    pub slip: SlipSettings,
     /// What is not known of masses and radius.
     pub set_deviation: SetDeviation,
-    /// Window over which the acceleration of a slipping cage is taken, s.
-    pub cage_window: f64,
-    /// Whether the steady moment was measured by the sensor of this test.
-    pub same_sensor: bool,
 }
 
 impl Default for LossSettings {
-    /// By the cage, exact masses, the same sensor. The window of 10 ms is the time between two balls that pass at 150 rad/s.
+    /// By the cage, exact masses.
     fn default() -> Self {
         Self {
             rolling: Rolling::ByCage,
-            slip: SlipSettings::default(),
             set_deviation: SetDeviation::default(),
-            cage_window: 0.01,
-            same_sensor: true,
         }
     }
 }
@@ -128,15 +122,11 @@ pub fn loss(
 ) -> Result<Loss, String> {
     test.sound()?;
     steady.sound()?;
-    slip::sound(&settings.slip)?;
     settings.set_deviation.sound()?;
     let arm = set.pocket_friction_arm();
     let inertia = set.outer_inertia();
     if !(arm > 0.0 && arm.is_finite() && inertia >= 0.0 && inertia.is_finite()) {
         return Err("masses and radii of balls and cage must be positive and finite".into());
-    }
-    if !(settings.cage_window > 0.0 && settings.cage_window.is_finite()) {
-        return Err("the window of the cage's acceleration must be positive and finite".into());
     }
     let mut notes = Vec::new();
     if !same_load(test.load, steady.load) {
@@ -151,9 +141,8 @@ pub fn loss(
         );
     }
     let cage_rates = test.cage.as_ref().map(|cage| {
-        let window = settings.cage_window;
-        let near = rates(&cage.time, &cage.speed, &cage.deviation, window);
-        let wide = rates(&cage.time, &cage.speed, &cage.deviation, 2.0 * window);
+        let near = rates(&cage.time, &cage.speed, &cage.deviation, CAGE_WINDOW);
+        let wide = rates(&cage.time, &cage.speed, &cage.deviation, 2.0 * CAGE_WINDOW);
         // a straight line over twice the window is wrong by four times as much where the rate bends
         near.iter()
             .zip(&wide)
@@ -163,7 +152,7 @@ pub fn loss(
     let points: Vec<LossPoint> = (0..test.time.len())
         .map(|k| {
             let time = test.time[k];
-            let slip = slip_at(test, set, &settings.slip, time);
+            let slip = slip_at(test, set, time);
             let cage_rate = cage_rates.as_ref().and_then(|(rate, deviation)| {
                 let times = &test.cage.as_ref()?.time;
                 Some(Uncertain::new(
@@ -171,7 +160,7 @@ pub fn loss(
                     between(times, deviation, time)?,
                 ))
             });
-            let excess = excess(test, steady, settings, k);
+            let excess = excess(test, steady, k);
             let state = match (excess, settings.rolling, slip) {
                 (None, ..) => State::OutsideMoment,
                 (_, Rolling::Stated, _) => State::Rolling,
@@ -217,28 +206,13 @@ pub fn loss(
     })
 }
 
-/// Deviation of t_O - M by what both share at one time: the scale of one sensor, or of each.
-fn scale_part(
-    test: &Measurement,
-    steady: &SteadyMoment,
-    same: bool,
-    torque: f64,
-    moment: f64,
-) -> f64 {
-    if same {
-        test.scale_deviation * (torque - moment)
-    } else {
-        (test.scale_deviation * torque).hypot(steady.scale_deviation * moment)
-    }
+/// Deviation of t_O - M by the scale of the sensor that measured both.
+fn scale_part(test: &Measurement, torque: f64, moment: f64) -> f64 {
+    test.scale_deviation * (torque - moment)
 }
 
 /// t_O - M.
-fn excess(
-    test: &Measurement,
-    steady: &SteadyMoment,
-    settings: &LossSettings,
-    k: usize,
-) -> Option<Uncertain> {
+fn excess(test: &Measurement, steady: &SteadyMoment, k: usize) -> Option<Uncertain> {
     let speed = test.speed[k];
     let own = steady.without_scale(speed)?;
     let torque = test.torque[k];
@@ -246,13 +220,7 @@ fn excess(
         .torque_noise(k)
         .hypot(test.zero_deviation)
         .hypot(own.deviation)
-        .hypot(scale_part(
-            test,
-            steady,
-            settings.same_sensor,
-            torque,
-            own.value,
-        ))
+        .hypot(scale_part(test, torque, own.value))
         .hypot(steady.slope(speed)? * test.speed_deviation[k]);
     Some(Uncertain::new(torque - own.value, deviation))
 }

@@ -1,6 +1,6 @@
 //! What of slow tests is fitted: means over equal times.
 
-use super::settings::MomentSettings;
+use super::settings::{LEAST_SPEED, SLOW_ACCELERATION};
 use crate::measurement::Measurement;
 use crate::regression::Data;
 use crate::series::trapezoid;
@@ -23,19 +23,15 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    pub(super) fn new(
-        tests: &[&Measurement],
-        set: &RollingSet<f64>,
-        settings: &MomentSettings,
-    ) -> Result<Self, String> {
+    pub(super) fn new(tests: &[&Measurement], set: &RollingSet<f64>) -> Result<Self, String> {
         let inertia = set.outer_inertia();
         let taken: Vec<Vec<usize>> = tests
             .iter()
             .map(|test| {
                 (0..test.time.len())
                     .filter(|&k| {
-                        test.speed[k].abs() >= settings.least_speed
-                            && test.acceleration[k].abs() <= settings.slow_acceleration
+                        test.speed[k].abs() >= LEAST_SPEED
+                            && test.acceleration[k].abs() <= SLOW_ACCELERATION
                     })
                     .collect()
             })
@@ -82,9 +78,7 @@ impl Blocks {
         }
         if blocks.data.x.len() < FEWEST {
             return Err(format!(
-                "slow running above {} rad/s with accelerations below {} rad/s² gives {} values; at least {FEWEST} are needed: the slow test is too short or not slow",
-                settings.least_speed,
-                settings.slow_acceleration,
+                "slow running above {LEAST_SPEED} rad/s with accelerations below {SLOW_ACCELERATION} rad/s² gives {} values; at least {FEWEST} are needed: the slow test is too short or not slow",
                 blocks.data.x.len()
             ));
         }

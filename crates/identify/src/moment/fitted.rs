@@ -104,7 +104,7 @@ pub(super) fn fitted(
     set: &RollingSet<f64>,
     settings: &MomentSettings,
 ) -> Result<Moment, String> {
-    let blocks = Blocks::new(tests, set, settings)?;
+    let blocks = Blocks::new(tests, set)?;
     let level = blocks.data.level();
     let load = tests[0].load;
     let members = Member::all(settings, set, load, blocks.range, &blocks.data.x);

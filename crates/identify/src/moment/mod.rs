@@ -31,7 +31,7 @@ mod unequal;
 
 pub use curve::SteadyMoment;
 pub use found::{FormFit, Moment, Parameter, Unequal};
-pub use settings::{Form, MomentSettings};
+pub use settings::{Form, LEAST_SPEED, MomentSettings, SLOW_ACCELERATION};
 
 use crate::measurement::Measurement;
 use fitted::{difference, fitted, speeds_up};
@@ -126,16 +126,11 @@ fn refuse(
     {
         return Err("masses and radii of balls and cage must be positive and finite".into());
     }
-    for (what, value) in [
-        ("viscosity", settings.viscosity.unwrap_or(1.0)),
-        ("largest slow acceleration", settings.slow_acceleration),
-        ("least speed", settings.least_speed),
-    ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(format!(
-                "the {what} is {value}; it must be positive and finite"
-            ));
-        }
+    let viscosity = settings.viscosity.unwrap_or(1.0);
+    if !(viscosity > 0.0 && viscosity.is_finite()) {
+        return Err(format!(
+            "the viscosity is {viscosity}; it must be positive and finite"
+        ));
     }
     if let Some(other) = tests
         .iter()

@@ -3,7 +3,7 @@
 //! Of seven campaigns, one of each truth, judged by the torque alone both slips lie below 0.05 (0.02 and 0.05): their reduced model has
 //! one load for all balls. With a signal of the cage, for which more is allowed than this laboratory needs, all lie above.
 
-use identify::explain::{Explanation, Priors, Settings, explain};
+use identify::explain::{Explanation, LEAST_FIT, Priors, Settings, explain};
 
 use super::lab::Campaign;
 use super::{campaign, runs};
@@ -46,10 +46,7 @@ fn the_probability_of_the_fit_is_about_even() {
         // 12 % of many; of seven, the two slips
         assert!(below <= (count * 12 / 100).max(2), "{list:?}");
         // "none of these" of a true explanation would be a wrong answer: one in a hundred
-        assert!(
-            list[count / 100] > Settings::default().least_fit,
-            "{list:?}"
-        );
+        assert!(list[count / 100] > LEAST_FIT, "{list:?}");
         // not good whatever the data are
         assert!(list[count / 4] < 0.98, "{list:?}");
         println!(

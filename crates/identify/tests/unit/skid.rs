@@ -2,8 +2,7 @@ use super::*;
 
 #[test]
 fn certain_spins_are_reported_and_uncertain_ones_are_not() {
-    let settings = SkidSettings::default();
-    let chance = |value, deviation| probability(Uncertain::new(value, deviation), 0.0, &settings);
+    let chance = |value, deviation| probability(Uncertain::new(value, deviation), 0.0);
     // half the rolling spin, known to 5 %: skids
     assert!(chance(0.5, 0.05).unwrap() > 0.99);
     // rolling, known to 5 %: a mass at 1 against an even spread below favours rolling 1 to 0.06

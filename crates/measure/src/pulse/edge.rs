@@ -8,29 +8,6 @@ use super::shape::Shape;
 use super::spike;
 use super::{Edges, Flank, Refusal};
 
-/// How flanks are found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EdgeSettings {
-    /// Which flank marks the passage.
-    pub flank: Flank,
-    /// Low and high level in the unit of the signal; found from the signal where none are given.
-    pub levels: Option<(f64, f64)>,
-    /// How far beyond the middle the signal must go to count as the other level, as a part of the distance between the
-    /// levels, 0 to 0.45; from the noise where none is given.
-    pub hysteresis: Option<f64>,
-}
-
-impl Default for EdgeSettings {
-    /// Rising flanks, levels and hysteresis from the signal.
-    fn default() -> Self {
-        EdgeSettings {
-            flank: Flank::Rising,
-            levels: None,
-            hysteresis: None,
-        }
-    }
-}
-
 /// Samples on each side of a crossing that a straight line is laid through, at most.
 const REACH: usize = 24;
 /// Part of the height of a pulse, on each side of the middle, in which a flank is taken as straight.
@@ -44,18 +21,13 @@ const PLATEAU: usize = 64;
 
 /// Finds the instants at which a sampled signal crosses the middle between its two levels.
 ///
-/// `first` is the time of the first sample and `interval` the time between samples, s. A sample that is not finite is a
+/// `flank`: which flank marks the passage. `first` is the time of the first sample and `interval` the time between samples, s. A sample that is not finite is a
 /// gap: nothing is counted across it, and a note says so. The crossing is the root of a straight line through the samples
 /// of the flank where it has at least four of them, of a cubic through its neighbours else. The uncertainty is the noise of
 /// the samples divided by the slope, and the error of interpolation: for a flank steeper than the sampling the interval
 /// divided by √12. Where the record holds slow passages, they show the shape of a flank over the angle, and steep flanks are
 /// laid on that shape.
-pub fn edges(
-    first: f64,
-    interval: f64,
-    samples: &[f64],
-    settings: &EdgeSettings,
-) -> Result<Edges, Refusal> {
+pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result<Edges, Refusal> {
     if !(interval.is_finite() && interval > 0.0 && first.is_finite()) {
         return Err(Refusal::new(
             format!("sampling interval {interval} s from {first} s"),
@@ -68,23 +40,8 @@ pub fn edges(
             "a signal with pulses",
         ));
     }
-    let levels = match settings.levels {
-        Some((low, high)) if low < high && low.is_finite() && high.is_finite() => {
-            Levels::fixed(low, high, samples)
-        }
-        Some((low, high)) => {
-            return Err(Refusal::new(
-                format!("low level {low}, high level {high}"),
-                "a low level below the high one",
-            ));
-        }
-        None => Levels::find(samples)?,
-    };
-    let evened = match settings.levels {
-        Some(_) => None,
-        None => Envelope::of(samples, levels.span, levels.noise),
-    };
-    let (levels, evened) = match evened {
+    let levels = Levels::find(samples)?;
+    let (levels, evened) = match Envelope::of(samples, levels.span, levels.noise) {
         Some(envelope) => {
             let evened = envelope.evened(samples);
             (Levels::evened(levels.noise, envelope), Some(evened))
@@ -92,17 +49,7 @@ pub fn edges(
         None => (levels, None),
     };
     let samples = evened.as_deref().unwrap_or(samples);
-    let fixed = settings.levels.is_some() || levels.envelope().is_some_and(|e| e.own_level);
-    let part = match settings.hysteresis {
-        Some(part) if (0.0..=0.45).contains(&part) => Some(part),
-        Some(part) => {
-            return Err(Refusal::new(
-                format!("hysteresis {part}"),
-                "a part of the pulse height from 0 to 0.45",
-            ));
-        }
-        None => None,
-    };
+    let own_level = levels.envelope().is_some_and(|e| e.own_level);
     let mut notes = Vec::new();
     let gaps = samples
         .windows(2)
@@ -113,7 +60,7 @@ pub fn edges(
             "the signal has {gaps} gaps; no flank is counted across a gap"
         ));
     }
-    let flips = flips(samples, &levels, part);
+    let flips = flips(samples, &levels);
     let (flips, spikes) = spike::without(flips);
     notes.extend(spikes.map(|(count, sample)| {
         format!(
@@ -121,7 +68,7 @@ pub fn edges(
             first + interval * sample as f64
         )
     }));
-    let middles = middles(samples, &flips, &levels, fixed);
+    let middles = middles(samples, &flips, &levels, own_level);
     let mut found: Vec<Passing> = flips
         .iter()
         .zip(&middles)
@@ -137,7 +84,7 @@ pub fn edges(
         })
         .collect();
     found.sort_by(|a, b| a.place.total_cmp(&b.place));
-    let kinds: &[bool] = match settings.flank {
+    let kinds: &[bool] = match flank {
         Flank::Rising => &[true],
         Flank::Falling => &[false],
         Flank::Both | Flank::Centre => &[true, false],
@@ -156,7 +103,7 @@ pub fn edges(
     let found = found
         .iter()
         .map(|f| (first + f.place * interval, f.spread * interval, f.rises));
-    let chosen: Vec<(f64, f64, bool)> = match settings.flank {
+    let chosen: Vec<(f64, f64, bool)> = match flank {
         Flank::Rising => found.filter(|e| e.2).collect(),
         Flank::Falling => found.filter(|e| !e.2).collect(),
         Flank::Both => found.collect(),
@@ -183,7 +130,7 @@ pub fn edges(
         times: chosen.iter().map(|e| e.0).collect(),
         uncertainties: chosen.iter().map(|e| e.1).collect(),
         rises: chosen.iter().map(|e| e.2).collect(),
-        flank: settings.flank,
+        flank,
         watched: (first, first + interval * (samples.len() - 1) as f64),
         sample_interval: Some(interval),
         unseen: levels
@@ -211,7 +158,7 @@ fn unwatched(first: f64, interval: f64, samples: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Changes between the levels, with hysteresis.
-fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
+fn flips(samples: &[f64], levels: &Levels) -> Vec<Flip> {
     let mut flips = Vec::new();
     let mut high: Option<bool> = None;
     let (from, to) = levels
@@ -222,8 +169,8 @@ fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
             high = None;
             continue;
         }
-        let noisy = || (4.0 * levels.noise_at(sample) / levels.span).clamp(0.15, 0.4);
-        let margin = levels.span * part.unwrap_or_else(noisy);
+        let part = (4.0 * levels.noise_at(sample) / levels.span).clamp(0.15, 0.4);
+        let margin = levels.span * part;
         let away = x - levels.middle(sample);
         let now = if away > margin {
             true
@@ -243,7 +190,7 @@ fn flips(samples: &[f64], levels: &Levels, part: Option<f64>) -> Vec<Flip> {
 /// The middle between the levels at every flip: between the plateaus on its two sides, so that it follows a drift, and the
 /// height of each mark. Plateaus of few samples give their level with noise, so that each middle is drawn to that of its
 /// neighbours as far as these differ by no more than noise.
-fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec<f64> {
+fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, own_level: bool) -> Vec<f64> {
     let own: Vec<Middle> = flips
         .iter()
         .enumerate()
@@ -253,7 +200,7 @@ fn middles(samples: &[f64], flips: &[Flip], levels: &Levels, fixed: bool) -> Vec
                 value: rough,
                 variance: f64::INFINITY,
             };
-            if fixed {
+            if own_level {
                 return unknown;
             }
             let begin = k

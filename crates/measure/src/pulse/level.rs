@@ -29,17 +29,6 @@ impl Levels {
         self.middle[left] * (1.0 - part) + self.middle[right] * part
     }
 
-    /// Levels given by the user.
-    pub fn fixed(low: f64, high: f64, samples: &[f64]) -> Levels {
-        Levels {
-            block: samples.len().max(1),
-            middle: vec![0.5 * (low + high)],
-            span: high - low,
-            noise: noise(samples),
-            envelope: None,
-        }
-    }
-
     /// Those of a signal that was evened, whose noise was as given.
     pub fn evened(noise: f64, envelope: Envelope) -> Levels {
         Levels {

@@ -33,7 +33,7 @@ mod wheel;
 
 use std::fmt;
 
-pub use edge::{EdgeSettings, edges};
+pub use edge::edges;
 pub use gap::Gap;
 pub use marks::{Marks, check_marks};
 pub use period::period;

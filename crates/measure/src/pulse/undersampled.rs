@@ -54,7 +54,7 @@ pub(super) fn undersampled(marks: &[usize], edges: &Edges, wheel: &Wheel) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pulse::{EdgeSettings, edges, number};
+    use crate::pulse::{Flank, edges, number};
 
     /// A pickup at 60 marks of a shaft that slows down evenly from 150 rad/s in 10 s.
     fn refusal(rate: f64) -> Option<String> {
@@ -65,7 +65,7 @@ mod tests {
         let samples: Vec<f64> = (0..(9.5 * rate) as usize)
             .map(|k| signal(k as f64 / rate))
             .collect();
-        let found = edges(0.0, 1.0 / rate, &samples, &EdgeSettings::default()).unwrap();
+        let found = edges(0.0, 1.0 / rate, &samples, Flank::Rising).unwrap();
         let wheel = Wheel {
             marks: 60,
             missing: 0,

@@ -118,7 +118,6 @@ impl Thin {
             speed: &self.speed,
             fastest: self.speed.iter().fold(0.0, |top, v| top.max(v.abs())),
             zero: input.zero,
-            zero_wander: input.zero_wander,
         }
     }
 }

@@ -27,7 +27,6 @@ pub(super) struct Samples<'a> {
     /// Highest speed of the whole record.
     pub(super) fastest: f64,
     pub(super) zero: Uncertain,
-    pub(super) zero_wander: f64,
 }
 
 impl<'a> Samples<'a> {
@@ -204,12 +203,10 @@ impl<'a> Chain<'a> {
         } else {
             0.03 * 0.03 * input.interval
         };
-        let wander = (input.zero_wander / self.scale).powi(2) * input.interval;
         let with_drift = |gathered: &Matrix<STATES>, intensity: f64| {
             let mut noise = gathered * intensity;
             noise[(COSINE, COSINE)] += drift;
             noise[(SINE, SINE)] += drift;
-            noise[(ZERO, ZERO)] += wander;
             noise
         };
         let mut mean = Vector::zeros();

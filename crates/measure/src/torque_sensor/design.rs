@@ -132,7 +132,6 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
                 engagement: (rest > 0).then_some(Uncertain::exact(knot)),
                 lock: None,
                 zero: Uncertain::new(0.0, if rest > 0 { 10.0 * design.noise } else { 0.0 }),
-                zero_wander: 0.0,
                 scale_deviation: 0.0,
                 disturbance_power: Some(2.0),
             })?;

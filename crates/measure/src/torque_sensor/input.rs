@@ -27,8 +27,6 @@ pub struct Inversion<'a> {
     pub lock: Option<Uncertain>,
     /// Zero of the reading, known to this standard deviation, in the unit of the reading; it is estimated where the shaft rests.
     pub zero: Uncertain,
-    /// Wander of that zero, unit of the reading per √s; 0 where it does not wander.
-    pub zero_wander: f64,
     /// Relative deviation of the sensor's calibration, linearity included, 1.
     pub scale_deviation: f64,
     /// Power of the speed with which the disturbance grows: 2 for unbalance, 0 for a run-out, which is there at rest too; none to

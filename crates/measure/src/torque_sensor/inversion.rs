@@ -407,9 +407,8 @@ fn refuse(input: &Inversion) -> Result<(), String> {
             ));
         }
     }
-    let not_negative = |v: f64| v >= 0.0 && v.is_finite();
-    if !(not_negative(input.zero_wander) && not_negative(input.scale_deviation)) {
-        return Err("wander of the zero and deviation of the scale must not be negative".into());
+    if !(input.scale_deviation >= 0.0 && input.scale_deviation.is_finite()) {
+        return Err("the deviation of the scale must not be negative".into());
     }
     if !input.zero.is_sound() || input.engagement.is_some_and(|e| !e.is_sound()) {
         return Err("zero and engagement need finite values and deviations".into());

@@ -111,6 +111,17 @@ pub(crate) fn seconds_in(unit: &str) -> Option<f64> {
     (unit.dimension() == second.dimension()).then(|| unit.to_si(1.0))
 }
 
+/// Days from 1970-01-01 to a day of the Gregorian calendar.
+pub(crate) fn days(year: i64, month: i64, day: i64) -> i64 {
+    // The year starts with March, so that the day that is added in leap years is its last.
+    let (year, month) = match month {
+        3.. => (year, month - 3),
+        _ => (year - 1, month + 9),
+    };
+    let leaps = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    365 * year + leaps + (153 * month + 2) / 5 + day - 1 - 719_468
+}
+
 /// Part of an interval by which equally spaced times may be off: below every use of them, above what is lost when ten
 /// million intervals are added up in double precision.
 const NEGLIGIBLE: f64 = 1e-4;
@@ -193,10 +204,7 @@ impl Spacing {
 
     /// What is wrong with the times of a channel of this name.
     pub fn notes(&self, name: &str) -> Vec<Note> {
-        let note = |text| Note {
-            channel: Some(name.to_string()),
-            text,
-        };
+        let note = |text: String| Note::of(name, text);
         let mut notes = Vec::new();
         if let Some((first, count)) = self.back {
             notes.push(note(format!(
@@ -279,10 +287,10 @@ pub(crate) fn clocks(
             clock = spacing.clock(time, &channel.unit);
         }
         if seconds_in(&channel.unit).is_none() {
-            notes.push(Note {
-                channel: Some(channel.name.clone()),
-                text: "is a time by its name, but its unit is not stated".to_string(),
-            });
+            notes.push(Note::of(
+                &channel.name,
+                "is a time by its name, but its unit is not stated",
+            ));
         }
         for (index, beside) in channels.iter().enumerate() {
             let near = group_of(&beside.name).starts_with(group_of(&channel.name));
@@ -314,9 +322,10 @@ pub(crate) fn clocks(
             }
         }
     }
-    notes.extend(origins.iter().map(|(origin, count)| Note {
-        channel: None,
-        text: format!("{count} channels have the clock that {origin} states, taken in s or 1/s"),
+    notes.extend(origins.iter().map(|(origin, count)| {
+        Note::of_file(format!(
+            "{count} channels have the clock that {origin} states, taken in s or 1/s"
+        ))
     }));
     (clocks, notes)
 }

@@ -48,9 +48,9 @@ mod clock;
 mod columns;
 pub mod csv;
 pub mod draft;
-mod half;
 pub mod hdf5;
 pub mod mat5;
+mod number;
 pub mod parquet;
 mod request;
 pub mod source;
@@ -172,14 +172,16 @@ fn readable() -> String {
     format!("files of these formats can be read: {}", names.join(", "))
 }
 
-/// Whether the bytes look like text: no zero byte, and few control characters; or UTF-16 with its mark.
+/// Whether the bytes look like text of one byte a letter: no zero byte, and few control characters.
+fn is_plain_text(head: &[u8]) -> bool {
+    let control = |b: &&u8| b.is_ascii_control() && !b.is_ascii_whitespace();
+    let controls = head.iter().filter(control).count();
+    !head.is_empty() && !head.contains(&0) && controls * 50 <= head.len()
+}
+
+/// Whether they look like any text, UTF-16 with its mark too.
 fn is_text(head: &[u8]) -> bool {
-    let controls = head
-        .iter()
-        .filter(|b| b.is_ascii_control() && !b.is_ascii_whitespace())
-        .count();
-    let utf16 = head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]);
-    !head.is_empty() && (utf16 || (!head.contains(&0) && controls * 50 <= head.len()))
+    head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) || is_plain_text(head)
 }
 
 /// Opens a file for reading; its format is recognised by its content.

@@ -13,6 +13,7 @@
 use std::io::{Read, Seek};
 use std::path::Path;
 
+use super::number;
 use super::source::{Source, WINDOW};
 use crate::{Channel, Clock, FileError, Note, Property, Recording, Value};
 
@@ -120,10 +121,9 @@ impl<S: Read + Seek> Wav<S> {
         };
         let mut notes = chunks.notes;
         if length % layout.row != 0 {
-            notes.push(Note {
-                channel: None,
-                text: "the values end in the middle of a row: the rest is left out".to_owned(),
-            });
+            notes.push(Note::of_file(
+                "the values end in the middle of a row: the rest is left out",
+            ));
         }
         let mut channels = Vec::new();
         for number in 1..=layout.channels {
@@ -155,15 +155,10 @@ impl Chunks {
                 chunks.note("the file ends in the head of a chunk");
                 break;
             }
-            let Some(&[n0, n1, n2, n3, l @ ..]) = source.window(at, 8)?.first_chunk::<8>() else {
+            let Some((&name, stated)) = source.window(at, 8)?.split_first_chunk::<4>() else {
                 break;
             };
-            let name = [n0, n1, n2, n3];
-            let stated = u64::from(if big {
-                u32::from_be_bytes(l)
-            } else {
-                u32::from_le_bytes(l)
-            });
+            let stated = number::bits(stated, big);
             let body = at + 8;
             let there = source.length() - body;
             let stated = match chunks.long {
@@ -202,10 +197,7 @@ impl Chunks {
     }
 
     fn note(&mut self, text: impl Into<String>) {
-        let note = Note {
-            channel: None,
-            text: text.into(),
-        };
+        let note = Note::of_file(text);
         if self.notes.len() < MOST && !self.notes.contains(&note) {
             self.notes.push(note);
         }
@@ -243,13 +235,8 @@ impl Chunks {
             return;
         };
         while let Some((head, body)) = rest.split_first_chunk::<8>() {
-            let [name @ .., l0, l1, l2, l3] = head;
-            let raw = [*l0, *l1, *l2, *l3];
-            let length = if big {
-                u32::from_be_bytes(raw)
-            } else {
-                u32::from_le_bytes(raw)
-            } as usize;
+            let (name, length) = head.split_at(4);
+            let length = number::bits(length, big) as usize;
             let text = body.get(..length).unwrap_or(body);
             self.put(&String::from_utf8_lossy(name), text);
             rest = body.get(length.saturating_add(length % 2)..).unwrap_or(&[]);
@@ -273,15 +260,9 @@ impl Chunks {
 /// What the chunk `fmt ` states; or why its values cannot be read.
 fn layout(bytes: &[u8], big: bool) -> Result<Layout, String> {
     let short = |at: usize| -> Result<u16, String> {
-        let raw = bytes
-            .get(at..at + 2)
-            .and_then(|b| b.first_chunk::<2>())
-            .ok_or("the chunk 'fmt ' is cut off")?;
-        Ok(if big {
-            u16::from_be_bytes(*raw)
-        } else {
-            u16::from_le_bytes(*raw)
-        })
+        let raw = bytes.get(at..at + 2);
+        let raw = raw.ok_or("the chunk 'fmt ' is cut off")?;
+        Ok(number::bits(raw, big) as u16)
     };
     let (low, high) = (
         u32::from(short(if big { 6 } else { 4 })?),
@@ -328,14 +309,9 @@ fn layout(bytes: &[u8], big: bool) -> Result<Layout, String> {
 fn decode(layout: &Layout, bytes: &[u8], values: &mut [f64]) {
     let rows = bytes.chunks(usize::try_from(layout.row).unwrap_or(usize::MAX).max(1));
     for (value, at) in values.iter_mut().zip(rows) {
-        let mut raw = [0; 8];
         let size = layout.kind.size() as usize;
-        let Some(there) = at.get(..size) else { return };
-        raw[..size].copy_from_slice(there);
-        if layout.big {
-            raw[..size].reverse();
-        }
-        let whole = u64::from_le_bytes(raw);
+        let Some(raw) = at.get(..size) else { return };
+        let whole = number::bits(raw, layout.big);
         *value = match layout.kind {
             Kind::Unsigned8 => (whole as f64 - 128.0) / 128.0,
             Kind::Signed(bytes) => {
@@ -343,8 +319,7 @@ fn decode(layout: &Layout, bytes: &[u8], values: &mut [f64]) {
                 // The sign bit goes to the top: the full range is then that of 64 bits.
                 ((whole << shift) as i64) as f64 / 9_223_372_036_854_775_808.0
             }
-            Kind::Single => f64::from(f32::from_bits(whole as u32)),
-            Kind::Double => f64::from_bits(whole),
+            Kind::Single | Kind::Double => number::float(whole, size),
         };
     }
 }

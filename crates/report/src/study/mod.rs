@@ -15,7 +15,7 @@ pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
 use outcome::host::{self, bounded};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use run::Options;
 use run::study::answer::Answer;
 use run::study::table::{Table, Warned};
@@ -59,7 +59,7 @@ impl Directory {
     ///
     /// # Errors
     /// Where something else stands there, another process works on it, or its study, scenario or version is another.
-    pub fn open(path: &Path, study: Study, add: usize) -> Result<Directory, Box<Problem>> {
+    pub fn open(path: &Path, study: Study, add: usize) -> Result<Directory> {
         let new = !exists(path);
         Directory::begun(path, study, add, new).inspect_err(|_| {
             // nothing stands in it yet, or it stays
@@ -69,7 +69,7 @@ impl Directory {
         })
     }
 
-    fn begun(path: &Path, study: Study, add: usize, new: bool) -> Result<Directory, Box<Problem>> {
+    fn begun(path: &Path, study: Study, add: usize, new: bool) -> Result<Directory> {
         fs::create_dir_all(path).map_err(|error| misplaced(path, &error))?;
         // a link to a directory is that directory
         let own = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
@@ -83,7 +83,7 @@ impl Directory {
                     found,
                     "one process a study is possible",
                 );
-                return Err(Box::new(problem));
+                return Err(problem);
             }
             Err(TryLockError::Error(_)) => None,
         };
@@ -135,11 +135,7 @@ impl Directory {
     ///
     /// # Errors
     /// What cannot be written, and parts that cannot be read.
-    pub fn run(
-        &self,
-        options: &Options,
-        progress: &(dyn Fn(f64) + Sync),
-    ) -> Result<Done, Box<Problem>> {
+    pub fn run(&self, options: &Options, progress: &(dyn Fn(f64) + Sync)) -> Result<Done> {
         let open = self.open_parts()?;
         let threads = options.threads.map_or_else(host::threads, bounded);
         let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
@@ -190,7 +186,7 @@ impl Directory {
     ///
     /// # Errors
     /// Parts that cannot be read.
-    pub fn open_parts(&self) -> Result<Vec<usize>, Box<Problem>> {
+    pub fn open_parts(&self) -> Result<Vec<usize>> {
         let mut open: Vec<usize> = Vec::new();
         for part in 0..part_count(&self.study) {
             if self.part_there(part)?.members.len() < members_of(&self.study, part).len() {
@@ -201,7 +197,7 @@ impl Directory {
     }
 
     /// The members of a part that are there.
-    fn part_there(&self, part: usize) -> Result<Table, Box<Problem>> {
+    fn part_there(&self, part: usize) -> Result<Table> {
         let place = part_path(&self.path, part);
         match place.exists() {
             true => part::read(&place, &self.study, &members_of(&self.study, part)),
@@ -213,7 +209,7 @@ impl Directory {
     ///
     /// # Errors
     /// What cannot be written, and what is no such part.
-    pub fn put(&self, part: usize, bytes: &[u8]) -> Result<(), Box<Problem>> {
+    pub fn put(&self, part: usize, bytes: &[u8]) -> Result<()> {
         let place = part_path(&self.path, part);
         aside(&place, |mut file| file.write_all(bytes))?;
         let wanted = members_of(&self.study, part);
@@ -233,13 +229,13 @@ impl Directory {
     ///
     /// # Errors
     /// What cannot be written, and parts that cannot be read.
-    pub fn finish(&self, options: &Options) -> Result<Done, Box<Problem>> {
+    pub fn finish(&self, options: &Options) -> Result<Done> {
         self.confirm(options)?;
         self.told()
     }
 
     /// Runs the members nearest to the limits again, once all members are there.
-    fn confirm(&self, options: &Options) -> Result<(), Box<Problem>> {
+    fn confirm(&self, options: &Options) -> Result<()> {
         if self.study.file.confirm == 0 {
             return Ok(());
         }
@@ -267,7 +263,7 @@ impl Directory {
     }
 
     /// Reads all parts and writes what they say.
-    fn told(&self) -> Result<Done, Box<Problem>> {
+    fn told(&self) -> Result<Done> {
         let table = table_of(&self.path, &self.study)?;
         let answer = self.study.answer(&table);
         let complete = table.members.len() == self.study.members();
@@ -291,11 +287,7 @@ impl Directory {
 ///
 /// # Errors
 /// What cannot be written as a file.
-pub fn part(
-    study: &Study,
-    part: usize,
-    options: &Options,
-) -> Option<Result<Vec<u8>, Box<Problem>>> {
+pub fn part(study: &Study, part: usize, options: &Options) -> Option<Result<Vec<u8>>> {
     let members: Vec<usize> = members_of(study, part).collect();
     let table = study.run(&members, options);
     if table.members.len() < members.len() {
@@ -311,14 +303,14 @@ pub fn part(
 ///
 /// # Errors
 /// Where no study directory stands there, or it is damaged.
-pub fn read(path: &Path) -> Result<(Study, Table), Box<Problem>> {
+pub fn read(path: &Path) -> Result<(Study, Table)> {
     let study = Study::new(StudyFile::read(&path.join(STUDY))?)?;
     let table = table_of(path, &study)?;
     Ok((study, table))
 }
 
 /// The members that are there, with what was confirmed of them.
-fn table_of(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
+fn table_of(path: &Path, study: &Study) -> Result<Table> {
     let mut table = screened(path, study)?;
     let confirmed = confirmed_path(path);
     if confirmed.exists() {
@@ -331,7 +323,7 @@ fn table_of(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
 }
 
 /// The members that are there, with results in the order of a run.
-fn screened(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
+fn screened(path: &Path, study: &Study) -> Result<Table> {
     let mut table = Table::default();
     for part in 0..part_count(study) {
         let place = part_path(path, part);
@@ -343,18 +335,18 @@ fn screened(path: &Path, study: &Study) -> Result<Table, Box<Problem>> {
 }
 
 /// The study as it stood in its directory, with the blocks that were added; refused where it is another.
-fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
+fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile> {
     let known = path.join(STUDY);
     let read = |name: &str| {
         let path = path.join(name);
         fs::read_to_string(&path).map_err(|error| {
             let found = format!("what cannot be read ({error})");
-            Box::new(Problem::at_path(
+            Problem::at_path(
                 Code::StudyDamaged,
                 &path,
                 found,
                 "a study directory is needed",
-            ))
+            )
         })
     };
     let before = read(STUDY)?;
@@ -376,12 +368,7 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile, Box<Problem>> {
             line(now)
         );
         let allowed = "a study goes on with the same files and version; another one needs another --out, more members --add";
-        Err(Box::new(Problem::at_path(
-            Code::StudyChanged,
-            &known,
-            found,
-            allowed,
-        )))
+        Err(Problem::at_path(Code::StudyChanged, &known, found, allowed))
     };
     let now = headed(&file);
     if before != now {
@@ -428,6 +415,6 @@ fn confirmed_path(path: &Path) -> PathBuf {
 }
 
 /// Writes a text, whole or not at all.
-fn text_file(path: &Path, text: &str) -> Result<(), Box<Problem>> {
+fn text_file(path: &Path, text: &str) -> Result<()> {
     aside(path, |mut file| file.write_all(text.as_bytes()))
 }

@@ -5,7 +5,7 @@ use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use problem::open_file;
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use run::study::Study;
 use run::study::table::{Column, Table};
 use scenario::Distribution;
@@ -41,18 +41,18 @@ pub(super) fn write(file: impl Write + Send, table: &Table) -> Result<(), Parque
 }
 
 /// Number of members of a part.
-pub(super) fn count(path: &Path) -> Result<usize, Box<Problem>> {
+pub(super) fn count(path: &Path) -> Result<usize> {
     let about = opened(path)?;
     Ok(about.metadata().file_metadata().num_rows().max(0) as usize)
 }
 
-fn opened(path: &Path) -> Result<SerializedFileReader<File>, Box<Problem>> {
+fn opened(path: &Path) -> Result<SerializedFileReader<File>> {
     let file = open_file(path).map_err(|error| damaged(path, error.to_string()))?;
     SerializedFileReader::new(file).map_err(|error| damaged(path, error.to_string()))
 }
 
 /// Reads a part back, which has members of a range alone, rising.
-pub(super) fn read(path: &Path, study: &Study, own: &Range<usize>) -> Result<Table, Box<Problem>> {
+pub(super) fn read(path: &Path, study: &Study, own: &Range<usize>) -> Result<Table> {
     let about = opened(path)?;
     let keys = about.metadata().file_metadata().key_value_metadata();
     let reasons = keys.and_then(|keys| keys.iter().find(|key| key.key == FAILED));
@@ -134,5 +134,5 @@ pub(super) fn csv(study: &Study, table: &Table) -> String {
 /// A part that is not what this study wrote.
 pub(super) fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
     let allowed = "a part as auxbear study writes it is needed; without the file its members are computed again";
-    Box::new(Problem::at_path(Code::StudyDamaged, path, found, allowed))
+    Problem::at_path(Code::StudyDamaged, path, found, allowed)
 }

@@ -15,7 +15,7 @@ pub mod table;
 
 use outcome::{Options, host, limits};
 use outcome::{Quantity, Value};
-use problem::{Place, Problem};
+use problem::{Place, Problem, Result};
 use scenario::{Scenario, StudyFile};
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
@@ -31,7 +31,7 @@ pub fn evaluate(
     scenario: &Scenario,
     changes: &[Vec<(String, String)>],
     options: &Options,
-) -> Result<Option<Table>, Box<Problem>> {
+) -> Result<Option<Table>> {
     let scenarios = host::each(changes, |_, changes| scenario.with(changes));
     let mut refused = scenarios.iter().filter_map(|read| read.as_ref().err());
     if let Some(problem) = refused.find(|problem| problem.code.is_of_form()) {
@@ -44,7 +44,7 @@ pub fn evaluate(
 
 /// Runs scenarios; each with its number and its inputs becomes a row, but those that were interrupted.
 fn table_of(
-    scenarios: &[Result<Scenario, Box<Problem>>],
+    scenarios: &[Result<Scenario>],
     numbered: impl Iterator<Item = (usize, Vec<f64>)>,
     inputs: Vec<Column>,
     options: &Options,
@@ -85,7 +85,7 @@ impl Study {
     ///
     /// # Errors
     /// What is wrong with scenario, limits or results.
-    pub fn new(mut file: StudyFile) -> Result<Study, Box<Problem>> {
+    pub fn new(mut file: StudyFile) -> Result<Study> {
         let machine = crate::build(&file.scenario)?;
         let mut known = machine.results();
         // numbers that only a run names are named by one with the values as given
@@ -142,7 +142,7 @@ impl Study {
                     "the name of a result is needed; auxbear results FILE lists them",
                 );
                 let problem = problem.at(*place).on_key(key);
-                return Err(Box::new(problem.with_hint(limits::meant(name, &names))));
+                return Err(problem.with_hint(limits::meant(name, &names)));
             }
         }
         Ok(Study { file, known })
@@ -182,7 +182,7 @@ impl Study {
     ///
     /// # Errors
     /// What a file with these values would be refused for.
-    pub fn scenario(&self, k: usize) -> Result<Scenario, Box<Problem>> {
+    pub fn scenario(&self, k: usize) -> Result<Scenario> {
         self.file.scenario.with(&self.drawn(k).values)
     }
 

@@ -90,9 +90,9 @@ impl Context<'_> {
         let blame = found.blames.swap_remove(position.unwrap_or(0));
         let problem = self.problem(found.code, blamed, blame.found, blame.allowed);
         let named = self.values.text("bearing.name");
-        Err(Box::new(problem.with_hint(named.map(|name| {
+        Err(problem.with_hint(named.map(|name| {
             format!("The dimensions that are not given are those of bearing.name = \"{name}\"")
-        }))))
+        })))
     }
 
     /// A given rating that such balls cannot have; that of the bearing named is told apart from given balls by a note.
@@ -164,8 +164,8 @@ impl Context<'_> {
                 (path, format!("{}: fits leave {left}", self.text(path)))
             }
         };
-        Err(Box::new(
-            self.problem(
+        Err(self
+            .problem(
                 Code::ClearanceTooLarge,
                 path,
                 found,
@@ -179,8 +179,7 @@ impl Context<'_> {
             )
             .with_hint(Some(
                 "bearing clearances are a few um, and diametral".to_string(),
-            )),
-        ))
+            )))
     }
 
     fn traction(&self, traction: Traction) -> Check {

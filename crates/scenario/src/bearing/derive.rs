@@ -15,7 +15,7 @@ use physics::viscosity::Viscosity;
 use problem::provenance::Provenance;
 use problem::value::quantity_text;
 use problem::words::Words;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Result};
 
 pub(super) const F0: &str = "bearing.moment.f0";
 pub(super) const F1_FACTOR: &str = "bearing.moment.f1_factor";
@@ -40,7 +40,7 @@ const SPEED_WITHOUT_LIMIT: f64 = 1000.0;
 /// Radial load over static load rating where no load is given.
 const LOAD_SHARE: f64 = 0.01;
 
-type Done = Result<(), Box<Problem>>;
+type Done = Result<()>;
 
 impl Values {
     /// A bushing is what a rotor drops into; nothing of it follows from other values.
@@ -268,7 +268,7 @@ impl Values {
         let lubrication = match self.chosen(LUBRICATION) {
             Some(Lubricated::Grease | Lubricated::OilMist) => Lubrication::GreaseOrOilMist,
             Some(Lubricated::LowOilBath | Lubricated::OilJet) => Lubrication::OilBath,
-            None => return Err(Box::new(self.no_factor(missing))),
+            None => return Err(self.no_factor(missing)),
             Some(other @ (Lubricated::OilAndAir | Lubricated::OilBath)) => {
                 let other = other.as_word();
                 return self.refuse(
@@ -280,17 +280,17 @@ impl Values {
             }
         };
         let Some(series) = self.text(SERIES) else {
-            return Err(Box::new(self.no_factor(missing)));
+            return Err(self.no_factor(missing));
         };
         let kind = self.bearing_type().factor_type();
         let factors = palmgren_factors(kind, &series, lubrication).map_err(|refusal| {
-            Box::new(self.problem(
+            self.problem(
                 Code::NoLawData,
                 SERIES,
                 self.place(SERIES),
                 refusal.to_string(),
                 "a series of the tables is needed, or f0, f1_factor and f1_exponent by hand",
-            ))
+            )
         })?;
         let told = if factors.lubrication_stated {
             ""
@@ -393,7 +393,7 @@ impl Values {
     fn viscosity_of_lubricant(&mut self, text: &str) -> Done {
         let unknown = |path: &'static str, why: String| {
             let allowed = "a lubricant whose viscosity is known at the running temperature is needed, e.g. \"100 mm^2/s at 40 degC, 11 mm^2/s at 100 degC\"";
-            Box::new(self.problem(Code::NoLawData, path, self.place(path), why, allowed))
+            self.problem(Code::NoLawData, path, self.place(path), why, allowed)
         };
         let lubricant = Lubricant::parse(text).map_err(|why| unknown(LUBRICANTS, why))?;
         let temperature = self.number(TEMPERATURE);
@@ -427,7 +427,7 @@ impl Values {
         };
         let of_points = |code, found: String, allowed: &str| {
             let place = self.place(VISCOSITY_POINTS);
-            Box::new(self.problem(code, VISCOSITY_POINTS, place, found, allowed))
+            self.problem(code, VISCOSITY_POINTS, place, found, allowed)
         };
         let [one, other] = points.as_slice() else {
             return Err(of_points(
@@ -452,13 +452,13 @@ impl Values {
             )
         })?;
         let viscosity = line.at(temperature).map_err(|error| {
-            Box::new(self.problem(
+            self.problem(
                 Code::NoLawData,
                 TEMPERATURE,
                 self.place(TEMPERATURE),
                 error.to_string(),
                 "a temperature between those is needed, or the viscosity itself",
-            ))
+            )
         })?;
         self.put_derived(
             "bearing.moment.viscosity",
@@ -481,13 +481,13 @@ impl Values {
             .number()
             .is_some_and(|number| !key.range.holds(number))
         {
-            return Err(Box::new(self.problem(
+            return Err(self.problem(
                 Code::OutOfRange,
                 path,
                 Place::Whole,
                 format!("{text}, derived by {how}"),
                 key.needed(),
-            )));
+            ));
         }
         self.put(
             path,

@@ -47,7 +47,7 @@ impl Values {
     }
 
     /// What factors by the tables need, all of it; else what is to be given by hand.
-    pub(super) fn no_factor(&self, path: &str) -> Problem {
+    pub(super) fn no_factor(&self, path: &str) -> Box<Problem> {
         let needed = table::key(path).map_or(String::new(), Key::needed);
         let kind = self.bearing_type().factor_type();
         let angle = self.number(ANGLE).or_else(|| self.number(CONTACT_ANGLE));

@@ -141,12 +141,12 @@ impl Values {
         let Some((fit, path)) = missing else {
             return Ok(());
         };
-        Err(Box::new(self.problem(
+        Err(self.problem(
             Code::MissingKey,
             path,
             self.place(fit),
             "no value",
             format!("{fit} needs it, to know how far the ring is pressed"),
-        )))
+        ))
     }
 }

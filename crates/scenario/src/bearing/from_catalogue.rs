@@ -9,7 +9,7 @@ use catalogue::Catalogue;
 use catalogue::designation::{self, Designation};
 use problem::raw::{Given, Raw};
 use problem::value::quantity_text;
-use problem::{Code, Place, Problem, did_you_mean};
+use problem::{Code, Place, Result, did_you_mean};
 use std::path::{Path, PathBuf};
 
 /// Keys outside `[bearing]` that take a value of the rings.
@@ -31,7 +31,7 @@ const CATALOGUE: &str = "catalogue";
 
 impl Values {
     /// The catalogue with the user's own bearings, where the file names one.
-    pub fn own_catalogue(&self, document: &Document) -> Result<Option<Catalogue>, Box<Problem>> {
+    pub fn own_catalogue(&self, document: &Document) -> Result<Option<Catalogue>> {
         let key = table::key(CATALOGUE);
         let (Some(key), Some(given)) = (key, document.values.get(CATALOGUE)) else {
             return Ok(None);
@@ -82,7 +82,7 @@ impl Values {
         &self,
         document: &Document,
         bearings: &dyn BearingSource,
-    ) -> Result<Option<BearingRecord>, Box<Problem>> {
+    ) -> Result<Option<BearingRecord>> {
         let given = document.values.get("bearing.name");
         let key = table::keys().find(|key| key.path == "bearing.name");
         let (Some(key), Some(given)) = (key, given) else {
@@ -118,23 +118,22 @@ impl Values {
                 }
             )
         };
-        Err(Box::new(
-            self.problem(
+        Err(self
+            .problem(
                 Code::UnknownBearing,
                 "bearing.name",
                 known.place,
                 format!("\"{name}\", which is not in the catalogue"),
                 allowed,
             )
-            .with_hint(near),
-        ))
+            .with_hint(near))
     }
 
     pub(crate) fn catalogued(
         &self,
         key: &Key,
         record: Option<&BearingRecord>,
-    ) -> Result<Option<Known>, Box<Problem>> {
+    ) -> Result<Option<Known>> {
         let Some(record) = record else {
             return Ok(None);
         };
@@ -157,13 +156,13 @@ impl Values {
             _ => return Ok(None),
         };
         if !key.range.holds(*si) {
-            return Err(Box::new(self.problem(
+            return Err(self.problem(
                 Code::OutOfRange,
                 key.path,
                 Place::Whole,
                 format!("{text} in the catalogue for \"{}\"", record.name),
                 key.needed(),
-            )));
+            ));
         }
         Ok(Some(Known {
             value,
@@ -179,7 +178,7 @@ impl Values {
         key: &Key,
         name: &str,
         record: &BearingRecord,
-    ) -> Result<Option<Known>, Box<Problem>> {
+    ) -> Result<Option<Known>> {
         let Some((_, word, provenance)) = record.words.iter().find(|(known, ..)| known == name)
         else {
             return Ok(None);

@@ -24,30 +24,17 @@ pub const TRACTION_SECTIONS: &[Section] = &[
     Section::new("bearing.drag", "Drag of balls and cage to ground. Real lubricant drags against the rings; these values exist to reproduce reference cases.", FALLING),
 ];
 
-pub(crate) const STEEL_BALLS: Condition = Condition {
-    path: "bearing.ball_material",
-    values: &["steel"],
-    reason: "",
-};
+pub(crate) const STEEL_BALLS: Condition = Condition::new("bearing.ball_material", &["steel"]);
 
-const ANGULAR: &[Condition] = &[Condition {
-    path: "bearing.type",
-    values: &["angular contact", "angular contact double row"],
-    reason: "",
-}];
+const ANGULAR: &[Condition] = &[Condition::new(
+    "bearing.type",
+    &["angular contact", "angular contact double row"],
+)];
 
-pub(crate) const CAGE: &[Condition] = &[Condition {
-    path: "bearing.separation",
-    values: &["cage"],
-    reason: "",
-}];
+pub(crate) const CAGE: &[Condition] = &[Condition::new("bearing.separation", &["cage"])];
 
 const fn traction(values: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "bearing.traction.law",
-        values,
-        reason: "",
-    }
+    Condition::new("bearing.traction.law", values)
 }
 
 const TANH: &[Condition] = &[traction(&["tanh"])];

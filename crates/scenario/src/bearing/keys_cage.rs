@@ -13,17 +13,12 @@ pub(crate) const SECTIONS: &[Section] = &[
     Section::new("bearing.full_complement", "Balls that touch their neighbours, without a cage.", MOVING),
 ];
 
-const FULL_COMPLEMENT: &[Condition] = &[Condition {
-    path: "bearing.separation",
-    values: &["full complement"],
-    reason: "",
-}];
+const FULL_COMPLEMENT: &[Condition] = &[Condition::new("bearing.separation", &["full complement"])];
 
-const LAND: &[Condition] = &[Condition {
-    path: "bearing.cage.guidance",
-    values: &["inner land", "outer land"],
-    reason: "",
-}];
+const LAND: &[Condition] = &[Condition::new(
+    "bearing.cage.guidance",
+    &["inner land", "outer land"],
+)];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[

@@ -10,11 +10,7 @@ use problem::words::Words;
 pub(crate) const SECTIONS: &[Section] = &[Section::new("bearing.lubricant_state", "Slow state of the lubricant: a grease that is drawn into the contacts and worked, contact films that warm. It multiplies the speed-dependent part of the friction moment (a measured curve as a whole) and the traction coefficient.", MOVING)];
 
 const fn kind(values: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "bearing.lubricant_state.kind",
-        values,
-        reason: "",
-    }
+    Condition::new("bearing.lubricant_state.kind", values)
 }
 
 const GREASE: &[Condition] = &[kind(&["grease", "grease and films"])];
@@ -22,19 +18,12 @@ const FILMS: &[Condition] = &[kind(&["films", "grease and films"])];
 /// Films between balls that may slide.
 const SLIDING_FILMS: &[Condition] = &[
     kind(&["films", "grease and films"]),
-    Condition {
-        path: "bearing.fidelity",
-        values: &["planar"],
-        reason: "where the balls roll no traction is computed",
-    },
+    Condition::new("bearing.fidelity", &["planar"])
+        .because("where the balls roll no traction is computed"),
 ];
 
 const fn start(values: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "bearing.lubricant_state.start",
-        values,
-        reason: "",
-    }
+    Condition::new("bearing.lubricant_state.start", values)
 }
 
 const AFTER_REST: &[Condition] = &[start(&["after rest"])];

@@ -20,11 +20,7 @@ pub(crate) const SECTIONS: &[Section] = &[
 ];
 
 const fn law(values: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "bearing.moment.law",
-        values,
-        reason: "",
-    }
+    Condition::new("bearing.moment.law", values)
 }
 
 const ANY: &[&str] = &["palmgren", "palmgren printed", "skf", "measured"];
@@ -36,30 +32,20 @@ const LUBRICATED: &[Condition] = &[law(&["palmgren", "palmgren printed", "skf"])
 /// Balls that share the moment.
 const SHARED: &[Condition] = &[
     law(ANY),
-    Condition {
-        path: "bearing.fidelity",
-        values: &["planar"],
-        reason: "where the balls roll the moment acts on the races as a whole",
-    },
+    Condition::new("bearing.fidelity", &["planar"])
+        .because("where the balls roll the moment acts on the races as a whole"),
 ];
 
 const fn loss(values: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "bearing.acceleration_loss.kind",
-        values,
-        reason: "",
-    }
+    Condition::new("bearing.acceleration_loss.kind", values)
 }
 
 const CONSTANT: &[Condition] = &[loss(&["constant"])];
 const PROPORTIONAL: &[Condition] = &[loss(&["proportional"])];
 const OVER_SPEED: &[Condition] = &[loss(&["over speed", "affine"])];
 const AFFINE: &[Condition] = &[loss(&["affine"])];
-const ROLLING: &[Condition] = &[Condition {
-    path: "bearing.fidelity",
-    values: &["rolling"],
-    reason: "in the planar fidelity the pockets are computed, not given",
-}];
+const ROLLING: &[Condition] = &[Condition::new("bearing.fidelity", &["rolling"])
+    .because("in the planar fidelity the pockets are computed, not given")];
 
 /// A system without fidelities shows the share of the balls nowhere.
 const MOVING: &[SystemName] = crate::system::MOVING;

@@ -31,13 +31,10 @@ pub enum Modelled {
 words! {
 /// Type of a bearing.
 pub enum BearingType {
-    /// Deep groove.
     DeepGroove = "deep groove",
     /// Angular contact, single row.
     AngularContact = "angular contact",
-    /// Angular contact, double row.
     AngularContactDoubleRow = "angular contact double row",
-    /// Four-point contact.
     FourPointContact = "four-point contact",
 }
 }

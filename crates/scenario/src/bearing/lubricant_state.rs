@@ -10,7 +10,6 @@ words! {
     pub enum StateKind {
         /// Nothing.
         None = "none",
-        /// Grease.
         Grease = "grease",
         /// Films that warm.
         Films = "films",

@@ -169,7 +169,6 @@ words! {
         Tanh = "tanh",
         /// Four parameters.
         FourParameter = "four parameter",
-        /// Dry.
         Dry = "dry",
         /// From the film.
         Lubricant = "lubricant",

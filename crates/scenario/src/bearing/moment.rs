@@ -13,7 +13,6 @@ use problem::words;
 words! {
     /// Law of the friction moment, as a word.
     pub enum MomentLaw {
-        /// None.
         None = "none",
         /// Palmgren's, continuous.
         Palmgren = "palmgren",
@@ -29,17 +28,12 @@ words! {
 words! {
     /// How a bearing is lubricated, as a word.
     pub enum Lubricated {
-        /// Grease.
         Grease = "grease",
-        /// Oil mist.
         OilMist = "oil mist",
-        /// Oil and air.
         OilAndAir = "oil and air",
-        /// Oil bath.
         OilBath = "oil bath",
         /// Oil bath up to the lowest ball.
         LowOilBath = "low oil bath",
-        /// Oil jet.
         OilJet = "oil jet",
     }
 }
@@ -47,11 +41,8 @@ words! {
 words! {
     /// Kind of an oil in the SKF model, as a word.
     pub enum OilKind {
-        /// Mineral.
         Mineral = "mineral",
-        /// Synthetic.
         Synthetic = "synthetic",
-        /// Transmission fluid.
         TransmissionFluid = "transmission fluid",
     }
 }
@@ -69,7 +60,6 @@ words! {
 words! {
     /// Kind of the loss of accelerated balls, as a word.
     pub enum LossKind {
-        /// None.
         None = "none",
         /// F0.
         Constant = "constant",

@@ -6,7 +6,6 @@ use problem::words;
 words! {
     /// What keeps the balls apart, as a word.
     pub enum SeparationKind {
-        /// A cage.
         Cage = "cage",
         /// The next ball.
         FullComplement = "full complement",

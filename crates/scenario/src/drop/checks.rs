@@ -308,8 +308,7 @@ impl Context<'_> {
                 rotor.speed.abs()
             )
         });
-        Err(Box::new(
-            self.problem(
+        Err(self.problem(
                 Code::ContactAtStart,
                 "contact.radial_air_clearance",
                 format!(
@@ -323,7 +322,6 @@ impl Context<'_> {
                     self.text("contact.radial_air_clearance")
                 ),
             )
-            .with_hint(hint),
-        ))
+            .with_hint(hint))
     }
 }

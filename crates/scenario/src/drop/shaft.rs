@@ -88,7 +88,7 @@ impl Shaft {
                 let found = "nothing that holds the rotor until the release";
                 let allowed = "[[levitation.magnet]] with sensor and controller, or [[rotor.support]] as its springs and dampers, is needed";
                 let problem = Problem::new(Code::NotHeld, &values.file, found, allowed);
-                return Err(Box::new(problem));
+                return Err(problem);
             }
             _ => {}
         }
@@ -150,5 +150,5 @@ fn node(values: &Values, nodes: &[Node]) -> Result<usize, Box<Problem>> {
     };
     let place = values.place(PATH);
     let problem = values.problem(Code::NoSuchNode, PATH, place, quoted(&named), allowed);
-    Err(Box::new(problem.with_hint(did_you_mean(&named, names))))
+    Err(problem.with_hint(did_you_mean(&named, names)))
 }

@@ -22,9 +22,7 @@ impl Context<'_> {
             let place = self.values.place("heat.atmosphere");
             let (values, needed) = (self.values, needed.to_string());
             let code = Code::MissingKey;
-            return Err(Box::new(
-                values.problem(code, path, place, "no value", needed),
-            ));
+            return Err(values.problem(code, path, place, "no value", needed));
         }
         if heat.surroundings.is_some() && heat.housing_emissivity > 0.0 {
             let path = "heat.housing_emissivity";
@@ -82,13 +80,13 @@ impl Context<'_> {
         let needed = format!(
             "a conductance is needed: the rotor stirs gas of this pressure with a Reynolds number of {found:.1e}, and the law of a cylinder ends at {LARGEST_REYNOLDS:.1e}; 0 W/K leaves its heat to the bearings"
         );
-        Err(Box::new(self.values.problem(
+        Err(self.values.problem(
             Code::MissingKey,
             "heat.rotor_surroundings",
             self.values.place("heat.gas_pressure"),
             "no value",
             needed,
-        )))
+        ))
     }
 
     /// What a coast-down needs to know besides: what brakes it, and how that follows warmth and clearance.

@@ -152,13 +152,13 @@ impl Values {
     fn outer_seat_follows(&self) -> Result<bool, Box<Problem>> {
         let follows = self.known_fits()[1].is_some();
         if self.number(HOUSING_FIT).unwrap_or(0.0) < 0.0 && !follows {
-            return Err(Box::new(self.problem(
+            return Err(self.problem(
                 Code::MissingKey,
                 "heat.outer_seat",
                 self.place(HOUSING_FIT),
                 "no value",
                 format!("a conductance is needed, or bearing.fits.outer_diameter and housing_outer_diameter: {HOUSING_FIT} leaves the ring loose, and no rule of a pressed seat holds"),
-            )));
+            ));
         }
         Ok(follows)
     }

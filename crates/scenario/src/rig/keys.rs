@@ -1,6 +1,6 @@
 //! The part of the table of keys that describes a test rig and what its logger writes.
 
-use crate::key::{Condition, Fallback, Key, Kind, Presence, Range, Section};
+use crate::key::{Condition, Key, Kind, Presence, Range, Section};
 use crate::rig::Coasts;
 use crate::rig::Housing;
 use crate::rig::MotorAfter;
@@ -11,34 +11,31 @@ use crate::system::RIG;
 use problem::words::Words;
 
 /// Where no network follows the temperatures.
-const ONE_NODE: &[Condition] = &[Condition {
-    path: "heat.network",
-    values: &["off"],
-    reason: "the network of [heat] follows them",
-}];
+const ONE_NODE: &[Condition] =
+    &[Condition::new("heat.network", &["off"]).because("the network of [heat] follows them")];
 
 /// What a rig does without keys that it shares with other systems.
 pub const PRESENCES: &[(&str, Presence)] = &[
     (
         "run.duration",
-        Presence::Default(Fallback::convention(
+        Presence::convention(
             "6 s",
             "a spin-up, and the seconds in which grease and films settle",
-        )),
+        ),
     ),
     (
         "run.tolerance",
-        Presence::Default(Fallback::convention(
+        Presence::convention(
             "5e-5",
             "there the energies of the shipped rig tests close to a millionth of what is turned over",
-        )),
+        ),
     ),
     (
         "run.output_interval",
-        Presence::Default(Fallback::convention(
+        Presence::convention(
             "1 ms",
             "6000 rows for the default duration; the raw file has the rates of its logger",
-        )),
+        ),
     ),
 ];
 
@@ -58,11 +55,7 @@ pub(crate) const SECTIONS: &[Section] = &[
 ];
 
 const fn program(words: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "rig.program",
-        values: words,
-        reason: "",
-    }
+    Condition::new("rig.program", words)
 }
 
 const ENGAGES: &[Condition] = &[program(&["spin-up", "repeat after rest"])];
@@ -70,26 +63,10 @@ const RELEASES: &[Condition] = &[program(&["spin-up", "ramp and hold"])];
 const COASTS: &[Condition] = &[program(&["coast-down"])];
 const RAMPS: &[Condition] = &[program(&["ramp and hold"])];
 const REPEATS: &[Condition] = &[program(&["repeat after rest"])];
-const HANGS: &[Condition] = &[Condition {
-    path: "rig.load.housing",
-    values: &["hanging"],
-    reason: "",
-}];
-const SAMPLED: &[Condition] = &[Condition {
-    path: "rig.pickup.kind",
-    values: &["analog"],
-    reason: "",
-}];
-const STAMPED: &[Condition] = &[Condition {
-    path: "rig.pickup.kind",
-    values: &["edges"],
-    reason: "",
-}];
-const WITH_BALL_PASS: &[Condition] = &[Condition {
-    path: "rig.ball_pass.fitted",
-    values: &["true"],
-    reason: "",
-}];
+const HANGS: &[Condition] = &[Condition::new("rig.load.housing", &["hanging"])];
+const SAMPLED: &[Condition] = &[Condition::new("rig.pickup.kind", &["analog"])];
+const STAMPED: &[Condition] = &[Condition::new("rig.pickup.kind", &["edges"])];
+const WITH_BALL_PASS: &[Condition] = &[Condition::new("rig.ball_pass.fitted", &["true"])];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[

@@ -14,11 +14,8 @@ use problem::words;
 words! {
     /// Program of a rig, as a word.
     pub enum ProgramKind {
-        /// Spin-up.
         SpinUp = "spin-up",
-        /// Coast-down.
         CoastDown = "coast-down",
-        /// Ramp and hold.
         RampAndHold = "ramp and hold",
         /// Two spin-ups with a rest between.
         RepeatAfterRest = "repeat after rest",
@@ -48,9 +45,7 @@ words! {
 words! {
     /// How the weight acts on the housing, as a word.
     pub enum Housing {
-        /// Concentric.
         Concentric = "concentric",
-        /// Hanging.
         Hanging = "hanging",
     }
 }
@@ -258,11 +253,9 @@ pub struct BallPass {
 words! {
 /// Format of a raw file.
 pub enum RawFormat {
-    /// TDMS.
     Tdms = "tdms",
     /// Text in columns.
     Csv = "csv",
-    /// Parquet.
     Parquet = "parquet",
 }
 }

@@ -173,7 +173,7 @@ fn belongs(part: &Part, magnets: &[&Part]) -> Checked<()> {
         names().collect::<Vec<_>>().join(", ")
     );
     let problem = part.problem(Code::LevitationParts, "magnet", quoted(name), allowed);
-    Err(Box::new(problem.with_hint(did_you_mean(name, names()))))
+    Err(problem.with_hint(did_you_mean(name, names())))
 }
 
 /// Refuses a second part for what one serves, and one for all magnets where each has its own: it would not act.

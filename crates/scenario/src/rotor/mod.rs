@@ -10,7 +10,7 @@ use crate::key::Key;
 use crate::values::Values;
 use physics::shaft::Layer;
 use physics::support::Coefficients;
-use problem::{Code, Problem};
+use problem::{Code, Result};
 use units::number_text;
 
 /// A flexible rotor as its file gives it. Positions are along the shaft, m.
@@ -168,7 +168,7 @@ pub struct RotorAnalysis {
 
 impl RotorAnalysis {
     /// The typed values of a document, checked.
-    pub fn of(document: &Document, values: &Values) -> Result<RotorAnalysis, Box<Problem>> {
+    pub fn of(document: &Document, values: &Values) -> Result<RotorAnalysis> {
         let rotor = FlexibleRotor::of_document(document, values)?;
         let analysis = values.section("analysis");
         let speed = values.number("rotor.speed").unwrap_or_default();
@@ -223,7 +223,7 @@ impl RotorAnalysis {
     }
 
     /// Refuses ranges that are none.
-    fn check(&self, values: &Values) -> Result<(), Box<Problem>> {
+    fn check(&self, values: &Values) -> Result<()> {
         const SPEED_TO: &str = "analysis.speed_to";
         const OPERATING_TO: &str = "analysis.operating_to";
         let refuse = |path: &str, found: String, allowed: &str| {

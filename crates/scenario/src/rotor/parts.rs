@@ -8,10 +8,10 @@ use crate::rotor::{Disk, FlexibleRotor, Node, Piece, PointMass, Support, Unbalan
 use crate::values::Values;
 use physics::shaft::{Annulus, Layer, MATERIALS, Material, SAME_PLACE};
 use physics::support::{Block, Coefficients};
-use problem::{Code, Problem, did_you_mean};
+use problem::{Code, Result, did_you_mean};
 use units::number_text;
 
-pub(super) type Checked<T> = Result<T, Box<Problem>>;
+pub(super) type Checked<T> = Result<T>;
 
 /// The parts of one kind, by its word.
 pub(super) type OfKind<'a, 'b> = &'b dyn Fn(&str) -> Vec<&'a Part>;
@@ -273,7 +273,7 @@ fn material(part: &Part, own: &[&Part]) -> Checked<Material> {
         names.join(", ")
     );
     let problem = part.problem(Code::UnknownMaterial, "material", quoted(name), allowed);
-    Err(Box::new(problem.with_hint(hint)))
+    Err(problem.with_hint(hint))
 }
 
 /// Where a part sits, m: at a position, or at a node by its name.
@@ -293,7 +293,7 @@ fn position(part: &Part, nodes: &[Node]) -> Checked<f64> {
         all => format!("a position such as \"0.25 m\", or one of the nodes {}, is needed", all.join(", ")),
     };
     let problem = part.problem(Code::NoSuchNode, "at", quoted(text), allowed);
-    Err(Box::new(problem.with_hint(did_you_mean(text, known))))
+    Err(problem.with_hint(did_you_mean(text, known)))
 }
 
 /// A position that is one between the ends of the shaft, m.
@@ -370,7 +370,7 @@ fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
             names => format!("one of the housings {} is needed", names.join(", ")),
         };
         let problem = part.problem(Code::NoSuchNode, "on", quoted(name), allowed);
-        Box::new(problem.with_hint(did_you_mean(name, names.iter().copied())))
+        problem.with_hint(did_you_mean(name, names.iter().copied()))
     })
 }
 

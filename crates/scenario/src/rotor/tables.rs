@@ -10,7 +10,7 @@ use physics::shaft::MATERIALS;
 use problem::key::quoted;
 use problem::raw::{Raw, Written, collect, raw, tables};
 use problem::table::Table;
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Problem, Result};
 use std::ops::Deref;
 use toml::de::{DeTable, DeValue};
 use units::number_text;
@@ -48,7 +48,7 @@ pub fn read_all(
     root: &DeTable<'_>,
     file: &str,
     system: SystemName,
-) -> Result<Vec<WrittenPart>, Box<Problem>> {
+) -> Result<Vec<WrittenPart>> {
     let mut parts = Vec::new();
     for kind in PARTS {
         let table = root.get(kind.table()).map(|value| value.get_ref());
@@ -64,7 +64,7 @@ pub fn read_all(
         }
         let start = key.span().start;
         let place = Place::of_offset(text, start);
-        let refuse = |problem: Problem| Err(Box::new(problem.at(place).on_key(kind.path())));
+        let refuse = |problem: Box<Problem>| Err(problem.at(place).on_key(kind.path()));
         if !system.has_shaft() {
             return refuse(no_effect(kind, file));
         }
@@ -113,7 +113,7 @@ pub fn is_part(system: SystemName, kind: &PartKind, value: &DeValue<'_>) -> bool
 }
 
 /// What is said of a part in a file of another system.
-fn no_effect(kind: &PartKind, file: &str) -> Problem {
+fn no_effect(kind: &PartKind, file: &str) -> Box<Problem> {
     if let Some(absent) = not_modelled::of(&kind.path(), SystemName::Rotor) {
         let found = "a key of what is not modelled yet";
         let problem = Problem::new(Code::NotModelled, file, found, absent.allowed());
@@ -125,12 +125,7 @@ fn no_effect(kind: &PartKind, file: &str) -> Problem {
 }
 
 /// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
-pub fn set(
-    parts: &mut [WrittenPart],
-    file: &str,
-    path: &[String],
-    raw: Raw,
-) -> Result<(), Box<Problem>> {
+pub fn set(parts: &mut [WrittenPart], file: &str, path: &[String], raw: Raw) -> Result<()> {
     let [_, kind, named, keys @ ..] = path else {
         return Ok(());
     };
@@ -155,7 +150,7 @@ pub fn set(
             names.join(", ")
         );
         let problem = Problem::new(Code::UnknownKey, file, quoted(named), allowed);
-        return Err(Box::new(problem.at(Place::Set).on_key(path.join("."))));
+        return Err(problem.at(Place::Set).on_key(path.join(".")));
     };
     parts[at].keys.retain(|(other, ..)| other != key);
     parts[at].keys.push((key.clone(), raw, Place::Set));
@@ -207,16 +202,16 @@ impl Part {
 const MOST_PARTS: usize = 2000;
 
 /// All parts of a document, completed.
-pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>> {
     if document.parts.len() > MOST_PARTS {
         let found = format!("{} parts of a rotor", document.parts.len());
         let allowed = format!("at most {MOST_PARTS} are possible");
-        return Err(Box::new(Problem::new(
+        return Err(Problem::new(
             Code::RotorGeometry,
             &values.file,
             found,
             allowed,
-        )));
+        ));
     }
     let mut all: Vec<Part> = Vec::new();
     for kind in PARTS {
@@ -238,7 +233,7 @@ pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>, Box<Pr
 }
 
 /// The materials known by name that parts are of, as the file could give them.
-fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>, Box<Problem>> {
+fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>> {
     let Some(kind) = PARTS.iter().find(|kind| kind.word == "material") else {
         return Ok(Vec::new());
     };
@@ -300,12 +295,7 @@ pub fn place(parts: &[WrittenPart], path: &str) -> Option<Place> {
     own.or(first).map(|(.., place)| *place)
 }
 
-fn read(
-    kind: &'static PartKind,
-    number: usize,
-    written: &WrittenPart,
-    file: &str,
-) -> Result<Part, Box<Problem>> {
+fn read(kind: &'static PartKind, number: usize, written: &WrittenPart, file: &str) -> Result<Part> {
     let label = written.label(number);
     let place = (
         format!("{}.{label}", kind.path()),

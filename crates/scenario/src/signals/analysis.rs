@@ -77,11 +77,9 @@ words! {
     pub enum InertiaFrom {
         /// As given.
         Given = "given",
-        /// A pendulum.
         Pendulum = "pendulum",
         /// Two strings.
         Bifilar = "bifilar",
-        /// A known torque.
         KnownTorque = "known torque",
     }
 }

@@ -18,26 +18,11 @@ pub(crate) const SECTIONS: &[Section] = &[
     Section::new("signals.temperature", "A thermometer at the outer race.", SIGNALS),
 ];
 
-const MARKED: Condition = Condition {
-    path: "signals.speed.kind",
-    values: &["analog", "edges"],
-    reason: "a speed has no marks",
-};
-const SHOWN: Condition = Condition {
-    path: "signals.speed.kind",
-    values: &["speed"],
-    reason: "",
-};
-const STAMPED: Condition = Condition {
-    path: "signals.speed.kind",
-    values: &["edges"],
-    reason: "",
-};
-const VIBRATION: Condition = Condition {
-    path: "signals.cage.kind",
-    values: &["vibration"],
-    reason: "",
-};
+const MARKED: Condition =
+    Condition::new("signals.speed.kind", &["analog", "edges"]).because("a speed has no marks");
+const SHOWN: Condition = Condition::new("signals.speed.kind", &["speed"]);
+const STAMPED: Condition = Condition::new("signals.speed.kind", &["edges"]);
+const VIBRATION: Condition = Condition::new("signals.cage.kind", &["vibration"]);
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[

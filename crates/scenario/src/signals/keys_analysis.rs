@@ -13,11 +13,7 @@ pub(crate) const SECTIONS: &[Section] = &[
 ];
 
 const fn inertia_is(values: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "signals.steady.inertia_from",
-        values,
-        reason: "",
-    }
+    Condition::new("signals.steady.inertia_from", values)
 }
 
 const GIVEN_INERTIA: &[Condition] = &[inertia_is(&["given"])];

@@ -91,7 +91,6 @@ words! {
         Analog = "analog",
         /// Instants of marks.
         Edges = "edges",
-        /// A speed.
         Speed = "speed",
     }
 }
@@ -103,7 +102,6 @@ words! {
         Passings = "passings",
         /// Instants.
         Edges = "edges",
-        /// A vibration.
         Vibration = "vibration",
     }
 }
@@ -155,7 +153,6 @@ pub enum PickupFlank {
     Rising = "rising",
     /// From high to low.
     Falling = "falling",
-    /// Both.
     Both = "both",
     /// The middle between both.
     Centre = "centre",

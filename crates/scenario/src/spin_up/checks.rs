@@ -4,7 +4,7 @@ use crate::bearing::kind::Fidelity;
 use crate::bearing::moment::AccelerationLoss;
 use crate::checks::{Check, Context};
 use crate::spin_up::{Course, Drive, SpeedCourse, SpinUp};
-use problem::{Code, Place, Problem};
+use problem::{Code, Place};
 
 impl Context<'_> {
     pub(crate) fn spin_up(&self, spin_up: &SpinUp) -> Check {
@@ -92,7 +92,7 @@ impl Context<'_> {
         if spin_up.bearing.fidelity == Fidelity::Planar {
             return Ok(());
         }
-        let problem: Problem = match course {
+        let problem = match course {
             SpeedCourse::Ramp { .. } => return Ok(()),
             SpeedCourse::Step { .. } => self
                 .problem(
@@ -112,7 +112,7 @@ impl Context<'_> {
                 "a first row with speed 0 is needed with bearing.fidelity = \"rolling\": balls that always roll cannot follow a step".to_string(),
             ),
         };
-        Err(Box::new(problem))
+        Err(problem)
     }
 
     /// A loss per acceleration that outweighs the inertia would leave a race that slows down without an answer.

@@ -1,6 +1,6 @@
 //! The part of the table of keys that describes what brings an inner race to speed.
 
-use crate::key::{Condition, Fallback, Key, Kind, LANDING_FRICTION, Presence, Section};
+use crate::key::{Condition, Key, Kind, LANDING_FRICTION, Presence, Section};
 use crate::spin_up::DriveKind;
 use crate::spin_up::RotorSpin;
 use crate::system::SPIN_UP;
@@ -10,17 +10,14 @@ use problem::words::Words;
 pub const PRESENCES: &[(&str, Presence)] = &[
     (
         "run.duration",
-        Presence::Default(Fallback::convention(
+        Presence::convention(
             "0.1 s",
             "several times the spin-up of a small inner race by a sliding rotor",
-        )),
+        ),
     ),
     (
         "run.output_interval",
-        Presence::Default(Fallback::convention(
-            "0.02 ms",
-            "5000 rows for the default duration",
-        )),
+        Presence::convention("0.02 ms", "5000 rows for the default duration"),
     ),
 ];
 
@@ -28,22 +25,14 @@ pub const PRESENCES: &[(&str, Presence)] = &[
 pub(crate) const SECTIONS: &[Section] = &[Section::new("drive", "What turns and loads the inner race; the outer race stands. Angles and speeds count counter-clockwise, x points right and y up. At time 0 race, balls and cage are at rest.", SPIN_UP)];
 
 const fn drive(kinds: &'static [&'static str]) -> Condition {
-    Condition {
-        path: "drive.kind",
-        values: kinds,
-        reason: "",
-    }
+    Condition::new("drive.kind", kinds)
 }
 
 const SLIDING: &[Condition] = &[drive(&["sliding rotor"])];
 const TORQUE: &[Condition] = &[drive(&["torque"])];
 const SPEED: &[Condition] = &[drive(&["speed"])];
 
-const FREE: Condition = Condition {
-    path: "drive.rotor_spin",
-    values: &["free"],
-    reason: "",
-};
+const FREE: Condition = Condition::new("drive.rotor_spin", &["free"]);
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[

@@ -39,9 +39,7 @@ pub enum Course {
 words! {
     /// What turns the inner race, as a word.
     pub enum DriveKind {
-        /// A sliding rotor.
         SlidingRotor = "sliding rotor",
-        /// A torque.
         Torque = "torque",
         /// A given speed.
         Speed = "speed",
@@ -51,9 +49,7 @@ words! {
 words! {
     /// The spin of a sliding rotor, as a word.
     pub enum RotorSpin {
-        /// Held.
         Held = "held",
-        /// Free.
         Free = "free",
     }
 }

@@ -1,6 +1,6 @@
 //! The part of the table of keys that describes where the torque of a bearing is computed.
 
-use crate::key::{Fallback, Key, Kind, Presence, Range, Section};
+use crate::key::{Key, Kind, Presence, Range, Section};
 use crate::system::TORQUE;
 
 #[rustfmt::skip]
@@ -32,23 +32,14 @@ pub(crate) const KEYS: &[Key] = &[
 pub const PRESENCES: &[(&str, Presence)] = &[
     (
         "bearing.moment.law",
-        Presence::Default(Fallback::convention(
-            "palmgren",
-            "the law of the source paper",
-        )),
+        Presence::convention("palmgren", "the law of the source paper"),
     ),
     (
         "bearing.moment.lubrication",
-        Presence::Default(Fallback::assumption(
-            "grease",
-            "the usual lubrication of an auxiliary bearing",
-        )),
+        Presence::assumption("grease", "the usual lubrication of an auxiliary bearing"),
     ),
     (
         "bearing.moment.viscosity",
-        Presence::Default(Fallback::assumption(
-            "100 mm^2/s",
-            "base oil ISO VG 100 at 40 degC",
-        )),
+        Presence::assumption("100 mm^2/s", "base oil ISO VG 100 at 40 degC"),
     ),
 ];

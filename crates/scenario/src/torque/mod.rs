@@ -14,7 +14,7 @@ use crate::section::Section;
 use crate::values::{COMPARED_LAWS, LAW, Values};
 use physics::viscosity::Viscosity;
 use problem::raw::{Given, Raw};
-use problem::{Code, Place, Problem};
+use problem::{Code, Place, Result};
 
 /// A bearing whose torque is computed without motion. All values are SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,10 +90,7 @@ pub struct ComparedLaw {
 }
 
 impl Torque {
-    pub(crate) fn from_values(
-        values: &Values,
-        laws: Vec<ComparedLaw>,
-    ) -> Result<Torque, Box<Problem>> {
+    pub(crate) fn from_values(values: &Values, laws: Vec<ComparedLaw>) -> Result<Torque> {
         let bearing = values.section("bearing");
         let torque = values.section("torque");
         Ok(Torque {
@@ -134,18 +131,18 @@ impl Torque {
 }
 
 /// The lubricants of a comparison: that of the bearing, where it is known over temperature, and those listed.
-fn lubricants(values: &Values) -> Result<Vec<Lubricant>, Box<Problem>> {
+fn lubricants(values: &Values) -> Result<Vec<Lubricant>> {
     const LISTED: &str = "torque.lubricants";
     let texts = values.texts(LISTED);
     let listed = texts.iter().map(|text| {
         Lubricant::parse(text).map_err(|why| {
-            Box::new(values.problem(
+            values.problem(
                 Code::NoLawData,
                 LISTED,
                 values.place(LISTED),
                 format!("\"{text}\": {why}"),
                 "viscosities are needed, e.g. \"ISO VG 68, 8.7 mm^2/s at 100 degC\"",
-            ))
+            )
         })
     });
     let points = values.rows("bearing.moment.viscosity_points");
@@ -188,7 +185,7 @@ fn moment_by(
     document: &Document,
     values: &Values,
     bearings: &dyn BearingSource,
-) -> Result<Moment, Box<Problem>> {
+) -> Result<Moment> {
     if law == values.word(LAW) {
         return Ok(Moment::from_values(values));
     }

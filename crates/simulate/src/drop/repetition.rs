@@ -52,7 +52,7 @@ pub fn others(scenario: &Scenario, built: &Built) -> Result<Vec<Arc<Other>>, Box
     let refused = host::each(&later, |_, k| {
         let drawn = draw(scenario, drop, *k);
         let problem = scenario.with(&drawn).err()?;
-        Some(member_problem(*k, &drawn, *problem))
+        Some(member_problem(*k, &drawn, problem))
     });
     match refused.into_iter().flatten().next() {
         Some(problem) => Err(problem),
@@ -76,7 +76,7 @@ fn draw(scenario: &Scenario, drop: &Drop, k: usize) -> Drawn {
 
 /// A member of a machine of its own.
 fn member(scenario: &Scenario, drawn: &Drawn, k: usize) -> Result<Arc<Other>, Box<Problem>> {
-    let blame = |problem: Box<Problem>| member_problem(k, drawn, *problem);
+    let blame = |problem: Box<Problem>| member_problem(k, drawn, problem);
     let member = scenario.with(drawn).map_err(blame)?;
     let Some(of) = member.drop() else {
         unreachable!("no value that is varied changes the system");
@@ -86,13 +86,13 @@ fn member(scenario: &Scenario, drawn: &Drawn, k: usize) -> Result<Arc<Other>, Bo
 }
 
 /// What is wrong with a member, with what it drew.
-fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Problem) -> Box<Problem> {
+fn member_problem(k: usize, drawn: &[(String, String)], mut problem: Box<Problem>) -> Box<Problem> {
     let draws: Vec<String> = (drawn.iter())
         .map(|(path, value)| format!("{path} = {value}"))
         .collect();
     problem.found = format!("{} in member {k} of the repetition", problem.found);
     problem.place = Place::Whole;
-    Box::new(problem.with_hint(format!("It drew {}", draws.join(", "))))
+    problem.with_hint(format!("It drew {}", draws.join(", ")))
 }
 
 /// Runs a drop, as often as it asks; `known` are those of its [`others`] that have been read.

@@ -2,7 +2,7 @@
 
 use crate::signals::read::timing::Timing;
 use crate::signals::read::{MOST_VALUES, Series, Source, si_factor};
-use problem::{Code, Problem};
+use problem::{Code, Problem, Result};
 use recording::{Channel, Clock, Content};
 
 /// Usual intervals in a step from which on values are missing.
@@ -14,7 +14,7 @@ const PIECE: usize = 1 << 16;
 
 impl Source<'_> {
     /// Refuses an interval in the scenario that no channel needs and one contradicts; `other` is a second file that was read.
-    pub fn interval_holds(&self, other: Option<&Source>) -> Result<(), Box<Problem>> {
+    pub fn interval_holds(&self, other: Option<&Source>) -> Result<()> {
         let both = || [Some(self), other].into_iter().flatten();
         let Some(told) = self.signals.sample_interval else {
             return Ok(());
@@ -56,7 +56,7 @@ impl Source<'_> {
     }
 
     /// Seconds of one unit of a channel of times.
-    pub(crate) fn seconds(&self, key: &str, channel: &Channel) -> Result<f64, Box<Problem>> {
+    pub(crate) fn seconds(&self, key: &str, channel: &Channel) -> Result<f64> {
         if channel.unit.trim().is_empty() {
             let told = self.signals.time_unit.as_deref();
             return told.and_then(|unit| si_factor(unit, "s")).ok_or_else(|| {
@@ -87,7 +87,7 @@ impl Source<'_> {
         key: &'static str,
         channel: &Channel,
         count: usize,
-    ) -> Result<Option<Vec<f64>>, Box<Problem>> {
+    ) -> Result<Option<Vec<f64>>> {
         Ok(match channel.clock {
             Clock::Uniform { first, interval } => {
                 Some((0..count).map(|k| first + k as f64 * interval).collect())
@@ -102,12 +102,7 @@ impl Source<'_> {
     }
 
     /// The channel that is the clock of another one, and the seconds of its unit.
-    fn clock(
-        &self,
-        key: &str,
-        channel: &Channel,
-        clock: usize,
-    ) -> Result<(Channel, f64), Box<Problem>> {
+    fn clock(&self, key: &str, channel: &Channel, clock: usize) -> Result<(Channel, f64)> {
         let Some(times) = self.recording.channels().get(clock).cloned() else {
             let name = &channel.name;
             let found = format!("channel \"{name}\", whose clock the file does not hold");
@@ -128,7 +123,7 @@ impl Source<'_> {
         clock: usize,
         offset: f64,
         (from, to): (Option<f64>, Option<f64>),
-    ) -> Result<Timing, Box<Problem>> {
+    ) -> Result<Timing> {
         let name = &channel.name;
         let (times, seconds) = self.clock(key, channel, clock)?;
         let count = times.count.min(MOST_VALUES);
@@ -139,7 +134,7 @@ impl Source<'_> {
             );
             return Err(self.problem(Code::ChannelClock, key, found, "two at least are needed"));
         }
-        let at = |own: &mut Self, index: u64| -> Result<f64, Box<Problem>> {
+        let at = |own: &mut Self, index: u64| -> Result<f64> {
             let value = own.read(key, clock, index, 1)?;
             Ok(value.first().copied().unwrap_or(f64::NAN) * seconds + offset)
         };
@@ -244,7 +239,7 @@ impl Source<'_> {
         key: &'static str,
         mut series: Series,
         timing: Timing,
-    ) -> Result<Series, Box<Problem>> {
+    ) -> Result<Series> {
         let read = self.read(key, timing.clock, timing.begin, series.values.len())?;
         let times: Vec<f64> = read
             .iter()

@@ -1,7 +1,7 @@
 //! Instants in a channel: as they stand there, or those at which a line of 0 and 1 has a flank.
 
 use crate::signals::read::{MOST_VALUES, Source};
-use problem::{Code, Problem};
+use problem::{Code, Result};
 use recording::Content;
 use scenario::PickupFlank;
 
@@ -16,12 +16,7 @@ pub struct Stamps {
 
 impl Source<'_> {
     /// The instants in a channel, or those at which a line of 0 and 1 has a flank, within the part that is looked at.
-    pub fn stamps(
-        &mut self,
-        key: &'static str,
-        name: &str,
-        flank: PickupFlank,
-    ) -> Result<Stamps, Box<Problem>> {
+    pub fn stamps(&mut self, key: &'static str, name: &str, flank: PickupFlank) -> Result<Stamps> {
         let (index, channel) = self.channel(key, name)?;
         if channel.count > MOST_VALUES {
             let found = format!("channel \"{name}\" with {} values", channel.count);

@@ -1,5 +1,7 @@
 //! Cells of a line: where they begin and end, and which number one holds.
 
+use super::lines::text;
+
 /// What stands between the cells of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Between {
@@ -49,6 +51,13 @@ pub(super) fn cells<'a>(
         }
     }
     count
+}
+
+/// The cells of a line as texts.
+pub(super) fn row(line: &[u8], between: Between) -> Vec<String> {
+    let mut row = Vec::new();
+    cells(line, between, |_, cell| row.push(text(cell)));
+    row
 }
 
 fn unquoted(cell: &[u8]) -> &[u8] {

@@ -23,10 +23,7 @@ impl<S: Read + Seek> Csv<S> {
         };
         let name = self.channels[time].name.clone();
         let mut note = |text: String| {
-            self.notes.push(Note {
-                channel: Some(name.clone()),
-                text,
-            });
+            self.notes.push(Note::of(&name, text));
         };
         let is_moment = self.layout.columns[time].kind == Kind::Moment;
         let unit = if is_moment {
@@ -58,10 +55,10 @@ impl<S: Read + Seek> Csv<S> {
             return;
         }
         if spacing.missing > 0 {
-            self.notes.push(Note {
-                channel: Some(name),
-                text: format!("{} times are not numbers", spacing.missing),
-            });
+            self.notes.push(Note::of(
+                &name,
+                format!("{} times are not numbers", spacing.missing),
+            ));
         }
     }
 
@@ -81,12 +78,10 @@ impl<S: Read + Seek> Csv<S> {
             };
         }
         if self.heads > 0 {
-            let text = format!(
+            self.notes.push(Note::of_file(format!(
                 "{} more heads stand between the values; the columns are named by the first",
                 self.heads
-            );
-            let channel = None;
-            self.notes.push(Note { channel, text });
+            )));
         }
         if let Some(time) = time.filter(|_| alone) {
             self.notes

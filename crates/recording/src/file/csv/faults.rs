@@ -1,15 +1,15 @@
 //! What is wrong with cells and lines, and how times are rounded.
 
 use super::cell;
-use super::lines::text;
+use super::lines;
 
 /// What was found in one column that is no value.
 #[derive(Clone, Default)]
 pub(super) struct Faults {
-    pub missing: u64,
-    pub first_missing: u64,
-    pub texts: u64,
-    pub first_text: u64,
+    /// Empty cells, and the line of the first.
+    pub missing: (u64, u64),
+    /// Cells with a text, and the line of the first.
+    pub texts: (u64, u64),
     pub example: String,
 }
 
@@ -56,25 +56,13 @@ impl Faults {
     /// Counts an empty cell, or one with a text.
     pub fn add(&mut self, text: Option<&[u8]>, line: u64) {
         match text {
-            None => {
-                if self.missing == 0 {
-                    self.first_missing = line;
-                }
-                self.missing += 1;
-            }
+            None => count(&mut self.missing, line),
             Some(cell) => {
-                if self.texts == 0 {
-                    self.first_text = line;
-                    self.example = text_of(cell);
+                if self.texts.0 == 0 {
+                    self.example = lines::text(cell).chars().take(20).collect();
                 }
-                self.texts += 1;
+                count(&mut self.texts, line);
             }
         }
     }
-}
-
-/// The first letters of a cell.
-fn text_of(cell: &[u8]) -> String {
-    let letters: String = text(cell).chars().take(20).collect();
-    letters
 }

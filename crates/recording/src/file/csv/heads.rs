@@ -1,6 +1,6 @@
 //! Heads that name columns and clock in a form of their own: measurement files of LabVIEW, tables of oscilloscopes.
 
-use super::cell::{self, Between, Cell, cells};
+use super::cell::{self, Between, Cell, cells, row};
 use super::layout::{Column, Kind, Layout, properties, property};
 use super::lines::text;
 use crate::file::clock;
@@ -27,12 +27,6 @@ impl Layout {
         take_units(&mut layout);
         Some(layout)
     }
-}
-
-fn row(line: &[u8], between: Between) -> Vec<String> {
-    let mut row = Vec::new();
-    cells(line, between, |_, cell| row.push(text(cell)));
-    row
 }
 
 fn number(cell: Option<&String>, comma: bool) -> Option<f64> {

@@ -243,8 +243,7 @@ fn head_of(lines: &[Vec<u8>], fit: &Fit) -> Option<(Vec<String>, Vec<String>, us
         .filter(|&at| !lines[at].trim_ascii().is_empty());
     let row = |at: usize| {
         let line = without_remark(&lines[at]);
-        let mut found = Vec::new();
-        cells(line, fit.form.0, |_, cell| found.push(text(cell)));
+        let found = cell::row(line, fit.form.0);
         let spare = found.len() == fit.columns + 1 && found.last().is_some_and(String::is_empty);
         let short = found.len() + 1 == fit.columns && fit.open_end;
         (found.len() == fit.columns || spare || short).then_some(found)
@@ -316,8 +315,7 @@ pub(super) fn properties(lines: &[Vec<u8>], form: (Between, bool)) -> Vec<Proper
     let mut found = Vec::new();
     for line in lines {
         let line = without_remark(line);
-        let mut row = Vec::new();
-        cells(line, form.0, |_, cell| row.push(text(cell)));
+        let mut row = cell::row(line, form.0);
         while row.len() > 1 && row.last().is_some_and(String::is_empty) {
             row.pop();
         }

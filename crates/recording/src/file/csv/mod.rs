@@ -61,12 +61,7 @@ pub fn is_csv(head: &[u8]) -> bool {
     if letters != Letters::Bytes {
         return true;
     }
-    let head = &head[(mark as usize).min(head.len())..];
-    let controls = head
-        .iter()
-        .filter(|byte| byte.is_ascii_control() && !byte.is_ascii_whitespace())
-        .count();
-    !head.is_empty() && !head.contains(&0) && controls * 50 <= head.len()
+    super::is_plain_text(&head[(mark as usize).min(head.len())..])
 }
 
 /// Lines of the file that were found together.
@@ -236,12 +231,9 @@ impl<S: Read + Seek> Csv<S> {
         }
         self.set_notes(&faults, &lost);
         if let Some(line) = cut {
-            self.notes.push(Note {
-                channel: None,
-                text: format!(
+            self.notes.push(Note::of_file(format!(
                     "the last line, {line}, has no line end: if the file was cut off there, its last number is a part of one"
-                ),
-            });
+                )));
         }
         self.set_clock(time, &spacing, back_line);
         Ok(())
@@ -374,21 +366,18 @@ impl<S: Read + Seek> Csv<S> {
     fn set_notes(&mut self, faults: &[Faults], lost: &Lost) {
         for (channel, faults) in self.channels.iter().zip(faults) {
             let mut note = |text: String| {
-                self.notes.push(Note {
-                    channel: Some(channel.name.clone()),
-                    text,
-                });
+                self.notes.push(Note::of(&channel.name, text));
             };
-            if faults.missing > 0 {
+            if faults.missing.0 > 0 {
                 note(format!(
                     "{} cells are empty, the first in line {}; they are not-a-number",
-                    faults.missing, faults.first_missing
+                    faults.missing.0, faults.missing.1
                 ));
             }
-            if faults.texts > 0 {
+            if faults.texts.0 > 0 {
                 note(format!(
                     "{} cells are no numbers, the first in line {}: “{}”; they are not-a-number",
-                    faults.texts, faults.first_text, faults.example
+                    faults.texts.0, faults.texts.1, faults.example
                 ));
             }
         }
@@ -402,17 +391,15 @@ impl<S: Read + Seek> Csv<S> {
         ];
         for ((count, first), text) in lines {
             if count > 0 {
-                self.notes.push(Note {
-                    channel: None,
-                    text: format!("{count} lines {text}; the first is line {first}"),
-                });
+                self.notes.push(Note::of_file(format!(
+                    "{count} lines {text}; the first is line {first}"
+                )));
             }
         }
         if !self.layout.named {
-            self.notes.push(Note {
-                channel: None,
-                text: "the columns have no names; they are numbered".to_string(),
-            });
+            self.notes.push(Note::of_file(
+                "the columns have no names; they are numbered",
+            ));
         }
     }
 

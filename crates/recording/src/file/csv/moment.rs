@@ -1,6 +1,7 @@
 //! Instants of the calendar and times of the day, as loggers write them.
 
 use crate::Instant;
+use crate::file::clock;
 
 /// What a text of a time states.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,14 +81,7 @@ fn days(text: &str) -> Option<i64> {
     };
     let fits = (1..=9999).contains(&year) && (1..=12).contains(&month) && (1..=31).contains(&day);
     fits.then_some(())?;
-    // The year starts with March, so that the day that is added in leap years is its last.
-    let (year, month) = if month > 2 {
-        (year, month - 3)
-    } else {
-        (year - 1, month + 9)
-    };
-    let of_year = (153 * month + 2) / 5 + day - 1;
-    Some(year * 365 + year / 4 - year / 100 + year / 400 + of_year - 719_468)
+    Some(clock::days(year, month, day))
 }
 
 #[cfg(test)]

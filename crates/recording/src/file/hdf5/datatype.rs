@@ -1,7 +1,7 @@
 //! Datatypes: which numbers the bytes of a value are.
 
 use super::fields::Fields;
-use crate::file::half;
+use crate::file::number;
 
 /// Deepest nesting of compound types that is read.
 const DEEPEST: u32 = 8;
@@ -57,25 +57,11 @@ impl Datatype {
         let Some(bytes) = bytes.get(..self.size).filter(|bytes| bytes.len() <= 8) else {
             return f64::NAN;
         };
-        let mut low_first = [0; 8];
-        for (place, &byte) in bytes.iter().enumerate() {
-            let place = if self.big_endian {
-                bytes.len() - 1 - place
-            } else {
-                place
-            };
-            low_first[place] = byte;
-        }
-        let bits = u64::from_le_bytes(low_first);
+        let bits = number::bits(bytes, self.big_endian);
         match (&self.kind, self.size) {
-            (Kind::Float, 8) => f64::from_bits(bits),
-            (Kind::Float, 4) => f64::from(f32::from_bits(bits as u32)),
-            (Kind::Float, 2) => half::number(bits as u16),
-            (Kind::Whole { signed: true }, size @ 1..=8) => {
-                let unused = 64 - 8 * size as u32;
-                ((bits << unused) as i64 >> unused) as f64
-            }
-            (Kind::Whole { signed: false }, 1..=8) => bits as f64,
+            (Kind::Float, size @ (2 | 4 | 8)) => number::float(bits, size),
+            (Kind::Whole { signed: true }, size @ 1..) => number::signed(bits, size) as f64,
+            (Kind::Whole { signed: false }, 1..) => bits as f64,
             _ => f64::NAN,
         }
     }

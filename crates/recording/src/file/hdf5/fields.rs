@@ -1,5 +1,7 @@
 //! Fields of a piece of an HDF5 file, read one after the other.
 
+use crate::file::number;
+
 /// A place in a piece of the file; every read says whether the bytes are there.
 #[derive(Clone, Copy)]
 pub(super) struct Fields<'a> {
@@ -64,13 +66,7 @@ impl<'a> Fields<'a> {
         if size > 8 {
             return None;
         }
-        let bytes = self.take(size)?;
-        Some(
-            bytes
-                .iter()
-                .rev()
-                .fold(0, |value, &byte| value << 8 | u64::from(byte)),
-        )
+        self.take(size).map(|bytes| number::bits(bytes, false))
     }
 
     /// One byte.

@@ -149,10 +149,10 @@ impl<S: Read + Seek> Recording for Hdf5<S> {
         );
         if !whole && !self.reported[channel] {
             self.reported[channel] = true;
-            self.notes.push(Note {
-                channel: Some(entry.name.clone()),
-                text: "a part is damaged or cut off; its values are not-a-number".to_string(),
-            });
+            self.notes.push(Note::of(
+                &entry.name,
+                "a part is damaged or cut off; its values are not-a-number",
+            ));
         }
         Ok(there)
     }

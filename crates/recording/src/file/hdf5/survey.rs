@@ -46,10 +46,7 @@ pub(super) fn survey<S: Read + Seek>(
     let length = storage.source.length();
     if let Some(end) = storage.end.filter(|&end| end > length) {
         let text = format!("the file was cut off: it states {end} bytes, {length} are there");
-        found.notes.push(Note {
-            channel: None,
-            text,
-        });
+        found.note("", text);
     }
     let mut seen = HashSet::new();
     // The root must be readable: without it nothing of the file is.
@@ -72,7 +69,7 @@ pub(super) fn survey<S: Read + Seek>(
         let is = |kinds: &[u16]| messages.iter().any(|message| kinds.contains(&message.kind));
         if !is(&kind::OF_GROUPS) && !is(&[kind::DATATYPE]) {
             let text = "its header names neither members nor values: it is damaged, and what it holds is left out";
-            found.note(&prefix, text.to_string());
+            found.note(&prefix, text);
         }
         let attributes = found.attributes(storage, &prefix, &messages);
         found.take_properties(&prefix, attributes);
@@ -158,11 +155,11 @@ fn left_out(error: &FileError) -> String {
 }
 
 impl Found {
-    fn note(&mut self, name: &str, text: String) {
+    fn note(&mut self, name: &str, text: impl Into<String>) {
         let name = name.trim_end_matches('/');
-        self.notes.push(Note {
-            channel: (!name.is_empty()).then(|| name.to_string()),
-            text,
+        self.notes.push(match name {
+            "" => Note::of_file(text),
+            name => Note::of(name, text),
         });
     }
 
@@ -201,7 +198,7 @@ impl Found {
         let (attributes, whole) = storage.attributes(messages);
         if !whole {
             let text = "attributes of it are damaged or cut off; they are left out";
-            self.note(name, text.to_string());
+            self.note(name, text);
         }
         attributes
     }
@@ -239,7 +236,7 @@ impl Found {
             .iter()
             .any(|a| a.name == "MATLAB_empty" && a.value != Value::Number(0.0));
         if matlab && is_empty {
-            return self.note(&name, "is empty".to_string());
+            return self.note(&name, "is empty");
         }
         if matlab && attributes.iter().any(|a| a.name == "MATLAB_object_decode") {
             let class = class.unwrap_or_default();
@@ -314,10 +311,7 @@ impl Found {
                 _ => (b, Some(a)),
             },
             _ => {
-                return self.note(
-                    &name,
-                    "has more than two directions; it is left out".to_string(),
-                );
+                return self.note(&name, "has more than two directions; it is left out");
             }
         };
         let columns = across.map_or(1, |across| dataset.sizes[across]);

@@ -8,6 +8,7 @@ use std::io::{Read, Seek};
 
 use super::survey::Found;
 use super::values::{Stored, Values};
+use crate::file::number;
 use crate::file::source::Source;
 use crate::{FileError, Property, Value};
 
@@ -29,11 +30,8 @@ struct Head {
 impl Head {
     fn read(head: &[u8], big_endian: bool) -> Option<Head> {
         let word = |k: usize| {
-            let bytes = *head.get(4 * k..)?.first_chunk::<4>()?;
-            Some(match big_endian {
-                true => i32::from_be_bytes(bytes),
-                false => i32::from_le_bytes(bytes),
-            })
+            let bytes = head.get(4 * k..4 * k + 4)?;
+            Some(number::bits(bytes, big_endian) as i32)
         };
         let kind = word(0)?;
         let size = |k: usize| u64::try_from(word(k)?).ok();
@@ -111,7 +109,7 @@ pub(super) fn survey<S: Read + Seek>(
             step: 1,
         };
         match head.class {
-            0 if count == 0 => found.note(&name, "is empty".to_string()),
+            0 if count == 0 => found.note(&name, "is empty"),
             0 if count == 1 && !head.complex => {
                 let mut bytes = [0; 8];
                 let there = source.read_at(start, &mut bytes)?;
@@ -143,8 +141,8 @@ pub(super) fn survey<S: Read + Seek>(
                 let value = Value::Text(letters.collect());
                 found.properties.push(Property { name, value });
             }
-            1 => found.note(&name, "holds lines of text; it is left out".to_string()),
-            _ => found.note(&name, "holds a sparse matrix; it is left out".to_string()),
+            1 => found.note(&name, "holds lines of text; it is left out"),
+            _ => found.note(&name, "holds a sparse matrix; it is left out"),
         }
         at = end;
     }

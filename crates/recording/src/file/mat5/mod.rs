@@ -162,10 +162,10 @@ impl<S: Read + Seek> Recording for Mat5<S> {
         }
         if !self.fill(channel, first, &mut values[..there])? && !self.reported[channel] {
             self.reported[channel] = true;
-            self.notes.push(Note {
-                channel: Some(self.channels[channel].name.clone()),
-                text: "a part is damaged or cut off; its values are not-a-number".to_string(),
-            });
+            self.notes.push(Note::of(
+                &self.channels[channel].name,
+                "a part is damaged or cut off; its values are not-a-number",
+            ));
         }
         Ok(there)
     }

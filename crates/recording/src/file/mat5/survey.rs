@@ -4,6 +4,7 @@ use std::io::{Read, Seek};
 
 use super::stream::Stream;
 use super::values::{Stored, Values};
+use crate::file::number;
 use crate::file::source::Source;
 use crate::{Channel, FileError, Note, Property, Value};
 
@@ -96,14 +97,7 @@ struct Tag {
 
 impl Tag {
     fn read(head: &[u8; 8], big_endian: bool) -> Option<Tag> {
-        let word = |at: usize| {
-            let bytes = [head[at], head[at + 1], head[at + 2], head[at + 3]];
-            if big_endian {
-                u32::from_be_bytes(bytes)
-            } else {
-                u32::from_le_bytes(bytes)
-            }
-        };
+        let word = |at: usize| number::bits(&head[at..at + 4], big_endian) as u32;
         let (first, second) = (word(0), word(4));
         if first >> 16 != 0 {
             let size = u64::from(first >> 16);
@@ -243,8 +237,7 @@ impl<S: Read + Seek> Walk<'_, S> {
             } else {
                 own
             };
-            self.found
-                .note(&name, "holds an object; it is left out".to_string());
+            self.found.note(&name, "holds an object; it is left out");
             return self.leave(end);
         }
         let (_, sizes) = sound!(self.short()?);
@@ -283,7 +276,7 @@ impl<S: Read + Seek> Walk<'_, S> {
             4 => sound!(self.text(&name)?),
             6..=15 => {
                 if count == 0 {
-                    self.found.note(&name, "is empty".to_string());
+                    self.found.note(&name, "is empty");
                 } else {
                     let (real, imaginary) = match complex {
                         true => (format!("{name}/real"), Some(format!("{name}/imaginary"))),
@@ -361,8 +354,7 @@ impl<S: Read + Seek> Walk<'_, S> {
         let (kind, bytes) = match self.short()? {
             Some(short) => short,
             None => {
-                self.found
-                    .note(name, "is a text that cannot be read".to_string());
+                self.found.note(name, "is a text that cannot be read");
                 return Ok(Some(()));
             }
         };
@@ -455,7 +447,7 @@ impl Found {
             [rows, columns] => (columns, rows, true),
             _ => {
                 let text = "has more than two directions; it is left out";
-                return self.note(name, text.to_string());
+                return self.note(name, text);
             }
         };
         if columns > MOST_COLUMNS {
@@ -480,10 +472,10 @@ impl Found {
         }
     }
 
-    pub(super) fn note(&mut self, name: &str, text: String) {
-        self.notes.push(Note {
-            channel: (!name.is_empty()).then(|| name.to_string()),
-            text,
+    pub(super) fn note(&mut self, name: &str, text: impl Into<String>) {
+        self.notes.push(match name {
+            "" => Note::of_file(text),
+            name => Note::of(name, text),
         });
     }
 }

@@ -1,5 +1,7 @@
 //! How numbers are stored, and where the values of a channel stand.
 
+use crate::file::number;
+
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stored {
@@ -48,20 +50,13 @@ impl Stored {
         let Some(bytes) = bytes.get(..self.size()) else {
             return f64::NAN;
         };
-        let byte = |bits: u64, byte: &u8| bits << 8 | u64::from(*byte);
-        let bits = if big_endian {
-            bytes.iter().fold(0, byte)
-        } else {
-            bytes.iter().rev().fold(0, byte)
-        };
+        let bits = number::bits(bytes, big_endian);
         match self {
-            Stored::I8 => f64::from(bits as i8),
-            Stored::I16 => f64::from(bits as i16),
-            Stored::I32 => f64::from(bits as i32),
-            Stored::I64 => bits as i64 as f64,
+            Stored::I8 | Stored::I16 | Stored::I32 | Stored::I64 => {
+                number::signed(bits, self.size()) as f64
+            }
             Stored::U8 | Stored::U16 | Stored::U32 | Stored::U64 => bits as f64,
-            Stored::F32 => f64::from(f32::from_bits(bits as u32)),
-            Stored::F64 => f64::from_bits(bits),
+            Stored::F32 | Stored::F64 => number::float(bits, self.size()),
         }
     }
 }

@@ -8,6 +8,8 @@ use parquet::data_type::{ByteArray, DataType, FixedLenByteArray, Int96};
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
+use crate::file::number::half;
+
 /// What the values of a column are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
@@ -190,7 +192,7 @@ impl Cursor {
                 full,
                 values,
                 |value: &FixedLenByteArray| match value.data().first_chunk() {
-                    Some(bytes) => crate::file::half::number(u16::from_le_bytes(*bytes)),
+                    Some(bytes) => half(u16::from_le_bytes(*bytes)),
                     None => f64::NAN,
                 },
             ),

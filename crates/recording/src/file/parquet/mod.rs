@@ -10,7 +10,7 @@
 pub mod arrow_schema;
 mod columns;
 mod pages;
-mod write;
+pub mod write;
 
 use std::cell::Cell;
 use std::io::{self, Read, Seek};
@@ -229,10 +229,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
         for (index, column) in schema.columns().iter().enumerate() {
             let name = column.path().parts().join("/");
             let mut note = |text: String| {
-                self.notes.push(Note {
-                    channel: Some(name.clone()),
-                    text,
-                });
+                self.notes.push(Note::of(&name, text));
             };
             let kind = match Kind::of(column) {
                 Ok(kind) => kind,
@@ -394,10 +391,8 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             return;
         }
         self.damage[channel] = damage;
-        self.notes.push(Note {
-            channel: Some(self.channels[channel].name.clone()),
-            text: text.to_string(),
-        });
+        self.notes
+            .push(Note::of(&self.channels[channel].name, text.to_string()));
     }
 }
 

@@ -16,7 +16,7 @@ use super::arrow_schema::{self, Field};
 use crate::file::columns::{self, Times};
 use crate::file::draft::Draft;
 use crate::file::writer::Writer;
-use crate::{Channel, FileError, Value};
+use crate::{Channel, FileError, Instant, Value};
 
 /// Rows of a row group: the writer, and a reader, holds one of them at a time.
 const GROUP_ROWS: usize = 1 << 17;
@@ -53,21 +53,27 @@ impl ParquetWriter {
     /// Starts a file of the channels; an error where they have different clocks, one holds texts, or two have one name.
     pub fn create(path: &Path, channels: &[Channel]) -> Result<ParquetWriter, FileError> {
         let times = columns::times(path, channels)?;
-        let mut heads: Vec<(&str, &str, &str)> = Vec::new();
+        let head = |name, unit, meaning| Head {
+            name,
+            unit,
+            meaning,
+            nullable: false,
+        };
+        let mut heads: Vec<Head> = Vec::new();
         if times.is_some() {
-            heads.push(("time", "s", "time of the row"));
+            heads.push(head("time", "s", "time of the row"));
         }
         for channel in channels {
-            if heads.iter().any(|(name, ..)| *name == channel.name) {
+            if heads.iter().any(|head| head.name == channel.name) {
                 let place = format!("channel {}", channel.name);
                 let needed = "give each channel its own name";
                 return Err(FileError::new(path, place, "is there twice", needed));
             }
-            heads.push((&channel.name, &channel.unit, &channel.description));
+            heads.push(head(&channel.name, &channel.unit, &channel.description));
         }
         let failed = |error: ParquetError| FileError::new(path, "", error.to_string(), "");
-        let schema = schema(&heads).map_err(failed)?;
-        let properties = properties(&heads, channels);
+        let schema = schema("recording", &heads).map_err(failed)?;
+        let properties = properties(&heads, about(&heads), stated(channels));
         let draft = Draft::create(path)?;
         let writer = SerializedFileWriter::new(draft, Arc::new(schema), Arc::new(properties))
             .map_err(failed)?;
@@ -107,82 +113,102 @@ impl ParquetWriter {
     }
 }
 
-fn schema(heads: &[(&str, &str, &str)]) -> Result<Type, ParquetError> {
-    let columns = heads.iter().map(|(name, ..)| {
-        Type::primitive_type_builder(name, Physical::DOUBLE)
-            .with_repetition(Repetition::REQUIRED)
+/// What is known of a column of doubles besides its values.
+pub struct Head<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Unit.
+    pub unit: &'a str,
+    /// Meaning.
+    pub meaning: &'a str,
+    /// Whether cells may be empty.
+    pub nullable: bool,
+}
+
+/// The schema of a table of doubles.
+///
+/// # Errors
+/// Names that Parquet refuses.
+pub fn schema(name: &str, heads: &[Head]) -> Result<Type, ParquetError> {
+    let columns = heads.iter().map(|head| {
+        let repetition = match head.nullable {
+            true => Repetition::OPTIONAL,
+            false => Repetition::REQUIRED,
+        };
+        Type::primitive_type_builder(head.name, Physical::DOUBLE)
+            .with_repetition(repetition)
             .build()
             .map(Arc::new)
     });
-    Type::group_type_builder("recording")
+    Type::group_type_builder(name)
         .with_fields(columns.collect::<Result<_, _>>()?)
         .build()
 }
 
-fn properties(heads: &[(&str, &str, &str)], channels: &[Channel]) -> WriterProperties {
+/// How a table of doubles is packed, and what its metadata state: `about` is the text under [`COLUMNS`], `more` what stands under
+/// keys of its own.
+pub fn properties(heads: &[Head], about: String, more: Vec<KeyValue>) -> WriterProperties {
     let metadata: Vec<[(&str, &str); 2]> = heads
         .iter()
-        .map(|(_, unit, meaning)| [("unit", *unit), ("meaning", *meaning)])
+        .map(|head| [("unit", head.unit), ("meaning", head.meaning)])
         .collect();
     let fields: Vec<Field> = heads
         .iter()
         .zip(&metadata)
-        .map(|((name, ..), metadata)| Field {
-            name,
-            nullable: false,
+        .map(|(head, metadata)| Field {
+            name: head.name,
+            nullable: head.nullable,
             metadata,
         })
         .collect();
-    let about: Vec<serde_json::Value> = heads
-        .iter()
-        .map(|(name, unit, meaning)| {
-            let pairs = [("name", *name), ("unit", *unit), ("meaning", *meaning)];
-            pairs
-                .into_iter()
-                .map(|(key, value)| (key.to_string(), serde_json::Value::from(value)))
-                .collect()
-        })
-        .collect();
+    let schema = arrow_schema::encoded(&fields);
     let mut pairs = vec![
-        KeyValue::new(
-            arrow_schema::KEY.to_string(),
-            arrow_schema::encoded(&fields),
-        ),
-        KeyValue::new(
-            COLUMNS.to_string(),
-            serde_json::Value::from(about).to_string(),
-        ),
+        KeyValue::new(arrow_schema::KEY.to_string(), schema),
+        KeyValue::new(COLUMNS.to_string(), about),
     ];
+    pairs.extend(more);
+    WriterProperties::builder()
+        .set_created_by(format!("auxbear {}", env!("CARGO_PKG_VERSION")))
+        .set_key_value_metadata(Some(pairs))
+        // Doubles that were measured or computed hardly repeat, so a dictionary only adds to them; their bytes of equal rank do.
+        .set_dictionary_enabled(false)
+        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
+        .set_compression(Compression::SNAPPY)
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .build()
+}
+
+/// Names, units and meanings in JSON.
+fn about(heads: &[Head]) -> String {
+    let columns = heads.iter().map(|head| {
+        let (name, unit, meaning) = (head.name, head.unit, head.meaning);
+        serde_json::json!({"name": name, "unit": unit, "meaning": meaning})
+    });
+    serde_json::Value::from_iter(columns).to_string()
+}
+
+/// What channels state besides.
+fn stated(channels: &[Channel]) -> Vec<KeyValue> {
+    let instant = |instant: &Instant| {
+        let seconds = instant.seconds as f64 + instant.fraction;
+        format!("{seconds:?} s since 1970")
+    };
+    let mut pairs = Vec::new();
     for channel in channels {
         for property in &channel.properties {
             let text = match &property.value {
                 Value::Number(number) => format!("{number:?}"),
                 Value::Flag(flag) => flag.to_string(),
                 Value::Text(text) => text.clone(),
-                Value::Time(instant) => format!(
-                    "{:?} s since 1970",
-                    instant.seconds as f64 + instant.fraction
-                ),
+                Value::Time(time) => instant(time),
             };
-            pairs.push(KeyValue::new(
-                format!("{}/{}", channel.name, property.name),
-                text,
-            ));
+            let key = format!("{}/{}", channel.name, property.name);
+            pairs.push(KeyValue::new(key, text));
         }
     }
-    if let Some(start) = channels.iter().find_map(|channel| channel.start) {
-        let text = format!("{:?} s since 1970", start.seconds as f64 + start.fraction);
-        pairs.push(KeyValue::new("start".to_string(), text));
-    }
-    WriterProperties::builder()
-        .set_created_by(format!("auxbear {}", env!("CARGO_PKG_VERSION")))
-        .set_key_value_metadata(Some(pairs))
-        // Measured doubles hardly repeat, so a dictionary only adds to them; their bytes of equal rank do.
-        .set_dictionary_enabled(false)
-        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
-        .set_compression(Compression::SNAPPY)
-        .set_statistics_enabled(EnabledStatistics::Chunk)
-        .build()
+    let start = channels.iter().find_map(|channel| channel.start);
+    pairs.extend(start.map(|start| KeyValue::new("start".to_string(), instant(&start))));
+    pairs
 }
 
 impl Writer for ParquetWriter {

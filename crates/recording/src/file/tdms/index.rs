@@ -131,10 +131,8 @@ impl Index {
         if self.notes.len() < NOTES && !self.notes.contains(&note) {
             self.notes.push(note);
         } else if self.notes.len() == NOTES && !self.notes.contains(&note) {
-            self.notes.push(Note {
-                channel: None,
-                text: "more was found that is not listed".to_owned(),
-            });
+            self.notes
+                .push(Note::of_file("more was found that is not listed"));
         }
     }
 

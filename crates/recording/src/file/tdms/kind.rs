@@ -1,6 +1,7 @@
 //! How a value stands in the raw data: its type, its size, and its way to a double.
 
 use crate::Content;
+use crate::file::number;
 
 /// Seconds from the start of 1904, from which TDMS counts, to the start of 1970 (UTC, no leap seconds).
 pub const EPOCH: i64 = 2_082_844_800;
@@ -110,13 +111,10 @@ impl Kind {
 pub type Stamp = (i64, u64);
 
 /// The time stamp of 16 bytes.
-pub fn stamp(bytes: [u8; 16], big: bool) -> Stamp {
-    let whole = if big {
-        u128::from_be_bytes(bytes)
-    } else {
-        u128::from_le_bytes(bytes)
-    };
-    ((whole >> 64) as i64, whole as u64)
+pub fn stamp(bytes: &[u8], big: bool) -> Stamp {
+    let (first, last) = bytes.split_at(8);
+    let (high, low) = if big { (first, last) } else { (last, first) };
+    (number::bits(high, big) as i64, number::bits(low, big))
 }
 
 /// Seconds of a time stamp after another.
@@ -170,7 +168,7 @@ pub fn decode(
         Kind::F64 | Kind::Complex64 => number!(f64, 8),
         Kind::Flag => each!(1, |raw| f64::from(u8::from(raw[0] != 0))),
         Kind::Bit(bit) => each!(1, |raw| f64::from((raw[0] >> (bit & 7)) & 1)),
-        Kind::Time => each!(16, |raw| after(stamp(raw, big), origin)),
+        Kind::Time => each!(16, |raw| after(stamp(&raw, big), origin)),
         Kind::Text => {}
     }
 }

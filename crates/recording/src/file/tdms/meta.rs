@@ -1,6 +1,7 @@
 //! The meta data of a segment: objects, where their raw data stand, and their properties.
 
 use super::kind::{EPOCH, FRACTION, Kind, Stamp, stamp};
+use crate::file::number;
 use crate::{Instant, Value};
 
 /// What is wrong with meta data.
@@ -80,32 +81,14 @@ impl<'a> Cursor<'a> {
         Ok(taken)
     }
 
-    fn array<const N: usize>(&mut self) -> Result<[u8; N], Wrong> {
-        let taken = self.take(N)?;
-        taken
-            .first_chunk::<N>()
-            .copied()
-            .ok_or_else(|| "meta data are cut off".to_owned())
-    }
-
     /// A whole number of four bytes.
     pub fn u32(&mut self) -> Result<u32, Wrong> {
-        let raw = self.array::<4>()?;
-        Ok(if self.big {
-            u32::from_be_bytes(raw)
-        } else {
-            u32::from_le_bytes(raw)
-        })
+        Ok(number::bits(self.take(4)?, self.big) as u32)
     }
 
     /// A whole number of eight bytes.
     pub fn u64(&mut self) -> Result<u64, Wrong> {
-        let raw = self.array::<8>()?;
-        Ok(if self.big {
-            u64::from_be_bytes(raw)
-        } else {
-            u64::from_le_bytes(raw)
-        })
+        Ok(number::bits(self.take(8)?, self.big))
     }
 
     /// A text behind its length.
@@ -199,10 +182,7 @@ impl<'a> Cursor<'a> {
         let value = match kind {
             Kind::Text => Value::Text(self.text()?),
             Kind::Flag => Value::Flag(self.take(1)?[0] != 0),
-            Kind::Time => {
-                let raw = self.array::<16>()?;
-                Value::Time(instant(stamp(raw, self.big)))
-            }
+            Kind::Time => Value::Time(instant(stamp(self.take(16)?, self.big))),
             _ => {
                 let raw = self.take(kind.size() as usize)?;
                 let mut parts = [f64::NAN; 2];

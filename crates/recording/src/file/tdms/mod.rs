@@ -29,6 +29,7 @@ use std::io::{Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
 
+use super::number;
 use super::source::{Source, WINDOW};
 use crate::{Channel, Clock, Content, FileError, Note, Property, Recording, Value};
 use index::{Block, Index, Object};
@@ -275,7 +276,7 @@ impl<S: Read + Seek> Tdms<S> {
             let bytes = self
                 .source
                 .window(block.at.saturating_add(part.offset), 16)?;
-            return Ok(bytes.first_chunk::<16>().map(|raw| stamp(*raw, layout.big)));
+            return Ok(Some(stamp(bytes, layout.big)));
         }
         Ok(None)
     }
@@ -398,12 +399,7 @@ impl<S: Read + Seek> Tdms<S> {
         let room = piece.bytes - 4 * piece.count;
         let mut place = |at: u64| -> Result<u64, String> {
             let bytes = self.source.window(at, 4).map_err(|e| e.to_string())?;
-            let raw = bytes.first_chunk::<4>().copied().unwrap_or_default();
-            Ok(u64::from(if run.layout.big {
-                u32::from_be_bytes(raw)
-            } else {
-                u32::from_le_bytes(raw)
-            }))
+            Ok(number::bits(bytes, run.layout.big))
         };
         let mut ends = Vec::new();
         let mut begin = if run.index == 0 {

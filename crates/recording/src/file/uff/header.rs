@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::set::{Axis, Body, Set};
 use super::text::{Numbers, columns, value};
+use crate::file::clock;
 use crate::{Instant, Property, Value};
 
 /// The header of a set 58 as it stands.
@@ -191,17 +192,9 @@ pub fn date(text: &str) -> Option<Instant> {
     if !sound {
         return None;
     }
-    // Days since 1970 in the Gregorian calendar: years are counted from March, so that a leap day ends one.
-    let (from_march, shifted) = ((m + 9) % 12, if m <= 2 { year - 1 } else { year });
-    let days = 365 * shifted + shifted.div_euclid(4) - shifted.div_euclid(100)
-        + shifted.div_euclid(400)
-        + (153 * from_march + 2) / 5
-        + d
-        - 1
-        - 719_468;
     let seconds = h * 3600.0 + min * 60.0 + s.floor();
     Some(Instant {
-        seconds: days * 86_400 + seconds as i64,
+        seconds: clock::days(year, m, d) * 86_400 + seconds as i64,
         fraction: s.fract(),
     })
 }

@@ -19,6 +19,7 @@ mod text;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+use super::number;
 use super::source::{Source, WINDOW};
 use crate::{Channel, Clock, FileError, Note, Property, Recording, Value};
 use header::{Names, date, si_unit};
@@ -280,20 +281,10 @@ fn bytes<S: Read + Seek>(
         let needed = (some.len() as u64 - 1) * row + size;
         let raw = source.window(at, needed as usize)?;
         for (value, here) in some.iter_mut().zip(raw.chunks(row as usize)) {
-            let number = match (size, here.first_chunk::<4>(), here.first_chunk::<8>()) {
-                (8, _, Some(raw)) => Some(if big {
-                    f64::from_be_bytes(*raw)
-                } else {
-                    f64::from_le_bytes(*raw)
-                }),
-                (4, Some(raw), _) => Some(f64::from(if big {
-                    f32::from_be_bytes(*raw)
-                } else {
-                    f32::from_le_bytes(*raw)
-                })),
-                _ => None,
-            };
-            *value = number.unwrap_or(f64::NAN);
+            let raw = here.get(..size as usize);
+            *value = raw.map_or(f64::NAN, |raw| {
+                number::float(number::bits(raw, big), size as usize)
+            });
         }
         at += some.len() as u64 * row;
     }
