@@ -20,6 +20,7 @@ mod machine_results;
 mod machine_supports;
 mod magnets_under_load;
 mod measurement_file;
+mod mount;
 mod oil_range;
 mod outcomes;
 mod races;

@@ -76,6 +76,18 @@ impl std::ops::Add for DynamicStiffness {
     }
 }
 
+impl DynamicStiffness {
+    /// Of this and another part in series, as race, mount and a housing that yields are: K Z/(K + Z).
+    pub fn in_series(self, other: Self) -> Self {
+        let (a, b, c, d) = (self.storage, self.loss, other.storage, other.loss);
+        let square = (a + c) * (a + c) + (b + d) * (b + d);
+        Self {
+            storage: ((a * c - b * d) * (a + c) + (a * d + b * c) * (b + d)) / square,
+            loss: ((a * d + b * c) * (a + c) - (a * c - b * d) * (b + d)) / square,
+        }
+    }
+}
+
 impl Mount<f64> {
     /// Dynamic stiffness at a frequency ω (rad/s): k + jωc.
     pub fn dynamic_stiffness(&self, frequency: f64) -> DynamicStiffness {

@@ -6,14 +6,14 @@ use crate::compare::{Refusal, Worst};
 use crate::levitated::machine::rotor_beside;
 use crate::report::{Row, Tolerance};
 use physics::dry_whirl::{WhirlContact, needed_friction};
-use rotor::{Analysis, C64, Responder, WhirlCurve};
+use rotor::{Analysis, C64, Responder, WhirlCurve, WhirlRange};
 use serde_json::Value;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Frequencies of the bands, rad/s.
 const GRID: RangeInclusive<u32> = 50..=7999;
-/// Modes and residual flexibility that the reference allows to a reduced rotor; all coordinates give its digits.
+/// Why a tolerance is what it is.
 const WHY: &str = "as the file states";
 
 pub(super) fn rows(file: &Value, path: &Path) -> Result<Vec<Row>, Refusal> {
@@ -80,24 +80,13 @@ impl Whirl {
             }
         }
         let sum = ours[0] + ours[1];
-        let found = [
-            ("mu_needed", "", needed_friction(sum.re, sum.im), 1e-5),
-            ("N", "N", self.contact.normal_force(sum.re, sum.im), 1e-4),
-        ];
-        for (key, unit, ours, share) in found {
-            match (sample[key].as_f64(), ours) {
-                (None, None) => {}
-                (theirs, ours) => {
-                    let [theirs, ours] = [theirs, ours].map(|own| own.unwrap_or(f64::NAN));
-                    worst.add(Row::compared(
-                        key,
-                        unit,
-                        theirs,
-                        ours,
-                        Tolerance::Relative(share),
-                        WHY,
-                    ));
-                }
+        let force = self.contact.normal_force(sum.re, sum.im);
+        let friction = needed_friction(sum.re, sum.im).filter(|_| force.is_some());
+        for (key, ours, share) in [("mu_needed", friction, 1e-5), ("N", force, 1e-4)] {
+            let theirs = sample[key].as_f64();
+            if theirs.is_some() || ours.is_some() {
+                let both = [theirs, ours].map(|own| own.unwrap_or(f64::NAN));
+                add(worst, key, both, share);
             }
         }
         Ok(())
@@ -108,154 +97,102 @@ impl Whirl {
         let sampled = GRID.map(|own| Some((f64::from(own), alpha(f64::from(own))?)));
         let sampled: Option<Vec<(f64, C64)>> = sampled.collect();
         let curve = WhirlCurve::new(self.contact, sampled.ok_or("no receptance")?, &alpha);
-        let mut add = |name: &str, unit, theirs, ours, allowed| {
-            worst.add(Row::compared(name, unit, theirs, ours, allowed, WHY));
-        };
-        let (bands, points) = (list(file, "bands")?, curve.points());
-        let found = curve.bands();
-        let count = (bands.len() as f64, found.len() as f64);
-        add(
-            "number of bands",
-            "",
-            count.0,
-            count.1,
-            Tolerance::Absolute(0.0),
-        );
+        let (bands, found, points) = (list(file, "bands")?, curve.bands(), curve.points());
+        let count = [bands.len(), found.len()].map(|count| count as f64);
+        add(worst, "number of bands", count, 0.0);
         for (band, own) in bands.iter().zip(found) {
-            let ends = [("from_rad_s", own.start), ("to_rad_s", own.end - 1)];
-            for (key, at) in ends {
-                let theirs = number(band, key)?;
-                add(
-                    "end of a band",
-                    "rad/s",
-                    theirs,
-                    points[at].frequency,
-                    Tolerance::Absolute(1.0),
-                );
-            }
+            let [from, to] = ["from_rad_s", "to_rad_s"].map(|key| number(band, key));
+            let (from, to) = (from?, to?);
+            add(
+                worst,
+                "begin of a band",
+                [from, points[own.start].frequency],
+                1.0 / from,
+            );
+            add(
+                worst,
+                "end of a band",
+                [to, points[own.end - 1].frequency],
+                1.0 / to,
+            );
             let least = curve
                 .smallest_in(own, 1e-9)
                 .ok_or("a band without minimum")?;
-            let interior = band["minimum_interior"].as_bool().unwrap_or_default();
-            let flags = (
-                f64::from(u8::from(interior)),
-                f64::from(u8::from(!least.at_end)),
-            );
+            let inside = [band["minimum_interior"] == true, !least.at_end];
             add(
+                worst,
                 "minimum inside its band",
-                "",
-                flags.0,
-                flags.1,
-                Tolerance::Absolute(0.0),
+                inside.map(|own| f64::from(u8::from(own))),
+                0.0,
             );
-            let theirs = number(band, "min_mu")?;
-            add(
-                "smallest friction of a band",
-                "",
-                theirs,
-                least.point.friction,
-                Tolerance::Relative(1e-5),
-            );
-            let theirs = number(band, "at_rad_s")?;
-            add(
-                "its frequency",
-                "rad/s",
-                theirs,
-                least.point.frequency,
-                Tolerance::Relative(1e-3),
-            );
-            let crossings = band["crossings_of_mu"]
-                .as_object()
-                .ok_or("crossings_of_mu is no table")?;
-            for (friction, wanted) in crossings {
-                let friction: f64 = friction
-                    .parse()
-                    .map_err(|_| "a friction that is no number")?;
-                let [from, to] = ["from_rad_s", "to_rad_s"].map(|key| number(band, key));
-                let within = from?..=to?;
-                let ends = curve
-                    .ranges(friction)
-                    .into_iter()
-                    .flat_map(|own| [own.from, own.to]);
-                let ours: Vec<f64> = ends.filter(|own| within.contains(own)).collect();
-                let theirs = wanted.as_array().map(Vec::as_slice).unwrap_or_default();
-                let count = (theirs.len() as f64, ours.len() as f64);
-                add(
-                    "number of crossings",
-                    "",
-                    count.0,
-                    count.1,
-                    Tolerance::Absolute(0.0),
-                );
-                for (theirs, ours) in theirs.iter().filter_map(Value::as_f64).zip(ours) {
-                    add("crossing", "rad/s", theirs, ours, Tolerance::Relative(1e-5));
+            let minimum = [number(band, "min_mu")?, least.point.friction];
+            add(worst, "smallest friction of a band", minimum, 1e-5);
+            let place = [number(band, "at_rad_s")?, least.point.frequency];
+            add(worst, "its frequency", place, 1e-3);
+            let crossings = band["crossings_of_mu"].as_object();
+            for (friction, theirs) in crossings.into_iter().flatten() {
+                let ranges = curve.ranges(friction.parse().unwrap_or(f64::NAN));
+                let ends = ranges.into_iter().flat_map(|own| [own.from, own.to]);
+                let ours: Vec<f64> = ends.filter(|own| (from..=to).contains(own)).collect();
+                let theirs = theirs.as_array().into_iter().flatten();
+                let theirs: Vec<f64> = theirs.filter_map(Value::as_f64).collect();
+                let count = [theirs.len(), ours.len()].map(|count| count as f64);
+                add(worst, "number of crossings", count, 0.0);
+                for (theirs, ours) in theirs.into_iter().zip(ours) {
+                    add(worst, "crossing", [theirs, ours], 1e-5);
                 }
             }
         }
         for row in list(&file["full_slip_whirl"], "rows")? {
             let begins = number(row, "must_exceed_rad_s")?;
-            let ranges = curve.ranges(number(row, "mu")?);
-            let own = ranges.iter().min_by(|a, b| {
-                let far = |own: &rotor::WhirlRange| (own.from - begins).abs();
-                far(a).total_cmp(&far(b))
-            });
+            let ranges = curve.ranges(number(row, "mu")?).into_iter();
+            let far = |own: &WhirlRange| (own.from - begins).abs();
+            let own = ranges.min_by(|a, b| far(a).total_cmp(&far(b)));
             let own = own.ok_or("no range of whirl")?;
-            add(
-                "whirl must exceed",
-                "rad/s",
-                begins,
-                own.from,
-                Tolerance::Relative(1e-5),
-            );
-            let [frequency, force] = own
-                .settles
-                .map_or([f64::NAN; 2], |own| [own.frequency, own.force]);
-            let theirs = number(row, "settles_at_rad_s")?;
-            add(
-                "whirl settles at",
-                "rad/s",
-                theirs,
-                frequency,
-                Tolerance::Relative(1e-5),
-            );
-            let theirs = number(row, "N_there")?;
-            add(
-                "contact force there",
-                "N",
-                theirs,
-                force,
-                Tolerance::Relative(1e-4),
-            );
+            let settles = own.settles.ok_or("whirl that settles nowhere")?;
+            add(worst, "whirl must exceed", [begins, own.from], 1e-5);
+            let frequency = [number(row, "settles_at_rad_s")?, settles.frequency];
+            add(worst, "whirl settles at", frequency, 1e-5);
+            let force = [number(row, "N_there")?, settles.force];
+            add(worst, "contact force where it settles", force, 1e-4);
         }
         Ok(())
     }
 }
 
-/// A Jeffcott rotor against a held race, by the curve of its receptance.
+/// Compares two numbers, theirs and ours, of the units of the file.
+fn add(worst: &mut Worst, name: &str, [theirs, ours]: [f64; 2], share: f64) {
+    let allowed = Tolerance::Relative(share);
+    worst.add(Row::compared(name, "", theirs, ours, allowed, WHY));
+}
+
+/// A Jeffcott rotor against a held race, by its receptance.
 fn jeffcott(given: &Value, worst: &mut Worst) -> Result<(), String> {
-    let [zeta, kappa] = ["zeta", "kappa"].map(|key| number(given, key));
-    let (zeta, kappa) = (zeta?, kappa?);
+    let (zeta, kappa) = (number(given, "zeta")?, number(given, "kappa")?);
     let alpha = |omega: f64| C64::new(1.0 - omega * omega, -2.0 * zeta * omega).inv();
+    let needed = |alpha: C64| needed_friction(alpha.re, alpha.im).unwrap_or(f64::NAN);
+    let (friction, twice) = (number(given, "mu_star")?, &given["at_mu_2mu_star"]);
+    let edge = needed(alpha((1.0 + kappa).sqrt()));
+    add(
+        worst,
+        "threshold of a Jeffcott rotor",
+        [friction, edge],
+        1e-12,
+    );
+    let there = alpha(number(twice, "omega_s_over_omega_n")?);
+    add(
+        worst,
+        "its friction at ω_s",
+        [2.0 * friction, needed(there)],
+        1e-12,
+    );
     let contact = WhirlContact {
         clearance: 1.0,
         stiffness: kappa,
         exponent: 1.0,
     };
-    let edge = alpha((1.0 + kappa).sqrt());
-    let threshold = needed_friction(edge.re, edge.im).unwrap_or(f64::NAN);
-    let friction = number(given, "mu_star")?;
-    let mut add = |name: &str, theirs, ours| {
-        let allowed = Tolerance::Relative(1e-12);
-        worst.add(Row::compared(name, "", theirs, ours, allowed, WHY));
-    };
-    add("threshold of a Jeffcott rotor", friction, threshold);
-    let twice = &given["at_mu_2mu_star"];
-    let settled = number(twice, "omega_s_over_omega_n")?;
-    let there = alpha(settled);
-    let needed = needed_friction(there.re, there.im).unwrap_or(f64::NAN);
-    add("its friction at ω_s", 2.0 * friction, needed);
     let force = contact.normal_force(there.re, there.im).unwrap_or(f64::NAN);
-    let orbit = number(twice, "A_s_over_c0")?;
-    add("its orbit at ω_s", orbit, 1.0 + force / kappa);
+    let orbit = [number(twice, "A_s_over_c0")?, 1.0 + force / kappa];
+    add(worst, "its orbit at ω_s", orbit, 1e-12);
     Ok(())
 }

@@ -13,7 +13,7 @@
 pub(crate) mod results;
 
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
-use model::mount::{DynamicStiffness, Mount};
+use model::mount::Mount;
 use physics::dry_whirl::{WhirlContact, rolling_limit};
 use problem::Problem;
 use rotor::{
@@ -57,6 +57,7 @@ pub(crate) struct WhirlBearing {
 }
 
 /// What was found of one bearing.
+#[derive(Default)]
 pub(crate) struct BearingWhirl {
     /// The curve; friction and force are no numbers where no whirl is possible at any friction.
     pub curve: Vec<WhirlPoint>,
@@ -164,12 +165,7 @@ impl WhirlModel {
     pub fn find(&self, bearing: &WhirlBearing) -> Result<BearingWhirl, RotorError> {
         let [low, high] = bearing.range;
         if low >= high {
-            return Ok(BearingWhirl {
-                curve: Vec::new(),
-                smallest: None,
-                ranges: Vec::new(),
-                map: None,
-            });
+            return Ok(BearingWhirl::default());
         }
         let last = (POINTS - 1) as f64;
         let even = (0..POINTS).map(|k| low * (high / low).powf(k as f64 / last));
@@ -192,10 +188,9 @@ impl WhirlModel {
             curve: curve.points(),
             smallest: curve.smallest(EXACT),
             ranges: curve.ranges(friction),
-            map: None,
+            map: (!bearing.is_held()).then(|| samples.map(friction)),
         });
-        let map = (!bearing.is_held()).then(|| samples.map(friction));
-        Ok(BearingWhirl { map, ..found })
+        Ok(found)
     }
 }
 
@@ -251,12 +246,11 @@ impl WhirlBearing {
             return C64::default();
         }
         let parts = &self.constants.mount_parts;
-        let whole = |own: DynamicStiffness| C64::new(own.storage, own.loss);
-        let mut stiffness = whole(parts.linear(spring, frequency));
+        let mut own = parts.linear(spring, frequency);
         if let Some(housing) = &parts.housing {
-            let below = whole(housing.dynamic_stiffness(frequency));
-            stiffness = stiffness * below / (stiffness + below);
+            own = own.in_series(housing.dynamic_stiffness(frequency));
         }
+        let stiffness = C64::new(own.storage, own.loss);
         (stiffness - self.mass() * frequency * frequency)
             .inv()
             .conj()
