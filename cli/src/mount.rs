@@ -42,7 +42,9 @@ pub fn perform(wish: &Mount) -> Result<Exit, Box<Problem>> {
     if !wish.quiet {
         console::print(&summary::text(&path, &outcome))?;
     }
-    if let Some(Value::Text(lines)) = outcome.quantity("fit.lines").map(|own| &own.value) {
+    let mut all = outcome.quantities.iter();
+    let lines = all.find(|own| own.words_in("fit_lines").is_some());
+    if let Some(Value::Text(lines)) = lines.map(|own| &own.value) {
         console::print(&format!("[mount]\n{lines}\n"))?;
     }
     console::warn(&outcome.warnings);

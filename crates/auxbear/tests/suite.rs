@@ -38,3 +38,4 @@ mod studies;
 mod torque;
 mod warning_codes;
 mod warnings;
+mod whirl;

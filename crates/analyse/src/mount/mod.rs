@@ -129,7 +129,7 @@ results! {
         "fit.worst_error": number "1" headline, FIT, "largest distance to the table over the size of its stiffness" in fit "worst error" => run.worst(table);
         "fit.mean_error": number "1" headline, FIT, "root mean square of these distances" in fit "mean error" => run.mean(table);
         "fit.decades": number "" headline, FIT, "decades of frequency that the table covers" in fit "decades" => table.decades();
-        "fit.lines": text "", FIT, "lines for [mount]" in fit "for [mount]" => run.lines();
+        "fit.lines": text "", FIT, "lines for [mount]" in fit "for [mount]" in fit_lines "for [mount]" => run.lines();
     }
 }
 
