@@ -56,7 +56,7 @@ fn shipped_machine_whirls_as_its_analysis_says_and_its_cure_ends_it() {
 #[test]
 fn ends_of_the_curve_are_named() {
     let found = analysed(WHIRLS, &["analysis.whirl_to=2000 rad/s"]);
-    let weight = (9.80665_f64 / 2e-4).sqrt();
+    let weight = (9.81_f64 / 2e-4).sqrt();
     let from = number(&found, "whirl.drive_end.frequency_from");
     assert!((from / weight - 1.0).abs() < 1e-12);
     assert_eq!(number(&found, "whirl.drive_end.frequency_to"), 2000.0);
