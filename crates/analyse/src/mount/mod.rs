@@ -58,7 +58,7 @@ impl Part {
 
 /// The parts of a mount that are there, at a motion of an amplitude, m.
 fn parts(spring: &Mount<f64>, given: &MountParts, amplitude: f64) -> Vec<Part> {
-    let own = spring.clone();
+    let own = *spring;
     let law = move |frequency: f64| own.dynamic_stiffness(frequency);
     let mut out = vec![Part::new("spring_damper", law)];
     for (number, branch) in (1..).zip(given.branches.clone()) {

@@ -314,7 +314,7 @@ impl Samples<'_> {
         let with = |stiffness: f64, damping: f64| Mount {
             stiffness,
             damping,
-            ..own.clone()
+            ..*own
         };
         // a mount on which no friction drives whirl has no number
         let smallest = |mount: &Mount<f64>| {
