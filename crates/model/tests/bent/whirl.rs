@@ -37,6 +37,8 @@ fn machine(natural: f64, ring_mass: f64, mount: Mount<f64>) -> MachineConstants 
     out.speed = 2000.0;
     let part = &mut out.bearings[0];
     let contact = &mut part.contact;
+    // wide: orbits of many clearances stay far from rolling
+    contact.bore_radius = 1.0;
     contact.radial_clearance = CLEARANCE;
     contact.stiffness = KAPPA * NATURAL * NATURAL;
     contact.exponent = 1.0;
@@ -98,11 +100,11 @@ fn jeffcott_rotor_whirls_as_the_closed_form_says() {
     );
     let (slower, _) = run(2.0 * threshold, orbit, 0.9 * settled, 0.6);
     assert!(slower < CLEARANCE, "{slower}");
-    let (faster, rate) = run(2.0 * threshold, orbit, 1.1 * settled, 0.3);
+    let (faster, rate) = run(2.0 * threshold, orbit, 1.1 * settled, 0.7);
     // the orbit still grows: 3.3178 in an independent run, √11 in the limit
     assert!(faster > 5.0 * CLEARANCE, "{faster}");
     let rate = rate / NATURAL;
-    assert!((rate / 11f64.sqrt() - 1.0).abs() < 2e-3, "{rate}");
+    assert!((rate / 11f64.sqrt() - 1.0).abs() < 5e-4, "{rate}");
 }
 
 /// A rotor that nothing carries settles in a ring on spring, damper and Maxwell branch where its needed friction meets that of the file.
