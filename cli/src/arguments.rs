@@ -32,6 +32,8 @@ pub enum Command {
     Identify(Measured),
     /// Analyse a flexible rotor, also that of a machine: modes, critical speeds, response to unbalance; write a run directory
     Rotor(Measured),
+    /// Show the dynamic stiffness of the mounts of a drop or machine over frequency, fit O-ring branches to a measured one
+    Mount(Mount),
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),
     /// Read and check a file, print it with every default and its unit; run nothing
@@ -165,6 +167,27 @@ pub struct Measured {
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
     /// Print no progress and no tables; warnings and problems are printed all the same
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Mount {
+    /// Scenario file of a drop or a machine
+    pub file: PathBuf,
+    /// Table of a measured stiffness to fit: columns frequency, storage (K') and loss (K''), each with its unit, e.g. "frequency [Hz]"
+    #[arg(long, value_name = "TABLE")]
+    pub fit: Option<PathBuf>,
+    /// Amplitude at which friction rings count
+    #[arg(long, value_name = "LENGTH", default_value = "10 um")]
+    pub amplitude: String,
+    /// Run directory to write [runs/NAME of the file, with a number where that is taken]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Override a value of the file, e.g. mount.stiffness="1e7 N/m"; may be repeated
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Print no tables; warnings, problems and fitted lines are printed all the same
     #[arg(long)]
     pub quiet: bool,
 }

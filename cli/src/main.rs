@@ -10,6 +10,7 @@ mod exit;
 mod import;
 mod limits;
 mod measured;
+mod mount;
 mod progress;
 mod results;
 mod run;
@@ -87,6 +88,7 @@ fn perform(command: &Command) -> Result<Exit> {
         Command::Signals(wish) => return measured::perform(wish, SystemName::Signals),
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),
         Command::Rotor(wish) => return measured::perform(wish, SystemName::Rotor),
+        Command::Mount(wish) => return mount::perform(wish),
         Command::Import(wish) => import::perform(wish)?,
         Command::Check { file, set } => {
             let scenario = Scenario::read(file, set, &BuiltIn)?;

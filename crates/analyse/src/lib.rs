@@ -4,6 +4,7 @@
 
 pub mod identify;
 pub(crate) mod interruptible;
+pub mod mount;
 pub mod rotor;
 pub mod signals;
 pub mod torque;

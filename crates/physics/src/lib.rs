@@ -41,6 +41,7 @@
 //! | [`support`] | linear supports and seals: stiffness, damping and mass over speed |
 //! | [`magnet`] | force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
+//! | [`dry_whirl`] | backward whirl round a bore: the friction it needs, its contact force |
 
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods, clippy::disallowed_types)]
@@ -50,6 +51,7 @@ pub mod angular_contact;
 #[cfg(test)]
 mod bearing_6005;
 pub mod contact;
+pub mod dry_whirl;
 pub mod film;
 pub mod flash;
 pub mod friction;

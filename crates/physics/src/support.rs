@@ -24,6 +24,22 @@ impl Block {
         }
     }
 
+    /// Its part that is equal in all directions: the mean of xx and yy, and half of yx - xy.
+    ///
+    /// Source: symmetry; a force averaged over one turn of a circular orbit.
+    /// Valid: circular orbits.
+    pub fn equal_part(&self) -> Self {
+        let mean = |m: &[[f64; 2]; 2]| {
+            let (along, across) = (0.5 * (m[0][0] + m[1][1]), 0.5 * (m[1][0] - m[0][1]));
+            [[along, -across], [across, along]]
+        };
+        Self {
+            stiffness: mean(&self.stiffness),
+            damping: mean(&self.damping),
+            mass: mean(&self.mass),
+        }
+    }
+
     fn parts(&self) -> [&[[f64; 2]; 2]; 3] {
         [&self.stiffness, &self.damping, &self.mass]
     }

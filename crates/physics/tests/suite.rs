@@ -1,5 +1,6 @@
 //! All tests of the crate, in one binary.
 
+mod dry_whirl;
 mod film_regimes;
 mod hertz_reference;
 mod lubricant_traction;

@@ -77,6 +77,8 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/identify.js"),
     include_str!("page/rotor_drawing.js"),
     include_str!("page/rotor.js"),
+    include_str!("page/whirl.js"),
+    include_str!("page/mount.js"),
     include_str!("page/machine.js"),
     include_str!("page/heat_flow.js"),
     include_str!("page/coast_down.js"),
@@ -91,11 +93,7 @@ pub fn html(runs: &[PageRun]) -> String {
         [only] => format!("{} · auxbear report", only.name),
         several => format!("{} runs · auxbear report", several.len()),
     };
-    let mut script = String::from("\"use strict\";\n(() => {\n");
-    for part in SCRIPTS {
-        script.push_str(part);
-    }
-    script.push_str("})();\n");
+    let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPTS.concat());
     let (limit, with_balls) = room(runs);
     let mut data = String::new();
     for run in runs {

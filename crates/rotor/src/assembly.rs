@@ -87,7 +87,8 @@ impl Matrices {
         }
     }
 
-    /// The whole system at a speed in complex coordinates; supports must turn with the rotor ([`Rotor::turns`]).
+    /// The whole system at a speed in complex coordinates, exact where supports turn with the rotor ([`Rotor::turns`]): of others the part
+    /// that does acts.
     ///
     /// `rows` are the rows of the basis for the coordinates of each support, as [`Carried::rows`] gives them.
     pub(crate) fn complex(&self, carried: &Carried, speed: f64) -> Dynamics<C64> {
@@ -101,7 +102,7 @@ impl Matrices {
                 .zip_map(&self.damping_rotating, |k, d| C64::from(k) + whirl * d),
         };
         for (row, support) in &carried.rows {
-            let block = support.coefficients.at(speed);
+            let block = support.coefficients.at(speed).equal_part();
             let whole = |m: [[f64; 2]; 2]| C64::new(m[0][0], m[1][0]);
             let add = |to: &mut DMatrix<C64>, value: C64| {
                 if value != C64::new(0.0, 0.0) {

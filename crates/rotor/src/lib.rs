@@ -37,6 +37,7 @@ mod response;
 mod stiffness_map;
 mod support;
 mod triangle;
+mod whirl;
 
 pub use assembly::{Dynamics, Matrices};
 pub use basis::{Basis, unit_forces};
@@ -53,6 +54,7 @@ pub use properties::{Properties, properties};
 pub use response::{Responder, Response, Sag, held, loads, sag};
 pub use stiffness_map::{MapPoint, stiffness_map};
 pub use support::{Place, Support};
+pub use whirl::{SmallestFriction, WhirlCurve, WhirlPoint, WhirlRange};
 
 /// A complex number in double precision.
 pub type C64 = nalgebra::Complex<f64>;

@@ -83,6 +83,29 @@ impl Responder {
         }
     }
 
+    /// Displacement of a coordinate under a unit force on it that both go as e^{st}, in x + jy, m/N; s = jω turns with positive
+    /// angles, -jω against them. Of supports that treat x and y differently the part that does not acts.
+    ///
+    /// # Errors
+    ///
+    /// At an undamped natural frequency.
+    pub fn receptance(&self, coordinate: usize, speed: f64, s: C64) -> Result<C64, RotorError> {
+        let row = match &self.basis {
+            Some(basis) => basis.row(coordinate).transpose().map(C64::from),
+            None => {
+                let unit = |i, _| C64::from(f64::from(u8::from(i == coordinate)));
+                DVector::from_fn(self.matrices.mass.nrows(), unit)
+            }
+        };
+        let whole = Whole {
+            dynamics: self.matrices.complex(&self.carried, speed),
+            feedback: None,
+        };
+        let (system, _) = whole.at(s).ok_or(RotorError::NotHeld)?;
+        let answer = system.lu().solve(&row).ok_or(RotorError::NotHeld)?;
+        Ok(row.dot(&answer))
+    }
+
     /// The response to unbalances at a speed, rad/s.
     ///
     /// # Errors

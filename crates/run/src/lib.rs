@@ -16,6 +16,7 @@ pub mod study;
 mod tests;
 pub mod warnings;
 
+pub use analyse::mount;
 use analyse::{identify, signals};
 use analyse::{rotor, torque};
 pub use each::each;

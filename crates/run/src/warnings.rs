@@ -1,6 +1,7 @@
 //! Every warning that a run may give, from the tables of their homes.
 
 use analyse::identify::notes::IdentifyWarning;
+use analyse::mount::MountWarning;
 use analyse::rotor::warnings::RotorWarning;
 use analyse::signals::warning_table::SignalsWarning;
 use analyse::torque::warnings::TorqueWarning;
@@ -35,6 +36,7 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
         SignalsWarning::DECLARED,
         IdentifyWarning::DECLARED,
         RotorWarning::DECLARED,
+        MountWarning::DECLARED,
         TorqueWarning::DECLARED,
     ];
     homes.into_iter().flatten()

@@ -293,8 +293,14 @@ impl Scenario {
     /// # Errors
     /// What this rotor would be refused for.
     pub fn rotor_alone(&self) -> Option<Result<Scenario>> {
-        (self.system.name() == SystemName::Machine)
-            .then(|| Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn))
+        let machine = self.drop().filter(|drop| drop.body_bends())?;
+        let alone = Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn);
+        Some(alone.map(|mut alone| {
+            if let System::Rotor(analysis) = &mut alone.system {
+                analysis.machine = Some(Box::new(machine.clone()));
+            }
+            alone
+        }))
     }
 
     /// Speed up to which a drive brings a rotor that starts at standstill, and what says so; none of a rotor that turns.

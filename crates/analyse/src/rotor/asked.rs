@@ -1,6 +1,7 @@
 //! What is asked of a rotor, ready to be computed, and what is found.
 
 use crate::rotor::levitated::{self, Levitated};
+use crate::rotor::whirl::{BearingWhirl, WhirlModel};
 use problem::{Code, Problem};
 use rotor::{
     Analysis, Basis, C64, Campbell, Critical, MapPoint, Matrices, Mode, ModeCount, Place,
@@ -10,7 +11,7 @@ use scenario::{RotorAnalysis, problem_at};
 use simulate::rotor::RotorModel;
 
 /// A rotor of at most so many coordinates keeps all of them.
-const SMALL: usize = 40;
+pub(crate) const SMALL: usize = 40;
 /// Up to so many coordinates a reduction is held against all of them, beyond against a basis of three times the cut.
 const MEDIUM: usize = 240;
 /// The cut over the highest frequency that is looked at.
@@ -36,6 +37,8 @@ pub struct Asked {
     pub(crate) held: bool,
     /// The closed loop with its magnets.
     pub(crate) levitated: Option<Levitated>,
+    /// The machine's auxiliary bearings, in which the rotor may whirl.
+    pub(crate) whirl: Option<WhirlModel>,
 }
 
 /// What was found.
@@ -65,6 +68,8 @@ pub(crate) struct Found {
     /// Error of the eigenvalues at the highest speed against all coordinates; `None` where all are kept.
     pub(crate) reduction_error: Option<f64>,
     pub(crate) receptance_error: Option<f64>,
+    /// Dry whirl in each auxiliary bearing.
+    pub(crate) whirl: Vec<BearingWhirl>,
 }
 
 /// Gravity x + jy, m/s².
@@ -127,7 +132,9 @@ impl Asked {
             let allowed = "supports with stiffness in x and y at two nodes at least are needed; without support, unbalance and margin the free rotor is analysed";
             return Err(problem_at(Code::NotHeld, "rotor.support", found, allowed));
         }
+        let whirl = WhirlModel::of(analysis, &model, &full, cut)?;
         let this = Self {
+            whirl,
             analysis: analysis.clone(),
             model,
             full,
@@ -331,7 +338,12 @@ impl Asked {
         let receptance_error = (reduced && !kept.is_empty()).then(|| {
             (self.within.basis).receptance_error(&self.full, &kept, 0.01 * followed, followed)
         });
+        let whirl = self
+            .whirl
+            .iter()
+            .flat_map(|own| own.bearings.iter().map(|one| own.find(one)));
         Ok(Found {
+            whirl: whirl.collect::<Result<_, _>>()?,
             sag: match &self.levitated {
                 Some(levitated) => Some(Sag {
                     shape: levitated.sag.clone(),

@@ -8,6 +8,7 @@ pub(crate) mod asked;
 pub(crate) mod levitated;
 pub(crate) mod quantities;
 pub mod warnings;
+pub(crate) mod whirl;
 
 use crate::interruptible::{INTERRUPTED, interruptible};
 pub use crate::rotor::asked::Asked;

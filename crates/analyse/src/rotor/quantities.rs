@@ -1,7 +1,7 @@
 //! The named results of the analysis of a rotor.
 
 use crate::rotor::asked::{Asked, Found, Motion, gravity, sense, support_label};
-use crate::rotor::levitated;
+use crate::rotor::{levitated, whirl};
 use outcome::Quantity;
 use outcome::list::results;
 use outcome::list::{List, origins};
@@ -54,6 +54,9 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
     drawing::name(&mut list, &asked.model);
     let own = found.and(asked.levitated.as_ref());
     levitated::name(&mut list, &asked.model, own);
+    if let Some(model) = &asked.whirl {
+        whirl::results::name(&mut list, model, found.map(|found| &found.whirl[..]));
+    }
     list.quantities
 }
 

@@ -1,7 +1,7 @@
 //! What the user should know of an analysis of a rotor.
 
 use crate::rotor::asked::{Asked, Found};
-use crate::rotor::levitated;
+use crate::rotor::{levitated, whirl};
 use outcome::Warning;
 use simulate::drop::shaft_results::against_spin;
 use units::number_text;
@@ -27,6 +27,16 @@ problem::warnings! {
             ("At rest the rotor is pulled over: negative stiffness exceeds that of shaft and supports, and gyroscopic moments alone hold it at the rated speed. Sag and support loads do not exist.");
         SpeedRange { from: "rad/s", to: "rad/s", low: "rad/s", high: "rad/s" } "AB2043" Invalid
             ("Critical speeds and growth are looked for from {} to {} rad/s, and the operating speeds with their margin reach from {} to {} rad/s: analysis.speed_from and analysis.speed_to must take them in. A verdict on the separation that is not \"fail\" is undecided.", number_text(from.round()), number_text(to.round()), number_text(low.round()), number_text(high.round()));
+        DryWhirl { friction: "1", needed: "1", frequency: "rad/s", force: "N", settling: words, cure: words } "AB2044" Destroys
+            ("Dry backward whirl is possible: the friction coefficient {friction} exceeds the {} that whirl of {frequency:.0} rad/s needs. {settling}. {cure}.", number_text((needed * 1e4).round() / 1e4));
+        NotInWhirl { parts: text } "AB2045" Uncertain
+            ("The needed friction of dry whirl leaves out what is not linear in the mount: {parts}. Their stiffness and damping are not in it.");
+        WhirlAveraged { supports: text } "AB2046" Uncertain
+            ("Supports and seals that treat x and y differently ({supports}) count in dry whirl with their mean over a turn: its orbit is taken as a circle.");
+        WhirlRange { to: "rad/s" } "AB2047" Uncertain
+            ("The needed friction of dry whirl still falls at {to:.0} rad/s, the highest frequency looked at: faster whirl may need less. A higher analysis.whirl_to shows it.");
+        WhirlLimits "AB2048" Note
+            ("The needed friction of dry whirl holds for a circular orbit in full slip in one bearing alone, against a race that does not turn, with a linear mount and rigid balls. It says where whirl can live, not whether an impact starts it, and friction below it excludes this whirl alone.");
     }
 }
 
@@ -94,6 +104,9 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
     if there < most {
         let (modes, wanted) = (there as f64, most as f64);
         out.push(RotorWarning::FewModes { modes, wanted }.into());
+    }
+    if let Some(model) = &asked.whirl {
+        out.extend(whirl::results::warned(model, &found.whirl));
     }
     if !asked.held {
         out.push(RotorWarning::NoSupport.into());

@@ -5,6 +5,7 @@
 //! ```
 //! Source: derived; book/src/theory/drop.md, mounts. Dynamic stiffness of a sum of branches: K(jω) = Σ k jωτ/(1 + jωτ); passive for k, τ ≥ 0.
 
+use super::DynamicStiffness;
 use number::{Real, Vec2, constants};
 
 constants! {
@@ -34,10 +35,13 @@ impl<R: Real> MaxwellBranch<R> {
 }
 
 impl MaxwellBranch<f64> {
-    /// Dynamic stiffness at a frequency ω (rad/s), N/m: (in phase with the displacement, with the speed) = k (x², x)/(1 + x²), x = ωτ.
-    pub fn dynamic_stiffness(&self, frequency: f64) -> (f64, f64) {
+    /// Dynamic stiffness at a frequency ω (rad/s), N/m: k (x² + jx)/(1 + x²), x = ωτ.
+    pub fn dynamic_stiffness(&self, frequency: f64) -> DynamicStiffness {
         let x = frequency / self.rate;
         let share = self.stiffness * x / (1.0 + x * x);
-        (share * x, share)
+        DynamicStiffness {
+            storage: share * x,
+            loss: share,
+        }
     }
 }

@@ -57,6 +57,57 @@ impl<R: Real> Mount<R> {
     }
 }
 
+/// Dynamic stiffness K' + jK'' of a part whose force on the race is -K s under s ~ e^{jωt}, N/m; K'' ≥ 0 takes energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DynamicStiffness {
+    /// K', in phase with the displacement.
+    pub storage: f64,
+    /// K'', in phase with the velocity.
+    pub loss: f64,
+}
+
+impl std::ops::Add for DynamicStiffness {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            storage: self.storage + other.storage,
+            loss: self.loss + other.loss,
+        }
+    }
+}
+
+impl DynamicStiffness {
+    /// Of this and another part in series, as race, mount and a housing that yields are: K Z/(K + Z).
+    pub fn in_series(self, other: Self) -> Self {
+        let (a, b, c, d) = (self.storage, self.loss, other.storage, other.loss);
+        let square = (a + c) * (a + c) + (b + d) * (b + d);
+        Self {
+            storage: ((a * c - b * d) * (a + c) + (a * d + b * c) * (b + d)) / square,
+            loss: ((a * d + b * c) * (a + c) - (a * c - b * d) * (b + d)) / square,
+        }
+    }
+}
+
+impl Mount<f64> {
+    /// Dynamic stiffness at a frequency ω (rad/s): k + jωc.
+    pub fn dynamic_stiffness(&self, frequency: f64) -> DynamicStiffness {
+        DynamicStiffness {
+            storage: self.stiffness,
+            loss: frequency * self.damping,
+        }
+    }
+}
+
+impl Housing<f64> {
+    /// Dynamic stiffness at a frequency ω (rad/s), to ground: k - mω² + jωc.
+    pub fn dynamic_stiffness(&self, frequency: f64) -> DynamicStiffness {
+        DynamicStiffness {
+            storage: self.stiffness - self.mass * frequency * frequency,
+            loss: frequency * self.damping,
+        }
+    }
+}
+
 constants! {
     /// A housing that yields.
     pub struct Housing {
@@ -103,6 +154,13 @@ impl MountParts {
                 preload: self.preload,
                 ..Self::NONE
             }
+    }
+    /// Dynamic stiffness at a frequency ω (rad/s) of what is linear between race and housing: spring, damper and Maxwell branches.
+    pub fn linear(&self, spring: &Mount<f64>, frequency: f64) -> DynamicStiffness {
+        let branches = self.branches.iter();
+        branches.fold(spring.dynamic_stiffness(frequency), |sum, branch| {
+            sum + branch.dynamic_stiffness(frequency)
+        })
     }
     /// Names of its states.
     pub fn state_names(&self) -> Vec<String> {

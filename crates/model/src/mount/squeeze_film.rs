@@ -118,3 +118,11 @@ impl<R: Real> Film<R> {
         -((v + outwards) * sideways)
     }
 }
+
+impl SqueezeFilm<f64> {
+    /// Damping for small motion about the middle, N s/m.
+    pub fn small_damping(&self) -> f64 {
+        let film = Film::<f64>::gather(&|_| self);
+        -film.force(Vec2::zero(), Vec2::new(1.0, 0.0)).x
+    }
+}

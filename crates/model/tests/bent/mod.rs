@@ -4,3 +4,4 @@ mod ledger;
 mod mirror;
 mod one_node;
 mod traps;
+mod whirl;

@@ -4,6 +4,7 @@ mod allocation;
 mod balances;
 mod bushing;
 mod drops;
+mod dynamic_stiffness;
 mod implicit;
 mod loads;
 mod lubricant;

@@ -257,6 +257,7 @@ register("rotor", {
     [22, shapeSection, runs],
     [23, rotorResponseSection, runs.filter((run) => responsePlaces(run).length)],
     [24, levitationSection, runs.filter(isLevitated)],
-    [25, stiffnessMapSection, runs.filter((run) => tableOf(run, "stiffness_map")("stiffness").length)],
+    [25, whirlSection, runs.filter((run) => shownIn(run, "whirl").length)],
+    [26, stiffnessMapSection, runs.filter((run) => tableOf(run, "stiffness_map")("stiffness").length)],
   ].filter(([, , part]) => part.length),
 });

@@ -253,6 +253,11 @@ pub struct Repeat {
 }
 
 impl Drop {
+    /// Whether its rotor is a shaft that bends.
+    pub fn body_bends(&self) -> bool {
+        matches!(self.body, Body::Flexible(_))
+    }
+
     /// What an auxiliary bearing carries of the weight of a rigid rotor.
     pub fn equal_share(&self) -> f64 {
         1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64)

@@ -36,6 +36,8 @@ pub const KEYS: &[Key] = &[
         .positive().derived("100 times the mean stiffness of supports and magnets (position_stiffness)"),
     Key::new("analysis.map_count", Kind::Count, "41", "Number of stiffnesses of the map, evenly spaced on a logarithmic axis.")
         .within(Range::FromTo(2.0, 1000.0)).default("41", "ten a decade"),
+    Key::new("analysis.whirl_to", Kind::Quantity("rad/s"), "4000 rad/s", "Highest frequency of dry backward whirl looked at, in the auxiliary bearings of a machine whose rotor is analysed.")
+        .positive().optional("it is analysis.frequency_to, or twice the natural frequency of the rotor on the springs of all mounts where that is higher"),
 ];
 
 /// A kind of part.

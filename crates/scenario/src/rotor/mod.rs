@@ -6,6 +6,7 @@ pub mod parts;
 pub mod tables;
 
 use crate::document::Document;
+use crate::drop::Drop;
 use crate::key::Key;
 use crate::values::Values;
 use physics::shaft::Layer;
@@ -164,6 +165,10 @@ pub struct RotorAnalysis {
     pub map_to: f64,
     /// Number of stiffnesses of the map.
     pub map_count: usize,
+    /// Highest frequency of dry whirl looked at, rad/s.
+    pub whirl_to: Option<f64>,
+    /// The machine whose rotor it is; none of a rotor alone.
+    pub machine: Option<Box<Drop>>,
 }
 
 impl RotorAnalysis {
@@ -207,6 +212,8 @@ impl RotorAnalysis {
             map_from: map("map_from", 1e-2),
             map_to: map("map_to", 1e2),
             map_count: analysis.count("map_count") as usize,
+            whirl_to: analysis.maybe("whirl_to"),
+            machine: None,
         };
         this.check(values)?;
         Ok(this)

@@ -60,12 +60,8 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
     };
     let mut parts = Vec::new();
     let mut bearings = Vec::new();
-    for (k, part) in drop.auxiliary_bearings.iter().enumerate() {
-        let (mut constants, built) = auxiliary_bearing(&drop, k).map_err(|mut problem| {
-            let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
-            problem.key = problem.key.map(|key| path_of(of, &key));
-            problem
-        })?;
+    for k in 0..drop.auxiliary_bearings.len() {
+        let (mut constants, built) = auxiliary_bearing(&drop, k)?;
         // the results of an only bearing need no name
         if drop.auxiliary_bearings.len() == 1 {
             constants.name.clear();
@@ -92,11 +88,35 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
     })
 }
 
+/// The auxiliary bearings of a drop with their contacts and mounts, at no node yet.
+///
+/// # Errors
+/// What the drop would be refused for.
+pub fn auxiliary_bearings(
+    given: &scenario::Drop,
+) -> Result<Vec<AuxiliaryBearingConstants>, Box<Problem>> {
+    let drop = Drop::of(given)?;
+    let all = 0..drop.auxiliary_bearings.len();
+    all.map(|k| Ok(auxiliary_bearing(&drop, k)?.0)).collect()
+}
+
 fn auxiliary_bearing(
     drop: &Drop,
     k: usize,
 ) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
     let part = &drop.auxiliary_bearings[k];
+    bearing_of(drop, part, k).map_err(|mut problem| {
+        let of = Some(part.name.as_str()).filter(|name| !name.is_empty());
+        problem.key = problem.key.map(|key| path_of(of, &key));
+        problem
+    })
+}
+
+fn bearing_of(
+    drop: &Drop,
+    part: &AuxiliaryBearing,
+    k: usize,
+) -> Result<(AuxiliaryBearingConstants, BuiltBearing), Box<Problem>> {
     let Some(given) = &part.bearing else {
         return Ok(bushing(part));
     };

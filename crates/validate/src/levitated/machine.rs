@@ -194,6 +194,11 @@ fn named_rotor(value: &Value, path: &Path) -> Result<Rotor, Refusal> {
         .find(|word| word.ends_with(".json"))
         .and_then(|word| word.rsplit('/').next());
     let named = named.ok_or("a definition without the file of its rotor")?;
+    rotor_beside(named, path)
+}
+
+/// The free rotor of a file: beside another one, or in a folder `rotor` next to that one's.
+pub(crate) fn rotor_beside(named: &str, path: &Path) -> Result<Rotor, Refusal> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let places = [folder.join(named), folder.join("../rotor").join(named)];
     let found = places.iter().find(|place| place.is_file());

@@ -15,7 +15,7 @@ use model::schedule::Schedule;
 use model::system::machine::MachineConstants;
 use nalgebra::DVector;
 use number::Vec2;
-use rotor::{Basis, Matrices, Rotor, Unbalance};
+use rotor::{Basis, Block, Coefficients, Matrices, Place, Rotor, Support, Unbalance};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
@@ -100,6 +100,20 @@ fn unbalance(value: &Value) -> Result<Vec<Unbalance>, String> {
         })
     };
     planes.map(plane).collect()
+}
+
+/// A rotor on the springs and dampers to ground that a file lists as its supports.
+pub(super) fn on_springs(mut rotor: Rotor, file: &Value) -> Result<Rotor, String> {
+    for support in list(file, "supports")? {
+        let block = Block::equal(number(support, "k")?, number(support, "c")?);
+        rotor.supports.push(Support {
+            at: Place::Node(index(support, "node")?),
+            on: None,
+            coefficients: Coefficients::constant(block),
+            seal: false,
+        });
+    }
+    Ok(rotor)
 }
 
 /// A node or a count.

@@ -1,6 +1,6 @@
 //! Machines whose rotor bends: states with their derivative (`machine_rhs_points.json`), a run-up through a critical speed
-//! (`machine_runup.json`), a drop onto two bearings (`machine_drop_flexible.json`), and mounts of every part
-//! (`machine_mounts.json`). Tolerances are those that each file states.
+//! (`machine_runup.json`), a drop onto two bearings (`machine_drop_flexible.json`), mounts of every part
+//! (`machine_mounts.json`), and the friction that dry whirl needs (`machine_whirl.json`). Tolerances are those that each file states.
 
 mod drop;
 mod given;
@@ -8,6 +8,7 @@ mod json;
 mod mounts;
 mod points;
 mod run_up;
+mod whirl;
 
 use super::compare::{Refusal, rows_of};
 use super::report::Row;
@@ -27,6 +28,8 @@ pub(super) fn rows(value: &Value, path: &Path, simulator: &dyn Simulator) -> Opt
         run_up::rows
     } else if has(&["magnets", "start", "beta_added", "bearings"]) {
         drop::rows
+    } else if has(&["full_slip_whirl", "contact_node", "race"]) {
+        whirl::rows
     } else {
         return None;
     };

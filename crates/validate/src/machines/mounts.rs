@@ -164,14 +164,12 @@ fn dynamic_stiffness(file: &Value, worst: &mut Worst) -> Result<(), String> {
     let (spring, parts) = mount(file, kind)?;
     for row in list(table, "rows")? {
         let frequency = number(row, "w")?;
-        let start = (spring.stiffness, spring.damping * frequency);
-        let branches = parts.branches.iter();
-        let ours = branches.fold(start, |sum, branch| {
-            let own = branch.dynamic_stiffness(frequency);
-            (sum.0 + own.0, sum.1 + own.1)
-        });
+        let ours = parts.linear(&spring, frequency);
         let [real, imaginary] = numbers(row, "K")?;
-        let both = [("real", ours.0, real), ("imaginary", ours.1, imaginary)];
+        let both = [
+            ("real", ours.storage, real),
+            ("imaginary", ours.loss, imaginary),
+        ];
         for (part, ours, theirs) in both {
             let name = format!("dynamic stiffness, {part} part");
             let allowed = Tolerance::Relative(1e-12);

@@ -3,7 +3,7 @@
 //! Supports are part of the shaft's stiffness and damping here, in coordinates of the supported rotor. The auxiliary bearing that a
 //! machine needs is never touched.
 
-use super::given::{Coordinates, index, rotor};
+use super::given::{Coordinates, index, on_springs, rotor};
 use super::json::{list, number, numbers};
 use crate::compare::{Refusal, Worst};
 use crate::report::{Row, Tolerance};
@@ -15,7 +15,7 @@ use model::system::machine::{MachineConstants, RotorMachine};
 use nalgebra::{DMatrix, SymmetricEigen};
 use number::Vec2;
 use physics::rolling::RollingSet;
-use rotor::{Analysis, Basis, Block, Coefficients, Place, Rotor, Support};
+use rotor::{Analysis, Basis, Rotor};
 use serde_json::Value;
 use solve::{Flow, Observer, Settings, Step, Stop};
 use std::path::Path;
@@ -41,20 +41,7 @@ pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, Refusal> {
 
 /// Frequencies of the damped rotor on its supports, by the analysis that `auxbear rotor` uses.
 fn at_rest(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String> {
-    let mut rotor = rotor.clone();
-    for support in list(file, "supports")? {
-        let block = |value: f64| [[value, 0.0], [0.0, value]];
-        rotor.supports.push(Support {
-            at: Place::Node(index(support, "node")?),
-            on: None,
-            coefficients: Coefficients::constant(Block {
-                stiffness: block(number(support, "k")?),
-                damping: block(number(support, "c")?),
-                mass: block(0.0),
-            }),
-            seal: false,
-        });
-    }
+    let rotor = on_springs(rotor.clone(), file)?;
     let analysis = Analysis::full(&rotor).map_err(|error| error.to_string())?;
     let found = analysis
         .eigenvalues(0.0)

@@ -1,0 +1,52 @@
+//! `auxbear mount`: dynamic stiffness of the mounts of a drop or a machine, and a fit to a measured one.
+
+use crate::arguments::Mount;
+use crate::exit::Exit;
+use crate::{console, summary};
+use auxbear::outcome::Value;
+use auxbear::problem::{self, Code, Problem};
+use auxbear::report::directory::{NewDirectory, free_path};
+use auxbear::run::mount::{self, Request, fit::MeasuredStiffness};
+use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::units::parse_quantity;
+
+/// Computes it and writes a run directory.
+pub fn perform(wish: &Mount) -> problem::Result<Exit> {
+    let scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
+    let metres = parse_quantity(&wish.amplitude)
+        .ok()
+        .filter(|own| own.dimension.si_unit() == "m" && own.value_si > 0.0);
+    let Some(metres) = metres else {
+        let (found, needed) = (
+            format!("\"{}\"", wish.amplitude),
+            "a length above 0 is needed, e.g. \"20 um\"",
+        );
+        let problem = Problem::new(Code::OutOfRange, "auxbear mount", found, needed);
+        return Err(problem.on_key("--amplitude"));
+    };
+    let read = |path: &std::path::PathBuf| {
+        let text = problem::read_text(path, "a table of stiffness over frequency")?;
+        MeasuredStiffness::parse(&text, &path.display().to_string())
+    };
+    let request = Request {
+        amplitude: metres.value_si,
+        table: wish.fit.as_ref().map(read).transpose()?,
+    };
+    let outcome = mount::run(&scenario, &request).map_err(|own| scenario.locate(own))?;
+    let stem = wish.file.file_stem().unwrap_or_default();
+    let path = wish
+        .out
+        .clone()
+        .unwrap_or_else(|| free_path(&stem.to_string_lossy()));
+    NewDirectory::reserve(&path)?.finish(&scenario, &outcome)?;
+    if !wish.quiet {
+        console::print(&summary::text(&path, &outcome))?;
+    }
+    let mut all = outcome.quantities.iter();
+    let lines = all.find(|own| own.words_in("fit_lines").is_some());
+    if let Some(Value::Text(lines)) = lines.map(|own| &own.value) {
+        console::print(&format!("[mount]\n{lines}\n"))?;
+    }
+    console::warn(&outcome.warnings);
+    Ok(Exit::Done)
+}

@@ -1,0 +1,102 @@
+//! Dry backward whirl of machines: the linear analysis of their files, and runs of them.
+
+use auxbear::outcome::Value;
+use auxbear::run::{Options, run};
+use auxbear::scenario::{BuiltIn, Scenario};
+use auxbear::{Outcome, Severity};
+use std::sync::atomic::AtomicBool;
+
+const WHIRLS: &str = include_str!("../../../scenarios/machine_dry_whirl.toml");
+/// The mount that its description names.
+const CURE: [&str; 2] = ["mount.stiffness=8e5 N/m", "mount.damping=2000 N s/m"];
+
+fn scenario(text: &str, sets: &[&str]) -> Scenario {
+    let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+    Scenario::parse(text, "machine.toml", &sets, &BuiltIn).unwrap()
+}
+
+fn analysed(text: &str, sets: &[&str]) -> Outcome {
+    let rotor = scenario(text, sets).rotor_alone().unwrap().unwrap();
+    run(&rotor, &Options::unwatched(&AtomicBool::new(false))).unwrap()
+}
+
+fn ran(text: &str, sets: &[&str]) -> Outcome {
+    let own = scenario(text, sets);
+    run(&own, &Options::unwatched(&AtomicBool::new(false))).unwrap()
+}
+
+fn number(outcome: &Outcome, name: &str) -> f64 {
+    outcome.number(name).unwrap_or_else(|| panic!("{name}"))
+}
+
+/// The run reaches the force that the analysis predicts, and the mount of the description ends both.
+#[test]
+fn shipped_machine_whirls_as_its_analysis_says_and_its_cure_ends_it() {
+    let found = analysed(WHIRLS, &[]);
+    let force = number(&found, "whirl.drive_end.settling_force");
+    let grave = |own: &Outcome| {
+        own.warnings
+            .iter()
+            .any(|w| w.code == "AB2044" && w.severity == Severity::Destroys)
+    };
+    assert!(grave(&found));
+    let drop = ran(WHIRLS, &[]);
+    assert!(number(&drop, "drive_end.whirl_turns") < -25.0);
+    // at the end of the run it still rises to it
+    let peak = number(&drop, "drive_end.peak_contact_force");
+    assert!((0.95..1.02).contains(&(peak / force)), "{peak} {force}");
+    let cured = analysed(WHIRLS, &CURE);
+    assert!(!grave(&cured));
+    assert!((number(&cured, "whirl.drive_end.needed_friction") - 0.653).abs() < 0.001);
+    let drop = ran(WHIRLS, &CURE);
+    assert!(number(&drop, "drive_end.whirl_turns").abs() < 0.5);
+}
+
+/// The ends of the curve: the weight, the frequency asked for, and without gravity a minimum that says where it lies.
+#[test]
+fn ends_of_the_curve_are_named() {
+    let found = analysed(WHIRLS, &["analysis.whirl_to=2000 rad/s"]);
+    let weight = (9.81_f64 / 2e-4).sqrt();
+    let from = number(&found, "whirl.drive_end.frequency_from");
+    assert!((from / weight - 1.0).abs() < 1e-12);
+    assert_eq!(number(&found, "whirl.drive_end.frequency_to"), 2000.0);
+    let place = |own: &Outcome| match &own
+        .quantity("whirl.drive_end.needed_friction_place")
+        .unwrap()
+        .value
+    {
+        Value::Text(text) => text.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert!(place(&found).starts_with("lower end: slower whirl"));
+    let vertical = analysed(WHIRLS, &["gravity.acceleration=0 m/s^2"]);
+    assert_eq!(place(&vertical), "lower end of the frequencies");
+    // a rotor that turns the other way whirls the other way, by the same numbers
+    let mirrored = analysed(WHIRLS, &["rotor.speed=-12000 rpm"]);
+    let name = "whirl.other_end.settling_frequency";
+    let [one, other] = [&analysed(WHIRLS, &[]), &mirrored].map(|own| number(own, name));
+    assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
+}
+
+/// Parts that are not linear are named; a held race has no mount to cure; a rotor alone has no bearings.
+#[test]
+fn what_the_analysis_leaves_out_is_named() {
+    let expander = include_str!("../../../scenarios/machine_expander.toml");
+    let found = analysed(expander, &[]);
+    let told = |code: &str| found.warnings.iter().filter(|own| own.code == code).count();
+    assert_eq!([told("AB2045"), told("AB2048")], [2, 1]);
+    let held = analysed(expander, &["bearing.inner_race_centre_held=true"]);
+    let why = held
+        .quantity("whirl.wheel_end.needed_damping")
+        .unwrap()
+        .value
+        .why_absent();
+    assert_eq!(why, Some("the inner race is held: no mount acts"));
+    let alone = include_str!("../../../scenarios/rotor_overhung.toml");
+    assert!(
+        ran(alone, &[])
+            .quantities
+            .iter()
+            .all(|own| !own.name.starts_with("whirl."))
+    );
+}
