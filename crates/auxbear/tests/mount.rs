@@ -55,7 +55,7 @@ fn fit_recovers_the_branches_of_an_exact_table() {
 /// Rows wrong by ±3 %: the fit is at least as near as that, and no part of it negative.
 #[test]
 fn fit_of_a_noisy_table_states_its_error() {
-    let noisy = |k: usize| if k % 2 == 0 { 0.03 } else { -0.03 };
+    let noisy = |k: usize| if k.is_multiple_of(2) { 0.03 } else { -0.03 };
     let measured = MeasuredStiffness::parse(&table(noisy), "o_ring.csv").unwrap();
     let fit = Fit::of(&measured);
     assert!(
