@@ -161,6 +161,7 @@ fn around(
     AuxiliaryBearingConstants {
         name: part.name.clone(),
         node: vec![1.0],
+        planes: 1.0,
         datum: Vec2::zero(),
         contact: JournalContact {
             radial_clearance: contact.radial_air_clearance,
