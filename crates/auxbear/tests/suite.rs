@@ -22,6 +22,7 @@ mod magnets_under_load;
 mod measurement_file;
 mod oil_range;
 mod outcomes;
+mod planes;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;

@@ -56,12 +56,6 @@ impl MachineConstants {
         let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);
         if self.bearings.is_empty() {
             Some("a machine has a bearing")
-        } else if self
-            .bearings
-            .iter()
-            .any(|part| part.planes.is_nan() || part.planes < 1.0)
-        {
-            Some("a bearing stands for equal rows")
         } else if self.bearings.len() > 1 && self.bearings.iter().any(|part| on_rig(&part)) {
             Some("a rig has one bearing")
         } else if rows.any(|row| row.len() != count || still(row)) {

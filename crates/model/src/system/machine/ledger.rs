@@ -73,15 +73,20 @@ impl RotorMachine {
 
     /// What the ledger channels of a state have summed up, of all rows of each bearing.
     pub fn flows(&self, state: &[f64]) -> Flows {
+        let channels = state[self.layout().flows()].iter().zip(self.ledger_rows());
+        let channels: Vec<f64> = channels.map(|(value, rows)| rows * value).collect();
+        Flows::of(&channels, self.layout().heats().len())
+    }
+    /// How many rows each channel of the ledger's flows stands for: those of its bearing.
+    pub fn ledger_rows(&self) -> Vec<f64> {
         let layout = self.layout();
-        let mut state = state.to_vec();
+        let mut rows = vec![1.0; layout.flows().len()];
         for (at, part) in layout.bearings.iter().zip(&self.constants.bearings) {
-            let (heat, source) = (layout.heat(at.heat), layout.source(at.source));
-            let own = (heat..heat + HEATS).chain(source..source + SOURCES.len());
-            own.filter(|_| part.fixture.is_none())
-                .for_each(|channel| state[channel] *= part.planes);
+            let source = layout.heats().len() + at.source;
+            let own = (at.heat..at.heat + HEATS).chain(source..source + SOURCES.len());
+            own.for_each(|channel| rows[channel] = part.planes);
         }
-        Flows::of(&state[layout.flows()], layout.heats().len())
+        rows
     }
     /// What must close between two states.
     pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {
