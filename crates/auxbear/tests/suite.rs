@@ -23,6 +23,7 @@ mod measurement_file;
 mod mount;
 mod oil_range;
 mod outcomes;
+mod planes;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;

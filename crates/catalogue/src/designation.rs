@@ -102,7 +102,7 @@ pub fn read(typed: &str, known: &dyn Fn(&str) -> bool) -> Option<Designation> {
 }
 
 /// How several rows or bearings at one place are described.
-pub const PAIRS: &str = "Each row is a bearing of its own: for a pair at each of two places rotor.planes = 4, with bearing.type = \"angular contact\", the ball_count of one row, and half of the place's mount.stiffness, mount.damping and mount.moving_mass each";
+pub const PAIRS: &str = "Each row is a bearing of its own: for a pair at each of two places rotor.planes = 4, or planes = 2 in the [[auxiliary_bearing]] of each, with bearing.type = \"angular contact\", the ball_count of one row, and half of the place's mount.stiffness, mount.damping and mount.moving_mass each";
 
 fn deep_groove(core: &str, suffixes: &[&str], known: &dyn Fn(&str) -> bool) -> Option<Designation> {
     // the thin series of JIS have four digits, those of ISO five

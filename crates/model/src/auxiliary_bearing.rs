@@ -56,6 +56,9 @@ pub struct AuxiliaryBearingConstants {
     pub name: String,
     /// Row φ of the rotor's node in it: (1) of a point.
     pub node: Vec<f64>,
+    /// Equal rows at this node that it stands for. They share every force equally, so that one is computed: rotor and ledger count it
+    /// so many times, and states, probes and heats are those of one.
+    pub planes: f64,
     /// Its middle, from the line about which the rotor is levitated, m: all its coordinates are counted from there.
     pub datum: Vec2<f64>,
     /// Rotor against inner race.
@@ -245,6 +248,7 @@ pub struct AuxiliaryBearing<R: Real> {
     pub(crate) mount: WholeMount<R>,
     pub(crate) outer_moving_mass: R,
     outer_weighing_mass: R,
+    pub(crate) planes: R,
     pub(crate) outer_held: bool,
     pub(crate) fixture: Option<FixtureOver<R>>,
     bushing: bool,
@@ -324,6 +328,7 @@ impl<R: Real> AuxiliaryBearing<R> {
             }),
             outer_moving_mass: lanes(&|c| c.outer_moving_mass()),
             outer_weighing_mass: lanes(&|c| c.outer_weighing_mass()),
+            planes: lanes(&|c| c.planes),
             outer_held: constants(0).outer_held(),
             fixture: FixtureOver::gather(constants),
             bushing: constants(0).is_bushing(),

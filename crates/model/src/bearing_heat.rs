@@ -557,7 +557,6 @@ impl Warmth {
             let machine = SteadySpeed {
                 network: part.network.at(operation).ok()?,
                 losses,
-                sides: 1.0,
                 speed: seen.spin.abs(),
                 tolerance: 1.0,
             };

@@ -25,6 +25,13 @@ pub enum Raw {
 }
 
 impl Raw {
+    /// The value without its source; none of a table without value.
+    pub fn plain(&self) -> Option<&Raw> {
+        match self {
+            Raw::Table(keys) => Some(&keys.iter().find(|(key, _)| key == "value")?.1),
+            raw => Some(raw),
+        }
+    }
     /// The value in words, for a message.
     pub fn text(&self) -> String {
         match self {

@@ -19,6 +19,7 @@ use super::directory::read;
 use model::system::layout::of_part;
 use physics::life::{add_points, bearing_damage, mean_damage, repetitions, survival};
 use problem::{Code, Problem, Result};
+use scenario::several::{PLANES, path_of};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -146,14 +147,14 @@ pub fn service(occasions: &[Occasion]) -> Result<Service> {
                 .collect::<Vec<_>>()
         })
         .collect();
-    let equal = runs.first().map_or(1, Run::planes);
-    let damages: Option<Vec<f64>> = (modes.iter())
+    let rows = |mode: &Mode| runs.first().map_or(1, |run| run.planes(&mode.bearing));
+    let damages: Option<Vec<(usize, f64)>> = (modes.iter())
         .filter(|mode| mode.what == FATIGUE)
-        .map(|mode| mode.value.as_ref().ok().copied())
+        .map(|mode| Some((rows(mode), *mode.value.as_ref().ok()?)))
         .collect();
     // bearings in series, as the rings of one
     let all = damages.map(|list| {
-        let each = list.iter().flat_map(|damage| (0..equal).map(|_| *damage));
+        let each = (list.iter()).flat_map(|(rows, damage)| std::iter::repeat_n(*damage, *rows));
         each.fold(0.0, bearing_damage)
     });
     Ok(Service {
@@ -296,14 +297,13 @@ impl Run<'_> {
         }
         kinds
     }
-    /// Equal planes of which one was computed.
-    fn planes(&self) -> u32 {
-        let inputs = self.summary["inputs"].as_array();
-        let all = inputs.into_iter().flatten();
-        let planes = all
-            .filter(|input| input["path"] == "rotor.planes")
-            .find_map(|input| input["value"].as_str()?.parse().ok());
-        planes.unwrap_or(1)
+    /// Equal rows of a bearing, of which one was computed.
+    fn planes(&self, bearing: &str) -> usize {
+        let paths = ["rotor.planes", PLANES, &path_of(Some(bearing), PLANES)];
+        let inputs = self.summary["inputs"].as_array().into_iter().flatten();
+        let own = inputs.filter(|input| paths.iter().any(|path| input["path"] == *path));
+        own.filter_map(|input| input["value"].as_str()?.parse::<usize>().ok())
+            .product()
     }
     /// The last result of a kind that has a value, which knows most, of the drop or of its coast-down; the reason where none has one.
     fn last(&self, bearing: &str, start: &str, what: &str) -> Result<Option<Found>, String> {

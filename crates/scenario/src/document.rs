@@ -5,7 +5,7 @@ use crate::meant;
 use crate::not_modelled;
 use crate::rotor::keys::kind_at;
 use crate::rotor::tables::{self, WrittenPart, is_part};
-use crate::several::{self, AUXILIARY_BEARING, LIMIT, VARY};
+use crate::several::{self, AUXILIARY_BEARING, LIMIT, PLANES, VARY};
 use crate::system::{COASTING_DOWN, SystemName};
 use crate::table;
 pub use problem::raw::{Given, Raw, as_toml};
@@ -25,8 +25,8 @@ pub struct Document {
     pub sections: BTreeMap<String, Place>,
     /// The auxiliary bearing that it is of, where the file tells several apart.
     pub bearing: Option<String>,
-    /// Number of auxiliary bearings that the file tells apart.
-    pub bearings: usize,
+    /// Number of rows of all auxiliary bearings.
+    pub rows: f64,
     /// What the file gives of each of several auxiliary bearings alone.
     own: Vec<Own>,
     /// What repeated runs vary: path, distribution, place.
@@ -62,7 +62,7 @@ impl Document {
             values: BTreeMap::new(),
             sections: BTreeMap::new(),
             bearing: None,
-            bearings: 1,
+            rows: 1.0,
             own: Vec::new(),
             vary: Vec::new(),
             limits: Vec::new(),
@@ -94,13 +94,23 @@ impl Document {
     /// One document for each auxiliary bearing, with what the file gives for all and what it gives for that one; the document
     /// itself where the file does not tell several apart.
     pub fn of_each_bearing(&self) -> Vec<Document> {
+        // what is no count is refused where it is read
+        let count = |values: &BTreeMap<_, Given>, path| match values.get(path)?.raw.plain()? {
+            Raw::Integer(_, Some(count)) => Some((*count).clamp(1, 1000) as f64),
+            _ => None,
+        };
+        let planes = |path| count(&self.values, path).unwrap_or(1.0);
+        let rows = |own: &Own| count(&own.values, PLANES).unwrap_or(planes(PLANES));
+        let whole = planes("rotor.planes");
+        let mut document = self.clone();
+        document.rows = whole * planes(PLANES);
         if self.own.is_empty() {
-            return vec![self.clone()];
+            return vec![document];
         }
+        document.rows = whole * self.own.iter().map(rows).sum::<f64>();
         let of = |own: &Own| {
-            let mut document = self.clone();
+            let mut document = document.clone();
             document.bearing = Some(own.name.clone());
-            document.bearings = self.own.len();
             let values = own
                 .values
                 .iter()
@@ -114,11 +124,7 @@ impl Document {
 
     /// The first value of the last row of a table, as it is written.
     pub fn last_of(&self, path: &str) -> Option<String> {
-        let rows = match &self.values.get(path)?.raw {
-            Raw::Table(keys) => &keys.iter().find(|(key, _)| key == "value")?.1,
-            raw => raw,
-        };
-        match rows {
+        match self.values.get(path)?.raw.plain()? {
             Raw::List(rows) => match rows.last()? {
                 Raw::List(row) => row.first().map(Raw::shown),
                 _ => None,
@@ -364,7 +370,7 @@ impl Document {
             return Err(problem(
                 Code::UnknownKey,
                 "what no auxiliary bearing has of its own".to_string(),
-                "name, and sections contact, mount, bearing and heat, are possible".to_string(),
+                "name, planes, contact, mount, bearing and heat are possible".to_string(),
             ));
         }
         let elsewhere = |what: &str, systems: &[SystemName]| {

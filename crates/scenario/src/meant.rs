@@ -94,7 +94,7 @@ pub fn meant(path: &[String], system: SystemName) -> Option<String> {
     question(&names)
 }
 
-const OTHERS: &str = "Bearings that differ are tables [[auxiliary_bearing]], each with name and with what it has of its own in contact, mount and bearing; equal ones are counted by rotor.planes";
+const OTHERS: &str = "Bearings that differ are tables [[auxiliary_bearing]], each with name and with what it has of its own in contact, mount and bearing; equal rows are counted by planes there, equal bearings without names by rotor.planes";
 
 /// Whether a section is one for a second bearing: `bearing_2`, `bearings`, `drive_end`.
 fn is_another_bearing(section: &str) -> bool {

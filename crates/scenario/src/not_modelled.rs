@@ -80,8 +80,9 @@ const MACHINE: &[Absent] = &[
                 bearing.number bearing.number_of_bearings bearing.number_of_rows rotor.planes",
         what: "a pair, set or several rows are not described as one bearing",
         point: 10,
-        instead: "Each row is an [[auxiliary_bearing]] of its own: two of them at one node, or at nodes a bearing's width apart, with \
-                  the ball_count of one row and half of the place's mount.stiffness, mount.damping and mount.moving_mass each",
+        instead: "Equal rows at one node are an [[auxiliary_bearing]] with planes = 2, with the ball_count of one row and half of the place's \
+                  mount.stiffness, mount.damping and mount.moving_mass; rows that differ, or at nodes a bearing's width apart, are tables of \
+                  their own",
     },
 ];
 

@@ -276,11 +276,10 @@ impl Values {
             );
         }
         if let Some(stiffness) = self.number("mount.stiffness") {
-            let bearings = self.bearings as f64 * self.number("rotor.planes").unwrap_or(1.0);
             let weight = self
                 .number("rotor.mass")
                 .zip(self.number("gravity.acceleration"));
-            let sag = weight.map_or(0.0, |(mass, gravity)| mass * gravity / bearings / stiffness);
+            let sag = weight.map_or(0.0, |(mass, g)| mass * g / self.rows / stiffness);
             if stiffness > STIFFEST_MOUNT {
                 doubt(
                     "mount.stiffness",

@@ -21,7 +21,7 @@ impl Values {
             file: document.file.clone(),
             system: document.system,
             bearing: document.bearing.clone(),
-            bearings: document.bearings,
+            rows: document.rows,
             known: BTreeMap::new(),
             record: None,
             lacking: RefCell::default(),
@@ -324,7 +324,10 @@ impl Values {
     /// The list of all values for people and for the resolved file: those of the whole file, and behind them those of each of
     /// several auxiliary bearings.
     pub fn resolved(all: &[Values]) -> Resolved {
-        let whole = |path: &str| all[0].bearing.is_none() || !several::of_each_bearing(path);
+        let whole = |path: &str| match &all[0].bearing {
+            None => path != several::PLANES || all[0].is_given(path),
+            Some(_) => !several::of_each_bearing(path),
+        };
         let mut values = all[0].listed(whole);
         if all[0].bearing.is_some() {
             values.extend(

@@ -128,7 +128,7 @@ fn add_bearings(root: &mut Value, system: SystemName) {
     let list = json!({
         "type": "array",
         "items": one,
-        "description": "Auxiliary bearings that differ. Sections contact, mount and bearing in the head of the file hold for all of them.",
+        "description": "Auxiliary bearings that differ. planes and sections contact, mount and bearing in the head of the file hold for all of them.",
     });
     properties(root, "").insert(AUXILIARY_BEARING.to_string(), list);
     if system.falls() {

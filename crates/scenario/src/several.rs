@@ -4,8 +4,12 @@
 /// The array of tables that tells several auxiliary bearings apart.
 pub const AUXILIARY_BEARING: &str = "auxiliary_bearing";
 
-/// Sections, and a key, that each of several auxiliary bearings may have of its own; in the head of the file they hold for all.
-const OF_EACH_BEARING: [&str; 5] = [
+/// Number of equal rows of an auxiliary bearing.
+pub const PLANES: &str = "planes";
+
+/// Sections, and keys, that each of several auxiliary bearings may have of its own; in the head of the file they hold for all.
+const OF_EACH_BEARING: [&str; 6] = [
+    PLANES,
     "contact",
     "mount",
     "bearing",

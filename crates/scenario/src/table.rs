@@ -8,7 +8,7 @@ use crate::run::{Accuracy, Method, Until};
 use crate::system::SystemName::{
     self, CoastDown, Drop, Identify, Machine, Rig, Rotor, Signals, SpinUp, Torque,
 };
-use crate::system::{FALLING, MOVING, STEPPED, WITH_BEARING};
+use crate::system::{COASTING_DOWN, FALLING, MOVING, STEPPED, WITH_BEARING};
 use problem::words::Words;
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -157,6 +157,8 @@ const HEAD: &[Key] = &[
     Key::new("description", Kind::Text, "What was changed, and why", "Text for the report.").optional("the report has no introduction"),
     Key::new("catalogue", Kind::Text, "my_bearings.toml", "File with your own bearings, relative to this one; they are added to the catalogue, or replace those of the same name.")
         .optional("the built-in catalogue alone is used").only(WITH_BEARING),
+    Key::new("planes", Kind::Count, "2", "Number of equal rows of an [[auxiliary_bearing]] at its node, such as 2 of a duplex pair. They share each force equally, so that one of them is computed: rotor and energies count it so many times; contact, mount, bearing, heat and all results of the bearing are those of one row.")
+        .within(Range::FromTo(1.0, 16.0)).default("1", "the bearing is one row").only(COASTING_DOWN),
 ];
 
 #[rustfmt::skip]

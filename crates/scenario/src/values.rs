@@ -26,8 +26,8 @@ pub struct Values {
     pub(crate) system: SystemName,
     /// Name of the auxiliary bearing, where the file has several.
     pub bearing: Option<String>,
-    /// Number of auxiliary bearings that the file tells apart.
-    pub bearings: usize,
+    /// Number of rows of all auxiliary bearings.
+    pub rows: f64,
     pub(crate) known: BTreeMap<&'static str, Known>,
     /// What the catalogue knows of the bearing named.
     pub record: Option<BearingRecord>,
@@ -41,6 +41,12 @@ pub struct Values {
 const FASTEST_SURFACE: f64 = 2000.0;
 
 impl Values {
+    /// Number of equal rows that the auxiliary bearing stands for: its own, or planes of the whole rotor.
+    pub fn planes(&self) -> f64 {
+        let of = |path| self.number(path).unwrap_or(1.0);
+        of(several::PLANES) * of("rotor.planes")
+    }
+
     /// Refuses a speed at which a radius, m, would move faster than any rotor holds together.
     pub fn holds_together(&self, path: &str, speed: f64, radius: f64) -> Result<()> {
         let surface = speed.abs() * radius;

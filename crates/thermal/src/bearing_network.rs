@@ -485,7 +485,6 @@ mod tests {
         let machine = |network: Network| SteadySpeed {
             network,
             losses: losses.clone(),
-            sides: 1.0,
             speed: 2094.0,
             tolerance: 1.0,
         };

@@ -11,8 +11,8 @@
 //! to rounding. The error of a step is its distance to a step with the moments and powers of its start alone, in time (over
 //! the time so far and the coast-down I ω/M still to come) and in temperature (over 50 K).
 //!
-//! A machine with several equal sides has one network for each, of which one is followed: the moments are those of the
-//! whole machine, and a side takes its part of every heat.
+//! Of bearings that are equal one has a network: the moments are those of the whole machine, and each of them takes its part of
+//! the heat.
 //!
 //! Not here: what the rotor does meanwhile. Whirl, lost contact and passing resonances need a run in motion.
 //!
@@ -33,14 +33,12 @@ const MOST_STEPS: usize = 50_000;
 /// Constants of a coast-down.
 #[derive(Clone, Debug)]
 pub struct CoastDown<L> {
-    /// The network of one side.
+    /// The network; of equal bearings it has one.
     pub network: Network,
     /// Losses of the whole machine.
     pub losses: L,
     /// Moment of inertia about the axis, kg m².
     pub inertia: f64,
-    /// Equal sides that the heats divide over.
-    pub sides: f64,
     /// Error that a step may have; 0.002 is 0.2 % of the stop time and a third of a kelvin.
     pub tolerance: f64,
 }
@@ -52,11 +50,11 @@ pub struct Coasting {
     pub time: f64,
     /// rad/s.
     pub speed: f64,
-    /// Of the nodes of one side, °C.
+    /// Of the nodes, °C.
     pub temperatures: Vec<f64>,
     /// Heat of each loss so far, J.
     pub heats: Vec<f64>,
-    /// Heat given to the surroundings of all sides so far, J.
+    /// Heat given to the surroundings of all bearings so far, J.
     pub given: f64,
     /// The same by nodes.
     pub at_nodes: AtNodes,
@@ -66,7 +64,7 @@ pub struct Coasting {
     next: f64,
 }
 
-/// Heats of the nodes of all sides, J.
+/// Heats of the nodes of all equal bearings, J.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtNodes {
     /// Made in each.
@@ -84,13 +82,11 @@ impl AtNodes {
         }
     }
 
-    /// Adds what each side makes at the nodes, W, in a time, s, and gives to the grounds in it, J.
-    pub fn add(&mut self, network: &Network, sides: f64, powers: &[f64], time: f64, given: &[f64]) {
-        for (made, power) in self.made.iter_mut().zip(powers) {
-            *made += sides * power * time;
-        }
-        for (so_far, given) in self.given.iter_mut().zip(network.by_node(given)) {
-            *so_far += sides * given;
+    /// Adds what the nodes of so many bearings each make, J, and give to the grounds, J.
+    fn add(&mut self, made: &[f64], given: &[f64], planes: &dyn Fn(usize) -> f64) {
+        for (node, (made, given)) in made.iter().zip(given).enumerate() {
+            self.made[node] += planes(node) * made;
+            self.given[node] += planes(node) * given;
         }
     }
 }
@@ -190,7 +186,7 @@ impl<L: Losses> CoastDown<L> {
         let first = moments(&self.losses, before, &state.temperatures);
         let whole = braking(&first, before)?;
         let run_out = self.inertia * before / whole;
-        let powers: Vec<f64> = first.iter().map(|m| before * m / self.sides).collect();
+        let powers: Vec<f64> = first.iter().map(|m| before * m).collect();
 
         let quick = run_out * step;
         let mut predicted = state.temperatures.clone();
@@ -211,11 +207,14 @@ impl<L: Losses> CoastDown<L> {
         for (so_far, heat) in next.heats.iter_mut().zip(heats.clone()) {
             *so_far += heat;
         }
-        let powers: Vec<f64> = heats.map(|heat| heat / (time * self.sides)).collect();
+        let powers: Vec<f64> = heats.map(|heat| heat / time).collect();
         let powers = to_nodes(&self.losses, &powers, nodes);
         let given = self.network.advance(&mut next.temperatures, &powers, time);
-        next.given += self.sides * given.iter().sum::<f64>();
-        (next.at_nodes).add(&self.network, self.sides, &powers, time, &given);
+        let planes = |node| self.losses.planes(node);
+        let all = self.network.giving().zip(&given);
+        next.given += all.map(|(node, given)| planes(node) * given).sum::<f64>();
+        let made: Vec<f64> = powers.iter().map(|power| power * time).collect();
+        (next.at_nodes).add(&made, &self.network.by_node(&given), &planes);
         next.time += time;
         next.speed = after;
         let apart = next.temperatures.iter().zip(&predicted);
@@ -257,6 +256,9 @@ mod tests {
         fn share(&self, _: usize, _: usize) -> f64 {
             1.0
         }
+        fn planes(&self, _: usize) -> f64 {
+            2.0
+        }
     }
 
     fn run_out(losses: Law, stop: f64, tolerance: f64) -> (Coasting, f64) {
@@ -269,7 +271,6 @@ mod tests {
             network: Network::new(&[40.0], &[], &[ground]).unwrap(),
             losses,
             inertia: 0.02,
-            sides: 2.0,
             tolerance,
         };
         let mut state = Coasting::start(2000.0, vec![25.0], &losses);
@@ -337,7 +338,6 @@ mod tests {
             network: Network::new(&[40.0], &[], &[]).unwrap(),
             losses: free,
             inertia: 0.02,
-            sides: 1.0,
             tolerance: 1e-3,
         };
         let mut state = Coasting::start(100.0, vec![25.0], &free);
@@ -356,7 +356,6 @@ mod tests {
             network: Network::new(&[40.0], &[], &[]).unwrap(),
             losses: law,
             inertia: 0.02,
-            sides: 1.0,
             tolerance: 1e-5,
         };
         let mut state = Coasting::start(2000.0, vec![25.0], &law);

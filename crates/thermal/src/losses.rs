@@ -9,15 +9,18 @@ pub trait Losses {
     fn moments(&self, speed: f64, temperatures: &[f64], moments: &mut [f64]);
     /// Share of a loss that a node takes; what all nodes leave of it goes elsewhere (windage: with the gas).
     fn share(&self, loss: usize, node: usize) -> f64;
+    /// Equal bearings that the one of a node stands for: they share what the losses heat, and the node is that of one of them.
+    fn planes(&self, _node: usize) -> f64 {
+        1.0
+    }
 }
 
-/// Powers of the nodes, W, from those of the losses.
+/// Powers of the nodes, W, from those of the losses of all equal bearings.
 pub(crate) fn to_nodes(losses: &impl Losses, of_losses: &[f64], nodes: usize) -> Vec<f64> {
     let of_node = |node| {
         let taken = of_losses.iter().enumerate();
-        taken
-            .map(|(loss, power)| losses.share(loss, node) * power)
-            .sum()
+        let taken = taken.map(|(loss, power)| losses.share(loss, node) * power);
+        taken.sum::<f64>() / losses.planes(node)
     };
     (0..nodes).map(of_node).collect()
 }

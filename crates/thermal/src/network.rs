@@ -267,12 +267,16 @@ impl Network {
     /// Heat given to the grounds or taken, as [`Self::advance`] returns it, by the nodes that give it.
     pub fn by_node(&self, given: &[f64]) -> Vec<f64> {
         let mut nodes = vec![0.0; self.capacities.len()];
-        let grounds = self.grounds.iter().map(|ground| ground.node);
-        let held = self.held.iter().map(|(node, _)| *node);
-        for (node, heat) in grounds.chain(held).zip(given) {
+        for (node, heat) in self.giving().zip(given) {
             nodes[node] += heat;
         }
         nodes
+    }
+
+    /// The node of each heat that [`Self::advance`] returns.
+    pub fn giving(&self) -> impl Iterator<Item = usize> {
+        let grounds = self.grounds.iter().map(|ground| ground.node);
+        grounds.chain(self.held.iter().map(|(node, _)| *node))
     }
 
     /// Powers with what the grounds would give at zero of the scale, W.

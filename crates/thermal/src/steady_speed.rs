@@ -25,12 +25,10 @@ const FIRST: f64 = 1e-3;
 /// Constants of a machine at constant speed.
 #[derive(Clone, Debug)]
 pub struct SteadySpeed<L> {
-    /// Its network.
+    /// Its network; of equal bearings it has one.
     pub network: Network,
     /// Its losses.
     pub losses: L,
-    /// Equal sides that they divide over, of which the network is one.
-    pub sides: f64,
     /// rad/s.
     pub speed: f64,
     /// Error of a step, K.
@@ -65,12 +63,10 @@ impl Warming {
 }
 
 impl<L: Losses> SteadySpeed<L> {
-    /// Powers of the nodes of a side at temperatures, W.
+    /// Powers of the nodes at temperatures, W.
     pub fn powers(&self, temperatures: &[f64]) -> Vec<f64> {
         let moments = moments(&self.losses, self.speed, temperatures);
-        let powers: Vec<f64> = (moments.iter())
-            .map(|moment| moment * self.speed / self.sides)
-            .collect();
+        let powers: Vec<f64> = (moments.iter()).map(|moment| moment * self.speed).collect();
         to_nodes(&self.losses, &powers, temperatures.len())
     }
 
@@ -216,7 +212,6 @@ mod tests {
         SteadySpeed {
             network: Network::new(&[10.0], &[], &[ground]).unwrap(),
             losses: Growing { power: 5.0, slope },
-            sides: 1.0,
             speed: 1.0,
             tolerance: 1e-4,
         }

@@ -147,6 +147,9 @@ impl WarmBearings {
 }
 
 impl Losses for WarmBearings {
+    fn planes(&self, _node: usize) -> f64 {
+        self.count
+    }
     fn count(&self) -> usize {
         3
     }

@@ -163,6 +163,9 @@ impl Losses for WarmMachine {
             (part, _) => self.bearings[bearing].share(part, node % NODES.len()),
         }
     }
+    fn planes(&self, node: usize) -> f64 {
+        self.bearings[node / NODES.len()].count
+    }
 }
 
 #[cfg(test)]

@@ -239,6 +239,7 @@ pub(super) fn falling_machine(
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
+            planes: 1.0,
             datum: Vec2::zero(),
             contact: JournalContact {
                 radial_clearance: clearance,
@@ -316,6 +317,7 @@ pub(super) fn constants(
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
+            planes: 1.0,
             datum: Vec2::zero(),
             contact: JournalContact {
                 radial_clearance: machine.radial_air_clearance,

@@ -21,7 +21,7 @@ mod rotor;
 mod rotor_inputs;
 mod rotor_supports;
 pub mod schema;
-mod several;
+pub(crate) mod several;
 mod spin_up;
 mod spin_up_runs;
 mod starting_files;

@@ -17,8 +17,7 @@
 //! The kinetic energy ½ η̇_GᴴMη̇_G + ½ Ω Im(η̇ᴴGη) + ½ I_G Ω² is that of a round rotor whose spin is one angle φ: the second
 //! term makes both jΩGη̇ and p. Derived; checked against an independent implementation.
 //!
-//! Assumes: one real shape for both planes, small tilt, M and K diagonal in the coordinates; identical planes of a point rotor
-//! share mass, polar inertia and torque equally. Does not model: torsion, axial motion, stress stiffening, shafts that are not round.
+//! Assumes: one real shape for both planes, small tilt, M and K diagonal in the coordinates. Does not model: torsion, axial motion, stress stiffening, shafts that are not round.
 
 pub mod constants;
 pub mod motion;

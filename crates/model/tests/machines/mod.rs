@@ -291,6 +291,7 @@ pub fn reference() -> MachineConstants {
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
+            planes: 1.0,
             datum: vec2(0.0, 0.0),
             contact: JournalContact {
                 radial_clearance: 0.25e-3,

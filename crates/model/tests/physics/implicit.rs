@@ -5,6 +5,7 @@ use super::several::twins;
 use crate::machines::bent::bent;
 use crate::machines::missing::{Looked, missing as missing_of};
 use crate::machines::{by, inlets, oil, planar, reference, settings, tilt_contacts};
+use crate::physics::planes::{bent_rows, rows};
 use model::bearing::tangents::Known;
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
 use model::system::machine::record::Record;
@@ -147,6 +148,11 @@ fn variants() -> Vec<(&'static str, MachineConstants, Vec<f64>)> {
     all.push(("a rotor that bends", constants, start));
     let (constants, start) = bent(1.0);
     all.push(("a rotor that tilts", constants, start));
+    let [(constants, start), _] = bent_rows();
+    all.push(("two rows at a node of a rotor that bends", constants, start));
+    let constants = rows(2.0);
+    let start = RotorMachine::new(constants.clone()).start();
+    all.push(("two rows", constants, start));
     all
 }
 

@@ -9,6 +9,7 @@ mod implicit;
 mod loads;
 mod lubricant;
 mod oil;
+mod planes;
 mod relatives;
 mod rest;
 mod seals;

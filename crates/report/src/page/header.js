@@ -223,12 +223,12 @@ function machineLine(run) {
   const friction = given("contact.friction_coefficient");
   const fidelity = given("bearing.fidelity");
   const bearing = given("bearing.name") || (inputOf(run, "bearing.ball_count") ? "bearing without a name" : null);
-  const planes = given("rotor.planes");
+  const planes = given(run.summary.name ? "planes" : "rotor.planes");
   const assumed = (path) => (inputOf(run, path).mark === "assumed" ? " (assumed)" : "");
   const facts = [
     mass && `rotor ${mass}`,
     speed && (/^0 /.test(speed) ? "from rest" : speed),
-    bearing && bearing + (planes && !run.summary.name ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
+    bearing && bearing + (planes && !(run.summary.name && planes === "1") ? ` × ${planes} ${planes === "1" ? "plane" : "planes"}` : ""),
     clearance && `radial air clearance ${clearance}${assumed("contact.radial_air_clearance")}`,
     friction && `friction coefficient ${friction}${assumed("contact.friction_coefficient")}`,
     fidelity && `${fidelity} fidelity`,

@@ -18,7 +18,7 @@ impl Context<'_> {
             );
             return self.refuse_value(Code::OutOfRange, path, needed);
         }
-        self.planes(run.planes, run.bearings.len())?;
+        self.planes()?;
         let own = |values: &&Values| !values.is_derived(LOAD);
         if let Some(other) = all.iter().find(|values| !own(values))
             && all.iter().any(|values| own(&values))

@@ -4,12 +4,13 @@ pub mod checks;
 pub mod keys;
 
 use crate::heat::Warm;
+use crate::several::PLANES;
 use crate::values::Values;
 
 /// A coast-down. All values are SI, temperatures in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoastDown {
-    /// Its auxiliary bearings: one, which counts `planes` times, or several with names.
+    /// Its auxiliary bearings: one, or several with names.
     pub bearings: Vec<CoastingBearing>,
     /// Mass of the rotor, kg.
     pub rotor_mass: f64,
@@ -17,8 +18,6 @@ pub struct CoastDown {
     pub polar_inertia: f64,
     /// Speed at the start, rad/s.
     pub speed: f64,
-    /// Number of bearings that share the rotor.
-    pub planes: u32,
     /// Drag of the gas over the square of the speed, N m s².
     pub windage: f64,
     /// How it ends.
@@ -30,6 +29,8 @@ pub struct CoastDown {
 pub struct CoastingBearing {
     /// Its name among several; empty where it is the only one.
     pub name: String,
+    /// Number of equal rows that it stands for.
+    pub planes: f64,
     /// What warms.
     pub warm: Warm,
     /// Bore of the shaft or sleeve that the inner ring may grow with, m.
@@ -65,7 +66,12 @@ impl CoastDown {
         let rotor = values.section("rotor");
         let bearing = |own: &Values| CoastingBearing {
             name: own.bearing.clone().unwrap_or_default(),
-            warm: Warm::from_values(own, own.section("coast_down").number("radial_load")),
+            planes: own.planes(),
+            // its rows share the load
+            warm: Warm::from_values(
+                own,
+                own.section("coast_down").number("radial_load") / own.number(PLANES).unwrap_or(1.0),
+            ),
             shaft_bore_diameter: own.section("bearing.fits").number("shaft_bore_diameter"),
         };
         CoastDown {
@@ -73,7 +79,6 @@ impl CoastDown {
             rotor_mass: rotor.number("mass"),
             polar_inertia: rotor.number("polar_inertia"),
             speed: rotor.number("speed"),
-            planes: rotor.count("planes") as u32,
             windage: rotor.number("windage"),
             end: CoastDownEnd::from_values(values),
         }

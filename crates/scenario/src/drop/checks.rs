@@ -15,7 +15,7 @@ const SPREAD: f64 = 6.0;
 
 impl Context<'_> {
     pub(crate) fn drop(&self, drop: &Drop, all: &[Values]) -> Check {
-        self.planes(drop.rotor.planes, drop.auxiliary_bearings.len())?;
+        self.planes()?;
         self.torques(drop)?;
         for (part, values) in drop.auxiliary_bearings.iter().zip(all) {
             let own = Context {
@@ -146,9 +146,11 @@ impl Context<'_> {
         self.refuse_value(Code::Conflict, path, needed)
     }
 
-    /// Planes count bearings that are alike; bearings with names are counted by their names.
-    pub fn planes(&self, planes: u32, bearings: usize) -> Check {
-        if planes == 1 || bearings == 1 {
+    /// Planes count bearings that are alike; bearings with names are counted by their names and by planes of their own.
+    pub fn planes(&self) -> Check {
+        let planes = self.values.number("rotor.planes").unwrap_or(1.0);
+        let bearings = self.values.rows / planes;
+        if planes == 1.0 || bearings == 1.0 {
             return Ok(());
         }
         self.refuse(
@@ -256,7 +258,7 @@ impl Context<'_> {
     /// The geometric centre of the levitated rotor circles the centre of levitation; it must not touch before the release.
     fn levitated_orbit(&self, drop: &Drop, part: &AuxiliaryBearing, body: &RigidBody) -> Check {
         let (rotor, levitation) = (&drop.rotor, &drop.levitation);
-        let mass = drop.equal_share() * body.mass;
+        let mass = body.mass / drop.rows();
         let clearance = part.contact.radial_air_clearance;
         let offset = levitation.offset_x.hypot(levitation.offset_y);
         let (stiffness, damping) = (levitation.stiffness, levitation.damping);

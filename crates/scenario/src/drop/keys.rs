@@ -73,7 +73,7 @@ pub(crate) const KEYS: &[Key] = &[
         .positive().derived("60000 rad/s; at screening accuracy ten times the speed or the first bending mode, at least 20000 and at most 60000 rad/s").only(MACHINE),
     Key::new("rotor.cutoff_check", Kind::Quantity("s"), "20 ms", "The drop until then is run twice more, as it is and with twice rotor.cutoff: the change of first impacts and displacements on doubling is given, which is no bound of their error.")
         .positive().optional("what the modes left out would change is not told").only(MACHINE),
-    Key::new("rotor.planes", Kind::Count, "2", "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one plane with its share of mass and inertia is simulated. Pairs at two places are 4 bearings, each with half of the mount of its place.")
+    Key::new("rotor.planes", Kind::Count, "2", "Number of identical auxiliary bearings that share the rotor. The motion is taken as parallel, so one of them is simulated, which counts so many times. Pairs at two places are 4 bearings, each with half of the mount of its place. Bearings with names have planes of their own.")
         .within(Range::FromTo(1.0, 4.0)).default("1", "one auxiliary bearing carries the whole rotor").only(RIGID),
     Key::new("rotor.first_bending_frequency", Kind::Quantity("rad/s"), "655 rad/s", "First free-free bending natural frequency at rest. A run whose speed is near or above it warns that a rigid rotor is indicative only.")
         .positive().optional("no warning about bending can be given").only(DROP),

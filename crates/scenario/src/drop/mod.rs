@@ -49,6 +49,8 @@ pub struct Drop {
 pub struct AuxiliaryBearing {
     /// Its name in the file; empty where the file tells no bearings apart.
     pub name: String,
+    /// Number of equal rows that it stands for.
+    pub planes: f64,
     /// Contact of rotor and inner race.
     pub contact: Contact,
     /// Spring and damper between outer race and ground.
@@ -79,7 +81,7 @@ pub struct RigidBody {
     pub unbalance_eccentricity: f64,
 }
 
-/// How the rotor turns, shared by all planes.
+/// How the rotor turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rotor {
     /// Direction of the unbalance at the release, rad from x.
@@ -92,7 +94,7 @@ pub struct Rotor {
     pub torque_over_speed: Vec<[f64; 2]>,
     /// The share of it that acts, over the time from the start of the run, rows of s and share; empty where all of it does.
     pub torque_share_over_time: Vec<[f64; 2]>,
-    /// Number of identical auxiliary bearings that share the rotor.
+    /// Number of identical auxiliary bearings that share the rotor, where none has a name.
     pub planes: u32,
     /// First free-free bending natural frequency, rad/s.
     pub first_bending_frequency: Option<f64>,
@@ -258,9 +260,9 @@ impl Drop {
         matches!(self.body, Body::Flexible(_))
     }
 
-    /// What an auxiliary bearing carries of the weight of a rigid rotor.
-    pub fn equal_share(&self) -> f64 {
-        1.0 / (f64::from(self.rotor.planes) * self.auxiliary_bearings.len() as f64)
+    /// Number of rows of all auxiliary bearings.
+    pub fn rows(&self) -> f64 {
+        self.auxiliary_bearings.iter().map(|part| part.planes).sum()
     }
 
     /// Of a document, with the values of each auxiliary bearing.
@@ -315,6 +317,7 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
     let mount = values.section("mount");
     AuxiliaryBearing {
         name: values.bearing.clone().unwrap_or_default(),
+        planes: values.planes(),
         contact: contact(&values.section("contact")),
         mount: Mount {
             stiffness: mount.number("stiffness"),

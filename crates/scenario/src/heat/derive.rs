@@ -2,6 +2,7 @@
 
 use crate::bearing::fits::{Fits, HOUSING_FIT};
 use crate::heat::{Atmosphere, HOUSING_SIZE};
+use crate::several::PLANES;
 use crate::spin_up::DriveKind;
 use crate::system::{COAST_DOWN, ON_RIG};
 use crate::values::{Value, Values};
@@ -34,12 +35,13 @@ type Done = Result<(), Box<Problem>>;
 impl Values {
     /// Fills what follows from weight and geometry.
     pub fn warm(&mut self) -> Done {
-        let bearings = self.bearings as f64 * self.number("rotor.planes").unwrap_or(1.0);
+        let bearings = self.rows;
         if let Some(mass) = self.number("rotor.mass") {
             let share = mass / bearings;
             if self.is_in(COAST_DOWN) {
                 let load = "mass / number of bearings times 9.80665 m/s²";
-                self.fill("coast_down.radial_load", share * GRAVITY, load)?;
+                let own = self.number(PLANES).unwrap_or(1.0) * share;
+                self.fill("coast_down.radial_load", own * GRAVITY, load)?;
             }
             let capacity = share * STEEL_HEAT.specific_heat;
             let how = "mass / number of bearings times 460 J/(kg K): all of the rotor";

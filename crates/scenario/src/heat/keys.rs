@@ -61,7 +61,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("heat.rotor_diameter", Kind::Quantity("m"), "100 mm", "Diameter of the rotor as a cylinder that turns in gas.")
         .positive().derived("sqrt(8 rotor.polar_inertia / rotor.mass), where they are given").when(FOLLOWED),
     Key::new("heat.rotor_area", Kind::Quantity("m^2"), "0.1 m^2", "Surface of the part of the rotor that warms with one bearing.")
-        .positive().derived("a solid steel cylinder of heat.rotor_diameter and rotor.mass, over rotor.planes: assumed").when(FOLLOWED),
+        .positive().derived("a solid steel cylinder of heat.rotor_diameter and rotor.mass, over the number of bearings: assumed").when(FOLLOWED),
     Key::new("heat.feedback", Kind::Word(Feedback::WORDS), "viscosity", "What follows the temperatures: viscosity and clearance of the bearing, viscosity alone, or nothing.")
         .default("viscosity and clearance", "a warm bearing brakes less, and one that closes brakes more").when(FOLLOWED),
     Key::new("heat.bore_diameter", Kind::Quantity("m"), "25 mm", "Bore of the bearing.").positive().catalogued().when(FOLLOWED),
@@ -74,7 +74,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("heat.film_thickness", Kind::Quantity("m"), "0.3 um", "Film between balls and races, which their heat passes; 0 of a dry bearing.")
         .not_negative().assumed("0.3 um", "usual of an oiled bearing of this size; decides inner against outer race within a factor of two").when(FOLLOWED),
     Key::new("heat.rotor_capacity", Kind::Quantity("J/K"), "1840 J/K", "Heat capacity of the part of the rotor that warms with one bearing.")
-        .positive().derived("rotor.mass over rotor.planes at 460 J/(kg K): all of it; in a spin-up and on a rig a steel shaft of the bore, four widths long, assumed").when(FOLLOWED),
+        .positive().derived("rotor.mass over the number of bearings at 460 J/(kg K): all of it; in a spin-up and on a rig a steel shaft of the bore, four widths long, assumed").when(FOLLOWED),
     Key::new("heat.housing_capacity", Kind::Quantity("J/K"), "220 J/K", "Heat capacity of the housing of one bearing.")
         .positive().derived("a ring of steel around the bearing, twice as large and as wide").when(FOLLOWED),
     Key::new("heat.rotor_contact", Kind::Quantity("W/K"), "0.15 W/K", "Conductance from rotor to inner race; on a rig and in a spin-up without a sliding rotor that of the seat on the shaft, which follows bearing.fits.shaft_interference, temperatures and speed where they are given.")

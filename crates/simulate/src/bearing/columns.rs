@@ -10,6 +10,7 @@ use model::bearing::{BearingConstants, LubricantAt, Separation};
 use model::body::BodyAt;
 use model::system::energy::Balance;
 use model::system::layout::{Entry, Layout};
+use model::system::machine::RotorMachine;
 use model::system::sampling::Row;
 use outcome::columns::{Columns, columns};
 use physics::hertz::maximum_pressure;
@@ -169,19 +170,20 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Heats and works since the start. What a part's bearing cannot make has no column.
-    pub fn flows(&mut self, layout: &Layout, bearing_of: impl Fn(&str) -> &'a BearingConstants) {
+    /// Heats and works since the start, of all rows of each bearing. What a part's bearing cannot make has no column.
+    pub fn flows(&mut self, machine: &RotorMachine, of: impl Fn(&str) -> &'a BearingConstants) {
+        let (layout, rows) = (machine.layout(), machine.ledger_rows());
         let mut add = |what: &str, entry: &Entry, channel: usize| {
             let (name, kind) = (layout.channel_name(channel), entry.kind.replace('_', " "));
-            columns! { self.columns, |row| "{name}": "J", "{what} since the start: {kind}" => row.state[channel]; }
+            columns! { self.columns, |row| "{name}": "J", "{what} since the start: {kind}" => rows[channel - layout.ledger()] * row.state[channel]; }
         };
         for (i, heat) in layout.heats().iter().enumerate() {
-            if bearing_of(&heat.part).may_make(heat.kind) {
+            if of(&heat.part).may_make(heat.kind) {
                 add("heat made", heat, layout.heat(i));
             }
         }
         for (i, source) in layout.sources().iter().enumerate() {
-            if source.kind != "inner_race_growth" || bearing_of(&source.part).grows() {
+            if source.kind != "inner_race_growth" || of(&source.part).grows() {
                 add("work put in", source, layout.source(i));
             }
         }

@@ -30,7 +30,7 @@ pub(crate) fn built(
         Moment::None | Moment::Measured { .. } => ASSUMED_VISCOSITY,
     };
     let mut losses = match &warm.moment {
-        Moment::Palmgren { .. } => Some(losses(warm, &zone, oil, 1)?),
+        Moment::Palmgren { .. } => Some(losses(warm, &zone, oil, 1.0)?),
         _ => None,
     };
     // at an angle nothing closes

@@ -69,17 +69,15 @@ impl Part {
 /// The machine of a coast-down.
 #[derive(Clone, Debug)]
 pub struct Built {
-    /// Bearings that differ.
+    /// Bearings that differ, each with the number of those that are equal to it.
     pub(crate) parts: Vec<Part>,
-    /// Equal bearings that each of them stands for.
-    pub sides: u32,
     /// What turns, kg m².
     pub inertia: f64,
     /// What brakes the rotor besides.
     pub rotor: RotorDrag,
     /// When its brake begins, s.
     pub brake_start: f64,
-    /// A load over speed and time that brakes it, as each of the equal sides carries it.
+    /// A load over speed and time that brakes it.
     pub load: Option<TorqueTables>,
     /// How it ends.
     pub end: CoastDownEnd,
@@ -199,18 +197,18 @@ impl Start {
     }
 }
 
-/// Ends a step of nodes that are held, in which so much heat reached each, J of a side: adds what was taken, J of all sides, and
-/// returns it over the step, W.
+/// Ends a step of nodes that are held, in which so much heat reached each, J of one of so many equal bearings: adds what was taken from
+/// all of them, J, and returns it over the step, W.
 pub(crate) fn hold(
     (held, temperatures): (&mut Held, &mut [f64]),
     capacities: &[f64],
     reached: &[f64],
-    (sides, time): (f64, f64),
+    (planes, time): (&[f64], f64),
     taken: &mut [f64],
 ) -> Vec<f64> {
     let mut powers = held.end(capacities, temperatures, reached);
-    for (power, taken) in powers.iter_mut().zip(taken) {
-        *power *= sides;
+    for ((power, planes), taken) in powers.iter_mut().zip(planes).zip(taken) {
+        *power *= planes;
         *taken += *power;
         *power /= time;
     }
@@ -227,7 +225,7 @@ impl Built {
         let next = later.fold(self.end.longest, f64::min);
         let changes = (self.load.as_ref()).map_or(0.0, |load| {
             let share = load.share_over_time.piece(time).slope;
-            (f64::from(self.sides) * load.over_speed.value(speed) * share).abs()
+            (load.over_speed.value(speed) * share).abs()
         });
         match changes > 0.0 {
             true => next.min(time + 0.05 * braking / changes),
@@ -239,6 +237,12 @@ impl Built {
         let knots = (self.load.iter()).flat_map(|load| load.over_speed.points());
         let lower = knots.map(|knot| knot.0).filter(|knot| *knot < speed);
         lower.fold(0.0, f64::max)
+    }
+
+    /// Equal bearings that each node stands for.
+    pub(crate) fn planes(&self) -> Vec<f64> {
+        let of = |part: &Part| [part.losses.count; NODES.len()];
+        self.parts.iter().flat_map(of).collect()
     }
 
     /// Whether a ring on a seat follows the temperatures.
@@ -260,7 +264,7 @@ impl Built {
         }
         if let Some(load) = &self.load {
             let line = load.over_speed.piece(speed.next_down());
-            let share = f64::from(self.sides) * load.share_over_time.value(time);
+            let share = load.share_over_time.value(time);
             rotor.torque -= share * line.at(0.0);
             rotor.drag -= share * line.slope;
         }
@@ -275,7 +279,7 @@ impl Built {
 /// Builds a coast-down by itself.
 pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
     let of = |own: &CoastingBearing| {
-        let mut part = part(&own.warm, own.name.clone(), run.planes)?;
+        let mut part = part(&own.warm, own.name.clone(), own.planes)?;
         let heat = &part.warm.heat;
         let clearance = heat.radial_air_clearance.unwrap_or(0.0);
         part.losses.ratio = 1.0 - clearance / (0.5 * heat.bore_diameter);
@@ -287,7 +291,6 @@ pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
         .map(|part| part.warm.heat.start_temperature - ICE_POINT);
     let start: Vec<f64> = starts.flat_map(|start| [start; NODES.len()]).collect();
     Ok(Built {
-        sides: run.planes,
         inertia: run.polar_inertia,
         rotor: RotorDrag {
             drag_square: run.windage,
@@ -305,7 +308,7 @@ pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
 }
 
 /// A bearing of a coast-down, of which there are so many.
-pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Problem>> {
+pub(crate) fn part(warm: &Warm, name: String, planes: f64) -> Result<Part, Box<Problem>> {
     let (network, zone) = network(warm)?;
     let points = &warm.viscosity_points;
     let [one, other] = [points[0], points[1]];
@@ -318,7 +321,7 @@ pub(crate) fn part(warm: &Warm, name: String, sides: u32) -> Result<Part, Box<Pr
     })?;
     Ok(Part {
         name,
-        losses: losses(warm, &zone, Some(viscosity), sides)?,
+        losses: losses(warm, &zone, Some(viscosity), planes)?,
         network,
         zone,
         load_direction: 0.0,
@@ -468,7 +471,7 @@ pub(crate) fn losses(
     run: &Warm,
     zone: &LoadZone,
     viscosity: Option<Viscosity>,
-    sides: u32,
+    planes: f64,
 ) -> Result<WarmBearings, Box<Problem>> {
     let missing = |key: &str, needed: &str| problem_at(Code::NoLawData, key, "no value", needed);
     let (
@@ -513,7 +516,7 @@ pub(crate) fn losses(
     let mut viscous = vec![0.0; NODES.len()];
     viscous[LUBRICANT] = 1.0;
     Ok(WarmBearings {
-        count: f64::from(sides),
+        count: planes,
         ratio: 1.0,
         moment,
         oil,

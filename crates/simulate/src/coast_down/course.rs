@@ -41,7 +41,7 @@ pub(super) fn follow(
     interrupt: &AtomicBool,
 ) -> Result<Course, Box<Problem>> {
     let start = &built.start;
-    let sides = f64::from(built.sides);
+    let planes = built.planes();
     let capacities = built.capacities();
     let nodes = capacities.len();
     let mut held = Held::at(limits.map_or(vec![None; nodes], <[_]>::to_vec));
@@ -93,7 +93,6 @@ pub(super) fn follow(
                 .map_err(no_network)?,
             losses: built.losses(state.time, state.speed),
             inertia: built.inertia,
-            sides,
             tolerance: built.end.tolerance,
         };
         let before = state.clone();
@@ -113,24 +112,23 @@ pub(super) fn follow(
             break End::Endless(endless);
         }
         let reached = state.at_nodes.given.iter().zip(&before.at_nodes.given);
-        let reached: Vec<f64> = reached
-            .map(|(now, before)| (now - before) / sides)
+        let reached: Vec<f64> = (reached.zip(&planes))
+            .map(|((now, before), planes)| (now - before) / planes)
             .collect();
         powers = hold(
             (&mut held, &mut state.temperatures),
             &capacities,
             &reached,
-            (sides, state.time - before.time),
+            (&planes, state.time - before.time),
             &mut taken,
         );
         rows.push(row(built, &state, &powers));
     };
     let rises = state.temperatures.iter().zip(&built.warm_from);
-    let stored = capacities.iter().zip(rises);
-    let stored = sides
-        * stored
-            .map(|(capacity, (now, before))| capacity * (now - before))
-            .sum::<f64>();
+    let stored = capacities.iter().zip(&planes).zip(rises);
+    let stored = stored
+        .map(|((capacity, planes), (now, before))| planes * capacity * (now - before))
+        .sum();
     Ok(Course {
         rows,
         state,
@@ -317,7 +315,6 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         Ok(network) => SteadySpeed {
             network,
             losses,
-            sides: f64::from(built.sides),
             speed: state.speed,
             tolerance: 1.0,
         }

@@ -189,7 +189,7 @@ impl Ran<'_> {
     fn heats(&self, part: &Part, node: NodeOf) -> [f64; 3] {
         let state = &self.free.state;
         let rise = state.temperatures[node.place()] - self.built.warm_from[node.place()];
-        let kept = f64::from(self.built.sides) * part.network.capacities[node.node] * rise;
+        let kept = part.losses.count * part.network.capacities[node.node] * rise;
         let [made, given] = [&state.at_nodes.made, &state.at_nodes.given];
         [made[node.place()], kept, given[node.place()]]
     }

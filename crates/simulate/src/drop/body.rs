@@ -27,7 +27,7 @@ pub struct Shaft {
     pub model: RotorModel,
     /// Nodes of the auxiliary bearings, in their order.
     pub nodes: Vec<usize>,
-    /// Shares of its weight by statics: of a rigid rotor on bearings that are equally stiff. Negative where one lifts.
+    /// Shares of its weight on one row of each by statics: of a rigid rotor on rows that are equally stiff. Negative where one lifts.
     pub shares: Vec<f64>,
 }
 
@@ -68,15 +68,15 @@ impl Drop {
         this.loaded()
     }
 
-    /// What an auxiliary bearing carries of the rotor's weight.
+    /// What one row of an auxiliary bearing carries of the rotor's weight.
     pub fn share(&self, bearing: usize) -> f64 {
         match &self.shaft {
             Some(shaft) => shaft.shares[bearing].abs(),
-            None => self.equal_share(),
+            None => 1.0 / self.rows(),
         }
     }
 
-    /// Weight of the rotor on an auxiliary bearing, N.
+    /// Weight of the rotor on one row of an auxiliary bearing, N.
     pub fn weight(&self, bearing: usize) -> f64 {
         self.body.mass * self.gravity.acceleration * self.share(bearing)
     }
@@ -109,7 +109,7 @@ impl Shaft {
         let nodes: Vec<usize> = nodes.collect();
         lands(drop, &nodes, &model)?;
         Ok(Shaft {
-            shares: shares(&model, &nodes),
+            shares: shares(&model, &nodes, drop),
             given: given.clone(),
             model,
             nodes,
@@ -155,12 +155,16 @@ fn conflict(bearing: &str, key: &str, found: &str, needed: &str) -> Box<Problem>
     problem_at(Code::Conflict, path_of(of, key), found, needed)
 }
 
-/// Shares of the weight: 1/n and what balances the moment about the middle of the bearings.
-fn shares(model: &RotorModel, nodes: &[usize]) -> Vec<f64> {
+/// Shares of the weight: 1/n and what balances the moment about the middle of the rows.
+fn shares(model: &RotorModel, nodes: &[usize], drop: &scenario::Drop) -> Vec<f64> {
     let places: Vec<f64> = nodes.iter().map(|node| model.rotor.nodes[*node]).collect();
-    let count = places.len() as f64;
-    let middle = places.iter().sum::<f64>() / count;
-    let spread: f64 = places.iter().map(|z| (z - middle).powi(2)).sum();
+    let over_rows = |of: &dyn Fn(f64) -> f64| -> f64 {
+        let each = drop.auxiliary_bearings.iter().zip(&places);
+        each.map(|(part, z)| part.planes * of(*z)).sum()
+    };
+    let count = drop.rows();
+    let middle = over_rows(&|z| z) / count;
+    let spread = over_rows(&|z| (z - middle).powi(2));
     let lever = properties(&model.rotor).centre - middle;
     places
         .iter()

@@ -39,11 +39,11 @@ pub struct Built {
 pub struct BuiltBearing {
     /// Hertz pressure in the contacts of a ball.
     pub pressure_factors: PressureFactors,
-    /// What traction can carry at full speed under its share of the rotor's weight; none without a steady moment.
+    /// What traction can carry at full speed under the weight on it; none without a steady moment.
     pub steady: Option<SteadyFinding>,
 }
 
-/// Builds the constants of a drop: identical planes share the rotor equally, so that one of them is computed.
+/// Builds the constants of a drop.
 pub fn drop(given: &scenario::Drop) -> Result<Built, Box<Problem>> {
     built(Drop::of(given)?)
 }
@@ -181,6 +181,7 @@ fn around(
     AuxiliaryBearingConstants {
         name: part.name.clone(),
         node: vec![1.0],
+        planes: part.planes,
         datum: Vec2::zero(),
         contact: JournalContact {
             radial_clearance: contact.radial_air_clearance,
@@ -217,15 +218,12 @@ fn constants(
     bearings: Vec<AuxiliaryBearingConstants>,
     magnets: Option<MagnetsConstants>,
 ) -> MachineConstants {
-    // of planes that are alike one is computed, with its share of the rotor; bearings with names carry the whole of it
-    let share = 1.0 / f64::from(drop.rotor.planes);
-    let each = bearings.len() as f64;
     let gravity = gravity(drop);
-    let mass = drop.body.mass * share;
+    let mass = drop.body.mass;
     // the brake follows the release
     let released = magnets.as_ref().map_or(0.0, |own| own.lost);
     let (brake_torque, brake_start) = match drop.rotor.spin {
-        Spin::Braked { torque, start } => (torque * share, start + released),
+        Spin::Braked { torque, start } => (torque, start + released),
         Spin::Free | Spin::Held => (0.0, f64::INFINITY),
     };
     let torque = torque::tables(drop);
@@ -236,14 +234,14 @@ fn constants(
             spin_held: drop.rotor.spin == Spin::Held,
             ..RotorConstants::point(
                 mass,
-                drop.body.polar_inertia * share,
+                drop.body.polar_inertia,
                 drop.body.unbalance_eccentricity,
             )
         },
-        // a magnetic bearing stands beside each auxiliary one
+        // a magnetic bearing stands beside each row of the auxiliary ones
         levitation: Levitation {
-            stiffness: drop.levitation.stiffness * each,
-            damping: drop.levitation.damping * each,
+            stiffness: drop.levitation.stiffness * drop.rows(),
+            damping: drop.levitation.damping * drop.rows(),
             centre: Vec2::new(drop.levitation.offset_x, drop.levitation.offset_y),
             carried: -(gravity * mass),
         },

@@ -28,11 +28,15 @@ pub(crate) fn history(setup: Setup, run: Option<&Context>) -> Vec<Column> {
     columns.extend(shaft_results::columns(setup, &runs[0]));
     columns.extend(magnets::columns(setup, &runs[0]));
     let mut table = Table::over(&runs[0]);
-    table.flows(machine.layout(), |part| {
+    table.flows(machine, |part| {
         let k = setup.parts().position(|name| name == part);
         runs[k.unwrap_or(0)].bearing
     });
     table.energies(|row| run.map(|run| run.finished.balance(row.time, row.content, row.state)));
+    // of equal planes of the whole rotor those of one
+    let planes = f64::from(setup.drop().rotor.planes);
+    let values = |column: &mut Column| column.values.iter_mut().for_each(|value| *value /= planes);
+    table.columns.list.iter_mut().for_each(values);
     columns.extend(table.columns.list);
     columns
 }

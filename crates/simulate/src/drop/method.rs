@@ -67,7 +67,8 @@ fn stiffest(built: &Built) -> f64 {
 /// λ/ω of an auxiliary bearing in a first impact.
 fn stiffness(built: &Built, part: &AuxiliaryBearingConstants, bearing: &PlanarConstants) -> f64 {
     let fall = 2.0 * built.drop.gravity.acceleration * part.contact.radial_clearance;
-    let force = (fall * part.mount.stiffness * built.constants.rotor.mass()).sqrt();
+    let mass = built.constants.rotor.mass() / part.planes;
+    let force = (fall * part.mount.stiffness * mass).sqrt();
     let load = 5.0 * force / bearing.balls as f64;
     let ball = &bearing.ball;
     let slope = bearing.traction.slope_at_rest(load, 0.0);

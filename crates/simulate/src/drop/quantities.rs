@@ -12,7 +12,7 @@ use crate::drop::{magnets, mount_results, shaft_results, surfaces};
 use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
-use model::system::energy::Content;
+use model::system::energy::{Content, Flows};
 use model::system::machine::record::BearingRecord;
 use outcome::Quantity;
 use outcome::list::results;
@@ -220,28 +220,32 @@ results! {
     fn energies(setup: &Setup, run: &Context) {
         "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
         "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
-        "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => setup.drop().rotor.planes as f64 * run.heat();
+        "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => run.planes() * run.heat();
         "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" when Following::of(setup.drop()).is_some() => {
-            run.finished.work_of_rings()
+            run.finished.work_of_rings() / run.planes()
         };
-        "work_of_sources": number "J", BALANCE, "work of sources" => run.finished.whole_balance().end.1.work - run.finished.whole_balance().start.1.work;
-        "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|content| content.translation + content.spin);
-        "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|content| content.potential);
-        "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.finished.whole_balance().energy_residual();
+        "work_of_sources": number "J", BALANCE, "work of sources" => run.change(|(_, flows)| flows.work);
+        "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|(content, _)| content.translation + content.spin);
+        "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|(content, _)| content.potential);
+        "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.finished.whole_balance().energy_residual() / run.planes();
         "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in machine_tile "Energy residual" in bound "AB1006" => residuals(run).0;
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
     }
 }
 
 impl Context<'_> {
+    /// Equal planes of a rotor whose bearings have no names: energies are those of one.
+    fn planes(&self) -> f64 {
+        f64::from(self.setup.drop().rotor.planes)
+    }
     /// Heat of all losses, J.
     fn heat(&self) -> f64 {
-        self.setup.machine.flows(&self.finished.ending.state).heat
+        self.setup.machine.flows(&self.finished.ending.state).heat / self.planes()
     }
     /// Change of an energy over the run, J.
-    fn change(&self, of: fn(Content) -> f64) -> f64 {
+    fn change(&self, of: fn((Content, Flows)) -> f64) -> f64 {
         let balance = self.finished.whole_balance();
-        of(balance.end.0) - of(balance.start.0)
+        (of(balance.end) - of(balance.start)) / self.planes()
     }
 }
 
@@ -266,7 +270,7 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
     };
     let constants = &machine.constants;
     let inertia: f64 = (constants.bearings.iter())
-        .map(|part| part.inner_race.inertia)
+        .map(|part| part.planes * part.inner_race.inertia)
         .sum();
     let at = machine.layout().rotor.spin();
     let ended = context.finished.ending.state[at];
@@ -336,11 +340,11 @@ origins! {
         valid "a rotor that bends may whirl backward where a rigid one does not: system = \"machine\"";
     ENERGY: law "time integral of friction force times sliding speed, and of every other loss",
         source LEDGER,
-        valid "heat of what is simulated: of identical planes that of one; nothing is cooled or warmed by it";
+        valid "heat of what is simulated: of rotor.planes that of one, of a bearing with planes that of one row under its name and that of all in dissipated_energy; nothing is cooled or warmed by it";
     BALANCE: law "work_of_sources = kinetic_energy_change + potential_energy_change + dissipated_energy + energy_balance_residual",
         source LEDGER,
-        valid "rotor and all bearings that are computed, over the whole run; sources below zero take energy out; of identical planes that of one";
-    ALL_BEARINGS: law "dissipated_energy times rotor.planes: of bearings computed one by one it is their sum already",
+        valid "rotor and all bearings with all their rows, over the whole run; sources below zero take energy out; of rotor.planes that of one";
+    ALL_BEARINGS: law "dissipated_energy times rotor.planes: of bearings with names it is the sum of all their rows already",
         source LEDGER,
         valid "heat of bearings, mounts and landing surfaces; nothing is cooled or warmed by it";
     LOAD: law "largest size of the sum of all ball forces on the outer race, at the steps and near the largest ball load between them",

@@ -8,13 +8,12 @@ use model::schedule::Schedule;
 use model::system::machine::Event;
 use model::table::Table;
 
-/// Torque of the rotor's drive or load over speed and time, for one of its planes.
+/// Torque of the rotor's drive or load over speed and time.
 pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
-    let share = 1.0 / f64::from(drop.rotor.planes);
     let over_speed = &drop.rotor.torque_over_speed;
     let over_time = &drop.rotor.torque_share_over_time;
     (!over_speed.is_empty()).then(|| TorqueTables {
-        over_speed: table(over_speed, share),
+        over_speed: table(over_speed, 1.0),
         share_over_time: match over_time.is_empty() {
             true => Table::constant(1.0),
             false => table(over_time, 1.0),

@@ -79,7 +79,7 @@ pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Co
     let rolls = matches!(of.bearing, BearingConstants::Rolling(_));
     columns! { table.columns, |row| "bearing.cage.angle": "rad", "angle of the cage" when rolls => row.state[CAGE_ANGLE]; }
     table.bearing();
-    table.flows(layout, |_| of.bearing);
+    table.flows(machine, |_| of.bearing);
     table.outer_race_works("shaft", "shaft", layout);
     table.energies(|row| run.map(|run| run.balance(row.time, row.content, row.state)));
     warm::columns(heated, warmth, &mut table);

@@ -44,7 +44,7 @@ pub(crate) fn history(spin_up: &SpinUp, built: &Built, run: Option<&Context>) ->
         "bearing.outer_race.largest_ball_load": "N", "largest ball load at the outer race" => row.probe[LARGEST_OUTER_LOAD];
     }
     table.bearing();
-    table.flows(layout, |_| of.bearing);
+    table.flows(&built.machine, |_| of.bearing);
     table.outer_race_works("inner race", "race", layout);
     table.energies(|row| run.map(|run| run.balance(row.time, row.content, row.state)));
     let followed = run.and_then(|run| run.followed());

@@ -39,7 +39,6 @@ fn machine(
             ],
         },
         inertia: within(inputs, "inertia", 1e-9, 1e9)?,
-        sides: SIDES,
         tolerance,
     })
 }

@@ -58,7 +58,6 @@ fn machine(inputs: &Value, names: &[&str]) -> Result<SteadySpeed<WarmBearings>, 
                 warm::shares(inputs, "share_M1", names)?,
             ],
         },
-        sides: 1.0,
         speed: within(inputs, "speed", 0.0, 1e6)?,
         tolerance: STEP_ERROR,
     })

@@ -12,7 +12,7 @@ use number::Vec2;
 /// Constants of one machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineConstants {
-    /// The rotor, or its share of one of several equal bearings; on a rig what drives the race.
+    /// The whole rotor; on a rig what drives the race.
     pub rotor: RotorConstants,
     /// Levitation of a point rotor, active before release only.
     pub levitation: Levitation<f64>,

@@ -239,12 +239,13 @@ impl Layout {
             let of_mount = &mut scale[at.of_mount()];
             (part.mount_parts).error_scale(of_mount, 0.01 * clearance, 0.3 * fall_speed);
             let inertia = part.inner_race.inertia;
-            let turned = 0.5 * inertia * spin * spin + 0.5 * mass * fall_speed * fall_speed;
+            let of_row = mass / part.planes;
+            let turned = 0.5 * inertia * spin * spin + 0.5 * of_row * fall_speed * fall_speed;
             let heats = self.heat(at.heat)..self.heat(at.heat + HEATS);
             scale[heats].fill(turned);
             scale[self.source(at.source)..self.source(at.source + 2)].fill(turned);
-            energy = energy.min(turned);
-            impulse = impulse.min(inertia * spin);
+            energy = energy.min(turned * part.planes);
+            impulse = impulse.min(inertia * spin * part.planes);
         }
         scale[self.source(0)..self.source(ROTOR_SOURCES.len())].fill(energy);
         let own = self.of_rotor;

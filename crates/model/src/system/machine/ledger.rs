@@ -1,6 +1,7 @@
 //! Energies and angular momentum of a machine, and what must close.
 //!
-//! At all times: works of the sources = change of (kinetic + potential) + heats, and
+//! At all times, with n times what a bearing of n equal rows stores, loses and puts in:
+//! works of the sources = change of (kinetic + potential) + heats, and
 //! change of angular momentum about the origin = external angular impulse. On a rig it closes for balls and cage alone as well,
 //!
 //! ```text
@@ -9,6 +10,7 @@
 //! and the temperatures count apart: C ΔT + C_f ΔΘ = heats of the bearing - ∫G T dt.
 
 use super::{Mode, RotorMachine};
+use crate::auxiliary_bearing::{HEATS, SOURCES};
 use crate::bearing::BearingEnergy;
 use crate::mount::MountReaction;
 use crate::system::energy::{Balance, Content, Flows};
@@ -16,8 +18,8 @@ use number::Vec2;
 use solve::Machine;
 
 impl RotorMachine {
-    /// Energies and angular momentum at a state: of the rotor about the origin, of each bearing about its datum. Levitation,
-    /// magnets and seals are sources: they store nothing.
+    /// Energies and angular momentum at a state: of the rotor about the origin, of each bearing about its datum, of all its
+    /// rows. Levitation, magnets and seals are sources: they store nothing.
     pub fn content(&self, state: &[f64]) -> Content {
         let c = &self.constants;
         let motion = self.layout().rotor.motion(state);
@@ -35,42 +37,56 @@ impl RotorMachine {
             let races = at.motion(state);
             let (inner, outer) = (&races.inner, &races.outer);
             let (race, outer_mass) = (&part.inner_race, part.outer_moving_mass());
+            let planes = part.planes;
             let centre = self.one.nodes[k].centre(&motion);
             let contact = part.contact.react(&centre, motion.spin, inner);
             let bearing = part.bearing.energy(&races, &state[at.own()]);
-            content.translation += half_square(race.mass, inner.velocity);
-            content.translation += half_square(outer_mass, outer.velocity);
-            content.translation += bearing.translation;
-            content.spin += 0.5 * race.inertia * inner.spin * inner.spin;
-            content.spin += bearing.spin;
-            content.potential += part.contact.energy(&contact);
+            content.translation += planes * half_square(race.mass, inner.velocity);
+            content.translation += planes * half_square(outer_mass, outer.velocity);
+            content.translation += planes * bearing.translation;
+            content.spin += planes * 0.5 * race.inertia * inner.spin * inner.spin;
+            content.spin += planes * bearing.spin;
+            content.potential += planes * part.contact.energy(&contact);
             let mount = &self.one.bearings[k].mount;
             let [potential, kinetic] = mount.energy(outer.position, &state[at.of_mount()]);
-            content.potential += potential;
-            content.translation += kinetic;
+            content.potential += planes * potential;
+            content.translation += planes * kinetic;
             if k == 0 {
                 content.potential += rotor.weight + rotor.elastic;
             }
             if !race.centre_held {
-                content.potential += weight(race.mass, inner.position);
+                content.potential += planes * weight(race.mass, inner.position);
             }
             // what moves with the housing of a rig is part of its load, whose work counts
             if part.fixture.is_none() {
-                content.potential += weight(outer_mass, outer.position);
+                content.potential += planes * weight(outer_mass, outer.position);
             }
-            content.potential += bearing.elastic;
-            content.potential += bearing.weight;
-            content.angular_momentum += race.mass * inner.position.cross(inner.velocity);
-            content.angular_momentum += race.inertia * inner.spin;
-            content.angular_momentum += outer_mass * outer.position.cross(outer.velocity);
-            content.angular_momentum += bearing.angular_momentum;
+            content.potential += planes * bearing.elastic;
+            content.potential += planes * bearing.weight;
+            content.angular_momentum += planes * race.mass * inner.position.cross(inner.velocity);
+            content.angular_momentum += planes * race.inertia * inner.spin;
+            content.angular_momentum += planes * outer_mass * outer.position.cross(outer.velocity);
+            content.angular_momentum += planes * bearing.angular_momentum;
         }
         content
     }
 
-    /// What the ledger channels of a state have summed up.
+    /// What the ledger channels of a state have summed up, of all rows of each bearing.
     pub fn flows(&self, state: &[f64]) -> Flows {
-        Flows::of(&state[self.layout().flows()], self.layout().heats().len())
+        let channels = state[self.layout().flows()].iter().zip(self.ledger_rows());
+        let channels: Vec<f64> = channels.map(|(value, rows)| rows * value).collect();
+        Flows::of(&channels, self.layout().heats().len())
+    }
+    /// How many rows each channel of the ledger's flows stands for: those of its bearing.
+    pub fn ledger_rows(&self) -> Vec<f64> {
+        let layout = self.layout();
+        let mut rows = vec![1.0; layout.flows().len()];
+        for (at, part) in layout.bearings.iter().zip(&self.constants.bearings) {
+            let source = layout.heats().len() + at.source;
+            let own = (at.heat..at.heat + HEATS).chain(source..source + SOURCES.len());
+            own.for_each(|channel| rows[channel] = part.planes);
+        }
+        rows
     }
     /// What must close between two states.
     pub fn balance(&self, start: &[f64], end: &[f64]) -> Balance {

@@ -22,8 +22,8 @@
 //! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
 //!
 //! The rotor is a part too: [`rotor`](crate::rotor). Each bearing meets it at a node of its own and counts its coordinates from
-//! a datum of its own. On a point rotor all see the same motion; equal bearings there may be computed as one that carries its
-//! share of the rotor's mass, polar inertia and torques.
+//! a datum of its own. On a point rotor all see the same motion. Equal rows at one node are computed once: rotor and ledger count
+//! their bearing [`planes`](crate::auxiliary_bearing::AuxiliaryBearingConstants::planes) times.
 //!
 //! On a [`rig`](super::rig) one bearing stands in a fixture, and the rotor only turns.
 

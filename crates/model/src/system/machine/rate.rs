@@ -92,9 +92,9 @@ impl<R: Real> Machines<R> {
         let mut kept: [Option<AtNode<'_, R>>; KEPT] = [None; KEPT];
         for (k, node) in self.nodes.iter().enumerate() {
             let there = self.at_node(k, state, &rotor, acting);
-            let on_journal = &there.contact.on_journal;
-            node.push(on_journal.force, [&mut *force_x, &mut *force_y]);
-            moment += on_journal.moment;
+            let (on_journal, planes) = (&there.contact.on_journal, self.bearings[k].planes);
+            node.push(on_journal.force * planes, [&mut *force_x, &mut *force_y]);
+            moment += on_journal.moment * planes;
             if k < KEPT {
                 kept[k] = Some(there);
             }
@@ -198,16 +198,16 @@ impl<R: Real> Machines<R> {
                 },
             );
             for moment in external.weights {
-                impulse += moment;
+                impulse += moment * part.planes;
             }
             if k == 0 {
                 impulse += held_at;
                 impulse += torques.driving;
             }
             for moment in external.others {
-                impulse += moment;
+                impulse += moment * part.planes;
             }
-            impulse += node.datum.cross(there.contact.on_journal.force);
+            impulse += node.datum.cross(there.contact.on_journal.force) * part.planes;
         }
         rate[layout.angular_impulse()] = impulse + (pulled + shaft.external - torques.drag);
     }

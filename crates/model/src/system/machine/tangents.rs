@@ -5,6 +5,7 @@
 //!
 //!   border   rotor: see rotor_rows, then L u_ω; of each auxiliary bearing u_ẋi, u_ẏi, R_i u_ωi, u_ẋo, u_ẏo, R_p u_ωc
 //!            G m on its diagonal, c* of the mount; six rows of each bearing from its balls: bearing::tangents
+//!            of n equal rows every term counts n times
 //!   rotor/race   normal     c* w wᵀ, w = (n, n·arm⊥/L, -n, 0)          n turns with the unbalance, by the known R_φ/G
 //!                friction   τ w wᵀ,  w = (-t, -(a_j + arm × t)/L, t, a_i/R_i),  τ = N ∂μ/∂u
 //! ```
@@ -177,10 +178,11 @@ impl<R: Real> Machines<R> {
                 t.y,
                 tangent.bore_arm * inverse_inner_radius,
             ],
-            stiffness: tangent.stiffness,
-            damping: tangent.damping,
-            friction: tangent.friction,
-            turn: tangent.stiffness * around - tangent.damping * rotor.spin * n.dot(centre.arm),
+            stiffness: tangent.stiffness * part.planes,
+            damping: tangent.damping * part.planes,
+            friction: tangent.friction * part.planes,
+            turn: (tangent.stiffness * around - tangent.damping * rotor.spin * n.dot(centre.arm))
+                * part.planes,
             heats: [
                 two * tangent.damping * reaction.penetration_speed,
                 reaction.friction_force + tangent.friction * reaction.slip_speed,
@@ -260,7 +262,12 @@ impl<R: Real> Tangents<R> for Machines<R> {
             let own = rows.of_bearing(k);
             let (auxiliary, planar) = (&self.bearings[k], self.planar(k));
             let entries = planar.factor(&mut part.balls, [g, inverse_g]);
-            add_bearing(border, n, own, &entries);
+            add_bearing(
+                border,
+                n,
+                own,
+                &entries.map(|entry| entry * auxiliary.planes),
+            );
             let race = &auxiliary.inner_race;
             let scales = planar.border();
             let mount =
@@ -275,7 +282,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
                 g * scales.cage_inertia * scales.cage_radius[1].square(),
             ];
             for (row, mass) in masses.into_iter().enumerate() {
-                border[(own + row) * (n + 1)] += mass;
+                border[(own + row) * (n + 1)] += mass * auxiliary.planes;
             }
             let contact = &part.contact;
             if contact.touches {
@@ -348,7 +355,7 @@ impl<R: Real> Tangents<R> for Machines<R> {
                 scales.cage_inertia * side[at.bearing + 1] * scales.cage_radius[1],
             ];
             for row in 0..ROWS {
-                of_border[rows.of_bearing(k) + row] = own[row] + of_balls[row];
+                of_border[rows.of_bearing(k) + row] = (own[row] + of_balls[row]) * auxiliary.planes;
             }
             let contact = &part.contact;
             if contact.touches && auxiliary.fixture.is_none() {

@@ -115,6 +115,7 @@ impl RigConstants {
             bearings: vec![AuxiliaryBearingConstants {
                 name: String::new(),
                 node: Vec::new(),
+                planes: 1.0,
                 datum: Vec2::zero(),
                 contact: bore,
                 inner_race: race,

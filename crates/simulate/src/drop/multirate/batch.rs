@@ -19,6 +19,8 @@ use thermal::warm_machine::{Followed, InMotion};
 /// What a batch found of a bearing; means over its time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bearing {
+    /// Equal rows that it stands for; all else is that of one of them.
+    pub planes: f64,
     /// Power of its steady moment, and of its other losses, W.
     pub steady: f64,
     pub other: f64,
@@ -59,13 +61,13 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// Power of the bearings, and of their laws, W.
-    fn powers(&self) -> [f64; 2] {
+    /// Power of the bearings with all their rows, and of their laws, W.
+    pub fn powers(&self) -> [f64; 2] {
         let bearings = self.bearings.iter();
         bearings.fold([0.0; 2], |[own, law], bearing| {
             [
-                own + bearing.steady + bearing.other,
-                law + bearing.laws.iter().sum::<f64>(),
+                own + bearing.planes * (bearing.steady + bearing.other),
+                law + bearing.planes * bearing.laws.iter().sum::<f64>(),
             ]
         })
     }
@@ -212,6 +214,7 @@ fn mean(batches: &[&Batch]) -> Batch {
             each.fold(0.0, f64::max)
         };
         Bearing {
+            planes: batches[0].bearings[k].planes,
             steady: mean(|own| own.steady),
             other: mean(|own| own.other),
             laws: [mean(|own| own.laws[0]), mean(|own| own.laws[1])],
@@ -242,7 +245,6 @@ fn mean(batches: &[&Batch]) -> Batch {
 
 /// What mean powers say beside the laws at their speed and temperatures, and what heats the nodes besides, W.
 fn beside_laws(built: &Built, mean: &Batch) -> (Followed, Vec<f64>) {
-    let sides = f64::from(built.sides);
     let mut beside = Vec::new();
     let mut bearings = Vec::new();
     for (part, own) in built.parts.iter().zip(&mean.bearings) {
@@ -257,7 +259,7 @@ fn beside_laws(built: &Built, mean: &Batch) -> (Followed, Vec<f64>) {
         let factor = |taken: f64, law: f64| if law > 0.0 { taken / law } else { 0.0 };
         bearings.push(InMotion {
             factors: [factor(first, own.laws[0]), factor(second, own.laws[1])],
-            beside: sides * (own.steady - first - second + own.other) / mean.speed,
+            beside: own.planes * (own.steady - first - second + own.other) / mean.speed,
             spin: own.spin,
             landing: own.landing,
         });
@@ -265,7 +267,7 @@ fn beside_laws(built: &Built, mean: &Batch) -> (Followed, Vec<f64>) {
     let followed = Followed {
         speed: mean.speed,
         bearings,
-        rotor: sides * mean.rotor / mean.speed,
+        rotor: mean.rotor / mean.speed,
     };
     (followed, beside)
 }

@@ -419,9 +419,10 @@ impl Piece<'_> {
             false => 0.0,
         };
         Bearing {
+            planes: own.planes,
             steady,
             other: heats.iter().sum::<f64>() - steady,
-            laws: laws.map(|moment| moment * self.speed / f64::from(built.sides)),
+            laws: laws.map(|moment| moment * self.speed / own.planes),
             nodes,
             friction: self.power(at.rotor_race_friction()),
             sliding: (now.distance - mark.distance) / self.span,

@@ -50,7 +50,7 @@ pub(super) fn modes(context: &Context, motion: &Motion) -> Vec<Mode> {
         },
     ];
     for (k, own) in context.setup.machine.constants.bearings.iter().enumerate() {
-        // the weight is that of one of the planes
+        // the weight is that on one row
         let mass = drop.weight(k) / drop.gravity.acceleration + own.outer_moving_mass();
         let mount = &own.mount;
         list.push(Mode {
@@ -172,17 +172,14 @@ pub(super) struct Limits {
 impl Limits {
     pub fn of(built: &Built, now: &Observation) -> Self {
         let start = &built.start;
-        let sides = f64::from(built.sides);
         let braked = built
             .losses(start.time, start.speed)
             .rotor
             .moment(start.speed)
             + now.followed.rotor;
-        let bearings = now.mean.bearings.iter();
-        let own = bearings.map(|own| own.steady + own.other).sum::<f64>() * sides / start.speed;
-        let moment = own + braked;
+        let moment = now.mean.powers()[0] / start.speed + braked;
         let rest = built.inertia * start.speed / moment;
-        let error = now.relative_error(braked * start.speed / sides);
+        let error = now.relative_error(braked * start.speed);
         let uncertain = built.end.tolerance * (start.time + rest) / error;
         Limits {
             moment,

@@ -96,7 +96,7 @@ pub(super) fn step(
     let time = built.start.time - begin.0;
     let bearings = from.mean.bearings.iter().zip(&to.mean.bearings);
     let rubbed = bearings.map(|(from, to)| Rubbed {
-        heat: 0.5 * time * f64::from(built.sides) * (from.friction + to.friction),
+        heat: 0.5 * time * from.planes * (from.friction + to.friction),
         distance: 0.5 * time * (from.sliding + to.sliding),
         work: 0.5 * time * (from.rubbing + to.rubbing),
     });

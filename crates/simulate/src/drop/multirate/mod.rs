@@ -350,7 +350,7 @@ impl<'a> Multirate<'a> {
         let slips = |row: &Row| {
             let mut parts = built.parts.iter().enumerate();
             parts.any(|(k, part)| {
-                let moment = row.bearings[k].moment / f64::from(built.sides);
+                let moment = row.bearings[k].moment / part.losses.count;
                 moment > leap::TRANSMITS * self.transmitted(k, part, row)
             })
         };

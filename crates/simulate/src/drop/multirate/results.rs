@@ -167,9 +167,8 @@ fn parts(setup: Setup) -> Result<Vec<Part>, String> {
     let of_bearing = |(k, name): (usize, &str)| {
         let given = setup.given(k);
         let warm = given.warm.as_deref().ok_or(NOT_FOLLOWED)?;
-        let sides = setup.drop().rotor.planes;
-        let mut one = part(warm, name.to_string(), sides).map_err(|problem| problem.found)?;
         let constants = &setup.machine.constants.bearings[k];
+        let mut one = part(warm, name.to_string(), constants.planes).map_err(|why| why.found)?;
         let contact = &constants.contact;
         if let Some(warm) = &constants.warm {
             one.network.clone_from(&warm.network);
@@ -189,8 +188,6 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
     let (drop, machine) = (context.setup.drop(), context.setup.machine);
     let ending = &context.finished.ending;
     let rotor = &machine.constants.rotor;
-    let sides = drop.rotor.planes;
-    let whole = f64::from(sides);
     let parts = parts(context.setup)?;
     let mut temperatures: Vec<f64> = Vec::new();
     let (mut held, mut at_limits) = (Vec::new(), Vec::new());
@@ -214,20 +211,19 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
     let content = machine.content(&ending.state);
     let kinetic = content.translation + content.spin;
     let (speed, inertia) = match goes_on && spin > 0.0 {
-        true => (spin, whole * 2.0 * kinetic / (spin * spin)),
+        true => (spin, 2.0 * kinetic / (spin * spin)),
         false => (drop.rotor.speed.abs(), drop.body.polar_inertia),
     };
     let bearings = parts.len();
     Ok(Built {
         parts,
-        sides,
         inertia,
         energy: 0.5 * inertia * speed * speed,
         warm_from: temperatures.clone(),
         rotor: RotorDrag {
-            torque: whole * rotor.brake_torque,
-            drag: whole * rotor.drag,
-            drag_square: whole * rotor.drag_square,
+            torque: rotor.brake_torque,
+            drag: rotor.drag,
+            drag_square: rotor.drag_square,
         },
         brake_start: match drop.rotor.spin {
             scenario::Spin::Braked { start, .. } => start,
