@@ -108,6 +108,8 @@ fn a_weak_drive_hangs_at_a_critical_speed_and_a_strong_one_runs_through() {
         let sets = [
             "rotor.speed=460 rad/s".to_string(),
             "run.accuracy=screening".to_string(),
+            // what linearly implicit steps lose in a second of whirl is above the bound below
+            "run.method=explicit".to_string(),
             format!("rotor.drive_torque={torque} N m"),
             format!("run.duration={seconds} s"),
         ];

@@ -229,7 +229,7 @@ impl Fit {
         (sum / table.rows.len() as f64).sqrt()
     }
 
-    /// Lines for the section [mount] of a scenario, with seven digits.
+    /// Lines for the section `mount` of a scenario, with seven digits.
     pub fn lines(&self) -> String {
         let list = |unit: &str, of: fn(&MaxwellBranch<f64>) -> f64| {
             let text = |own: &MaxwellBranch<f64>| format!("\"{:.6e} {unit}\"", of(own));
