@@ -95,6 +95,7 @@ fn tables_that_are_none_are_refused_with_line_and_column() {
         (format!("{head}1,2,3\n1,5,1\n"), "3", "frequency"),
         (format!("{head}2,2,3\n1,5,1\n"), "3", "frequency"),
         (format!("{head}1,x,3\n"), "2", "storage"),
+        (format!("{head}1,5,1\n2,0,0\n3,5,1\n"), "3", "storage"),
         (format!("{head}1,2,3\n1000,5,1\n"), "1", "frequency"),
     ];
     for (text, line, key) in cases {
@@ -106,6 +107,28 @@ fn tables_that_are_none_are_refused_with_line_and_column() {
         );
         assert_eq!(problem.key.as_deref(), Some(key));
     }
+}
+
+/// One Maxwell branch has no static stiffness, which a mount of a scenario must have.
+#[test]
+fn a_table_without_static_stiffness_gives_no_lines() {
+    let row = |k: i32| {
+        let frequency = 10f64.powf(0.25 * f64::from(k));
+        let x = frequency / 100.0;
+        let loss = 1e6 * x / (1.0 + x * x);
+        format!("{frequency:e},{:e},{loss:e}\n", x * loss)
+    };
+    let rows: String = (0..13).map(row).collect();
+    let head = "frequency [rad/s], storage [N/m], loss [N/m]\n";
+    let table = MeasuredStiffness::parse(&format!("{head}{rows}"), "table.csv").unwrap();
+    let fit = Fit::of(&table);
+    assert!(fit.worst(&table) < 1e-6);
+    assert!(fit.stiffness > 0.0 || fit.lines().is_err());
+    let soft = Fit {
+        stiffness: 0.0,
+        ..fit
+    };
+    assert!(soft.lines().unwrap_err().contains("no static stiffness"));
 }
 
 #[test]

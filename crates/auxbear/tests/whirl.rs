@@ -100,3 +100,41 @@ fn what_the_analysis_leaves_out_is_named() {
             .all(|own| !own.name.starts_with("whirl."))
     );
 }
+
+/// Two rows whirl as one of twice the stiffness, damping, mass and contact: each with half of its force.
+#[test]
+fn two_rows_whirl_as_one_of_twice_the_mount() {
+    let to = "analysis.whirl_to=3000 rad/s";
+    let rows = analysed(WHIRLS, &[to, "planes=2"]);
+    let twice = [
+        to,
+        "mount.stiffness=2e7 N/m",
+        "mount.damping=1000 N s/m",
+        "mount.moving_mass=1 kg",
+        "contact.stiffness=1e9 N/m^(10/9)",
+    ];
+    let one = analysed(WHIRLS, &twice);
+    for (name, share) in [
+        ("needed_friction", 1.0),
+        ("settling_frequency", 1.0),
+        ("settling_force", 0.5),
+    ] {
+        let name = format!("whirl.drive_end.{name}");
+        let [ours, expected] = [&rows, &one].map(|own| number(own, &name));
+        assert!((ours / (share * expected) - 1.0).abs() < 1e-6, "{name}");
+    }
+}
+
+/// More damping than helps locks the mount: the range that prevents whirl lies below what the mount has, and the warning says both.
+#[test]
+fn too_much_damping_is_told_as_such() {
+    let locked = ["mount.stiffness=8e5 N/m", "mount.damping=6e4 N s/m"];
+    let found = analysed(WHIRLS, &locked);
+    let most = number(&found, "whirl.drive_end.largest_damping");
+    assert!((2e3..2e4).contains(&most), "{most}");
+    let told = found.warnings.iter().find(|own| own.code == "AB2044");
+    let text = told.unwrap().text.clone();
+    assert!(text.contains("the mount has 6.000e4 N s/m"), "{text}");
+    // the inertia of the race may carry faster whirl, and the analysis says how far it looked
+    assert!(found.warnings.iter().any(|own| own.code == "AB2047"));
+}

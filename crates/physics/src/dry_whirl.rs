@@ -32,7 +32,8 @@ pub struct WhirlContact {
 }
 
 impl WhirlContact {
-    /// Contact force of whirl with the friction that it needs, N; none where the contact yields more than the orbit asks for.
+    /// Contact force of whirl with the friction that it needs, N; none where the contact yields more than the orbit asks for, of
+    /// one with n > 1 by more than its clearance.
     ///
     /// Formula: N (|Re α| + μ_e Im α) = c0 + d,  N = k dⁿ
     ///
@@ -51,11 +52,8 @@ impl WhirlContact {
         // k α dⁿ - d - c0 is convex over d, negative at 0: Newton's steps come down to its only root from above
         let excess = |d: f64| self.stiffness * orbit * d.powf(self.exponent) - d - clearance;
         let mut d = clearance;
-        while excess(d) < 0.0 {
-            d *= 2.0;
-            if !d.is_finite() {
-                return None;
-            }
+        if excess(d) < 0.0 {
+            return None;
         }
         for _ in 0..60 {
             let slope = (excess(d) + d + clearance) * self.exponent / d - 1.0;

@@ -193,7 +193,25 @@ impl<'a> WhirlCurve<'a> {
                 settles: self.between(to).filter(|_| crossed),
             }
         };
-        runs(inside).into_iter().map(range).collect()
+        let mut found: Vec<WhirlRange> = runs(inside).into_iter().map(range).collect();
+        // a minimum between two samples that both need more
+        let least = self.smallest(1e-9).map(|own| own.point);
+        let least = least.filter(|own| found.is_empty() && driven(own));
+        found.extend(least.map(|own| {
+            let k = (self.frequencies).partition_point(|at| *at < own.frequency);
+            let near = |k: Option<usize>| k.and_then(|k| self.frequencies.get(k)).copied();
+            let end = |at: Option<f64>| {
+                at.map_or(own.frequency, |at| self.edge(own.frequency, at, &driven))
+            };
+            let (from, to) = (end(near(k.checked_sub(1))), end(near(Some(k))));
+            let crossed = self.between(to * (1.0 + 1e-8)).is_some();
+            WhirlRange {
+                from,
+                to,
+                settles: self.between(to).filter(|_| crossed),
+            }
+        }));
+        found
     }
 }
 

@@ -157,7 +157,7 @@ const HEAD: &[Key] = &[
     Key::new("description", Kind::Text, "What was changed, and why", "Text for the report.").optional("the report has no introduction"),
     Key::new("catalogue", Kind::Text, "my_bearings.toml", "File with your own bearings, relative to this one; they are added to the catalogue, or replace those of the same name.")
         .optional("the built-in catalogue alone is used").only(WITH_BEARING),
-    Key::new("planes", Kind::Count, "2", "Number of equal rows of an [[auxiliary_bearing]] at its node, such as 2 of a duplex pair. They share each force equally, so that one of them is computed: rotor and energies count it so many times; contact, mount, bearing, heat and all results of the bearing are those of one row.")
+    Key::new("planes", Kind::Count, "2", "Number of equal rows of an [[auxiliary_bearing]] at its node, such as 2 of a duplex pair. They share each force equally, so that one of them is computed: rotor and energies count it so many times; contact, mount, bearing, heat and the results of the bearing are those of one row, but for the heats of a coast-down, which are of all.")
         .within(Range::FromTo(1.0, 16.0)).default("1", "the bearing is one row").only(COASTING_DOWN),
 ];
 

@@ -104,6 +104,11 @@ impl MeasuredStiffness {
                 *number = value;
             }
             let [frequency, storage, loss] = numbers;
+            if storage == 0.0 && loss == 0.0 {
+                let allowed = "a row with a stiffness is needed: nothing was measured there";
+                let found = "storage and loss of 0".to_string();
+                return Err(refuse(at, "storage", found, allowed.to_string()));
+            }
             if frequency <= rows.last().map_or(0.0, |row| row.frequency) {
                 let found = format!("{} after a frequency not below it", cells[columns[0].0]);
                 let allowed = "rising frequencies above 0, each once, are needed";
@@ -230,7 +235,14 @@ impl Fit {
     }
 
     /// Lines for the section `mount` of a scenario, with seven digits.
-    pub fn lines(&self) -> String {
+    ///
+    /// # Errors
+    /// A mount has a spring, and the table shows none.
+    pub fn lines(&self) -> Result<String, String> {
+        if self.stiffness <= 0.0 {
+            let why = "the table shows no static stiffness, and mount.stiffness must be above 0";
+            return Err(why.to_string());
+        }
         let list = |unit: &str, of: fn(&MaxwellBranch<f64>) -> f64| {
             let text = |own: &MaxwellBranch<f64>| format!("\"{:.6e} {unit}\"", of(own));
             self.branches
@@ -250,7 +262,7 @@ impl Fit {
                 list("s", |own| 1.0 / own.rate)
             );
         }
-        out
+        Ok(out)
     }
 }
 

@@ -34,7 +34,7 @@ problem::warnings! {
         WhirlAveraged { supports: text } "AB2046" Uncertain
             ("Supports and seals that treat x and y differently ({supports}) count in dry whirl with their mean over a turn: its orbit is taken as a circle.");
         WhirlRange { to: "rad/s" } "AB2047" Uncertain
-            ("The needed friction of dry whirl still falls at {to:.0} rad/s, the highest frequency looked at: faster whirl may need less. A higher analysis.whirl_to shows it.");
+            ("The needed friction of dry whirl was looked at up to {to:.0} rad/s: faster whirl may need less. A higher analysis.whirl_to shows it.");
         WhirlLimits "AB2048" Note
             ("The needed friction of dry whirl holds for a circular orbit in full slip in one bearing alone, against a race that does not turn, with a linear mount and rigid balls. It says where whirl can live, not whether an impact starts it, and friction below it excludes this whirl alone.");
     }

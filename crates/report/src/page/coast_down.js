@@ -110,7 +110,7 @@ function coastDownLine(run) {
     const input = inputOf(run, path);
     return input && String(input.value) !== "not given" ? inputText(input.value).replace("^2", "²") : null;
   };
-  const facts = [`rotor ${given("rotor.mass")}, ${given("rotor.polar_inertia")}`, `from ${given("rotor.speed")}`, `${given("rotor.planes")} × ${given("bearing.name") || "bearing without a name"}`, given("heat.atmosphere") && `in ${given("heat.atmosphere")}`, `follows: ${given("heat.feedback")}`];
+  const facts = [`rotor ${given("rotor.mass")}, ${given("rotor.polar_inertia")}`, `from ${given("rotor.speed")}`, `${Number(given("rotor.planes")) * Number(given("planes") || 1)} × ${given("bearing.name") || "bearing without a name"}`, given("heat.atmosphere") && `in ${given("heat.atmosphere")}`, `follows: ${given("heat.feedback")}`];
   return element("p", { class: "machine" }, facts.filter(Boolean).join(" · "));
 }
 

@@ -6,14 +6,14 @@ use crate::drawing::{self, GIVEN};
 use crate::drop::Shaft;
 use crate::drop::context::{Context, Setup};
 use crate::drop::shaft::{BuiltShaft, HeldMode, least_cutoff};
-use crate::drop::warning_table::{COMPARED, ShaftWarning};
+use crate::drop::warning_table::{ShaftWarning, compared};
 use crate::rotor::RotorModel;
 use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Column, Warning};
 use physics::magnet::Magnet;
-use scenario::AuxiliaryBearing;
+use scenario::{AuxiliaryBearing, CUTOFFS};
 
 /// The results that only a flexible rotor has.
 pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
@@ -167,19 +167,20 @@ const DEPTH: f64 = 1e-5;
 /// Contacts and mounts so stiff that the default number of modes was not shown to do.
 pub(crate) fn stiff(context: &Context) -> Option<Warning> {
     let (_, built) = context.setup.bent()?;
-    let (contact, mount, cutoff) = COMPARED;
+    let limits = compared(built.cutoff);
     let slope = |part: &AuxiliaryBearing| {
         let own = &part.contact;
         own.exponent * own.stiffness * DEPTH.powf(own.exponent - 1.0)
     };
     let mut parts = context.setup.drop().auxiliary_bearings.iter();
-    let hard = parts.find(|part| slope(part) > contact || part.mount.stiffness > mount)?;
+    let hard =
+        parts.find(|part| slope(part) > limits.contact || part.mount.stiffness > limits.mount)?;
     let warning = ShaftWarning::StiffContact {
         contact: slope(hard),
         mount: hard.mount.stiffness,
         cutoff: built.cutoff,
     };
-    (built.cutoff <= cutoff).then(|| Warning::from(warning).of_part(&hard.name))
+    (built.cutoff <= CUTOFFS[1]).then(|| Warning::from(warning).of_part(&hard.name))
 }
 
 /// Supports and seals whose coefficients drive whirl of one sense, as xy differs from yx, about a rotor that turns backward.

@@ -1,7 +1,7 @@
 //! Dry backward whirl of a machine's rotor in its auxiliary bearings: the friction that it needs over the frequency of the whirl.
 //!
 //! ```text
-//!   α(ω) = α_rotor(-jω; Ω) + conj α_race(jω)       rotor at rated speed without its magnets, race on its mount
+//!   α(ω) = n α_rotor(-jω; Ω) + conj α_race(jω)     rotor at rated speed without its magnets, race on its mount; N of each of n rows
 //!   μ_e = Im α/|Re α|,  N (|Re α| + μ_e Im α) = c0 + d(N)
 //! ```
 //! The race is one mass m of outer and inner race, balls and cage, α_race = 1/(K(jω) - mω²) with K of spring, damper, Maxwell branches and the
@@ -72,10 +72,19 @@ pub(crate) struct MountMap {
     pub dampings: Vec<f64>,
     /// Row by row of the same damping.
     pub friction: Vec<f64>,
-    /// The smallest damping, at today's stiffness, from which the needed friction exceeds that of the file, N s/m.
-    pub cure: Option<f64>,
+    /// The range of damping, at today's stiffness, in which the needed friction exceeds that of the file: the one nearest to today's.
+    pub cure: Option<DampingRange>,
     /// The mount of the map nearest to today's on which the needed friction exceeds that of the file.
     pub nearest: Option<Mount<f64>>,
+}
+
+/// A range of damping of a mount, N s/m.
+#[derive(Clone, Copy)]
+pub(crate) struct DampingRange {
+    pub from: f64,
+    pub to: f64,
+    /// Whether an end is that of what was tried, below and above.
+    pub open: [bool; 2],
 }
 
 impl WhirlModel {
@@ -151,11 +160,13 @@ impl WhirlModel {
         }))
     }
 
-    /// Receptance of the rotor at a bearing for backward whirl, m/N.
+    /// Receptance of the rotor at a bearing for backward whirl, by the force of one of its rows, m/N.
     fn rotor(&self, bearing: &WhirlBearing, frequency: f64) -> Result<C64, RotorError> {
         let turning = self.speed.signum();
         let s = C64::new(0.0, -turning * frequency);
         let own = (self.responder).receptance(bearing.coordinate, self.speed, s)?;
+        // all rows push the rotor, and each race feels the force of its row
+        let own = own * bearing.constants.planes;
         // against negative spin whirl turns with positive angles: the mirror image
         Ok(if turning < 0.0 { own.conj() } else { own })
     }
@@ -220,11 +231,11 @@ fn in_flight(model: &RotorModel, nodes: &[usize]) -> (Rotor, Vec<String>) {
     (free, names)
 }
 
-/// Stiffness of spring and branches together, N/m.
+/// Stiffness of spring and branches of all rows together, N/m.
 fn static_to_glassy(constants: &AuxiliaryBearingConstants) -> f64 {
     let branches = constants.mount_parts.branches.iter();
     let branches: f64 = branches.map(|branch| branch.stiffness).sum();
-    constants.mount.stiffness + branches
+    constants.planes * (constants.mount.stiffness + branches)
 }
 
 impl WhirlBearing {
@@ -334,24 +345,7 @@ impl Samples<'_> {
             }
         }
         let enough = |damping: f64| exceeds(smallest(&with(own.stiffness, damping)));
-        let scanned = std::iter::once(own.damping).chain(dampings.iter().copied());
-        let mut scanned: Vec<f64> = scanned.collect();
-        scanned.sort_by(f64::total_cmp);
-        let first = scanned.iter().position(|damping| enough(*damping));
-        let cure = first.map(|k| {
-            let Some(mut fails) = k.checked_sub(1).map(|before| scanned[before]) else {
-                return scanned[k];
-            };
-            let mut holds = scanned[k];
-            while holds - fails > 1e-4 * holds {
-                let middle = 0.5 * (holds + fails);
-                match enough(middle) {
-                    true => holds = middle,
-                    false => fails = middle,
-                }
-            }
-            holds
-        });
+        let cure = nearest_range(&dampings, own.damping, &enough);
         MountMap {
             stiffnesses,
             dampings,
@@ -360,4 +354,35 @@ impl Samples<'_> {
             nearest,
         }
     }
+}
+
+/// The range nearest to today's damping in which a property holds, its ends between the values tried refined; more damping may lock a mount.
+fn nearest_range(tried: &[f64], today: f64, enough: &dyn Fn(f64) -> bool) -> Option<DampingRange> {
+    let mut all = tried.to_vec();
+    if today > 0.0 {
+        all.push(today);
+    }
+    all.sort_by(f64::total_cmp);
+    let holds: Vec<bool> = all.iter().map(|damping| enough(*damping)).collect();
+    let distance = |k: &usize| (all[*k] / today.max(all[0])).ln().abs();
+    let good = (0..all.len()).filter(|k| holds[*k]);
+    let middle = good.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let edge = |good: f64, bad: f64| {
+        let (mut good, mut bad) = (good, bad);
+        while (good - bad).abs() > 1e-4 * good {
+            let half = 0.5 * (good + bad);
+            match enough(half) {
+                true => good = half,
+                false => bad = half,
+            }
+        }
+        good
+    };
+    let below = (0..middle).rev().find(|k| !holds[*k]);
+    let above = (middle..all.len()).find(|k| !holds[*k]);
+    Some(DampingRange {
+        from: below.map_or(all[0], |k| edge(all[k + 1], all[k])),
+        to: above.map_or(all[all.len() - 1], |k| edge(all[k - 1], all[k])),
+        open: [below.is_none(), above.is_none()],
+    })
 }

@@ -25,7 +25,8 @@ results! {
         "whirl.*.needed_friction_place": text "", NEEDED, "where on the curve that is" in whirl "where" => run.place(bearing);
         "whirl.*.settling_frequency": number "rad/s" headline, SETTLES, "frequency at which whirl in full slip settles" in whirl "whirl settles at" => run.settles().map(|own| own.frequency);
         "whirl.*.settling_force": number "N" headline, SETTLES, "contact force of that whirl" in whirl "contact force there" => run.settles().map(|own| own.force);
-        "whirl.*.needed_damping": number "N s/m" headline, MAP, "smallest damping of the mount, at its stiffness, that keeps whirl from going on" in whirl "mount.damping needed" => run.cure(bearing);
+        "whirl.*.needed_damping": number "N s/m" headline, MAP, "smallest damping of the mount, at its stiffness, with which no whirl up to frequency_to goes on; of the range nearest to that of the file" in whirl "mount.damping needed" => run.cure(bearing, 0);
+        "whirl.*.largest_damping": number "N s/m", MAP, "largest damping of that range: more of it locks the mount" in whirl "at most" => run.cure(bearing, 1);
         "whirl.*.frequency_from": number "rad/s", RANGE, "lowest frequency looked at" => bearing.range[0];
         "whirl.*.frequency_to": number "rad/s", RANGE, "highest frequency looked at" => bearing.range[1];
         "whirl.*.band_starts": list "rad/s", NEEDED, "lower ends of the ranges in which the file's friction exceeds the needed one" in whirl_bands "from" => run.over_ranges(|own| own.from);
@@ -98,6 +99,16 @@ impl BearingWhirl {
         text.to_string()
     }
 
+    /// Whether faster whirl may need less friction than any looked at: the inertia of a race that moves carries it beyond its resonance; on one
+    /// that is held the curve still falls at its end.
+    fn may_fall_beyond(&self, held: bool) -> bool {
+        let falls = match self.curve.as_slice() {
+            [.., before, last] => last.friction < before.friction,
+            _ => true,
+        };
+        !held || falls
+    }
+
     fn over_ranges(&self, value: fn(&WhirlRange) -> f64) -> Vec<f64> {
         self.ranges.iter().map(value).collect()
     }
@@ -106,7 +117,8 @@ impl BearingWhirl {
         self.map.as_ref().map(value).cloned().unwrap_or_default()
     }
 
-    fn cure(&self, bearing: &WhirlBearing) -> Result<f64, String> {
+    /// An end of the damping with which whirl does not go on: 0 the lower, 1 the upper.
+    fn cure(&self, bearing: &WhirlBearing, end: usize) -> Result<f64, String> {
         let Some(map) = &self.map else {
             let why = match bearing.is_held() {
                 true => "the inner race is held: no mount acts",
@@ -119,7 +131,17 @@ impl BearingWhirl {
             let [low, high] = [low, high].map(|own| own.copied().unwrap_or_default());
             format!("no damping from {low:.3e} to {high:.3e} N s/m does at this stiffness")
         };
-        map.cure.ok_or_else(none)
+        let found = map.cure.ok_or_else(none)?;
+        let value = [found.from, found.to][end];
+        match (found.open[end], end) {
+            (false, _) => Ok(value),
+            (true, 0) => Err(format!(
+                "the least damping looked at, {value:.3e} N s/m, suffices"
+            )),
+            (true, _) => Err(format!(
+                "the largest damping looked at, {value:.3e} N s/m, is not too much"
+            )),
+        }
     }
 }
 
@@ -150,14 +172,12 @@ pub(crate) fn warned(model: &WhirlModel, found: &[BearingWhirl]) -> Vec<Warning>
                         number_text(point.force.round())
                     ),
                 },
-                cure: cure(own),
+                cure: cure(own, bearing),
             });
-        } else if own.smallest.is_some_and(|least| least.at_end) && !bearing.ended_by[1] {
-            let place = own.place(bearing);
-            if place.starts_with("upper") {
-                let to = bearing.range[1];
-                add(RotorWarning::WhirlRange { to });
-            }
+        }
+        if !bearing.ended_by[1] && own.may_fall_beyond(bearing.is_held()) {
+            let to = bearing.range[1];
+            add(RotorWarning::WhirlRange { to });
         }
         let left_out = bearing.left_out();
         if !left_out.is_empty() {
@@ -176,12 +196,18 @@ pub(crate) fn warned(model: &WhirlModel, found: &[BearingWhirl]) -> Vec<Warning>
 }
 
 /// What the mount needs.
-fn cure(own: &BearingWhirl) -> String {
+fn cure(own: &BearingWhirl, bearing: &WhirlBearing) -> String {
     let Some(map) = &own.map else {
         return "Its race is held: only less friction keeps it from whirling".to_string();
     };
     match (map.cure, &map.nearest) {
-        (Some(damping), _) => format!("At its stiffness the mount needs {damping:.3e} N s/m"),
+        (Some(range), _) => {
+            let to = bearing.range[1];
+            let (least, most, has) = (range.from, range.to, bearing.constants.mount.damping);
+            format!(
+                "At its stiffness {least:.3e} to {most:.3e} N s/m prevent whirl up to {to:.0} rad/s; the mount has {has:.3e} N s/m"
+            )
+        }
         (None, Some(mount)) => format!(
             "No damping alone prevents it; a mount of {:.2e} N/m with {:.2e} N s/m does",
             mount.stiffness, mount.damping
