@@ -9,6 +9,7 @@ mod coast_down_returns;
 mod coast_loads;
 mod declared;
 mod drop_method;
+mod events;
 mod extremes;
 mod exudyn_cage_spin_up;
 mod feedback;

@@ -102,8 +102,10 @@ fn magnet(actuator: &Actuator) -> Result<(), Refused> {
     }
     match actuator.amplifier {
         Amplifier::Direct => Ok(()),
-        Amplifier::Current { bandwidth } => {
-            positive(axis, "bandwidth of the amplifier, rad/s", bandwidth)
+        Amplifier::Current { bandwidth, slew } => {
+            positive(axis, "bandwidth of the amplifier, rad/s", bandwidth)?;
+            // without a limit it is infinite
+            positive(axis, "largest rate of current, A/s", slew.min(f64::MAX))
         }
         Amplifier::Voltage {
             inductance,

@@ -2,15 +2,21 @@
 //!
 //! ```text
 //!   displacement y + offset → sensor → e = reference - signal → controller → delay, or held samples → amplifier → current i
+//!
+//!   control current    command clipped to what the coils leave, di/dt of the amplifier          linear magnets, volts, no amplifier
+//!   coils of a pair    di±/dt = clip(ω (clip(e b± ± u, 0, i_max) - i±), ±s)                     on a current amplifier
 //! ```
+//! Clipped are commands and rates, not forces; integrators go on integrating while they are.
+//!
 //! States in this order: sensors, controller, delay or held commands, currents. A linear analysis takes its matrices from
 //! [`Levitation::rate`] itself ([`LinearControl`](crate::LinearControl)).
 //!
 //! With sampled control the controller steps by the bilinear rule and its rest between samples: at k T_s [`Levitation::sample`], at k T_s + T_c
 //! [`Levitation::release`] change the states; nothing else jumps.
 
-use crate::parts::{Actuator, Control, Sensor};
+use crate::parts::{Actuator, Condition, Control, Sensor};
 use crate::{Refused, StateSpace, checks};
+use nalgebra::DVector;
 use number::Real;
 use physics::magnet::{Amplifier, Timing};
 use smallvec::{SmallVec, smallvec};
@@ -19,24 +25,24 @@ use std::ops::Range;
 /// Sensors, controller and magnets of a rotor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levitation {
-    sensors: Vec<Sensor>,
-    actuators: Vec<Actuator>,
-    blocks: Vec<Block>,
-    timing: Timing,
+    pub(crate) sensors: Vec<Sensor>,
+    pub(crate) actuators: Vec<Actuator>,
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) timing: Timing,
     /// The Padé filter of one command; none without delay or with samples.
     delay: Option<StateSpace>,
-    layout: Layout,
+    pub(crate) layout: Layout,
 }
 
 /// A filter of the controller, from a run of sensors to a run of magnet axes.
 #[derive(Debug, Clone, PartialEq)]
-struct Block {
-    inputs: Range<usize>,
-    outputs: Range<usize>,
-    states: Range<usize>,
-    filter: StateSpace,
+pub(crate) struct Block {
+    pub(crate) inputs: Range<usize>,
+    pub(crate) outputs: Range<usize>,
+    pub(crate) states: Range<usize>,
+    pub(crate) filter: StateSpace,
     /// The same in steps of the sampling period, and what one unit of input takes from its states at a start.
-    stepped: Option<(StateSpace, nalgebra::DMatrix<f64>)>,
+    pub(crate) stepped: Option<(StateSpace, nalgebra::DMatrix<f64>)>,
 }
 
 impl Block {
@@ -57,16 +63,23 @@ impl Block {
 
 /// Where states stand.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Layout {
+pub(crate) struct Layout {
     sensors: Vec<Option<usize>>,
     delays: Vec<usize>,
     /// Command computed at the last sample, command held.
-    held: Vec<(usize, usize)>,
-    currents: Vec<Option<usize>>,
+    pub(crate) held: Vec<(usize, usize)>,
+    /// Control current, both coils, or nothing.
+    pub(crate) currents: Vec<Range<usize>>,
     names: Vec<String>,
 }
 
 impl Layout {
+    /// States of filters, delays and held commands.
+    fn filters(&self) -> Range<usize> {
+        let first = self.sensors.iter().flatten().count();
+        let currents = self.currents.iter().map(Range::len).sum::<usize>();
+        first..self.names.len() - currents
+    }
     fn add(&mut self, name: String) -> usize {
         self.names.push(name);
         self.names.len() - 1
@@ -87,6 +100,33 @@ pub struct Signals<R> {
     pub commands: OfAxes<R>,
     /// Control current of every magnet axis, A.
     pub currents: OfAxes<R>,
+    /// Currents of both coils of every magnet axis whose coils [have currents of their own](Levitation::has_coils), A.
+    pub coils: SmallVec<[[R; 2]; 8]>,
+}
+
+/// What acts on sensors and amplifiers at an instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Inputs<'a, R> {
+    /// Displacements of every sensor axis along its direction, m.
+    pub displacements: &'a [R],
+    /// Velocities of every magnet axis along its direction, m/s: they induce voltage.
+    pub velocities: &'a [R],
+    /// What is added to the reference of every sensor axis, m; nothing where empty.
+    pub references: &'a [R],
+    /// What has happened to every magnet axis; nothing where empty.
+    pub conditions: &'a [Condition<R>],
+}
+
+impl<'a, R> Inputs<'a, R> {
+    /// Of sensors and magnets to which nothing has happened.
+    pub fn usual(displacements: &'a [R], velocities: &'a [R]) -> Self {
+        Inputs {
+            displacements,
+            velocities,
+            references: &[],
+            conditions: &[],
+        }
+    }
 }
 
 impl Levitation {
@@ -124,11 +164,15 @@ impl Levitation {
             }
         }
         for actuator in &actuators {
-            let current = match actuator.amplifier {
-                Amplifier::Direct => None,
-                _ => Some(layout.add(format!("{}.current", actuator.axis.name))),
-            };
-            layout.currents.push(current);
+            let first = layout.names.len();
+            let name = &actuator.axis.name;
+            if actuator.has_coils() {
+                layout.add(format!("{name}.current +"));
+                layout.add(format!("{name}.current -"));
+            } else if actuator.amplifier != Amplifier::Direct {
+                layout.add(format!("{name}.current"));
+            }
+            layout.currents.push(first..layout.names.len());
         }
         Ok(Self {
             sensors,
@@ -173,26 +217,23 @@ impl Levitation {
             wanted: smallvec![R::zero(); self.actuators.len()],
             commands: smallvec![R::zero(); self.actuators.len()],
             currents: smallvec![R::zero(); self.actuators.len()],
+            coils: smallvec![[R::zero(); 2]; self.actuators.len()],
         }
     }
 
     /// Rates of the states; the signals on the way are left in `signals`.
-    ///
-    /// - `displacements` of every sensor axis along its direction, m
-    /// - `velocities` of every magnet axis along its direction, m/s: they induce voltage
     #[inline(always)]
     pub fn rate<R: Real>(
         &self,
         states: &[R],
-        displacements: &[R],
-        velocities: &[R],
+        inputs: Inputs<R>,
         signals: &mut Signals<R>,
         rates: &mut [R],
     ) {
-        self.read(states, displacements, signals);
+        self.read(states, inputs, signals);
         for (index, sensor) in self.sensors.iter().enumerate() {
             if let (Some(at), Some(corner)) = (self.layout.sensors[index], sensor.corner) {
-                let shown = displacements[index] + R::splat(sensor.offset);
+                let shown = inputs.displacements[index] + R::splat(sensor.offset);
                 rates[at] = R::splat(corner) * (shown - states[at]);
             }
         }
@@ -225,22 +266,44 @@ impl Levitation {
             }
         }
         for (index, actuator) in self.actuators.iter().enumerate() {
-            if let Some(at) = self.layout.currents[index] {
-                let command = signals.commands[index];
-                rates[at] = current_rate(actuator, command, states[at], velocities[index]);
+            let command = signals.commands[index];
+            let at = self.layout.currents[index].clone();
+            if at.is_empty() {
+                continue;
+            }
+            let velocity = inputs.velocities[index];
+            let condition = condition(actuator, inputs.conditions.get(index));
+            if !actuator.has_coils() {
+                rates[at.start] = current_rate(
+                    actuator,
+                    command,
+                    states[at.start],
+                    velocity,
+                    condition.slew,
+                );
+                continue;
+            }
+            for ((at, bias), sign) in at.zip(actuator.magnet.biases()).zip([1.0, -1.0]) {
+                let wanted = R::splat(bias) * condition.bias_share + R::splat(sign) * command;
+                let wanted = wanted.max(R::zero()).min(condition.largest_current);
+                rates[at] = current_rate(actuator, wanted, states[at], velocity, condition.slew);
             }
         }
     }
 
     /// Signals of an instant from the states: errors, commands, currents.
     #[inline(always)]
-    pub fn read<R: Real>(&self, states: &[R], displacements: &[R], signals: &mut Signals<R>) {
+    pub fn read<R: Real>(&self, states: &[R], inputs: Inputs<R>, signals: &mut Signals<R>) {
         for (index, sensor) in self.sensors.iter().enumerate() {
             let signal = match self.layout.sensors[index] {
                 Some(at) => states[at],
-                None => displacements[index] + R::splat(sensor.offset),
+                None => inputs.displacements[index] + R::splat(sensor.offset),
             };
-            signals.errors[index] = R::splat(sensor.reference) - signal;
+            let mut reference = R::splat(sensor.reference);
+            if let Some(added) = inputs.references.get(index) {
+                reference += *added;
+            }
+            signals.errors[index] = reference - signal;
         }
         for block in &self.blocks {
             block.output(states, signals);
@@ -260,16 +323,30 @@ impl Levitation {
                 }
             }
         }
-        for (command, actuator) in signals.commands.iter_mut().zip(&self.actuators) {
-            if let Some([least, most]) = actuator.command_limits() {
-                *command = command.min(R::splat(most)).max(R::splat(least));
+        for (index, actuator) in self.actuators.iter().enumerate() {
+            let given = inputs.conditions.get(index);
+            let condition = condition(actuator, given);
+            let mut command = signals.commands[index];
+            if given.is_some() {
+                command = condition.command_share * command + condition.command_held;
             }
-        }
-        for (index, current) in signals.currents.iter_mut().enumerate() {
-            *current = match self.layout.currents[index] {
-                Some(at) => states[at],
-                None => signals.commands[index],
-            };
+            let [plus, minus] =
+                (actuator.magnet.biases()).map(|b| R::splat(b) * condition.bias_share);
+            let coils = actuator.has_coils();
+            if !coils && !actuator.takes_volts() {
+                let largest = condition.largest_current;
+                command = command.min(largest - plus).max(minus - largest);
+            }
+            signals.commands[index] = command;
+            let at = self.layout.currents[index].clone();
+            if coils {
+                let [near, far] = [states[at.start], states[at.start + 1]];
+                signals.coils[index] = [near, far];
+                signals.currents[index] = R::splat(0.5) * ((near - plus) - (far - minus));
+            } else {
+                let own = at.is_empty();
+                signals.currents[index] = if own { command } else { states[at.start] };
+            }
         }
     }
 
@@ -304,8 +381,8 @@ impl Levitation {
     }
 
     /// A sample of a sampled controller at k T_s: its command is computed, its states step.
-    pub fn sample<R: Real>(&self, states: &mut [R], displacements: &[R], signals: &mut Signals<R>) {
-        self.read(states, displacements, signals);
+    pub fn sample<R: Real>(&self, states: &mut [R], inputs: Inputs<R>, signals: &mut Signals<R>) {
+        self.read(states, inputs, signals);
         for block in &self.blocks {
             let Some((stepped, _)) = &block.stepped else {
                 continue;
@@ -326,165 +403,50 @@ impl Levitation {
         }
     }
 
-    /// Where the current of a magnet axis stands among the states; none where it is the command at once.
+    /// Where the current of a magnet axis stands among the states, or those of its coils; nowhere where it is the command at once.
     #[must_use]
-    pub fn current_state(&self, actuator: usize) -> Option<usize> {
-        self.layout.currents[actuator]
+    pub fn current_states(&self, actuator: usize) -> Range<usize> {
+        self.layout.currents[actuator].clone()
+    }
+    /// Whether each coil of a magnet axis has a current of its own.
+    #[must_use]
+    pub fn has_coils(&self, actuator: usize) -> bool {
+        self.layout.currents[actuator].len() == 2
     }
 
-    /// The same loop for linear analysis: samples as a delay T_c + T_s/2, no limit of current or voltage, no offset, no reference.
-    #[must_use]
-    pub fn linear(&self) -> Self {
-        let mut sensors = self.sensors.clone();
-        for sensor in &mut sensors {
-            (sensor.offset, sensor.reference) = (0.0, 0.0);
+    /// Settles sensors, filters and delay on what the sensors show, and takes all currents away: controllers that start when a rotor
+    /// lies still. Integrators, states whose rate depends on no state, start at zero.
+    pub fn settle(&self, states: &mut [f64], inputs: Inputs<f64>) -> Result<(), Refused> {
+        for (index, sensor) in self.sensors.iter().enumerate() {
+            if let Some(at) = self.layout.sensors[index] {
+                states[at] = inputs.displacements[index] + sensor.offset;
+            }
         }
-        self.centred(sensors)
-    }
-
-    /// States of the time run from those of linear analysis: a delay becomes commands that are held.
-    pub(crate) fn adopted(&self, states: &[f64], displacements: &[f64]) -> Vec<f64> {
-        let Timing::Sampled { .. } = self.timing else {
-            return states.to_vec();
-        };
-        let linear = self.unlimited();
-        let mut signals = linear.signals();
-        linear.read(states, displacements, &mut signals);
-        let mut out = vec![0.0; self.states()];
-        // sensors and controller stand first in both, currents last
-        let first = self.blocks.last().map_or(0, |block| block.states.end);
-        out[..first].copy_from_slice(&states[..first]);
+        let mut signals = self.signals();
+        states[self.layout.filters()].fill(0.0);
+        self.read(states, inputs, &mut signals);
         for block in &self.blocks {
-            let Some((_, entry)) = &block.stepped else {
-                continue;
-            };
-            let inputs = &signals.errors[block.inputs.clone()];
-            let taken = entry * nalgebra::DVector::from_column_slice(inputs);
-            for (state, taken) in out[block.states.clone()].iter_mut().zip(taken.iter()) {
-                *state -= taken;
+            let errors = DVector::from_column_slice(&signals.errors[block.inputs.clone()]);
+            let mut settled = block.filter.settled(&errors).ok_or(Refused::Singular)?;
+            if let Some((_, entry)) = &block.stepped {
+                settled -= entry * errors;
             }
+            states[block.states.clone()].copy_from_slice(settled.as_slice());
         }
-        for (index, (computed, held)) in self.layout.held.iter().enumerate() {
-            (out[*computed], out[*held]) = (signals.wanted[index], signals.commands[index]);
+        self.read(states, inputs, &mut signals);
+        for (axis, at) in self.layout.delays.iter().enumerate() {
+            let Some(delay) = &self.delay else { continue };
+            let wanted = DVector::from_element(1, signals.wanted[axis]);
+            let settled = delay.settled(&wanted).ok_or(Refused::Singular)?;
+            states[*at..at + delay.states()].copy_from_slice(settled.as_slice());
         }
-        for (index, at) in self.layout.currents.iter().enumerate() {
-            if let Some(at) = at {
-                out[*at] = signals.currents[index];
-            }
+        for ((computed, held), wanted) in self.layout.held.iter().zip(&signals.wanted) {
+            (states[*computed], states[*held]) = (*wanted, *wanted);
         }
-        out
-    }
-
-    /// As [`Levitation::linear`], with offsets and references kept.
-    #[must_use]
-    pub(crate) fn unlimited(&self) -> Self {
-        self.centred(self.sensors.clone())
-    }
-
-    fn centred(&self, sensors: Vec<Sensor>) -> Self {
-        let mut actuators = self.actuators.clone();
-        for actuator in &mut actuators {
-            actuator.lowest_current = f64::NEG_INFINITY;
-            actuator.largest_current = f64::INFINITY;
-            if let Amplifier::Voltage {
-                largest_voltage, ..
-            } = &mut actuator.amplifier
-            {
-                *largest_voltage = f64::INFINITY;
-            }
+        for at in &self.layout.currents {
+            states[at.clone()].fill(0.0);
         }
-        self.rebuilt(sensors, self.blocks.clone(), actuators)
-    }
-
-    /// One of two equal planes: the even axes alone. `None` unless axes come in equal pairs at right angles, each sensor
-    /// along its magnet, with a filter for each axis; then w = x + jy passes the same real filters.
-    #[must_use]
-    pub fn one_plane(&self) -> Option<Self> {
-        let equal = checks::pairs_alike(&self.sensors, &self.actuators)
-            && self.blocks.len() == self.sensors.len()
-            && self
-                .blocks
-                .chunks(2)
-                .all(|pair| pair.len() == 2 && pair[0].filter.same_matrices(&pair[1].filter));
-        equal.then(|| {
-            let even = |index: &usize| index.is_multiple_of(2);
-            let pick = |count: usize| (0..count).filter(even);
-            let sensors = pick(self.sensors.len()).map(|at| self.sensors[at].clone());
-            let blocks = pick(self.blocks.len()).map(|at| self.blocks[at].clone());
-            let actuators = pick(self.actuators.len()).map(|at| self.actuators[at].clone());
-            self.rebuilt(sensors.collect(), blocks.collect(), actuators.collect())
-        })
-    }
-
-    /// [One plane](Levitation::one_plane) with the slopes (k_i, k_s) of its axes, where those of both planes are equal too.
-    #[must_use]
-    pub fn one_plane_about(&self, slopes: &[(f64, f64)]) -> Option<(Self, Vec<(f64, f64)>)> {
-        // a weight that both axes share leaves them equal up to round-off
-        let equal = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
-        let alike =
-            |pair: &[(f64, f64)]| equal(pair[0].0, pair[1].0) && equal(pair[0].1, pair[1].1);
-        let plane = self.one_plane()?;
-        let even = slopes.iter().step_by(2).copied().collect();
-        slopes.chunks(2).all(alike).then_some((plane, even))
-    }
-
-    /// The same with other parts that are known to be right.
-    fn rebuilt(&self, sensors: Vec<Sensor>, blocks: Vec<Block>, actuators: Vec<Actuator>) -> Self {
-        let nodes = usize::MAX;
-        let timing = Timing::Continuous {
-            delay: self.timing.delay(),
-        };
-        let channels = blocks.iter().all(|block| block.inputs.len() == 1);
-        let control = match &blocks[..] {
-            [block] if !channels => Control::Matrix(block.filter.clone()),
-            _ => Control::Channels(blocks.into_iter().map(|block| block.filter).collect()),
-        };
-        Self::new(nodes, sensors, control, timing, actuators).expect("parts of a levitation fit")
-    }
-
-    /// k_i and k_s of every magnet axis with the rotor in the centre and no control current.
-    #[must_use]
-    pub fn slopes_at_centre(&self) -> Vec<(f64, f64)> {
-        let magnets = self.actuators.iter().map(|actuator| &actuator.magnet);
-        let slopes = magnets.map(|own| (own.current_stiffness(), own.position_stiffness()));
-        slopes.collect()
-    }
-
-    /// Gain at rest of the controller from signals to commands, row by magnet axis; `None` with an integrator.
-    #[must_use]
-    pub fn static_gain(&self) -> Option<nalgebra::DMatrix<f64>> {
-        let mut out = nalgebra::DMatrix::zeros(self.actuators.len(), self.sensors.len());
-        for block in &self.blocks {
-            let gain = block.filter.static_gain()?;
-            let size = gain.shape();
-            out.view_mut((block.outputs.start, block.inputs.start), size)
-                .copy_from(&gain);
-        }
-        Some(out)
-    }
-
-    /// Static stiffness of every magnet axis with a channel of its own, k_i C(0) - k_s in N/m; infinite with an integrator.
-    ///
-    /// It is that of the bearing where sensor and magnet stand at one node. Empty where one filter serves all axes.
-    ///
-    /// - `slopes` k_i and k_s of each axis
-    #[must_use]
-    pub fn static_stiffness(&self, slopes: &[(f64, f64)]) -> Vec<f64> {
-        let own = self.blocks.len() == self.actuators.len();
-        let blocks = self.blocks.iter().zip(&self.actuators).filter(|_| own);
-        blocks
-            .zip(slopes)
-            .map(|((block, actuator), (ki, ks))| {
-                let volts_to_amperes = match actuator.amplifier {
-                    Amplifier::Voltage {
-                        resistance, gain, ..
-                    } => gain.map_or(1.0 / resistance, |gain| gain / (gain + resistance)),
-                    _ => 1.0,
-                };
-                let gain = block.filter.static_gain().map(|gain| gain[(0, 0)]);
-                gain.map_or(f64::INFINITY, |gain| ki * gain * volts_to_amperes - ks)
-            })
-            .collect()
+        Ok(())
     }
 }
 
@@ -533,12 +495,24 @@ fn volts<R: Real>(gain: Option<f64>, command: R, current: R) -> R {
     }
 }
 
+/// What has happened to an axis, where anything has.
+#[inline(always)]
+fn condition<R: Real>(actuator: &Actuator, given: Option<&Condition<R>>) -> Condition<R> {
+    match given {
+        Some(given) => *given,
+        None => Condition::of(actuator),
+    }
+}
+
 /// Rate of the current of an amplifier that has one.
 #[inline(always)]
-fn current_rate<R: Real>(actuator: &Actuator, command: R, current: R, velocity: R) -> R {
+fn current_rate<R: Real>(actuator: &Actuator, command: R, current: R, velocity: R, slew: R) -> R {
     match actuator.amplifier {
         Amplifier::Direct => R::zero(),
-        Amplifier::Current { bandwidth } => R::splat(bandwidth) * (command - current),
+        Amplifier::Current { bandwidth, .. } => {
+            let rate = R::splat(bandwidth) * (command - current);
+            rate.min(slew).max(-slew)
+        }
         Amplifier::Voltage {
             inductance,
             resistance,

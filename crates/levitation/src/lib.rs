@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
+mod analysed;
 mod checks;
 mod closed_loop;
 mod eigen;
@@ -32,9 +33,9 @@ mod state_space;
 mod suspension;
 
 pub use closed_loop::{ClosedLoop, Pole, Verdict, ZERO, verdict};
-pub use levitation::{Levitation, OfAxes, Signals};
+pub use levitation::{Inputs, Levitation, OfAxes, Signals};
 pub use linear_control::LinearControl;
-pub use parts::{Actuator, Axis, Control, Sensor};
+pub use parts::{Actuator, Axis, Condition, Control, Sensor};
 pub use physics::magnet::{Amplifier, Timing};
 pub use plant::{Coordinates, Plant, weight};
 pub use refused::Refused;

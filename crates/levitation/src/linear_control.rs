@@ -1,6 +1,6 @@
 //! The matrices of sensors, controller, delay and amplifiers, taken from the rates that a time run uses.
 
-use crate::{C64, Levitation};
+use crate::{C64, Inputs, Levitation};
 use nalgebra::{DMatrix, DVector};
 
 /// ẋ = A x + B_y y + B_v v + constant, i = C x + D y + constant.
@@ -78,7 +78,11 @@ impl LinearControl {
             }
         }
         // a sampled loop has held commands in place of a delay's states
-        let own = |name: &String| linear.names().iter().position(|of| of == name);
+        // and both coils of an axis stand for its control current
+        let own = |name: &String| {
+            let of = name.trim_end_matches([' ', '+', '-']);
+            linear.names().iter().position(|own| own == of)
+        };
         let of = |name| own(name).map_or(0.0, |at| largest[at]);
         let scales = levitation.names().iter().map(of);
         scales
@@ -93,12 +97,7 @@ fn answer(levitation: &Levitation, input: &[f64]) -> (DVector<f64>, DVector<f64>
     let (displacements, velocities) = rest.split_at(levitation.sensors().len());
     let mut signals = levitation.signals();
     let mut rates = DVector::zeros(levitation.states());
-    levitation.rate(
-        states,
-        displacements,
-        velocities,
-        &mut signals,
-        rates.as_mut_slice(),
-    );
+    let inputs = Inputs::usual(displacements, velocities);
+    levitation.rate(states, inputs, &mut signals, rates.as_mut_slice());
     (rates, DVector::from_column_slice(&signals.currents))
 }

@@ -1,6 +1,7 @@
 //! Sensors, amplifiers and magnets as they are given, axis by axis.
 
 use crate::StateSpace;
+use number::Real;
 use physics::magnet::{Amplifier, Magnet};
 
 /// Where an axis of a sensor or a magnet is.
@@ -43,11 +44,50 @@ pub struct Actuator {
 }
 
 impl Actuator {
-    /// Where its commands end, A; none where they are volts, or have no limit.
-    pub(crate) fn command_limits(&self) -> Option<[f64; 2]> {
-        let volts = matches!(self.amplifier, Amplifier::Voltage { gain: None, .. });
-        let limits = [self.lowest_current, self.largest_current];
-        (!volts && self.largest_current.is_finite()).then_some(limits)
+    /// Whether each of its coils has a current of its own: those of an opposed pair on a current amplifier. Else both follow one control
+    /// current.
+    pub(crate) fn has_coils(&self) -> bool {
+        let coils = matches!(self.magnet, Magnet::Pair(_));
+        coils && matches!(self.amplifier, Amplifier::Current { .. })
+    }
+    /// Whether its commands are volts.
+    pub(crate) fn takes_volts(&self) -> bool {
+        matches!(self.amplifier, Amplifier::Voltage { gain: None, .. })
+    }
+}
+
+/// What may change of an axis of a magnet during a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition<R> {
+    /// Share of the controller's command that acts: 1; 0 of a frozen one.
+    pub command_share: R,
+    /// Command that acts besides, A or V.
+    pub command_held: R,
+    /// Share of the bias that is there.
+    pub bias_share: R,
+    /// Largest current of a coil, of a linear magnet largest control current, A; infinite without limit.
+    pub largest_current: R,
+    /// Largest rate of the current of a current amplifier, A/s; infinite without limit.
+    pub slew: R,
+}
+
+impl<R: Real> Condition<R> {
+    /// Of an axis to which nothing has happened.
+    pub fn of(actuator: &Actuator) -> Self {
+        let slew = match actuator.amplifier {
+            Amplifier::Current { slew, .. } => slew,
+            _ => f64::INFINITY,
+        };
+        Condition {
+            command_share: R::one(),
+            command_held: R::zero(),
+            bias_share: R::one(),
+            largest_current: R::splat(match actuator.magnet {
+                Magnet::Linear { .. } => actuator.largest_current,
+                Magnet::Pair(pair) => pair.largest_current,
+            }),
+            slew: R::splat(slew),
+        }
     }
 }
 

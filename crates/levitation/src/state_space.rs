@@ -1,7 +1,7 @@
 //! Linear filters as ẋ = A x + B u, y = C x + D u, with named states.
 
 use crate::{C64, Refused};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use number::Real;
 
 /// A linear filter: ẋ = A x + B u, y = C x + D u.
@@ -257,6 +257,22 @@ impl StateSpace {
     #[inline(always)]
     pub fn output<R: Real>(&self, x: &[R], u: &[R], y: &mut [R]) {
         product(&self.c, x, &self.d, u, y);
+    }
+
+    /// The states under a constant input: A x = -B u, integrators, whose rows of A are zero, at zero; `None` where nothing settles.
+    #[must_use]
+    pub fn settled(&self, u: &DVector<f64>) -> Option<DVector<f64>> {
+        let mut left = self.a.clone();
+        let mut right = -(&self.b * u);
+        for state in 0..self.states() {
+            if left.row(state).amax() == 0.0 {
+                (left[(state, state)], right[state]) = (1.0, 0.0);
+            }
+        }
+        match left.is_empty() {
+            true => Some(right),
+            false => left.lu().solve(&right),
+        }
     }
 
     /// C (s - A)⁻¹ B + D; `None` where s is a pole.

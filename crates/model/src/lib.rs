@@ -15,6 +15,7 @@ pub mod bearing;
 pub mod bearing_heat;
 pub mod body;
 pub mod contact;
+pub mod force;
 pub mod heats;
 pub mod levitation;
 pub mod magnets;

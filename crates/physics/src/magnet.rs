@@ -185,7 +185,35 @@ impl<R: Real> Magnet<R> {
         }
     }
 
-    /// Force on the rotor along the axis, N.
+    /// Bias currents of both coils, A: nothing of a linear magnet.
+    ///
+    /// Source: as given.
+    /// Valid: always.
+    #[inline(always)]
+    pub fn biases(&self) -> [R; 2] {
+        match self {
+            Self::Linear { .. } => [R::zero(); 2],
+            Self::Pair(pair) => [pair.bias_plus, pair.bias_minus],
+        }
+    }
+
+    /// Currents of both coils under one control current, A.
+    ///
+    /// Formula: ±i, or e b₊ + i and e b₋ - i within [0, i_max]
+    ///
+    /// - `current` i, A; `bias_share` e of the bias that is there
+    ///
+    /// Source: two coils in one circuit.
+    /// Valid: coils that have no current of their own.
+    #[inline(always)]
+    pub fn coils(&self, current: R, bias_share: R) -> [R; 2] {
+        match self {
+            Self::Linear { .. } => [current, -current],
+            Self::Pair(pair) => pair.coils(current, bias_share).into(),
+        }
+    }
+
+    /// Force on the rotor along the axis under one control current, N.
     ///
     /// Formula: k_i e i + k_s e² x, or k[(e b₊ + i)²/(g₀ - x)² - (e b₋ - i)²/(g₀ + x)²], coil currents within [0, i_max]
     ///
@@ -196,16 +224,30 @@ impl<R: Real> Magnet<R> {
     /// Valid: |x| < g₀; no saturation of iron, no eddy currents, no hysteresis.
     #[inline(always)]
     pub fn force(&self, current: R, displacement: R, bias_share: R) -> R {
+        self.force_of_coils(self.coils(current, bias_share), displacement, bias_share)
+    }
+
+    /// Force on the rotor along the axis, N.
+    ///
+    /// Formula: ½k_i e (i₊ - i₋) + k_s e² x, or k[i₊²/(g₀ - x)² - i₋²/(g₀ + x)²]
+    ///
+    /// - `coils` i₊, i₋ of the coil that pulls towards + and of the other, A, what is left of their biases in them
+    /// - `displacement` x of the rotor's axis from the magnet's, m; `bias_share` e of the bias that is there
+    ///
+    /// Source: reluctance force of two magnets (G. Schweitzer, E. Maslen, Magnetic Bearings, 2009, from memory).
+    /// Valid: |x| < g₀; no saturation of iron, no eddy currents, no hysteresis.
+    #[inline(always)]
+    pub fn force_of_coils(&self, [near, far]: [R; 2], displacement: R, bias_share: R) -> R {
         match *self {
             Self::Linear {
                 current_stiffness,
                 position_stiffness,
             } => {
+                let current = R::splat(0.5) * (near - far);
                 bias_share
                     * (current_stiffness * current + position_stiffness * bias_share * displacement)
             }
             Self::Pair(pair) => {
-                let (near, far) = pair.coils(current, bias_share);
                 let (near_gap, far_gap) = (pair.gap - displacement, pair.gap + displacement);
                 pair.force_constant * ((near / near_gap).square() - (far / far_gap).square())
             }
@@ -243,10 +285,12 @@ impl<R: Real> Magnet<R> {
 pub enum Amplifier {
     /// The current is the command.
     Direct,
-    /// i̇ = ω(command - i).
+    /// i̇ = ω(command - i) of each coil, |i̇| ≤ s.
     Current {
         /// Bandwidth ω, rad/s.
         bandwidth: f64,
+        /// Largest rate s, A/s; infinite without limit.
+        slew: f64,
     },
     /// L di/dt = u - R i - k_i ẋ, |u| ≤ U.
     Voltage {

@@ -3,7 +3,7 @@
 use crate::key::{Key, quoted};
 use crate::meant;
 use crate::not_modelled;
-use crate::rotor::keys::kind_at;
+use crate::rotor::keys::{OF_MACHINES, kind_at, kind_within};
 use crate::rotor::tables::{self, WrittenPart, is_part};
 use crate::several::{self, AUXILIARY_BEARING, LIMIT, PLANES, VARY};
 use crate::system::{COASTING_DOWN, SystemName};
@@ -162,6 +162,7 @@ impl Document {
         if let Some(given) = rotor.values.get_mut("system") {
             given.raw = Raw::Text(system.word().to_string());
         }
+        rotor.parts.retain(|part| !OF_MACHINES.contains(&part.kind));
         rotor.own.clear();
         rotor.vary.clear();
         rotor.limits.clear();
@@ -330,7 +331,7 @@ impl Document {
             self.limits.push(keys.collect());
             return Ok(());
         }
-        if path.len() > 2 && self.system.has_shaft() && kind_at(&path[..2].join(".")).is_some() {
+        if self.system.has_shaft() && kind_within(&path.join(".")).is_some() {
             return tables::set(&mut self.parts, &self.file, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {

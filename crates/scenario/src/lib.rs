@@ -55,8 +55,8 @@ pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;
 pub use drop::{
-    AuxiliaryBearing, BearingPlace, Body, CUTOFFS, Contact, Drop, Gravity, Levitation, Mount,
-    Repeat, RigidBody, Rotor, Shaft, Spin,
+    AuxiliaryBearing, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
+    Levitation, Mount, Relevitation, Repeat, RigidBody, Rotor, Shaft, Spin, When,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
@@ -70,7 +70,7 @@ pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
     RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
 };
-pub use rotor::{FlexibleRotor, RotorAnalysis, parts_of_rotors};
+pub use rotor::{FlexibleRotor, RotorAnalysis, parts_of};
 pub use run::{Accuracy, Method, Run};
 pub use schema::schema;
 pub use signals::analysis::{

@@ -53,21 +53,25 @@ pub fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
 /// What a machine lacks, or has under another name.
 const MACHINE: &[Absent] = &[
     Absent {
-        paths: "relevitation drop.relevitate drop.relevitation levitation.recovery levitation.relevitation levitation.on_at \
-                levitation.power_restored_at levitation.failure levitation.fault levitation.noise levitation.magnet.power_lost_at \
-                *.fails_at *.lost_axis *.fault *.noise",
-        what: "faults of single magnets, axes, amplifiers and sensors, noise, and levitation that comes back are not described: all magnets lose \
-               their power at one time",
+        paths: "levitation.noise *.noise",
+        what: "sensors are without noise",
         point: 2,
-        instead: "That time is levitation.power_lost_at, and the currents decay by levitation.decay_time or the amplifiers",
+        instead: "An offset is levitation.sensor.offset_1, or [[event]] with do = \"sensor offset\" from an instant on",
     },
     Absent {
-        paths: "base foundation seismic shock rotor.force rotor.impulse rotor.initial_displacement rotor.initial_velocity rotor.lost_mass \
-                rotor.blade_loss *.lost_at",
-        what: "weight and unbalance are the only loads: motion of the base, forces from outside, and masses that are lost on the way are not \
-               described",
+        paths: "relevitation drop.relevitate drop.relevitation levitation.recovery levitation.relevitation levitation.on_at \
+                levitation.power_restored_at levitation.failure levitation.fault levitation.magnet.power_lost_at \
+                *.fails_at *.lost_axis *.fault",
+        what: "no key of the levitation describes faults of magnets, amplifiers, controllers and sensors, or levitation that comes back: events do",
         point: 2,
-        instead: "An unbalance that is there from the start is [[rotor.unbalance]]",
+        instead: "[[event]] with do, at, and the magnet and axis that it happens to",
+    },
+    Absent {
+        paths: "base foundation seismic shock rotor.impulse rotor.initial_displacement rotor.initial_velocity rotor.lost_mass \
+                rotor.blade_loss *.lost_at",
+        what: "motion of the base, starts of one's own, and masses that are lost on the way are not described",
+        point: 2,
+        instead: "A force over time is [[rotor.force]], an unbalance that is there from the start [[rotor.unbalance]]",
     },
     Absent {
         paths: "*.tilt *.misalignment",

@@ -63,7 +63,7 @@ fn root(system: SystemName) -> Value {
     }
     properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
     if system.has_shaft() {
-        for kind in PARTS {
+        for kind in PARTS.iter().filter(|kind| system.has_part(kind.word)) {
             properties(&mut root, kind.table()).insert(kind.word.to_string(), parts(kind, system));
         }
         require(&mut root, "rotor.section");

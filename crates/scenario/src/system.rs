@@ -14,6 +14,7 @@ pub const KINDS: &[&str] = &[
     "study",
 ];
 
+use crate::rotor::keys::OF_MACHINES;
 use SystemName::{CoastDown, Drop, Identify, Machine, Rig, Rotor, Signals, SpinUp, Torque};
 
 /// Name of a system.
@@ -112,6 +113,11 @@ impl SystemName {
     /// Whether its rotor lies in auxiliary bearings, one or several.
     pub fn has_auxiliary_bearings(self) -> bool {
         COASTING_DOWN.contains(&self)
+    }
+
+    /// Whether it has parts of a kind, by the word of that.
+    pub fn has_part(self, word: &str) -> bool {
+        self.has_shaft() && (!OF_MACHINES.contains(&word) || MACHINE.contains(&self))
     }
 
     /// Whether its rotor is a shaft of parts.

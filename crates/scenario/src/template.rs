@@ -1,7 +1,7 @@
 //! The commented starting file, written from the table of keys.
 
 use crate::key::{Condition, Key, Otherwise, Presence, quoted};
-use crate::rotor::keys::PARTS;
+use crate::rotor::keys::{PARTS, kind_within};
 use crate::several::{AUXILIARY_BEARING, LIMIT};
 use crate::system::{RIG, SystemName};
 use crate::table;
@@ -65,7 +65,7 @@ pub fn template(kind: &str) -> Option<String> {
 
 /// Parts of a flexible rotor: the keys of each kind once, and the parts of the example.
 fn describe_parts(out: &mut String, system: SystemName) {
-    for kind in PARTS {
+    for kind in PARTS.iter().filter(|kind| system.has_part(kind.word)) {
         comment(out, kind.doc);
         let given = |part: &[(&str, &str)], key: &Key| {
             let own = part.iter().find(|(name, _)| *name == key.name());
@@ -199,7 +199,7 @@ fn describe_as(out: &mut String, key: &Key, system: SystemName, own: Option<Stri
         }
     };
     comment(out, &doc);
-    let of_part = own.is_some() || key.path.matches('.').count() == 2 && system.has_shaft();
+    let of_part = own.is_some() || kind_within(key.path).is_some() && system.has_shaft();
     let active = if of_part { own.is_some() } else { active };
     let text = own.unwrap_or(text);
     out.push_str(if active { "" } else { "# " });

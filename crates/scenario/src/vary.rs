@@ -14,7 +14,7 @@
 use crate::document::Raw;
 use crate::drop::Repeat;
 use crate::key::{Key, Kind, quoted};
-use crate::rotor::keys::kind_at;
+use crate::rotor::keys::kind_within;
 use crate::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
 use crate::table;
 use crate::values::Values;
@@ -450,9 +450,7 @@ fn override_text(raw: &Raw) -> Option<String> {
 
 /// Whether a path is that of a value of a part of a flexible rotor.
 fn is_of_part(path: &str) -> bool {
-    let mut dots = path.match_indices('.');
-    let second = dots.nth(1);
-    second.is_some_and(|(dot, _)| kind_at(&path[..dot]).is_some())
+    kind_within(path).is_some()
 }
 
 /// A value of a part of a flexible rotor that is varied: between values that are given, since none is taken from the part.

@@ -113,6 +113,8 @@ pub struct Plan<'a> {
     pub taps: &'a [Tap],
     /// Whether a run ends once its rotor rolls.
     pub until_rolling: bool,
+    /// Share of the clearance within which a rotor that is levitated again must stay.
+    pub within: Option<f64>,
     /// Stops everything when true.
     pub interrupt: &'a AtomicBool,
     /// Called with the fraction done.
@@ -197,6 +199,7 @@ impl<'a> Watched<'a> {
         let end = plan.settings.end;
         let interval = member.keep_rows.then_some(plan.interval);
         let record = Record::with_taps(&member.machine, end, interval, plan.taps);
+        let record = record.staying_within(plan.within);
         Watched {
             record: match plan.until_rolling {
                 true => record.until_rolling(),

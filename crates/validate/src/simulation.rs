@@ -161,6 +161,7 @@ fn simulate(
                 step_limit: 100_000_000,
             },
             until_rolling: false,
+            within: None,
             steps: Steps::Explicit,
             interval: duration,
             taps: &[],
@@ -236,6 +237,7 @@ pub(super) fn falling_machine(
         },
         magnets: None,
         seals: Vec::new(),
+        forces: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
@@ -272,6 +274,7 @@ pub(super) fn falling_machine(
         speed: 0.0,
         unbalance_angle: 0.0,
         schedule: Schedule::default(),
+        at_speeds: Vec::new(),
     };
     constants.balance_mounts();
     RotorMachine::new(constants)
@@ -314,6 +317,7 @@ pub(super) fn constants(
         },
         magnets: None,
         seals: Vec::new(),
+        forces: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
@@ -385,6 +389,7 @@ pub(super) fn constants(
         speed,
         unbalance_angle: 0.0,
         schedule: Schedule::default(),
+        at_speeds: Vec::new(),
     };
     constants.balance_mounts();
     Ok(constants)

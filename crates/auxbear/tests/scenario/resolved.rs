@@ -4,7 +4,7 @@ use super::files::{must_read, owned as sets};
 use auxbear::scenario::{
     BallMaterial, BearingRecord, BearingSource, Body, BuiltIn, Cage, Drop, Fidelity, Moment,
     NoBearings, Provenance, RigidBody, Scenario, Separation, Spin, System, SystemName, Traction,
-    keys, keys_of, parts_of_rotors, template,
+    keys, keys_of, parts_of, template,
 };
 use physics::palmgren_factors::FactorSource;
 use proptest::prelude::*;
@@ -406,8 +406,8 @@ fn the_starting_file_reads_without_a_problem() {
         for key in keys() {
             let shown = text.contains(&format!("\n{} = ", key.name()))
                 || text.contains(&format!("\n# {} = ", key.name()));
-            let of_part = [SystemName::Rotor, SystemName::Machine].contains(system)
-                && parts_of_rotors().any(|(_, keys)| keys.iter().any(|k| k.name() == key.name()));
+            let of_part =
+                parts_of(*system).any(|(_, keys)| keys.iter().any(|k| k.name() == key.name()));
             let namesake = of_part || keys_of(*system).any(|other| other.name() == key.name());
             assert_eq!(shown, namesake, "{} in {name}", key.path);
         }

@@ -4,7 +4,7 @@
 
 use auxbear::catalogue;
 use auxbear::scenario::{
-    BuiltIn, Scenario, SystemName, keys_of, parts_of_rotors, schema, sections_of, template,
+    BuiltIn, Scenario, SystemName, keys_of, parts_of, schema, sections_of, template,
 };
 use regex_lite::Regex;
 use serde_json::{Value, json};
@@ -157,9 +157,7 @@ fn the_schema_has_every_section_and_key_and_no_other() {
         let mut known: Vec<String> = keys_of(*system).map(|key| key.path.to_string()).collect();
         known.extend(sections_of(*system).map(|section| section.path.to_string()));
         known.push("limit".to_string());
-        if [SystemName::Rotor, SystemName::Machine].contains(system) {
-            known.extend(parts_of_rotors().map(|(path, _)| path));
-        }
+        known.extend(parts_of(*system).map(|(path, _)| path));
         if *system == SystemName::Machine {
             // what is asked of its rotor
             let asked = keys_of(SystemName::Rotor).map(|key| key.path);

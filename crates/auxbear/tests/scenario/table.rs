@@ -3,7 +3,7 @@
 use super::bases::base;
 use super::files::must_read;
 use auxbear::scenario::{
-    BuiltIn, Kind, Presence, Range, Scenario, SystemName, keys, keys_of, parts_of_rotors, sections,
+    BuiltIn, Kind, Presence, Range, Scenario, SystemName, keys, keys_of, parts_of, sections,
     sections_of, systems,
 };
 
@@ -58,7 +58,8 @@ fn every_key_is_documented_and_belongs_to_a_section() {
     for section in sections() {
         assert!(section.doc.ends_with('.'), "{}", section.path);
         for system in section.systems {
-            let parts = || parts_of_rotors().any(|(path, _)| path.starts_with(section.path));
+            let parts =
+                || parts_of(SystemName::Machine).any(|(path, _)| path.starts_with(section.path));
             assert!(keys_of(*system).any(|key| key.section() == section.path) || parts());
         }
     }

@@ -4,7 +4,7 @@ use crate::mass::Mass;
 use levitation::response::{Limit, Loaded, equilibrium, excesses, unbalance};
 use levitation::sensitivity::{Band, Sensitivity};
 use levitation::{
-    Amplifier, C64, ClosedLoop, Control, Levitation, StateSpace, Timing, Verdict, verdict,
+    Amplifier, C64, ClosedLoop, Control, Inputs, Levitation, StateSpace, Timing, Verdict, verdict,
 };
 use nalgebra::DVector;
 use physics::magnet::{Magnet, OpposedPair};
@@ -154,7 +154,8 @@ fn static_part_and_amplitude_are_those_of_the_motion_and_pass_a_limit_together()
         let start = found.start(&limited, &imbalance, angle).unwrap();
         let unlimited = limited.linear();
         let mut signals = unlimited.signals();
-        unlimited.read(&start.states, start.coordinates.as_slice(), &mut signals);
+        let inputs = Inputs::usual(start.coordinates.as_slice(), &[]);
+        unlimited.read(&start.states, inputs, &mut signals);
         [0, 1].map(|axis| (signals.commands[axis], signals.currents[axis]))
     };
     let (now, later) = (signals(0.0), signals(std::f64::consts::FRAC_PI_2));

@@ -1,5 +1,6 @@
 //! Signs, limits and equalities of the levitation: each sign shown to fail when it is flipped.
 
+mod coils;
 mod loaded;
 mod mass;
 #[path = "../../../rotor/tests/published/mod.rs"]
@@ -10,8 +11,8 @@ mod reference;
 use levitation::response::{equilibrium, impulse, start};
 use levitation::sensitivity::Axes;
 use levitation::{
-    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, LinearControl, Plant, Refused,
-    Sensor, StateSpace, Timing, Verdict, ZERO, verdict, weight,
+    Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Inputs, Levitation, LinearControl, Plant,
+    Refused, Sensor, StateSpace, Timing, Verdict, ZERO, verdict, weight,
 };
 use mass::{DELAYED, Mass};
 use nalgebra::{DMatrix, DVector};
@@ -44,7 +45,12 @@ fn rates(plant: &Plant<f64>, levitation: &Levitation, state: &[f64], sign: f64) 
         .collect();
     let mut signals = levitation.signals();
     let mut own_rates = vec![0.0; own.len()];
-    levitation.rate(own, &sensed, &moved, &mut signals, &mut own_rates);
+    levitation.rate(
+        own,
+        Inputs::usual(&sensed, &moved),
+        &mut signals,
+        &mut own_rates,
+    );
     let mut force = -(&plant.stiffness * &q) - &plant.damping * &v;
     for (actuator, current) in levitation.actuators().iter().zip(&signals.currents) {
         let row = plant.row(actuator.axis.node, actuator.axis.angle);
@@ -237,7 +243,10 @@ fn unequal_axes_have_no_complex_plane_and_whirl_on_ellipses() {
         file.levitation(0.0).sensors().to_vec(),
         file.levitation(0.0).actuators().to_vec(),
     );
-    actuators[0].amplifier = Amplifier::Current { bandwidth: 2e3 };
+    actuators[0].amplifier = Amplifier::Current {
+        bandwidth: 2e3,
+        slew: f64::INFINITY,
+    };
     let pid = StateSpace::pid(8000.0, 8e4, 22.0, 4.547_284_088_339_867e-5).unwrap();
     let nodes = file.rotor.nodes.len();
     let control = Control::Channels(vec![pid; 4]);
@@ -323,7 +332,8 @@ fn matrices_are_the_derivatives_of_the_rates() {
     let mut signals = levitation.signals();
     let mut rates = vec![variable(0); states];
     let (own, inputs) = all.split_at(states);
-    levitation.rate(own, &inputs[..2], &inputs[2..], &mut signals, &mut rates);
+    let inputs = Inputs::usual(&inputs[..2], &inputs[2..]);
+    levitation.rate(own, inputs, &mut signals, &mut rates);
     for (row, rate) in rates.iter().enumerate() {
         for k in 0..states {
             assert_eq!(rate.partial[k], linear.a[(row, k)]);
@@ -380,7 +390,7 @@ fn a_voltage_amplifier_converts_what_it_gives_the_rotor_and_ends_at_its_limit() 
         largest_voltage: limit,
     };
     let levitation = mass.levitation();
-    let at = levitation.current_state(0).unwrap();
+    let at = levitation.current_states(0).start;
     let mut states = vec![0.0; levitation.states()];
     states[at] = 1.2;
     let mut signals = levitation.signals();
@@ -388,8 +398,7 @@ fn a_voltage_amplifier_converts_what_it_gives_the_rotor_and_ends_at_its_limit() 
     let velocity = 0.3;
     levitation.rate(
         &states,
-        &[0.0; 2],
-        &[velocity, 0.0],
+        Inputs::usual(&[0.0; 2], &[velocity, 0.0]),
         &mut signals,
         &mut rates,
     );
@@ -467,7 +476,11 @@ fn a_sampled_loop_has_the_eigenvalues_of_its_delay() {
         let sensed: Vec<f64> = (levitation.sensors().iter())
             .map(|s| (plant.row(0, s.axis.angle) * DVector::from_row_slice(&y[..2]))[0])
             .collect();
-        levitation.sample(&mut y[4..], &sensed, &mut levitation.signals());
+        levitation.sample(
+            &mut y[4..],
+            Inputs::usual(&sensed, &[]),
+            &mut levitation.signals(),
+        );
         let mut y = advance(&y, computation / 8.0, 8, rate);
         levitation.release(&mut y[4..]);
         let y = advance(&y, (period - computation) / 8.0, 8, rate);

@@ -25,7 +25,10 @@ impl Mass {
                 current_stiffness: 40.0,
                 position_stiffness: 1.6e5,
             },
-            amplifier: Amplifier::Current { bandwidth: 12e3 },
+            amplifier: Amplifier::Current {
+                bandwidth: 12e3,
+                slew: f64::INFINITY,
+            },
             timing: DELAYED,
             channel: StateSpace::pid(8000.0, 8e4, 22.0, 4.5e-5).unwrap(),
         }

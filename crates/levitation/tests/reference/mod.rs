@@ -90,6 +90,7 @@ impl File {
                     largest_current: f64::INFINITY,
                     amplifier: Amplifier::Current {
                         bandwidth: number(c, "amplifier_rad_s"),
+                        slew: f64::INFINITY,
                     },
                 });
                 let pid = StateSpace::pid(

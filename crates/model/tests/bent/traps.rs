@@ -3,7 +3,7 @@
 
 use crate::machines::bent::{NODES, Shaft, bent, shaft};
 use crate::machines::vec2;
-use model::magnets::MagnetsConstants;
+use model::magnets::{MagnetsConstants, SupplyConstants};
 use model::system::machine::{MachineConstants, RotorMachine};
 use nalgebra::{Complex, DMatrix, DVector};
 use number::Vec2;
@@ -186,7 +186,10 @@ fn rates(
     let magnets = constants.magnets.as_ref().unwrap();
     for magnet in &magnets.magnets {
         let node = row(&magnet.node);
-        let left = (-2.0 * magnets.decay_rate * SINCE).exp();
+        let SupplyConstants::Lost { decay_rate, .. } = magnets.supply else {
+            panic!("magnets without a controller");
+        };
+        let left = (-2.0 * decay_rate * SINCE).exp();
         let stiffness = magnet.axes[0].law.position_stiffness();
         let carried = vec2(magnet.axes[0].current, magnet.axes[1].current);
         let mut spring = C64::from(stiffness * left);

@@ -288,6 +288,7 @@ pub fn reference() -> MachineConstants {
         },
         magnets: None,
         seals: Vec::new(),
+        forces: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],
@@ -324,6 +325,7 @@ pub fn reference() -> MachineConstants {
         speed: 400.0 * PI,
         unbalance_angle: 0.0,
         schedule: Schedule::default(),
+        at_speeds: Vec::new(),
     };
     balance_mount(&mut constants);
     constants

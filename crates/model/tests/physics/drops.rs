@@ -188,7 +188,7 @@ impl Observer<RotorMachine> for Lands {
 #[test]
 fn a_brake_comes_on_at_its_instant_and_takes_its_work_from_the_spin() {
     let mut c = reference();
-    c.schedule = Schedule::of([(1e-3 / 3.0, Event::Brake)]);
+    c.schedule = Schedule::of([(1e-3 / 3.0, Event::Brake(1.0))]);
     c.rotor.brake_torque = 5.0;
     let machine = RotorMachine::new(c);
     let start = machine.start();
@@ -262,7 +262,7 @@ fn what_drives_by_a_table_starts_a_rotor_and_what_brakes_only_stops_it() {
 #[test]
 fn a_brake_stops_and_does_not_reverse() {
     let mut c = reference();
-    c.schedule = Schedule::of([(0.0, Event::Brake)]);
+    c.schedule = Schedule::of([(0.0, Event::Brake(1.0))]);
     c.speed = 20.0;
     c.rotor.brake_torque = 200.0;
     let machine = RotorMachine::new(c);

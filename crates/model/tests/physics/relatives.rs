@@ -21,7 +21,7 @@ pub fn machines() -> Vec<RotorMachine> {
         planar(&mut c).cage_drag = 1e-6;
         c.bearings[0].inner_race.torque = 0.01;
         c.rotor.brake_torque = 0.3;
-        c.schedule = Schedule::of([(0.0, Event::Brake)]);
+        c.schedule = Schedule::of([(0.0, Event::Brake(1.0))]);
         c
     };
     let mut peaked = base();

@@ -110,7 +110,13 @@ function coastDownLine(run) {
     const input = inputOf(run, path);
     return input && String(input.value) !== "not given" ? inputText(input.value).replace("^2", "²") : null;
   };
-  const facts = [`rotor ${given("rotor.mass")}, ${given("rotor.polar_inertia")}`, `from ${given("rotor.speed")}`, `${Number(given("rotor.planes")) * Number(given("planes") || 1)} × ${given("bearing.name") || "bearing without a name"}`, given("heat.atmosphere") && `in ${given("heat.atmosphere")}`, `follows: ${given("heat.feedback")}`];
+  // of bearings with names each has its own
+  const named = list(run.summary.inputs).map(({ path }) => /^auxiliary_bearing\.[^.]+\.(?=planes$)/.exec(path)?.[0]).filter(Boolean);
+  const parts = named.length ? named : [""];
+  const rows = (part) => Number(given("rotor.planes") || 1) * Number(given(`${part}planes`) || 1);
+  const bearings = parts.map((part) => `${rows(part)} × ${given(`${part}bearing.name`) || "bearing without a name"}`);
+  const ofFirst = (path) => given(path) || given(parts[0] + path);
+  const facts = [`rotor ${given("rotor.mass")}, ${given("rotor.polar_inertia")}`, `from ${given("rotor.speed")}`, bearings.join(", "), ofFirst("heat.atmosphere") && `in ${ofFirst("heat.atmosphere")}`, ofFirst("heat.feedback") && `follows: ${ofFirst("heat.feedback")}`];
   return element("p", { class: "machine" }, facts.filter(Boolean).join(" · "));
 }
 

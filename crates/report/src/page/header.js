@@ -194,10 +194,21 @@ function axialTile(run) {
   return tile("Axial motion", NOT_IN_THIS_RUN, [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, "thrust, axial clearance and drop onto the faces are not computed"]);
 }
 
+const NOT_HELD_AGAIN = "AB2082";
+
+// Whether a rotor was held when it was levitated again.
+function relevitationTile(run) {
+  const [held, ...others] = shownIn(run, "relevitation");
+  if (!held) return null;
+  const notes = others.filter(({ value }) => value !== null).map(({ words, value, quantity }) => `${words} ${engineeringText(value, quantity.unit, 4)}`);
+  return tile("Levitated again", held.quantity.value, [notes, held.quantity.value === null ? held.quantity.why : null], verdictState(run, warningsOf(run, NOT_HELD_AGAIN).length > 0));
+}
+
 // Of a machine once, whatever its bearings are.
 function machineTiles(run) {
   return [
     stateTile(run),
+    relevitationTile(run),
     distanceTile(run),
     rangeTile(run),
     axialTile(run),

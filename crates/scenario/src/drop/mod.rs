@@ -1,6 +1,7 @@
 //! A drop as typed values in SI: what a simulation is built from.
 
 pub mod checks;
+pub mod event;
 pub mod keys;
 pub mod keys_mount;
 pub mod keys_surface;
@@ -16,6 +17,7 @@ use crate::heat::{Network, RotorBodies, Warm};
 use crate::run::{Run, Until};
 use crate::section::Section;
 use crate::values::Values;
+pub use event::{Event, Happens, Relevitation, When};
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
 use physics::heat_conduction::ThermalMaterial;

@@ -1,10 +1,11 @@
 //! A rotor that bends, in a machine: its parts, where its bearings stand, what holds it until the release.
 
 use crate::document::Document;
+use crate::drop::event::{self, Event};
 use crate::key::quoted;
 use crate::rotor::tables::{self, Part};
 use crate::rotor::{FlexibleRotor, Node};
-use crate::run::Accuracy;
+use crate::run::{Accuracy, Until};
 use crate::system::MACHINE;
 use crate::values::{Value, Values};
 use problem::{Code, Problem, did_you_mean};
@@ -28,8 +29,10 @@ pub struct Shaft {
     pub windage: f64,
     /// Time in which the currents of the magnets decay to 1/e, s.
     pub decay_time: f64,
-    /// Instant at which the magnets lose their power, s; their controllers act until then.
+    /// Instant at which the magnets lose their power by the key of the file, s.
     pub power_lost: f64,
+    /// What happens during the run; with magnets the loss of their power.
+    pub events: Vec<Event>,
     /// Where the auxiliary bearings stand, in their order.
     pub places: Vec<BearingPlace>,
 }
@@ -92,6 +95,15 @@ impl Shaft {
             }
             _ => {}
         }
+        let forced = of("force").next();
+        if let Some(part) = forced.filter(|_| values.chosen("run.until") == Some(Until::Standstill))
+        {
+            let found = "a force beside run.until = \"standstill\"";
+            let allowed =
+                "run.until = \"duration\" is needed: the coast-down knows no forces from outside";
+            return part.refuse(Code::Conflict, "", found, allowed);
+        }
+        let events = event::events(&parts, rotor.levitation.as_ref(), values)?;
         let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         let place = |own: &Values| {
             Ok(BearingPlace {
@@ -111,6 +123,7 @@ impl Shaft {
             windage: number(values, "rotor.windage"),
             decay_time: number(values, "levitation.decay_time"),
             power_lost: number(values, "levitation.power_lost_at"),
+            events,
         })
     }
 }

@@ -1,7 +1,9 @@
 //! The keys of a flexible rotor: what is asked of it, and its parts, arrays of tables `[[rotor.section]]`, `[[levitation.magnet]]` and so on.
 
+use crate::drop::event::Happening;
 use crate::key::{Key, Kind, Range, Section};
 use crate::system::ROTOR;
+use problem::words::Words;
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[Section::new("analysis", "What is computed of the rotor: speeds, modes, margins.", ROTOR)];
@@ -39,6 +41,13 @@ pub const KEYS: &[Key] = &[
     Key::new("analysis.whirl_to", Kind::Quantity("rad/s"), "4000 rad/s", "Highest frequency of dry backward whirl looked at, in the auxiliary bearings of a machine whose rotor is analysed.")
         .positive().optional("it is analysis.frequency_to, or twice the natural frequency of the rotor on the springs of all mounts where that is higher"),
 ];
+
+/// Word of what happens to a machine.
+pub const EVENT: &str = "event";
+/// Word of a force from outside on its rotor.
+pub const FORCE: &str = "force";
+/// Kinds that a machine alone has, not the analysis of its rotor.
+pub const OF_MACHINES: [&str; 2] = [EVENT, FORCE];
 
 /// A kind of part.
 #[derive(Debug)]
@@ -266,6 +275,19 @@ pub(crate) const PARTS: &[PartKind] = &[
         starting: &[&[("at", "0.4 m"), ("amount", "20 g mm")]],
     },
     PartKind {
+        word: FORCE,
+        doc: "A force from outside on the rotor of a machine, over time: a shaker, a hammer, gas, a gear. The start of the run is the steady motion without it.",
+        alone: false,
+        keys: &[
+            name!("force", "shaker"),
+            at!("force"),
+            key!("force", "times", Kind::Series("s"), "[\"0.1 s\", \"0.101 s\", \"0.102 s\"]", "Instants of its points, rising. Between them the force is linear, beyond them it stays."),
+            key!("force", "x", Kind::Series("N"), "[\"0 N\", \"500 N\", \"0 N\"]", "Force along x at these instants; one value where it is constant.").optional("it is 0"),
+            key!("force", "y", Kind::Series("N"), "[\"0 N\", \"500 N\", \"0 N\"]", "Force along y at these instants.").optional("it is 0"),
+        ],
+        starting: &[],
+    },
+    PartKind {
         word: "magnet",
         doc: "A radial magnet with two axes at right angles.",
         alone: false,
@@ -281,6 +303,7 @@ pub(crate) const PARTS: &[PartKind] = &[
             lev!("magnet", "bias_difference_2", Kind::Quantity("A"), "0.8 A", "The same of the second axis.").default("0 A", "equal biases").beside(&["gap"]),
             lev!("magnet", "largest_current", Kind::Quantity("A"), "3.2 A", "Largest current of a coil, of a linear magnet largest control current.").positive().optional("no limit"),
             lev!("magnet", "amplifier_bandwidth", Kind::Quantity("1/s"), "2 kHz", "Corner of a current amplifier.").positive().optional("the current is the command").excludes("levitation.magnet.inductance"),
+            lev!("magnet", "slew_rate", Kind::Quantity("A/s"), "3000 A/s", "Largest rate of the current of a coil: the voltage of its amplifier over its inductance.").positive().optional("no limit").beside(&["amplifier_bandwidth"]),
             lev!("magnet", "inductance", Kind::Quantity("H"), "20 mH", "Inductance of an axis, its two coils in series: twice that of one coil, k_i²/k_s without stray flux. It asks for a voltage amplifier.").positive().optional("a current amplifier"),
             lev!("magnet", "resistance", Kind::Quantity("ohm"), "1.5 ohm", "Resistance of an axis, its two coils in series.").positive().optional("needed beside inductance").beside(&["inductance"]),
             lev!("magnet", "amplifier_gain", Kind::Quantity("ohm"), "300 ohm", "Volts of the amplifier for each ampere that lacks.").positive().optional("the command is the voltage itself, gains are of V instead of A").beside(&["inductance"]),
@@ -322,6 +345,34 @@ pub(crate) const PARTS: &[PartKind] = &[
         ],
         starting: &[],
     },
+    PartKind {
+        word: EVENT,
+        doc: "Something that happens to a machine: at an instant, where its rotor reaches a speed, or after another event. With events of magnets, sensors or controllers the power is lost by them alone; levitation.power_lost_at has no default then.",
+        alone: false,
+        keys: EVENT_KEYS,
+        starting: &[],
+    },
+];
+
+const EVENT_KEYS: &[Key] = &[
+    Key::new("event.name", Kind::Text, "axis_lost", "Its name, for after and in messages.").optional("its number names it"),
+    Key::new("event.do", Kind::Word(Happening::WORDS), "axis lost", "What happens. Lost axes keep their controller from acting, and their currents decay with the bias; a stuck sensor keeps showing what it shows, a dead one shows nothing; a frozen command keeps its value while the amplifier follows it."),
+    Key::new("event.at", Kind::Quantity("s"), "0.1 s", "Instant from the start of the run.").not_negative().optional("below_speed, above_speed or after says when"),
+    Key::new("event.below_speed", Kind::Quantity("rad/s"), "6000 rpm", "It happens where the spin falls to this size.").positive().optional("at, above_speed or after says when"),
+    Key::new("event.above_speed", Kind::Quantity("rad/s"), "9000 rpm", "It happens where the spin rises to this size.").positive().optional("at, below_speed or after says when"),
+    Key::new("event.after", Kind::Text, "power_lost", "It happens after the event of this name; power_lost and brake are those of levitation.power_lost_at and rotor.brake_start.").optional("at, below_speed or above_speed says when"),
+    Key::new("event.delay", Kind::Quantity("s"), "50 ms", "How long after.").not_negative().default("0 s", "at once").beside(&["after"]),
+    Key::new("event.magnet", Kind::Text, "drive_end", "Name of the magnet that it happens to, or whose sensor or controller.").optional("it happens to all"),
+    Key::new("event.axis", Kind::Count, "1", "Number of the axis, 1 or 2.").within(Range::FromTo(1.0, 2.0)).optional("it happens to both").beside(&["magnet"]),
+    Key::new("event.decay_time", Kind::Quantity("s"), "5 ms", "Of lost magnets and axes: time in which the currents decay to 1/e, that of the bias too; 0: at once.").not_negative().optional("it is levitation.decay_time"),
+    Key::new("event.offset", Kind::Quantity("m"), "20 um", "Of a sensor offset: what it shows too much from then on, before its own filter.").optional("needed with do = \"sensor offset\""),
+    Key::new("event.largest_current", Kind::Quantity("A"), "2 A", "Of an amplifier limit: largest current of a coil from then on, of a linear magnet largest control current.").positive().optional("it stays"),
+    Key::new("event.slew_rate", Kind::Quantity("A/s"), "1000 A/s", "Of an amplifier limit: largest rate of the current of a coil from then on.").positive().optional("it stays"),
+    Key::new("event.bias_time", Kind::Quantity("s"), "20 ms", "Of a re-levitation: the bias rises by 1 - exp(-t/T) with this time T; 0: it is there at once.").not_negative().optional("needed with do = \"re-levitate\""),
+    Key::new("event.reference_time", Kind::Quantity("s"), "0.1 s", "Of a re-levitation: time in which the references lead from where the rotor lies to the middle.").not_negative().optional("0: the controllers ask for the middle at once"),
+    Key::new("event.within", Kind::Coefficient, "0.5", "Of a re-levitation: share of the radial air clearance within which the rotor must stay.").within(Range::FromTo(0.0, 1.0)).optional("0.5: half of it"),
+    Key::new("event.hold", Kind::Quantity("s"), "0.1 s", "Of a re-levitation: how long before the end of the run the rotor must have stayed within it without contact, to count as held.").positive().optional("0.1 s"),
+    Key::new("event.torque", Kind::Quantity("N m"), "2 N m", "Of a brake: size of the torque from then on; it acts against the spin until the rotor stands.").not_negative().optional("needed with do = \"brake\""),
 ];
 
 /// The kind of part at a path: `rotor.section`.
@@ -329,15 +380,22 @@ pub fn kind_at(path: &str) -> Option<&'static PartKind> {
     PARTS.iter().find(|kind| kind.path() == path)
 }
 
+/// The kind of part that a path leads into, `rotor.section.shaft.length`, with what follows its own path.
+pub fn kind_within(path: &str) -> Option<(&'static PartKind, &str)> {
+    let within =
+        |kind: &'static PartKind| Some((kind, path.strip_prefix(kind.path())?.strip_prefix('.')?));
+    PARTS.iter().find_map(within)
+}
+
 impl PartKind {
-    /// The table it stands in: `rotor` of `[[rotor.section]]`.
+    /// The table it stands in: `rotor` of `[[rotor.section]]`; empty at the top of a file.
     pub fn table(&self) -> &'static str {
-        let path = self.keys.first().map_or("rotor", |key| key.path);
-        path.split('.').next().unwrap_or("rotor")
+        self.path().split_once('.').map_or("", |(table, _)| table)
     }
 
     /// Table and word: `rotor.section`.
-    pub fn path(&self) -> String {
-        format!("{}.{}", self.table(), self.word)
+    pub fn path(&self) -> &'static str {
+        let path = self.keys.first().map_or("", |key| key.path);
+        path.rsplit_once('.').map_or(path, |(path, _)| path)
     }
 }

@@ -266,6 +266,7 @@ fn amplifier(part: &Part) -> Checked<Amplifier> {
         return Ok(match part.number("amplifier_bandwidth") {
             Some(hertz) => Amplifier::Current {
                 bandwidth: TAU * hertz,
+                slew: part.number("slew_rate").unwrap_or(f64::INFINITY),
             },
             None => Amplifier::Direct,
         });

@@ -8,6 +8,7 @@ pub mod tables;
 use crate::document::Document;
 use crate::drop::Drop;
 use crate::key::Key;
+use crate::system::SystemName;
 use crate::values::Values;
 use physics::shaft::Layer;
 use physics::support::Coefficients;
@@ -31,6 +32,8 @@ pub struct FlexibleRotor {
     pub housings: Vec<f64>,
     /// Unbalance planes.
     pub unbalance: Vec<Unbalance>,
+    /// Forces from outside.
+    pub forces: Vec<Force>,
     /// Balance quality grade G of ISO 21940-11 that the unbalances are scaled to, m/s.
     pub balance_grade: Option<f64>,
     /// Magnets with their sensors and controllers.
@@ -119,9 +122,21 @@ pub struct Unbalance {
     pub phase: f64,
 }
 
-/// The kinds of parts of a flexible rotor, with their keys: `rotor.section` of `[[rotor.section]]`.
-pub fn parts_of_rotors() -> impl Iterator<Item = (String, &'static [Key])> {
-    keys::PARTS.iter().map(|kind| (kind.path(), kind.keys))
+/// A force from outside over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Force {
+    /// Its position.
+    pub at: f64,
+    /// Rows of time, s, and force along x, N; the same along y.
+    pub over_time: [Vec<[f64; 2]>; 2],
+}
+
+/// The kinds of parts of a system, with their keys: `rotor.section` of `[[rotor.section]]`.
+pub fn parts_of(system: SystemName) -> impl Iterator<Item = (String, &'static [Key])> {
+    let own = keys::PARTS
+        .iter()
+        .filter(move |kind| system.has_part(kind.word));
+    own.map(|kind| (kind.path().to_string(), kind.keys))
 }
 
 /// A rotor and what is asked of it. Speeds in rad/s.

@@ -2,9 +2,11 @@
 
 use crate::document::Document;
 use crate::key::quoted;
-use crate::rotor::keys::STAYS;
+use crate::rotor::keys::{FORCE, STAYS};
 use crate::rotor::tables::{self, Part};
-use crate::rotor::{Disk, FlexibleRotor, Node, Piece, PointMass, Support, Unbalance, levitation};
+use crate::rotor::{
+    Disk, FlexibleRotor, Force, Node, Piece, PointMass, Support, Unbalance, levitation,
+};
 use crate::values::Values;
 use physics::shaft::{Annulus, Layer, MATERIALS, Material, SAME_PLACE};
 use physics::support::{Block, Coefficients};
@@ -88,6 +90,9 @@ impl FlexibleRotor {
             supports: supports.iter().map(held).collect::<Checked<_>>()?,
             housings: housings.iter().map(|part| part.needed("mass")).collect(),
             unbalance: unbalance.collect::<Checked<_>>()?,
+            forces: (of(FORCE).into_iter())
+                .map(|part| force(part, at(part)?))
+                .collect::<Checked<_>>()?,
             balance_grade: values.number(BALANCE_GRADE),
             levitation: levitation::magnets(&of, &at)?,
             longest_element: longest_element(ends, values),
@@ -371,6 +376,34 @@ fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
         };
         let problem = part.problem(Code::NoSuchNode, "on", quoted(name), allowed);
         problem.with_hint(did_you_mean(name, names.iter().copied()))
+    })
+}
+
+/// A force from outside at a place.
+fn force(part: &Part, at: f64) -> Checked<Force> {
+    let times = part.series("times").unwrap_or_default();
+    if !times.windows(2).all(|pair| pair[0] < pair[1]) {
+        let allowed = "times that rise from entry to entry are needed";
+        return part.refuse(Code::TableOrder, "times", "times that do not rise", allowed);
+    }
+    let along = |axis: &str| -> Checked<Vec<[f64; 2]>> {
+        let Some(list) = part.series(axis) else {
+            return Ok(vec![[0.0; 2]]);
+        };
+        if list.len() != 1 && list.len() != times.len() {
+            let found = format!("{} values", list.len());
+            let allowed = format!(
+                "one value, or one for each of the {} times, is needed",
+                times.len()
+            );
+            return part.refuse(Code::WrongType, axis, found, allowed);
+        }
+        let rows = times.iter().zip(list.iter().cycle());
+        Ok(rows.map(|(time, force)| [*time, *force]).collect())
+    };
+    Ok(Force {
+        at,
+        over_time: [along("x")?, along("y")?],
     })
 }
 

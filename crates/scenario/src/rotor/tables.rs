@@ -3,7 +3,7 @@
 use crate::document::Document;
 use crate::not_modelled;
 use crate::resolved::{ResolvedValue, line};
-use crate::rotor::keys::{PARTS, PartKind};
+use crate::rotor::keys::{EVENT, OF_MACHINES, PARTS, PartKind, kind_within};
 use crate::system::SystemName;
 use crate::values::Values;
 use physics::shaft::MATERIALS;
@@ -30,8 +30,9 @@ pub struct WrittenPart {
 impl WrittenPart {
     /// Its name, of a sensor or controller that of its magnet, where it has one.
     pub fn name(&self) -> Option<&str> {
+        let of_magnet = self.kind != EVENT;
         self.keys.iter().find_map(|(key, raw, _)| match raw {
-            Raw::Text(name) if key == "name" || key == "magnet" => Some(name.as_str()),
+            Raw::Text(name) if key == "name" || key == "magnet" && of_magnet => Some(name.as_str()),
             _ => None,
         })
     }
@@ -51,9 +52,12 @@ pub fn read_all(
 ) -> Result<Vec<WrittenPart>> {
     let mut parts = Vec::new();
     for kind in PARTS {
-        let table = root.get(kind.table()).map(|value| value.get_ref());
-        let Some(DeValue::Table(table)) = table else {
-            continue;
+        let table = match kind.table() {
+            "" => root,
+            table => match root.get(table).map(|value| value.get_ref()) {
+                Some(DeValue::Table(table)) => table,
+                _ => continue,
+            },
         };
         let Some((key, value)) = table.get_key_value(kind.word) else {
             continue;
@@ -65,7 +69,7 @@ pub fn read_all(
         let start = key.span().start;
         let place = Place::of_offset(text, start);
         let refuse = |problem: Box<Problem>| Err(problem.at(place).on_key(kind.path()));
-        if !system.has_shaft() {
+        if !system.has_part(kind.word) {
             return refuse(no_effect(kind, file));
         }
         let written = match value.get_ref() {
@@ -114,22 +118,29 @@ pub fn is_part(system: SystemName, kind: &PartKind, value: &DeValue<'_>) -> bool
 
 /// What is said of a part in a file of another system.
 fn no_effect(kind: &PartKind, file: &str) -> Box<Problem> {
-    if let Some(absent) = not_modelled::of(&kind.path(), SystemName::Rotor) {
+    if let Some(absent) = not_modelled::of(kind.path(), SystemName::Rotor) {
         let found = "a key of what is not modelled yet";
         let problem = Problem::new(Code::NotModelled, file, found, absent.allowed());
         return problem.with_hint(absent.hint());
     }
     let found = "a section that has no effect";
-    let allowed = "it is used only with system = \"rotor\" or \"machine\"";
+    let allowed = match OF_MACHINES.contains(&kind.word) {
+        true => "it is used only with system = \"machine\"",
+        false => "it is used only with system = \"rotor\" or \"machine\"",
+    };
     Problem::new(Code::UnusedKey, file, found, allowed)
 }
 
 /// An override of a value of a part: `rotor.disk.impeller.mass`, the name or the number of the part before its key.
 pub fn set(parts: &mut [WrittenPart], file: &str, path: &[String], raw: Raw) -> Result<()> {
-    let [_, kind, named, keys @ ..] = path else {
+    let Some((kind, _)) = kind_within(&path.join(".")) else {
         return Ok(());
     };
-    let of_kind = |part: &&mut WrittenPart| part.kind == kind;
+    let (head, rest) = path.split_at(kind.path().split('.').count());
+    let [named, keys @ ..] = rest else {
+        return Ok(());
+    };
+    let of_kind = |part: &&mut WrittenPart| part.kind == kind.word;
     let mut parts: Vec<&mut WrittenPart> = parts.iter_mut().filter(of_kind).collect();
     let number = named.parse::<usize>().ok();
     let at = (parts.iter().position(|part| part.name() == Some(named)))
@@ -145,8 +156,8 @@ pub fn set(parts: &mut [WrittenPart], file: &str, path: &[String], raw: Raw) -> 
             .map(|(number, part)| part.label(number))
             .collect();
         let allowed = format!(
-            "{}.{kind}.NAME.KEY is needed, with one of the names or numbers {}",
-            path[0],
+            "{}.NAME.KEY is needed, with one of the names or numbers {}",
+            head.join("."),
             names.join(", ")
         );
         let problem = Problem::new(Code::UnknownKey, file, quoted(named), allowed);
@@ -280,8 +291,8 @@ pub fn toml(document: &Document, values: &Values) -> Vec<String> {
 
 /// Where a key of a part stands, such as `rotor.disk.impeller.mass`; else where its table does, or the first of its kind.
 pub fn place(parts: &[WrittenPart], path: &str) -> Option<Place> {
-    let kind = PARTS.iter().find(|kind| path.starts_with(&kind.path()))?;
-    let named = path.strip_prefix(&kind.path())?;
+    let kind = PARTS.iter().find(|kind| path.starts_with(kind.path()))?;
+    let named = path.strip_prefix(kind.path())?;
     let mut of_kind = (1..).zip(parts.iter().filter(|part| part.kind == kind.word));
     let part = of_kind.find(|(number, part)| {
         let key = named.strip_prefix(&format!(".{}", part.label(*number)));

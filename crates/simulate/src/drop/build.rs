@@ -5,6 +5,7 @@ use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::drop::Drop;
 use crate::drop::layers;
+use crate::drop::magnets_in_time::InTime;
 use crate::drop::mount;
 use crate::drop::shaft::{self, BuiltShaft};
 use crate::drop::torque;
@@ -12,10 +13,9 @@ use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
-use model::magnets::MagnetsConstants;
 use model::mount::Mount;
 use model::rotor::RotorConstants;
-use model::system::machine::MachineConstants;
+use model::system::machine::{Event, MachineConstants};
 use number::Vec2;
 use problem::Problem;
 use scenario::several::path_of;
@@ -74,11 +74,12 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
         parts.push(constants);
         bearings.push(built);
     }
-    let magnets = shaft.as_ref().and_then(|built| built.magnets.clone());
-    let mut constants = constants(&drop, parts, magnets);
+    let in_time = shaft.as_ref().map(|built| built.in_time.clone());
+    let mut constants = constants(&drop, parts, in_time.unwrap_or_default());
     if let Some(built) = &shaft {
         constants.rotor = built.rotor.clone();
         constants.seals = built.seals.clone();
+        constants.forces = built.forces.clone();
     }
     Ok(Built {
         drop,
@@ -216,17 +217,21 @@ pub(crate) fn gravity(drop: &Drop) -> Vec2<f64> {
 fn constants(
     drop: &Drop,
     bearings: Vec<AuxiliaryBearingConstants>,
-    magnets: Option<MagnetsConstants>,
+    in_time: InTime,
 ) -> MachineConstants {
     let gravity = gravity(drop);
     let mass = drop.body.mass;
-    // the brake follows the release
-    let released = magnets.as_ref().map_or(0.0, |own| own.lost);
-    let (brake_torque, brake_start) = match drop.rotor.spin {
-        Spin::Braked { torque, start } => (torque, start + released),
-        Spin::Free | Spin::Held => (0.0, f64::INFINITY),
-    };
     let torque = torque::tables(drop);
+    let InTime {
+        magnets,
+        known,
+        mut at_speeds,
+    } = in_time;
+    let (brake_torque, brakes) = torque::brakes(drop, &mut at_speeds);
+    let pushed = drop.shaft.iter().flat_map(|shaft| &shaft.model.forces);
+    let rows = pushed.flat_map(|own| own.over_time.iter().flatten());
+    let knots = rows.map(|[time, _]| (*time, Event::Knot));
+    let known = known.into_iter().chain(knots).collect();
     let mut constants = MachineConstants {
         rotor: RotorConstants {
             torque: torque.clone(),
@@ -246,15 +251,13 @@ fn constants(
             carried: -(gravity * mass),
         },
         seals: Vec::new(),
+        forces: Vec::new(),
         bearings,
         gravity,
         speed: drop.rotor.speed,
         unbalance_angle: drop.rotor.unbalance_angle,
-        schedule: torque::schedule(
-            brake_start,
-            torque.as_ref(),
-            magnets.as_ref().map(|own| (own, drop.run.duration)),
-        ),
+        schedule: torque::schedule(brakes, torque.as_ref(), known),
+        at_speeds,
         magnets,
     };
     constants.balance_mounts();

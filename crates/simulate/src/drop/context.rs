@@ -72,7 +72,7 @@ impl<'a> Context<'a> {
     /// When the first magnet, axis or all power is lost, s; none where the magnets keep it to the end.
     pub fn release_time(&self) -> Option<f64> {
         match self.setup.controlled() {
-            Some(given) => self.finished.record.released.map(|_| given.power_lost),
+            Some(_) => self.finished.record.released.map(|(time, _)| time),
             None => Some(0.0),
         }
     }
@@ -83,7 +83,7 @@ impl<'a> Context<'a> {
     /// Size of the spin at which the rotor is released, rad/s: at the start, or when its magnets lose their power; at the end where they
     /// have it still.
     pub fn release_speed(&self) -> f64 {
-        let lost = self.finished.record.released;
+        let lost = self.finished.record.released.map(|(_, spin)| spin);
         let spin = self.setup.machine.layout().rotor.spin();
         let now = self
             .setup

@@ -2,6 +2,7 @@
 
 use crate::drop::build::{self, Built};
 use crate::drop::context::{Context, Setup};
+use crate::drop::events;
 use crate::drop::method::stepping;
 use crate::drop::{self, multirate};
 use crate::ending::settings_at;
@@ -126,6 +127,7 @@ fn together(
         interval: built.drop.run.output_interval,
         taps: &[],
         until_rolling: built.drop.coast_down.is_some(),
+        within: events::within(&built.drop),
         interrupt: options.interrupt,
         progress: &of_drop,
     };

@@ -6,8 +6,8 @@ use crate::drop::Shaft;
 use crate::drop::context::{Context, Setup};
 use crate::drop::warning_table::ShaftWarning;
 use crate::ending;
-use levitation::Amplifier;
-use model::system::machine::record::AtLimit;
+use levitation::{Actuator, Amplifier};
+use model::system::machine::record::{AT_POLE, AtLimit, CurrentPeak};
 use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, origins};
@@ -23,14 +23,20 @@ fn of_axis(given: &Shaft, axis: usize) -> [String; 2] {
     [name.unwrap_or_default(), (axis % 2 + 1).to_string()]
 }
 
+/// The axes of all magnets.
+fn own_axes(given: &Shaft) -> &[Actuator] {
+    let model = given.model.levitation.as_ref();
+    model.map_or(&[], |own| own.levitation.actuators())
+}
+
 /// Name of a value of an axis of a magnet.
-fn value_of(given: &Shaft, axis: usize, what: &str) -> String {
+pub(super) fn value_of(given: &Shaft, axis: usize, what: &str) -> String {
     let [name, number] = of_axis(given, axis);
     format!("magnet.{name}.{what}_{number}")
 }
 
 /// Share of its gap from which on a run that diverges does so at a magnet's pole.
-const AT_POLE: f64 = 0.8;
+const NEAR_POLE: f64 = 0.8;
 
 /// How a run ended; where it diverged because the rotor came to a pole, which.
 pub(crate) fn stop(context: &Context) -> Stop {
@@ -38,15 +44,17 @@ pub(crate) fn stop(context: &Context) -> Stop {
     let mut stop = ending::stop(ending);
     let shares = context.setup.machine.towards_poles(&ending.state);
     let nearest = (shares.iter().enumerate()).max_by(|a, b| a.1.total_cmp(b.1));
-    let diverged = matches!(ending.stop, solve::Stop::Diverged { .. });
+    let halted = ending.stop == solve::Stop::Halted(AT_POLE);
+    let diverged = halted || matches!(ending.stop, solve::Stop::Diverged { .. });
     if let (Some((axis, share)), Some(given), true) =
         (nearest, &context.setup.drop().shaft, diverged)
-        && *share > AT_POLE
+        && *share > NEAR_POLE
     {
         stop.text = format!(
-            "Diverged at {:.4} ms: the rotor has come {:.0} % of the way to a pole along {}, where the pull grows without bound. What should \
+            "{} at {:.4} ms: the rotor has come {:.0} % of the way to a pole along {}, where the pull grows without bound. What should \
              hold it before, auxiliary bearings and their mounts, lets it come so far: it needs a smaller clearance, or a mount \
              that is stiffer or has a stop.",
+            if halted { "Stopped" } else { "Diverged" },
             1e3 * ending.time,
             100.0 * share,
             value_of(given, axis, "axis")
@@ -68,10 +76,9 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     loss(list, given, run);
     for (k, _) in setup.machine.axes().enumerate() {
         let [name, number] = of_axis(given, k);
-        let largest = run.map(|run| run.finished.record.currents[k].largest.value);
-        list.named(&[&name, &number], |list| {
-            current(list, &(), largest.as_ref())
-        });
+        let own = run.map(|run| &run.finished.record.currents[k]);
+        let pair = own_axes(given)[k].magnet.gap().is_finite();
+        list.named(&[&name, &number], |list| current(list, &pair, own));
     }
 }
 
@@ -79,12 +86,13 @@ results! {
     /// When the magnets lose their power.
     fn loss(given: &Shaft, run: &Context) {
         "power_lost_at": number "s", LOST, "instant at which the magnets lose their power" => {
-            run.finished.record.released.map(|_| given.power_lost).ok_or_else(kept)
+            run.finished.record.lost.map(|(time, _)| time).ok_or_else(kept)
         };
-        "speed_at_power_loss": number "rad/s", LOST, "speed of the rotor at this instant" => run.finished.record.released.ok_or_else(kept);
+        "speed_at_power_loss": number "rad/s", LOST, "speed of the rotor at this instant" => run.finished.record.lost.map(|(_, spin)| spin).ok_or_else(kept);
     }
-    fn current(setup: &(), largest: &f64) {
-        "magnet.*.largest_current_*": number "A", CURRENT, "largest control current of this axis" => *largest;
+    fn current(pair: &bool, run: &CurrentPeak) {
+        "magnet.*.largest_current_*": number "A", CURRENT, "largest control current of this axis" => run.largest.value;
+        "magnet.*.largest_coil_current_*": number "A", COIL, "largest current of a coil of this axis" when *pair => run.coil.value;
     }
 }
 
@@ -99,7 +107,7 @@ pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
         let angle = own.direction.y.atan2(own.direction.x).to_degrees();
         let name = value_of(given, axis, "current");
         columns! { table.columns, |row|
-            "{name}": "A", "control current of the magnet's axis at {angle:.0} degrees from x" => machine.currents(row.time, row.state)[axis];
+            "{name}": "A", "control current of the magnet's axis at {angle:.0} degrees from x" => machine.currents(row.time, row.state)[axis].0;
         }
     }
     table.columns.list
@@ -110,12 +118,8 @@ pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
     let currents = &context.finished.record.currents;
     let (axis, share, time) = longest(context, currents.iter().map(|peak| peak.limited))?;
     let given = context.setup.controlled()?;
-    let own = given.model.levitation.as_ref()?.levitation.actuators();
-    let [least, most] = [own[axis].lowest_current, own[axis].largest_current];
-    let limit = match -least == most {
-        true => format!("{most:.3}"),
-        false => format!("{least:.3} or {most:.3}"),
-    };
+    let limits = (context.setup.machine).coil_limits(&context.finished.ending.state);
+    let limit = format!("{:.3}", limits[axis]);
     let channel = value_of(given, axis, "current");
     let warning = ShaftWarning::CurrentLimit {
         channel,
@@ -144,8 +148,8 @@ pub(crate) fn voltage_limited(context: &Context) -> Option<(f64, Warning)> {
 
 /// The axis that was longest at a limit, the share of the time with power, and since when, s.
 fn longest(context: &Context, limits: impl Iterator<Item = AtLimit>) -> Option<(usize, f64, f64)> {
-    let given = context.setup.controlled()?;
-    let powered = given.power_lost.min(context.finished.ending.time);
+    context.setup.controlled()?;
+    let powered = context.finished.record.powered;
     let longest = limits.enumerate();
     let (axis, own) = longest.max_by(|a, b| a.1.duration.total_cmp(&b.1.duration))?;
     let share = own.duration / powered;
@@ -154,8 +158,7 @@ fn longest(context: &Context, limits: impl Iterator<Item = AtLimit>) -> Option<(
 
 /// Largest voltage of the amplifier of an axis, V.
 fn largest_voltage(given: &Shaft, axis: usize) -> Option<f64> {
-    let levitation = &given.model.levitation.as_ref()?.levitation;
-    match levitation.actuators().get(axis)?.amplifier {
+    match own_axes(given).get(axis)?.amplifier {
         Amplifier::Voltage {
             largest_voltage, ..
         } => Some(largest_voltage),
@@ -165,19 +168,23 @@ fn largest_voltage(given: &Shaft, axis: usize) -> Option<f64> {
 
 /// A rotor that touches its auxiliary bearings while it has its magnets.
 pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
-    let given = context.setup.controlled()?;
+    context.setup.controlled()?;
+    let lost = context.release_time().unwrap_or(f64::INFINITY);
     let mut contacts = context.record(k).contacts.iter();
-    let first = contacts.find(|contact| contact.start < given.power_lost)?;
+    let first = contacts.find(|contact| contact.start < lost)?;
     let time = first.start;
     let warning = ShaftWarning::TouchesWithPower { time };
-    Some((given.power_lost - time, warning.into()))
+    Some((lost - time, warning.into()))
 }
 
 origins! {
-    LOST: law "levitation.power_lost_at, and the spin of the rotor then; speeds of inner races are compared with it",
+    LOST: law "levitation.power_lost_at, or the event that takes the last power, and the spin of the rotor then; speeds of inner races are compared with it",
         source "crates/model/src/system/machine/record.rs",
-        valid "all magnets at once; sensors and controllers stand still from then on";
+        valid "sensors and controllers of magnets that all have no power stand still";
+    COIL: law "largest current of one of the two coils of the pair, its bias in it, at the end of each step",
+        source "crates/levitation/src/levitation.rs: di±/dt = clip(ω (clip(e b± ± u, 0, i_max) - i±), ±s)",
+        valid "current amplifiers: each coil lags and is limited by itself; else both follow one control current";
     CURRENT: law "largest size of the control current, at the end of each step while the magnets have power and after",
-        source "crates/model/src/magnets.rs, crates/levitation/src/levitation.rs",
+        source "crates/model/src/magnets/mod.rs, crates/levitation/src/levitation.rs",
         valid "force law, limits, delay or samples as given; no saturation of iron, no eddy currents, no noise";
 }

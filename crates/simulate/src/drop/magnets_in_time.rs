@@ -1,30 +1,17 @@
 //! From magnets that hold a rotor to those of the model, which act in time.
 
 use crate::drop::{Drop, Shaft};
-use levitation::{Levitation, Timing};
-use model::magnets::{AxisConstants, ControlConstants, MagnetConstants, MagnetsConstants};
+use levitation::{Inputs, Levitation, Timing};
+use model::magnets::conditions::{Change, What};
+use model::magnets::{
+    AxisConstants, ControlConstants, ControlEvent, MagnetConstants, MagnetsConstants,
+    SupplyConstants,
+};
+use model::system::machine::{AtSpeed, Event};
 use number::Vec2;
 use problem::{Code, Problem};
-use scenario::problem_at;
+use scenario::{Happens, When, problem_at};
 use std::sync::Arc;
-
-/// Samples of a run, at most: each ends a step.
-const MOST_SAMPLES: f64 = 1e7;
-
-/// Refuses samples that are too many to be landed on.
-fn few_samples(drop: &Drop, shaft: &Shaft, timing: Timing) -> Result<(), Box<Problem>> {
-    let Timing::Sampled { period, .. } = timing else {
-        return Ok(());
-    };
-    let samples = shaft.power_lost.min(drop.run.duration) / period;
-    if samples <= MOST_SAMPLES {
-        return Ok(());
-    }
-    let found = format!("{samples:.1e} samples in this run");
-    let allowed = "at most 10 million are needed: a longer period, or a shorter run";
-    let key = "levitation.controller.sampling_period";
-    Err(problem_at(Code::ControllerTime, key, found, allowed))
-}
 
 /// Magnets that hold a rotor.
 pub(super) struct OnMagnets {
@@ -34,7 +21,8 @@ pub(super) struct OnMagnets {
     pub states: Vec<f64>,
 }
 
-/// Refuses currents that decay where there are none, and a loss of power after the start where there is none to lose, or where the run has no end of its own.
+/// Refuses currents that decay where there are none, and a loss of power after the start where there is none to lose, or where the run
+/// has no end of its own.
 pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>> {
     if shaft.decay_time > 0.0 && shaft.model.levitation.is_none() {
         let (key, found) = ("levitation.decay_time", "a key that has no effect");
@@ -45,25 +33,35 @@ pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>>
         _ if shaft.power_lost <= 0.0 => return Ok(()),
         (None, _) => "no magnets, whose power could be lost",
         (_, Some(_)) => "run.until = \"standstill\"",
-        (Some(model), None) => return few_samples(drop, shaft, model.levitation.timing()),
+        _ => return Ok(()),
     };
     let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
     let key = "levitation.power_lost_at";
     Err(problem_at(Code::Conflict, key, found, allowed))
 }
 
-/// The magnets: with their controllers until the power is lost, or as their currents decay from the start on.
+/// Magnets as they act in a run, and what happens to them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct InTime {
+    /// The magnets, where they act after the start.
+    pub magnets: Option<MagnetsConstants>,
+    /// What happens at known instants.
+    pub known: Vec<(f64, Event)>,
+    /// What happens where the rotor reaches a speed.
+    pub at_speeds: Vec<AtSpeed>,
+}
+
+/// The magnets: with their controllers, or as their currents decay from the start on.
 pub(super) fn built(
     shaft: &Shaft,
+    end: f64,
     row: &dyn Fn(usize) -> Vec<f64>,
     position: &[Vec2<f64>],
     held: &OnMagnets,
-) -> Option<MagnetsConstants> {
-    let model = shaft.model.levitation.as_ref()?;
-    let controlled = shaft.power_lost > 0.0;
-    if !controlled && shaft.decay_time <= 0.0 {
-        return None;
-    }
+) -> Result<InTime, Box<Problem>> {
+    let Some(model) = shaft.model.levitation.as_ref() else {
+        return Ok(InTime::default());
+    };
     let levitation = &model.levitation;
     let along = |angle: f64| Vec2::new(angle.cos(), angle.sin());
     let pair = |k: usize| [2 * k, 2 * k + 1];
@@ -74,10 +72,6 @@ pub(super) fn built(
                 direction: along(levitation.actuators()[axis].axis.angle),
                 law: levitation.actuators()[axis].magnet,
                 current: held.currents[axis],
-                current_limits: [
-                    levitation.actuators()[axis].lowest_current,
-                    levitation.actuators()[axis].largest_current,
-                ],
             })
             .to_vec(),
     };
@@ -86,19 +80,189 @@ pub(super) fn built(
         (row(*node), angles.to_vec())
     };
     let all = || model.magnets.iter().enumerate();
-    Some(MagnetsConstants {
+    let of_magnets = |supply| MagnetsConstants {
         magnets: all().map(magnet).collect(),
-        decay_rate: 1.0 / shaft.decay_time,
-        lost: shaft.power_lost,
-        control: controlled.then(|| {
-            let sensors: Vec<_> = all().map(sensor).collect();
-            ControlConstants {
-                start: sampled(levitation, &sensors, position, held.states.clone()),
-                levitation: Arc::new(levitation.clone()),
-                sensors,
-            }
-        }),
+        supply,
+    };
+    if let Some(decay_time) = lost_at_once(shaft) {
+        // without decay the magnets are gone
+        let decay_rate = 1.0 / decay_time;
+        let supply = SupplyConstants::Lost {
+            decay_rate,
+            at: 0.0,
+        };
+        let magnets = (decay_time > 0.0).then(|| of_magnets(supply));
+        return Ok(InTime {
+            magnets,
+            ..InTime::default()
+        });
+    }
+    let sensors: Vec<_> = all().map(sensor).collect();
+    let axes = levitation.actuators().len();
+    let of_magnets_alone = shaft.events.iter().filter(|own| own.what.axes().is_some());
+    let happening: Vec<(When, Change)> = of_magnets_alone
+        .map(|own| (own.when, change(&own.what, axes)))
+        .collect();
+    let control = ControlConstants {
+        start: sampled(levitation, &sensors, position, held.states.clone()),
+        levitation: Arc::new(levitation.clone()),
+        sensors,
+        changes: happening.iter().map(|(_, change)| change.clone()).collect(),
+    };
+    settles(&control)?;
+    let (mut known, mut at_speeds) = (Vec::new(), Vec::<AtSpeed>::new());
+    for (index, (when, _)) in happening.iter().enumerate() {
+        let event = Event::Control(ControlEvent::Change(index));
+        match *when {
+            When::At(time) => known.push((time, event)),
+            When::Speed {
+                speed,
+                rising,
+                delay,
+            } => at_speed(&mut at_speeds, (speed, rising), (delay, event)),
+        }
+    }
+    for [from, to] in powered(&happening, axes, end) {
+        few_samples(to - from, levitation.timing())?;
+        let samples = control.samples(from, to).into_iter();
+        known.extend(samples.map(|(time, event)| (time, Event::Control(event))));
+    }
+    Ok(InTime {
+        magnets: Some(of_magnets(SupplyConstants::Control(control))),
+        known,
+        at_speeds,
     })
+}
+
+/// Adds what follows a speed.
+pub(super) fn at_speed(list: &mut Vec<AtSpeed>, (speed, rising): (f64, bool), then: (f64, Event)) {
+    let same = |own: &&mut AtSpeed| own.speed == speed && own.rising == rising;
+    match list.iter_mut().find(same) {
+        Some(own) => {
+            own.then.push(then);
+            own.then.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        None => list.push(AtSpeed {
+            speed,
+            rising,
+            then: vec![then],
+        }),
+    }
+}
+
+/// Time in which the currents of all magnets decay, s, where they have no power from the start on and nothing happens to them later.
+fn lost_at_once(shaft: &Shaft) -> Option<f64> {
+    let mut events = shaft.events.iter().filter(|own| own.what.axes().is_some());
+    match (events.next(), events.next()) {
+        (
+            Some(scenario::Event {
+                when: When::At(time),
+                what: Happens::Lost { decay_time, .. },
+                ..
+            }),
+            None,
+        ) if *time <= 0.0 => Some(*decay_time),
+        _ => None,
+    }
+}
+
+/// A change of the model.
+fn change(what: &Happens, count: usize) -> Change {
+    // what decays or rises in no time does so at once
+    let rate = |time: f64| 1.0 / time;
+    let axes = match what {
+        Happens::Relevitate(_) => (0..count).collect(),
+        own => own.axes().unwrap_or_default().to_vec(),
+    };
+    let what = match what {
+        Happens::Lost { decay_time, .. } => What::Lost {
+            decay_rate: rate(*decay_time),
+        },
+        Happens::SensorStuck(_) => What::Stuck,
+        Happens::SensorDead(_) => What::Dead,
+        Happens::SensorOffset(_, offset) => What::Offset(*offset),
+        Happens::ControllerFrozen(_) => What::Frozen,
+        Happens::AmplifierLimit {
+            largest_current,
+            slew,
+            ..
+        } => What::Limited {
+            largest_current: *largest_current,
+            slew: *slew,
+        },
+        Happens::Relevitate(own) => What::Levitated {
+            bias_rate: rate(own.bias_time),
+            reference_rate: rate(own.reference_time),
+        },
+        Happens::Brake(_) => unreachable!("a brake is of no magnet"),
+    };
+    Change { what, axes }
+}
+
+/// Refuses controllers that would have to start again and do not settle at rest.
+fn settles(control: &ControlConstants) -> Result<(), Box<Problem>> {
+    let again = |own: &Change| matches!(own.what, What::Levitated { .. });
+    if !control.changes.iter().any(again) {
+        return Ok(());
+    }
+    let levitation = &control.levitation;
+    let still = vec![0.0; levitation.sensors().len()];
+    let mut states = vec![0.0; levitation.states()];
+    let settled = levitation.settle(&mut states, Inputs::usual(&still, &[]));
+    settled.map_err(|_| {
+        let found = "a controller whose states do not settle under a constant error";
+        let allowed = "integrators as states of their own, with nothing but zeros in their rows of A, are needed for a re-levitation";
+        problem_at(Code::ControllerFilter, "levitation.controller", found, allowed)
+    })
+}
+
+/// Intervals of a run in which any magnet has power; all of it where speeds decide that.
+fn powered(happening: &[(When, Change)], axes: usize, end: f64) -> Vec<[f64; 2]> {
+    let mut switches = Vec::new();
+    for (when, change) in happening {
+        let on = match change.what {
+            What::Lost { .. } if change.axes.len() == axes => false,
+            What::Levitated { .. } => true,
+            _ => continue,
+        };
+        match when {
+            When::At(time) => switches.push((*time, on)),
+            When::Speed { .. } => return vec![[0.0, end]],
+        }
+    }
+    switches.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut intervals, mut since) = (Vec::new(), Some(0.0));
+    for (time, on) in switches {
+        match (since, on) {
+            (Some(from), false) => {
+                intervals.push([from, time.min(end)]);
+                since = None;
+            }
+            (None, true) => since = Some(time),
+            _ => {}
+        }
+    }
+    intervals.extend(since.map(|from| [from, end]));
+    intervals.retain(|[from, to]| from < to);
+    intervals
+}
+
+/// Samples of a run, at most: each ends a step.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Refuses samples that are too many to be landed on.
+fn few_samples(duration: f64, timing: Timing) -> Result<(), Box<Problem>> {
+    let Timing::Sampled { period, .. } = timing else {
+        return Ok(());
+    };
+    let samples = duration / period;
+    if samples <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let found = format!("{samples:.1e} samples in this run");
+    let allowed = "at most 10 million are needed: a longer period, or a shorter run";
+    let key = "levitation.controller.sampling_period";
+    Err(problem_at(Code::ControllerTime, key, found, allowed))
 }
 
 /// States of the levitation after the sample of the start.
@@ -117,7 +281,8 @@ fn sampled(
         let at = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
         sensed.extend(directions.iter().map(|along| along.dot(at)));
     }
-    levitation.sample(&mut states, &sensed, &mut levitation.signals());
+    let inputs = Inputs::usual(&sensed, &[]);
+    levitation.sample(&mut states, inputs, &mut levitation.signals());
     if computation == 0.0 {
         levitation.release(&mut states);
     }

@@ -5,6 +5,7 @@ pub mod build;
 pub(crate) mod columns;
 pub(crate) mod context;
 pub mod each;
+pub(crate) mod events;
 mod layers;
 pub(crate) mod magnets;
 mod magnets_in_time;

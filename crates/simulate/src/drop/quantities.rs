@@ -8,7 +8,7 @@ use crate::bearing::severity::{
 };
 use crate::bearing::warm::{self, RINGS};
 use crate::drop::context::{Context, Setup, touched};
-use crate::drop::{magnets, mount_results, shaft_results, surfaces};
+use crate::drop::{events, magnets, mount_results, shaft_results, surfaces};
 use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
@@ -38,6 +38,7 @@ pub(crate) fn name(setup: Setup, run: Option<&Context>) -> Vec<Quantity> {
     shaft_results::name(&mut list, setup, run);
     release(&mut list, &setup, run);
     magnets::name(&mut list, setup, run);
+    events::name(&mut list, setup, run);
     energies(&mut list, &setup, run);
     list.ended_at(run.map(|run| run.finished.ending.time))
 }

@@ -1,13 +1,14 @@
 //! From a flexible rotor to the coordinates of the model, and the motion in which it is released.
 
-use crate::drop::magnets_in_time::{self, OnMagnets};
-use crate::drop::{Drop, Shaft, torque};
+use crate::bearing::loss::table;
+use crate::drop::magnets_in_time::{self, InTime, OnMagnets};
+use crate::drop::{Drop, Shaft, events, torque};
 use crate::levitated;
 use crate::rotor::RotorModel;
 use catalogue::geometry::millimetres;
 use levitation::response::{Loaded, excesses, unbalance};
 use levitation::{Plant, weight};
-use model::magnets::MagnetsConstants;
+use model::force::ForceConstants;
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::seal::SealConstants;
 use nalgebra::{DMatrix, DVector};
@@ -31,10 +32,12 @@ pub struct BuiltShaft {
     pub nodes: Vec<Vec<f64>>,
     /// Nodes whose displacement is watched, along the shaft.
     pub places: Vec<usize>,
-    /// Its magnets, where they act after the start.
-    pub magnets: Option<MagnetsConstants>,
+    /// Its magnets as they act in the run.
+    pub(super) in_time: InTime,
     /// Seals.
     pub seals: Vec<SealConstants>,
+    /// Forces from outside.
+    pub forces: Vec<ForceConstants>,
     /// Where its coordinates are at the release, m √kg.
     pub position: Vec<Vec2<f64>>,
     /// Their rates, m √kg/s.
@@ -43,6 +46,8 @@ pub struct BuiltShaft {
     pub held: Vec<HeldMode>,
     /// What its steady motion on magnets makes doubtful.
     pub warnings: Vec<Warning>,
+    /// By the name of each event that cuts loops: the largest real part of an eigenvalue of the machine after it alone, 1/s.
+    pub growth: Vec<(String, f64)>,
 }
 
 /// A mode of the rotor as it is held, at the speed of the release.
@@ -104,14 +109,25 @@ pub(crate) fn build(
         magnets: on_magnets,
         warnings,
         modes: mut held,
+        growth,
     } = match &shaft.model.levitation {
         Some(_) => levitating(drop, shaft, &within, &loads)?,
         None => on_supports(drop, rotor, &matrices, &within, &loads)?,
     };
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
     let at = |node: usize| row(&within.basis, node);
-    let magnets = on_magnets.and_then(|own| magnets_in_time::built(shaft, &at, &position, &own));
+    let end = drop.run.duration;
+    let in_time = match on_magnets {
+        Some(own) => magnets_in_time::built(shaft, end, &at, &position, &own)?,
+        None => InTime::default(),
+    };
     let seals = staying(&shaft.model, &within.basis, &still, &carried);
+    let forces =
+        (shaft.model.forces.iter().zip(&shaft.model.pushed)).map(|(own, node)| ForceConstants {
+            node: at(*node),
+            over_time: own.over_time.each_ref().map(|rows| table(rows, 1.0)),
+        });
+    let forces = forces.collect();
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
     if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
@@ -124,12 +140,14 @@ pub(crate) fn build(
         cutoff,
         nodes,
         places,
-        magnets,
+        in_time,
         seals,
+        forces,
         position,
         velocity,
         held,
         warnings,
+        growth,
     })
 }
 
@@ -159,7 +177,8 @@ fn basis(drop: &Drop, shaft: &Shaft, matrices: &Matrices) -> Result<(Basis, f64)
     let full = Basis::full(rotor, matrices).map_err(|error| failed(&error.to_string()))?;
     let cutoff = (shaft.cutoff).unwrap_or_else(|| default_cutoff(drop, &full));
     let mut kept = rotor.kept();
-    kept.extend(shaft.nodes.iter().map(|node| rotor.displacement(*node)));
+    let loaded = shaft.nodes.iter().chain(&shaft.model.pushed);
+    kept.extend(loaded.map(|node| rotor.displacement(*node)));
     if let Some(levitation) = &shaft.model.levitation {
         let nodes = levitation.magnets.iter().map(|(_, at, _)| *at);
         kept.extend(nodes.map(|node| rotor.displacement(node)));
@@ -207,10 +226,7 @@ pub fn row(basis: &Basis, node: usize) -> Vec<f64> {
 }
 
 fn constants(drop: &Drop, shaft: &Shaft, matrices: &Matrices, basis: &Basis) -> RotorConstants {
-    let brake_torque = match drop.rotor.spin {
-        Spin::Braked { torque, .. } => torque,
-        Spin::Free | Spin::Held => 0.0,
-    };
+    let (brake_torque, _) = torque::brakes(drop, &mut Vec::new());
     RotorConstants {
         polar_inertia: drop.body.polar_inertia,
         drive_torque: shaft.drive_torque,
@@ -278,6 +294,7 @@ struct Held {
     magnets: Option<OnMagnets>,
     warnings: Vec<Warning>,
     modes: Vec<HeldMode>,
+    growth: Vec<(String, f64)>,
 }
 
 /// The steady motion on magnets, which must hold the rotor.
@@ -324,6 +341,7 @@ fn levitating(
         }),
         warnings: levitated::warnings(model, &excesses, speed),
         modes: held,
+        growth: events::growths(&shaft.events, model, &loaded).map_err(failed)?,
     })
 }
 
@@ -397,6 +415,7 @@ fn on_supports(
         magnets: None,
         warnings: Vec::new(),
         modes: held,
+        growth: Vec::new(),
     })
 }
 

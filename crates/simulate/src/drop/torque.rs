@@ -2,11 +2,12 @@
 
 use crate::bearing::loss::table;
 use crate::drop::Drop;
-use model::magnets::MagnetsConstants;
+use crate::drop::magnets_in_time::at_speed;
 use model::rotor::TorqueTables;
 use model::schedule::Schedule;
-use model::system::machine::Event;
+use model::system::machine::{AtSpeed, Event};
 use model::table::Table;
+use scenario::{Happens, Spin, When};
 
 /// Torque of the rotor's drive or load over speed and time.
 pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
@@ -21,16 +22,49 @@ pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
     })
 }
 
-/// When the brake comes on, where a torque over time has its rows, what happens to the magnets up to the end: a step ends there.
+/// Size of the torque of the brake, N m, and when it comes on with which share of it; `at_speeds` gains what follows a speed.
+pub(super) fn brakes(drop: &Drop, at_speeds: &mut Vec<AtSpeed>) -> (f64, Vec<(f64, Event)>) {
+    let events = drop.shaft.iter().flat_map(|shaft| &shaft.events);
+    // the brake of the keys follows the release
+    let axes = drop.shaft.iter().flat_map(|own| &own.rotor.levitation);
+    let axes: usize = axes.map(|own| 2 * own.magnets.len()).sum();
+    let release = |event: &scenario::Event| match (event.when, &event.what) {
+        (When::At(time), Happens::Lost { axes: lost, .. }) if lost.len() == axes => Some(time),
+        _ => None,
+    };
+    let released = events.clone().filter_map(release).reduce(f64::min);
+    let released = released.unwrap_or(0.0);
+    let mut all: Vec<(When, f64)> = match drop.rotor.spin {
+        Spin::Braked { torque, start } => vec![(When::At(start + released), torque)],
+        Spin::Free | Spin::Held => Vec::new(),
+    };
+    all.extend(events.filter_map(|event| match event.what {
+        Happens::Brake(torque) => Some((event.when, torque)),
+        _ => None,
+    }));
+    let largest = all.iter().map(|(_, torque)| *torque).fold(0.0, f64::max);
+    let mut known = Vec::new();
+    for (when, torque) in all {
+        let event = Event::Brake(if largest > 0.0 { torque / largest } else { 0.0 });
+        match when {
+            When::At(time) => known.push((time, event)),
+            When::Speed {
+                speed,
+                rising,
+                delay,
+            } => at_speed(at_speeds, (speed, rising), (delay, event)),
+        }
+    }
+    (largest, known)
+}
+
+/// When the brake comes on, where a torque over time has its rows, what happens to the magnets: a step ends there.
 pub(super) fn schedule(
-    brake_start: f64,
+    brakes: Vec<(f64, Event)>,
     torque: Option<&TorqueTables>,
-    magnets: Option<(&MagnetsConstants, f64)>,
+    magnets: Vec<(f64, Event)>,
 ) -> Schedule<Event> {
     let knots = torque.map_or(&[][..], |tables| tables.share_over_time.points());
     let knots = knots.iter().map(|(time, _)| (*time, Event::Knot));
-    let control = magnets.into_iter().flat_map(|(own, end)| own.events(end));
-    let control = control.map(|(time, event)| (time, Event::Control(event)));
-    let brake = [(brake_start, Event::Brake)];
-    Schedule::of(brake.into_iter().chain(knots).chain(control))
+    Schedule::of(brakes.into_iter().chain(knots).chain(magnets))
 }

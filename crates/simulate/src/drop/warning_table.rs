@@ -77,6 +77,12 @@ problem::warnings! {
             ("The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may change what they do.", 1e3 * time);
         VoltageLimit { channel: text, limit: words, share: "1", time: "s" } "AB2036" Uncertain, each
             ("{channel} reaches the largest of its amplifier ({limit}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the controller wants it, and what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
+        NotHeldAgain { time: "s", last: "s", end: "s", first: words } "AB2082" Destroys, each
+            ("The rotor is levitated again at {time:.4} s and not held: it was in contact or far from the middle until {last:.4} s of {end:.4} s; {first}. Magnets that push a rotor into its bearings load them for as long as they have power.");
+        EventNever { name: text, why: words } "AB2083" Uncertain
+            ("The event {name} never happens: {why}.");
+        NoLossOfPower "AB2084" Note
+            ("The magnets keep their power: with events of magnets, sensors or controllers levitation.power_lost_at has no default.");
         AgainstSpin { supports: text } "AB2041" Uncertain
             ("The rotor turns backward, and {supports} keep the signs of their xy and yx coefficients, which of a real seal change with the spin: as given they drive whirl against it. Change their signs, or let the rotor turn forward.");
         StiffContact { contact: "N/m", mount: "N/m", cutoff: "rad/s" } "AB2081" Uncertain

@@ -78,6 +78,7 @@ impl<'a> RigRun<'a> {
             interval: given.run.output_interval,
             taps,
             until_rolling: false,
+            within: None,
             interrupt: options.interrupt,
             progress: options.progress,
         };

@@ -19,6 +19,8 @@ pub struct RotorModel {
     pub rotor: Rotor,
     /// Nodes of the named places, in their order.
     pub named: Vec<usize>,
+    /// Nodes of the forces from outside, in their order.
+    pub pushed: Vec<usize>,
     /// Magnets, sensors and controllers.
     pub levitation: Option<LevitationModel>,
 }
@@ -43,6 +45,7 @@ impl RotorModel {
             .chain(given.masses.iter().map(|mass| mass.at))
             .chain(given.supports.iter().filter_map(|support| support.at))
             .chain(given.unbalance.iter().map(|plane| plane.at))
+            .chain(given.forces.iter().map(|force| force.at))
             .chain(magnets.flat_map(|magnet| [magnet.at, magnet.sensed_at]));
         let layers: Vec<_> = given.pieces.iter().map(|piece| piece.layer).collect();
         let mesh = mesh(&layers, &positions.collect::<Vec<_>>());
@@ -98,6 +101,7 @@ impl RotorModel {
         let levitation = given.levitation.as_ref();
         Ok(RotorModel {
             named: given.nodes.iter().map(|own| node(own.at)).collect(),
+            pushed: given.forces.iter().map(|own| node(own.at)).collect(),
             levitation: levitation
                 .map(|own| LevitationModel::new(own, &node, rotor.nodes.len()))
                 .transpose()?,

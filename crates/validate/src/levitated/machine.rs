@@ -124,7 +124,10 @@ impl Machine {
                     lowest_current: f64::NEG_INFINITY,
                     largest_current: f64::INFINITY,
                     amplifier: match law.amplifier_rad_s {
-                        Some(bandwidth) => Amplifier::Current { bandwidth },
+                        Some(bandwidth) => Amplifier::Current {
+                            bandwidth,
+                            slew: f64::INFINITY,
+                        },
                         None => Amplifier::Direct,
                     },
                 });

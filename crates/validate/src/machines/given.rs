@@ -266,11 +266,13 @@ pub(super) fn machine(
         },
         magnets: None,
         seals: Vec::new(),
+        forces: Vec::new(),
         bearings: bearings.collect::<Result<_, _>>()?,
         gravity,
         speed,
         unbalance_angle: 0.0,
         schedule: Schedule::default(),
+        at_speeds: Vec::new(),
     };
     // with a decay time of zero they are off at once
     let decay = number(given, "tau_m")?;

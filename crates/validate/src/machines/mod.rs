@@ -3,6 +3,9 @@
 //! (`machine_mounts.json`), and the friction that dry whirl needs (`machine_whirl.json`). Tolerances are those that each file states.
 
 mod drop;
+mod faults;
+mod faults_given;
+mod faults_watch;
 mod given;
 mod json;
 mod mounts;
@@ -30,6 +33,8 @@ pub(super) fn rows(value: &Value, path: &Path, simulator: &dyn Simulator) -> Opt
         drop::rows
     } else if has(&["full_slip_whirl", "contact_node", "race"]) {
         whirl::rows
+    } else if has(&["cases", "loop", "faults", "stop"]) {
+        faults::rows
     } else {
         return None;
     };

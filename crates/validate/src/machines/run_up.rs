@@ -240,7 +240,7 @@ fn of_run(
 }
 
 /// Balls without states of their own that carry nothing.
-fn idle() -> BearingConstants {
+pub(super) fn idle() -> BearingConstants {
     let radius = 3e-3;
     BearingConstants::Rolling(RollingConstants {
         balls: 8,

@@ -1,6 +1,7 @@
 //! Constants of a machine.
 
 use crate::auxiliary_bearing::AuxiliaryBearingConstants;
+use crate::force::ForceConstants;
 use crate::levitation::Levitation;
 use crate::magnets::{ControlEvent, MagnetsConstants};
 use crate::rotor::RotorConstants;
@@ -20,6 +21,8 @@ pub struct MachineConstants {
     pub magnets: Option<MagnetsConstants>,
     /// Seals, before and after the release.
     pub seals: Vec<SealConstants>,
+    /// Forces from outside over time.
+    pub forces: Vec<ForceConstants>,
     /// The auxiliary bearings, one at least.
     pub bearings: Vec<AuxiliaryBearingConstants>,
     /// Gravity, m/s².
@@ -30,17 +33,43 @@ pub struct MachineConstants {
     pub unbalance_angle: f64,
     /// What happens, and when.
     pub schedule: Schedule<Event>,
+    /// What happens where the rotor reaches a speed, each once; [`MOST_SPEEDS`] at most.
+    pub at_speeds: Vec<AtSpeed>,
+}
+
+/// Most speeds at which something happens.
+pub const MOST_SPEEDS: usize = 4;
+
+/// What happens where the rotor reaches a speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AtSpeed {
+    /// The size of the spin, rad/s.
+    pub speed: f64,
+    /// Whether it rises to it; else it falls to it.
+    pub rising: bool,
+    /// What happens, and how long after, s, rising.
+    pub then: Vec<(f64, Event)>,
 }
 
 /// Something that happens at a known instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Event {
-    /// The brake of the rotor comes on.
-    Brake,
+    /// The brake of the rotor acts with this share of its torque.
+    Brake(f64),
     /// A row of a table over time, of the rotor's torque, or of load or drive of a rig: a step ends there.
     Knot,
     /// Something happens to the controllers of the magnets.
     Control(ControlEvent),
+}
+
+impl AtSpeed {
+    /// What a rotor with a size of spin lacks of it, rad/s.
+    pub fn left(&self, spin: f64) -> f64 {
+        match self.rising {
+            true => self.speed - spin,
+            false => spin - self.speed,
+        }
+    }
 }
 
 impl MachineConstants {
@@ -50,6 +79,7 @@ impl MachineConstants {
         let in_machine = self.bearings.iter().filter(|part| !on_rig(part));
         let rows = in_machine.map(|part| &part.node);
         let rows = rows.chain(self.magnets.iter().flat_map(MagnetsConstants::nodes));
+        let rows = rows.chain(self.forces.iter().map(|force| &force.node));
         let mut rows = rows.chain(self.seals.iter().map(|seal| &seal.node));
         let count = self.rotor.coordinates.len();
         let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);
@@ -59,6 +89,8 @@ impl MachineConstants {
             Some("a rig has one bearing")
         } else if rows.any(|row| row.len() != count || still(row)) {
             Some("a node has an entry for each coordinate, and moves with one of them")
+        } else if self.at_speeds.len() > MOST_SPEEDS {
+            Some("a machine waits for four speeds at most")
         } else {
             self.rotor.fault()
         }

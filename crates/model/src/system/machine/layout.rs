@@ -46,6 +46,8 @@ pub struct RotorLedger {
     pub magnets: Option<usize>,
     /// Work of the stiffness of seals.
     pub seals: Option<usize>,
+    /// Work of forces from outside.
+    pub forces: Option<usize>,
     /// Heat of the damping of seals.
     pub seal_damping: Option<usize>,
 }
@@ -110,6 +112,7 @@ impl Layout {
             drag: heat(own.drag != 0.0 || own.drag_square != 0.0, "rotor_drag"),
             magnets: None,
             seals: None,
+            forces: None,
             seal_damping: heat(!constants.seals.is_empty(), "seal_damping"),
         };
         let sources = rotor_sources(fixture, clutch);
@@ -119,6 +122,9 @@ impl Layout {
         }
         if !constants.seals.is_empty() {
             of_rotor.seals = Some(channels.sources_of("", ["seals"]));
+        }
+        if !constants.forces.is_empty() {
+            of_rotor.forces = Some(channels.sources_of("", ["forces"]));
         }
         let measured = fixture.map_or(0, |_| MEASURED);
         let mut probes = parts.len() * probe::COUNT + measured;
@@ -258,7 +264,7 @@ impl Layout {
         for heat in heats.into_iter().flatten() {
             scale[self.heat(heat)] = energy;
         }
-        for source in [own.magnets, own.seals].into_iter().flatten() {
+        for source in [own.magnets, own.seals, own.forces].into_iter().flatten() {
             scale[self.source(source)] = energy;
         }
         scale[self.angular_impulse()] = impulse;

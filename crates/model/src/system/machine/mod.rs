@@ -40,14 +40,16 @@ pub mod tangents;
 pub mod travel;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
+use crate::force::{Force, ForceConstants};
 use crate::levitation::Levitation;
-use crate::magnets::{AxisConstants, ControlEvent, Instant, Magnets};
+use crate::magnets::conditions::What;
+use crate::magnets::{AxisConstants, ControlEvent, CurrentsOfAxes, Magnets};
 use crate::rotor::{GeometricCentre, Node, Rotor};
 use crate::seal::Seal;
 use crate::system::rig::{Clutch, ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
 use crate::table::Piece;
 use ::levitation::OfAxes;
-pub use constants::{Event, MachineConstants};
+pub use constants::{AtSpeed, Event, MOST_SPEEDS, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
 use solve::{Batch, Machine};
@@ -57,24 +59,42 @@ use solve::{Batch, Machine};
 pub struct Mode<R> {
     /// Levitation.
     pub levitation: R,
-    /// Brake of the rotor.
+    /// Brake of the rotor: share of its torque.
     pub brake: R,
-    /// Power of the magnets.
-    pub power: R,
     /// Radial load on a rig, N.
     pub load: Piece<R>,
     /// Torque, N m, or speed, rad/s, that is given on a rig; zero where neither is.
     pub drive: Piece<R>,
     /// Motor and clutch of a rig.
     pub clutch: ClutchMode,
+    /// What the rotor has reached of the speeds at which something happens.
+    pub reached: [Reached; MOST_SPEEDS],
 }
+
+/// A speed at which something happens, in a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// When the rotor reached it, s; infinite where it has not.
+    pub at: f64,
+    /// How much of what follows has happened.
+    pub done: usize,
+}
+
+impl Reached {
+    const NEVER: Reached = Reached {
+        at: f64::INFINITY,
+        done: 0,
+    };
+}
+
+/// Share of a speed to which the instant is found at which it is reached.
+const AT_SPEED: f64 = 1e-9;
 
 impl Mode<f64> {
     /// What an event switches.
     fn happen(&mut self, event: Event) {
         match event {
-            Event::Brake => self.brake = 1.0,
-            Event::Control(ControlEvent::PowerLost) => self.power = 0.0,
+            Event::Brake(share) => self.brake = share,
             Event::Knot | Event::Control(_) => {}
         }
     }
@@ -101,6 +121,7 @@ pub struct Machines<R: Real> {
     levitation: Option<(Node<R>, Levitation<R>)>,
     magnets: Option<Magnets<R>>,
     seals: Vec<(Node<R>, Seal<R>)>,
+    forces: Vec<Force<R>>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
     /// The rotor's node in each.
@@ -148,6 +169,9 @@ impl RotorMachine {
         let rows = |own: &MachineConstants| -> Vec<usize> {
             own.seals.iter().map(|seal| seal.rows.len()).collect()
         };
+        let forces = |own: &MachineConstants| -> Vec<[usize; 2]> {
+            own.forces.iter().map(ForceConstants::rows).collect()
+        };
         let drive = |machine: &Self| {
             let fixture = machine.fixture();
             fixture.map(|own| std::mem::discriminant(&own.drive))
@@ -165,6 +189,7 @@ impl RotorMachine {
         self.layout == other.layout
             && magnets
             && rows(a) == rows(b)
+            && forces(a) == forces(b)
             && a.rotor.spin_held == b.rotor.spin_held
             && drive(self) == drive(other)
             && held(a) == held(b)
@@ -183,6 +208,14 @@ impl RotorMachine {
     pub fn fixture(&self) -> Option<&Fixture> {
         self.constants.bearings[0].fixture.as_deref()
     }
+    /// What an event does to mode and state.
+    fn happen(&self, event: Event, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
+        mode.happen(event);
+        if let (Event::Control(event), Some(magnets)) = (event, &self.one.magnets) {
+            let at = (self.layout.rotor, self.layout.magnets.clone());
+            magnets.happen(event, time, at, state);
+        }
+    }
     fn clutch(&self) -> Option<&ClutchDrive> {
         match &self.fixture()?.drive {
             Drive::Clutch(clutch) => Some(clutch),
@@ -196,44 +229,93 @@ impl RotorMachine {
         Mode {
             levitation: f64::from(u8::from(self.levitated)),
             brake: 0.0,
-            power: f64::from(u8::from(self.controlled())),
             load,
             drive,
             clutch: ClutchMode::idle(),
+            reached: [Reached::NEVER; MOST_SPEEDS],
         }
+    }
+    /// What a rotor with a size of spin, rad/s, lacks of the nearest speed at which something happens; infinite where all is reached.
+    fn left(&self, mode: &Mode<f64>, spin: f64) -> f64 {
+        let speeds = self.constants.at_speeds.iter().zip(&mode.reached);
+        let waiting = speeds.filter(|(_, reached)| !reached.at.is_finite());
+        let left = waiting.map(|(own, _)| own.left(spin));
+        left.fold(f64::INFINITY, f64::min)
+    }
+    /// What follows next after a speed that was reached, with its instant: which speed, infinite where nothing does.
+    fn follows(&self, mode: &Mode<f64>) -> (usize, f64) {
+        let next = |(k, own): (usize, &AtSpeed)| {
+            let reached = mode.reached[k];
+            let then = own.then.get(reached.done);
+            (
+                k,
+                then.map_or(f64::INFINITY, |(delay, _)| reached.at + delay),
+            )
+        };
+        let all = self.constants.at_speeds.iter().enumerate().map(next);
+        all.fold((0, f64::INFINITY), |a, b| if b.1 < a.1 { b } else { a })
+    }
+    /// How many landings were known before the run, of so many.
+    fn known(&self, mode: &Mode<f64>, landing: usize) -> usize {
+        let reached = mode.reached.iter().map(|own| own.done);
+        landing - reached.sum::<usize>()
     }
     /// Whether controllers hold the rotor for a while.
     pub fn controlled(&self) -> bool {
         let magnets = self.constants.magnets.as_ref();
-        magnets.is_some_and(|own| own.control.is_some() && own.lost > 0.0)
+        magnets.is_some_and(|own| own.control().is_some())
     }
     /// The axes of all magnets.
     pub fn axes(&self) -> impl Iterator<Item = &AxisConstants> {
         let magnets = self.constants.magnets.iter().flat_map(|own| &own.magnets);
         magnets.flat_map(|magnet| &magnet.axes)
     }
-    /// Control currents of the axes of all magnets at an instant of a run, A; after the loss of power what is left of them.
-    pub fn currents(&self, time: f64, state: &[f64]) -> OfAxes<f64> {
-        let (Some(magnets), Some(own)) = (&self.one.magnets, &self.constants.magnets) else {
-            return OfAxes::new();
-        };
-        let now = Instant {
-            time,
-            powered: f64::from(u8::from(self.controlled() && time < own.lost)),
-        };
+    /// Control currents and coil currents of the axes of all magnets at an instant of a run, A; after the loss of power what is left of
+    /// them.
+    pub fn currents(&self, time: f64, state: &[f64]) -> CurrentsOfAxes {
+        let motion = self.layout.rotor.motion(state);
         let states = &state[self.layout.magnets.clone()];
-        magnets.currents_in(now, &self.layout.rotor.motion(state), states)
+        let magnets = self.one.magnets.as_ref();
+        magnets.map_or_else(CurrentsOfAxes::new, |own| {
+            own.currents_in(time, &motion, states)
+        })
+    }
+    /// Whether magnets with controllers have no power from the start on.
+    pub fn starts_without_power(&self) -> bool {
+        let Some(control) = self
+            .constants
+            .magnets
+            .as_ref()
+            .and_then(|own| own.control())
+        else {
+            return false;
+        };
+        let axes = control.levitation.actuators().len();
+        let lost = |event| match event {
+            Event::Control(ControlEvent::Change(change)) => {
+                let change = &control.changes[change];
+                matches!(change.what, What::Lost { .. }) && change.axes.len() == axes
+            }
+            _ => false,
+        };
+        self.constants.schedule.at_the_start().any(lost)
+    }
+    /// Whether any magnet with a controller has power, and whether all have.
+    pub fn powered(&self, state: &[f64]) -> [bool; 2] {
+        let states = &state[self.layout.magnets.clone()];
+        (self.one.magnets.as_ref()).map_or([false; 2], |own| own.powered(states))
+    }
+    /// Largest current of a coil of each axis of magnets with controllers, A; infinite without limit.
+    pub fn coil_limits(&self, state: &[f64]) -> OfAxes<f64> {
+        let states = &state[self.layout.magnets.clone()];
+        (self.one.magnets.as_ref()).map_or_else(OfAxes::new, |own| own.coil_limits(states))
     }
     /// While controllers act, of each axis: the voltage asked of its amplifier over the largest it has; empty where none is limited.
     pub fn voltage_shares(&self, time: f64, state: &[f64]) -> OfAxes<f64> {
-        let (Some(magnets), Some(own)) = (&self.one.magnets, &self.constants.magnets) else {
-            return OfAxes::new();
-        };
-        if !self.controlled() || time >= own.lost {
-            return OfAxes::new();
-        }
+        let motion = self.layout.rotor.motion(state);
         let states = &state[self.layout.magnets.clone()];
-        magnets.voltage_shares(&self.layout.rotor.motion(state), states)
+        let magnets = self.one.magnets.as_ref();
+        magnets.map_or_else(OfAxes::new, |own| own.voltage_shares(time, &motion, states))
     }
     /// How far the rotor has come to a pole along each axis of the magnets, of the gap there.
     pub fn towards_poles(&self, state: &[f64]) -> OfAxes<f64> {
@@ -265,6 +347,16 @@ impl<R: Real> Machines<R> {
             });
             (node, Seal::gather(&|lane| &constants(lane).seals[k]))
         };
+        let force = |k: usize| {
+            let of = |lane: usize| &constants(lane).forces[k];
+            Force {
+                node: Node::gather(&|lane| {
+                    (&constants(lane).rotor, &of(lane).node[..], Vec2::zero())
+                }),
+                over_time: [0, 1]
+                    .map(|axis| Gather::<R>::gather(&|lane| &of(lane).over_time[axis])),
+            }
+        };
         let point = constants(0).rotor.coordinates.len() == 1;
         Machines {
             rotor: Rotor::gather(&|lane| &constants(lane).rotor),
@@ -285,6 +377,7 @@ impl<R: Real> Machines<R> {
                 })
             }),
             seals: (0..constants(0).seals.len()).map(seal).collect(),
+            forces: (0..constants(0).forces.len()).map(force).collect(),
             nodes: bearings.clone().map(node).collect(),
             gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
             bearings: bearings
@@ -342,10 +435,13 @@ impl Machine for RotorMachine {
         self.constants.schedule.instants()
     }
     fn due(&self, mode: &Mode<f64>, landing: usize) -> f64 {
-        match self.clutch() {
-            Some(clutch) => mode.clutch.due(&clutch.program),
-            None => (self.landings().get(landing).copied()).unwrap_or(f64::INFINITY),
+        if let Some(clutch) = self.clutch() {
+            return mode.clutch.due(&clutch.program);
         }
+        let known = self.landings().get(self.known(mode, landing));
+        known
+            .map_or(f64::INFINITY, |at| *at)
+            .min(self.follows(mode).1)
     }
     fn transition(&self, landing: usize, mode: &mut Mode<f64>, state: &mut [f64]) {
         if let Some(clutch) = self.clutch() {
@@ -355,23 +451,47 @@ impl Machine for RotorMachine {
         if let Some(fixture) = self.fixture() {
             [mode.load, mode.drive] = fixture.pieces(self.landings()[landing]);
         }
-        let event = self.constants.schedule.event(landing);
-        mode.happen(event);
-        if let (Event::Control(event), Some(magnets)) = (event, &self.one.magnets) {
-            let at = self.layout.magnets.clone();
-            magnets.happen(event, self.layout.rotor, at, state);
-        }
+        let landing = self.known(mode, landing);
+        let known = self.landings().get(landing).copied();
+        let (event, time) = match self.follows(mode) {
+            (speed, time) if known.is_none_or(|known| time <= known) => {
+                let reached = &mut mode.reached[speed];
+                reached.done += 1;
+                let (_, event) = self.constants.at_speeds[speed].then[reached.done - 1];
+                (event, time)
+            }
+            _ => {
+                let event = self.constants.schedule.event(landing);
+                (event, known.unwrap_or_default())
+            }
+        };
+        self.happen(event, time, mode, state);
     }
     fn guard(&self, mode: &Mode<f64>, _time: f64, at: (&[f64], &[f64])) -> f64 {
-        self.reserve(mode, at)
+        if self.constants.at_speeds.is_empty() {
+            return self.reserve(mode, at);
+        }
+        self.left(mode, at.0[self.layout.rotor.spin()].abs())
     }
     fn guard_error(&self, mode: &Mode<f64>) -> f64 {
+        if let Some(own) = self.constants.at_speeds.first() {
+            return AT_SPEED * own.speed;
+        }
         match mode.clutch.state {
             Clutch::Slipping { .. } => 1e-13 * self.constants.speed.abs(),
             Clutch::Open | Clutch::Locked => f64::INFINITY,
         }
     }
     fn cross(&self, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
+        // the one whose guard was found, and any at the same speed
+        let spin = state[self.layout.rotor.spin()].abs();
+        let least = self.left(mode, spin);
+        let speeds = self.constants.at_speeds.iter().zip(&mut mode.reached);
+        for (own, reached) in speeds.filter(|(_, reached)| !reached.at.is_finite()) {
+            if own.left(spin) <= least {
+                reached.at = time;
+            }
+        }
         self.change_clutch(time, mode, state);
     }
     fn rate(
@@ -405,10 +525,10 @@ impl<R: Real> Batch<R> for Machines<R> {
         Mode {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
             brake: R::from_lanes(|lane| modes(lane).brake),
-            power: R::from_lanes(|lane| modes(lane).power),
             load: Piece::from_lanes(&|lane| modes(lane).load),
             drive: Piece::from_lanes(&|lane| modes(lane).drive),
             clutch: modes(0).clutch,
+            reached: modes(0).reached,
         }
     }
     #[inline(always)]

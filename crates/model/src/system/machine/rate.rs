@@ -3,7 +3,7 @@
 use super::layout::ROTOR_SOURCES;
 use super::{Machines, Mode};
 use crate::auxiliary_bearing::{AtNode, Outlet};
-use crate::magnets::{Instant, Pull};
+use crate::magnets::Pull;
 use crate::mount::MountReaction;
 use crate::rotor::RotorMotion;
 use crate::system::rig::fixture::Acting;
@@ -70,10 +70,8 @@ impl<R: Real> Machines<R> {
         });
         let acting = acting.as_ref();
         let pulls = self.magnets.as_ref().map(|magnets| {
-            let powered = mode.power;
             let states = layout.magnets.clone();
-            let now = Instant { time, powered };
-            magnets.pull(now, &rotor, &state[states.clone()], &mut rate[states])
+            magnets.pull(time, &rotor, &state[states.clone()], &mut rate[states])
         });
         let [x, y, force_x, force_y] = blocks(rate, count);
         let shaft = self
@@ -118,9 +116,18 @@ impl<R: Real> Machines<R> {
             seal_heat += reaction.heat;
             pulled += centre.position.cross(reaction.force);
         }
+        let mut pushing = zero;
+        for force in &self.forces {
+            let (centre, own) = (force.node.centre(&rotor), force.at(time));
+            force.node.push(own, [&mut *force_x, &mut *force_y]);
+            moment += centre.arm.cross(own);
+            pushing += own.dot(centre.velocity);
+            pulled += centre.position.cross(own);
+        }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
-            R::select(braking, self.rotor.brake_moment(rotor.spin), zero)
+            let moment = self.rotor.brake_moment(rotor.spin) * mode.brake;
+            R::select(braking, moment, zero)
         } else {
             zero
         };
@@ -160,6 +167,9 @@ impl<R: Real> Machines<R> {
         }
         if let Some(source) = of_rotor.seals {
             rate[layout.source(source)] = sealing;
+        }
+        if let Some(source) = of_rotor.forces {
+            rate[layout.source(source)] = pushing;
         }
 
         // auxiliary bearings: what they say of angular momentum is about their datum

@@ -4,7 +4,7 @@
 //! The rows are allocated before the run; only the list of contacts may grow during it.
 
 pub use super::bearing_record::{BearingRecord, Contact};
-use super::{Mode, RotorMachine};
+use super::{MOST_SPEEDS, Mode, RotorMachine};
 use crate::system::rig::Tap;
 use crate::system::rig::record::RigRecord;
 use crate::system::sampling::{Peak, Row, Rows};
@@ -26,8 +26,16 @@ pub struct Record {
     pub voltages: Vec<AtLimit>,
     rows: Rows,
     next_look: f64,
-    /// Spin at which the magnets lost their power, rad/s; none where they have it still, or had none.
-    pub released: Option<f64>,
+    /// When the first magnet or axis with a controller had lost its power, s, and the spin then, rad/s; none where all have it still.
+    pub released: Option<(f64, f64)>,
+    /// The same of the last one.
+    pub lost: Option<(f64, f64)>,
+    /// How long any magnet with a controller had power, s.
+    pub powered: f64,
+    /// When the rotor reached each of the speeds at which something happens, s; infinite where it did not.
+    pub reached: [f64; MOST_SPEEDS],
+    /// In which share of the clearance of each bearing the rotor is to stay, and when it was last outside, s.
+    pub within: Option<(f64, Vec<Option<f64>>)>,
     limit_passed: bool,
     /// Whether the run ends when it rolls.
     halts_when_rolling: bool,
@@ -38,6 +46,8 @@ pub struct Record {
 pub struct CurrentPeak {
     /// Its size, A, at the ends of steps.
     pub largest: Peak,
+    /// Largest current of one of its coils, A; of a linear magnet the same.
+    pub coil: Peak,
     /// When it was at its limit.
     pub limited: AtLimit,
 }
@@ -73,6 +83,7 @@ const SLOWEST: f64 = 100.0;
 impl CurrentPeak {
     const NONE: CurrentPeak = CurrentPeak {
         largest: Peak::NONE,
+        coil: Peak::NONE,
         limited: AtLimit {
             duration: 0.0,
             first: None,
@@ -99,6 +110,7 @@ impl Record {
     ) -> Self {
         let keep_rows = interval.is_some();
         let bearings = 0..machine.constants.bearings.len();
+        let at_once = (machine.starts_without_power()).then_some((0.0, machine.constants.speed));
         Record {
             bearings: bearings
                 .map(|k| BearingRecord::new(machine, k, keep_rows))
@@ -116,7 +128,11 @@ impl Record {
             },
             rows: Rows::new(machine, end, interval.unwrap_or(f64::INFINITY), keep_rows),
             next_look: 0.0,
-            released: None,
+            released: at_once,
+            lost: at_once,
+            powered: 0.0,
+            reached: [f64::INFINITY; MOST_SPEEDS],
+            within: None,
             limit_passed: false,
             halts_when_rolling: false,
         }
@@ -126,6 +142,15 @@ impl Record {
     pub fn until_rolling(self) -> Self {
         Record {
             halts_when_rolling: true,
+            ..self
+        }
+    }
+    /// The same of a run that sees when the rotor is last outside a share of the clearance of each bearing.
+    #[must_use]
+    pub fn staying_within(self, share: Option<f64>) -> Self {
+        let outside = vec![None; self.bearings.len()];
+        Record {
+            within: share.map(|share| (share, outside)),
             ..self
         }
     }
@@ -174,22 +199,29 @@ impl Record {
             return;
         }
         let (machine, time, length) = (step.machine, step.end, step.end - step.start);
-        let lost = machine.constants.magnets.as_ref().map(|own| own.lost);
         let state = step.leading_state(1.0, machine.layout().magnets.end);
-        if self.released.is_none() && lost.is_some_and(|lost| time >= lost) {
-            let spin = state[machine.layout().rotor.spin()];
-            for bearing in &mut self.bearings {
-                bearing.released(machine, spin);
-            }
-            self.released = Some(spin);
+        let [powered, _] = machine.powered(state);
+        if powered {
+            self.powered += length;
         }
         let currents = machine.currents(time, state);
-        let axes = self.currents.iter_mut().zip(machine.axes());
-        for ((own, axis), current) in axes.zip(currents) {
+        let limits = machine.coil_limits(state);
+        let axes = self.currents.iter_mut().zip(limits);
+        for ((own, limit), (current, coils)) in axes.zip(currents) {
             own.largest.raise(current.abs(), time);
-            let [lowest, largest] = axis.current_limits;
-            if current >= AT_LIMIT * largest || current <= AT_LIMIT * lowest {
+            let coil = coils[0].max(coils[1]);
+            own.coil.raise(coil, time);
+            if powered && coil >= AT_LIMIT * limit {
                 own.limited.add(time, length);
+            }
+        }
+        if let Some((share, outside)) = &mut self.within {
+            for (k, last) in outside.iter_mut().enumerate() {
+                let clearance = machine.constants.bearings[k].contact.radial_clearance;
+                let away = machine.node(k, state).position.length_squared().sqrt();
+                if away > *share * clearance {
+                    *last = Some(time);
+                }
             }
         }
         let shares = machine.voltage_shares(time, state);
@@ -223,6 +255,18 @@ impl Record {
     }
 }
 
+/// Why a run halts whose rotor comes to a pole, beyond which no law of the magnets holds.
+pub const AT_POLE: &str = "the rotor has come to a pole of a magnet";
+
+/// Whether the rotor is at a pole of a magnet at the end of a step.
+fn at_pole(step: &mut Step<RotorMachine>) -> bool {
+    let machine = step.machine;
+    let pairs = machine.axes().any(|axis| axis.law.gap().is_finite());
+    let rotor = machine.layout().rotor.channels();
+    pairs
+        && (machine.towards_poles(step.leading_state(1.0, rotor)).iter()).any(|share| *share >= 1.0)
+}
+
 impl Observer<RotorMachine> for Record {
     fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         if let Some(rig) = &mut self.rig {
@@ -244,6 +288,9 @@ impl Observer<RotorMachine> for Record {
         }
         self.rotor_of(step);
         self.currents_of(step);
+        if at_pole(step) {
+            return Flow::Halt(AT_POLE);
+        }
         self.rows.sample(step, RotorMachine::content);
         if self.halts_when_rolling {
             let mut rolling = self
@@ -271,6 +318,18 @@ impl Observer<RotorMachine> for Record {
         time: f64,
         state: &[f64],
     ) -> Flow {
+        if machine.controlled() && self.lost.is_none() {
+            let spin = state[machine.layout().rotor.spin()];
+            let [any, all] = machine.powered(state);
+            if !all && self.released.is_none() {
+                for bearing in &mut self.bearings {
+                    bearing.released(machine, spin);
+                }
+                self.released = Some((time, spin));
+            }
+            self.lost = (!any).then_some((time, spin));
+        }
+        self.reached = mode.reached.map(|own| own.at);
         if let Some(rig) = &mut self.rig {
             let speed = state[machine.layout().bearings[0].inner.spin()];
             rig.switched(mode, time, speed);

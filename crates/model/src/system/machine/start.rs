@@ -78,9 +78,12 @@ impl RotorMachine {
             part.bearing.rest(&mut state[at.own()]);
         }
         let control = self.constants.magnets.iter();
-        for control in control.filter_map(|own| own.control.as_ref()) {
-            let first = self.layout().magnets.start;
-            state[first..first + control.start.len()].copy_from_slice(&control.start);
+        for control in control.filter_map(|own| own.control()) {
+            state[self.layout().magnets.clone()].copy_from_slice(&control.start());
+        }
+        let mut mode = self.mode_at(0.0);
+        for event in self.constants.schedule.at_the_start() {
+            self.happen(event, 0.0, &mut mode, &mut state);
         }
         state
     }

@@ -108,10 +108,12 @@ impl RigConstants {
             levitation: Levitation::NONE,
             magnets: None,
             seals: Vec::new(),
+            forces: Vec::new(),
             gravity,
             speed,
             unbalance_angle: 0.0,
             schedule: Schedule::of(knots.into_iter().map(|knot| (knot, Event::Knot))),
+            at_speeds: Vec::new(),
             bearings: vec![AuxiliaryBearingConstants {
                 name: String::new(),
                 node: Vec::new(),

@@ -1,0 +1,220 @@
+//! What happens to a machine during a run: `[[event]]`.
+
+use crate::machine::STIFF;
+use crate::outcomes::number;
+use auxbear::outcome::Outcome;
+use auxbear::run::{Options, run};
+use auxbear::scenario::{BuiltIn, Scenario};
+use std::sync::atomic::AtomicBool;
+
+const AGAIN: &str = include_str!("../../../scenarios/machine_relevitation.toml");
+const AXIS: &str = include_str!("../../../scenarios/machine_axis_lost.toml");
+
+fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
+    Scenario::parse(text, "machine.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
+}
+
+fn ran(text: &str, sets: &[&str]) -> Outcome {
+    let scenario = parsed(text, sets).unwrap();
+    run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
+}
+
+fn codes(outcome: &Outcome) -> Vec<&str> {
+    outcome.warnings.iter().map(|own| own.code).collect()
+}
+
+/// The file without its events, with others.
+fn with_events(text: &str, events: &str) -> String {
+    let (before, _) = text.split_once("[[event]]").unwrap();
+    format!("{before}{events}")
+}
+
+#[test]
+fn a_rotor_is_levitated_again_where_its_coils_have_the_current() {
+    let held = ran(AGAIN, &[]);
+    assert!(held.stop.complete(), "{:?}", held.stop);
+    assert_eq!(number(&held, "relevitation_held"), 1.0);
+    assert!((number(&held, "event.again.time") - 0.3).abs() < 1e-12);
+    assert!((number(&held, "power_lost_at") - 0.02).abs() < 1e-12);
+    let last = number(&held, "relevitation_last_contact");
+    assert!((0.3..0.5).contains(&last), "{last}");
+    assert!(!codes(&held).contains(&"AB2082"));
+    let weak = ran(AGAIN, &["event.amplifiers.largest_current=2.5 A"]);
+    assert_eq!(number(&weak, "relevitation_held"), 0.0);
+    assert!(codes(&weak).contains(&"AB2082"), "{:?}", codes(&weak));
+    let coil = number(&weak, "magnet.drive_end.largest_coil_current_1");
+    // 2.575 A at the loss, before the new limit
+    assert!(coil > 2.57 && coil < 2.58, "{coil}");
+}
+
+/// Its brake takes 2 N m off the spin, and the bearing a little more once the rotor lies in it.
+#[test]
+fn an_event_waits_for_its_speed_and_others_for_it() {
+    let run = ran(AXIS, &[]);
+    assert!(run.stop.complete(), "{:?}", run.stop);
+    assert!((number(&run, "event.axis_lost.time") - 0.02).abs() < 1e-12);
+    assert!((number(&run, "event.braking.time") - 0.07).abs() < 1e-12);
+    let lost = number(&run, "event.all_lost.time");
+    assert!((number(&run, "power_lost_at") - lost).abs() < 1e-12);
+    let speed = number(&run, "speed_at_power_loss");
+    assert!(
+        (speed / (4000.0 * std::f64::consts::PI / 30.0) - 1.0).abs() < 1e-8,
+        "{speed}"
+    );
+    // with k_s gone the axis falls freely, and a dead sensor leaves it k_s
+    assert!(number(&run, "event.axis_lost.growth").abs() < 1e-2);
+    let dead = with_events(
+        AXIS,
+        "[[event]]\ndo = \"sensor dead\"\nat = \"5 ms\"\nmagnet = \"drive_end\"\naxis = 1\n",
+    );
+    let dead = ran(&dead, &["run.duration=20 ms"]);
+    let growth = number(&dead, "event.1.growth");
+    assert!((50.0..400.0).contains(&growth), "{growth}");
+    assert!(codes(&dead).contains(&"AB2084"));
+    let never = ran(AXIS, &["run.duration=30 ms"]);
+    assert!(codes(&never).contains(&"AB2083"));
+}
+
+/// Landed and by a speed, an event of the same instant does the same; so does the key of a brake.
+#[test]
+fn the_same_event_by_instant_and_by_key_is_the_same_run() {
+    let keys = [
+        "run.duration=60 ms",
+        "rotor.spin=braked",
+        "rotor.brake_torque=2 N m",
+        "rotor.brake_start=5 ms",
+        "levitation.power_lost_at=10 ms",
+    ];
+    let by_keys = ran(&with_events(AXIS, ""), &keys);
+    let events = "[[event]]\ndo = \"power lost\"\nat = \"10 ms\"\n[[event]]\ndo = \"brake\"\nat = \"15 ms\"\ntorque = \"2 N m\"\n";
+    let by_events = ran(&with_events(AXIS, events), &["run.duration=60 ms"]);
+    for name in [
+        "drive_end.peak_contact_force",
+        "rotor_final_speed",
+        "power_lost_at",
+    ] {
+        let pair = [number(&by_keys, name), number(&by_events, name)];
+        assert_eq!(pair[0].to_bits(), pair[1].to_bits(), "{name}: {pair:?}");
+    }
+}
+
+/// A constant force moves the mass centre of a free rotor by F t²/(2m), its work is in the ledger, and a force that is none changes no bit.
+#[test]
+fn a_force_from_outside_accelerates_the_rotor() {
+    let text = STIFF.replace("40 g mm", "0 g mm");
+    let with = |x: &str| {
+        format!(
+            "{text}\n[[rotor.force]]\nname = \"shaker\"\nat = \"0.15 m\"\ntimes = [\"0 s\", \"1 s\"]\nx = [\"{x}\", \"{x}\"]\n"
+        )
+    };
+    let sets = ["run.duration=2 ms"];
+    let free = ran(&text, &sets);
+    let pushed = ran(&with("60 N"), &sets);
+    let last = |run: &Outcome| {
+        let column = run.column("a.rotor.x").expect("a column of the place");
+        column.values.last().copied().unwrap()
+    };
+    let expected = 0.5 * 60.0 / number(&free, "rotor_mass") * 4e-6;
+    let moved = last(&pushed) - last(&free);
+    assert!((moved / expected - 1.0).abs() < 1e-4, "{moved} {expected}");
+    assert!(number(&pushed, "energy_residual").abs() < 1e-6);
+    let refused = |lines: &str| {
+        parsed(
+            &format!("{text}\n[[rotor.force]]\nat = \"0.15 m\"\n{lines}\n"),
+            &[],
+        )
+        .unwrap_err()
+    };
+    assert!(refused("times = [\"1 s\", \"0 s\"]").contains("rise"));
+    assert!(
+        refused("times = [\"0 s\", \"1 s\"]\nx = [\"1 N\", \"1 N\", \"1 N\"]").contains("2 times")
+    );
+    assert!(refused("times = [\"0\", \"1\"]").contains("unit"));
+}
+
+#[test]
+fn events_that_cannot_be_are_refused_where_they_stand() {
+    let event = |lines: &str| with_events(AXIS, &format!("[[event]]\n{lines}\n"));
+    for (lines, told) in [
+        ("do = \"power lost\"", "exactly one of at, below_speed"),
+        (
+            "do = \"power lost\"\nat = \"1 ms\"\nabove_speed = \"7000 rpm\"",
+            "exactly one of at",
+        ),
+        (
+            "do = \"power lost\"\nbelow_speed = \"7000 rpm\"",
+            "from the start on",
+        ),
+        (
+            "do = \"power lost\"\nafter = \"nothing\"",
+            "the name of another event",
+        ),
+        (
+            "do = \"axis lost\"\nat = \"1 ms\"\nmagnet = \"drive_end\"",
+            "axis is needed",
+        ),
+        (
+            "do = \"axis lost\"\nat = \"1 ms\"\nmagnet = \"drive\"\naxis = 1",
+            "one of the magnets drive_end, other_end",
+        ),
+        (
+            "do = \"axis lost\"\nat = \"1 ms\"\nmagnet = \"drive_end\"\naxis = 3",
+            "from 1 to 2",
+        ),
+        (
+            "do = \"sensor dead\"\nat = \"1 ms\"\noffset = \"1 um\"",
+            "takes no offset",
+        ),
+        ("do = \"sensor offset\"\nat = \"1 ms\"", "offset is needed"),
+        (
+            "do = \"amplifier limit\"\nat = \"1 ms\"",
+            "largest_current or slew_rate",
+        ),
+        (
+            "do = \"re-levitate\"\nat = \"1 ms\"\nbias_time = \"1 ms\"",
+            "before the loss of all power",
+        ),
+        ("do = \"sensor lost\"\nat = \"1 ms\"", "sensor dead"),
+        (
+            "do = \"sensor dead\"\nat = \"1 ms\"\nwhen = \"2 ms\"",
+            "[[event]] takes",
+        ),
+        (
+            "do = \"sensor dead\"\nat = \"1 ms\"\n[[event]]\ndo = \"sensor stuck\"\nmagnet = \"drive_end\"\nat = \"1 ms\"",
+            "contradicts the event",
+        ),
+        (
+            "name = \"a\"\ndo = \"sensor dead\"\nafter = \"b\"\n[[event]]\nname = \"b\"\ndo = \"power lost\"\nafter = \"a\"",
+            "wait for each other",
+        ),
+        (
+            "name = \"a\"\ndo = \"sensor dead\"\nat = \"1 ms\"\n[[event]]\nname = \"a\"\ndo = \"power lost\"\nat = \"2 ms\"",
+            "twice",
+        ),
+    ] {
+        let found = parsed(&event(lines), &[]).expect_err(lines);
+        assert!(
+            found.contains(told) && found.contains("machine.toml:"),
+            "{lines}: {found}"
+        );
+    }
+    let both = parsed(AXIS, &["levitation.power_lost_at=0.1 s"]).unwrap_err();
+    assert!(
+        both.contains("levitation.power_lost_at") && both.contains("one of the two"),
+        "{both}"
+    );
+    let unknown = parsed(AXIS, &["event.nothing.at=1 ms"]).unwrap_err();
+    assert!(unknown.contains("axis_lost"), "{unknown}");
+    parsed(AXIS, &["event.axis_lost.at=30 ms"]).unwrap();
+    let drop = "format = \"auxbear.scenario/1\"\nsystem = \"drop\"\n[[event]]\ndo = \"power lost\"\nat = \"1 ms\"\n";
+    assert!(
+        parsed(drop, &[])
+            .unwrap_err()
+            .contains("system = \"machine\"")
+    );
+    let resolved = parsed(AXIS, &[]).unwrap().resolved.toml();
+    let again = parsed(&resolved, &[]).unwrap();
+    assert_eq!(again.system, parsed(AXIS, &[]).unwrap().system);
+    assert!(resolved.contains("[[event]]"));
+}

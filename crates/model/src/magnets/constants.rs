@@ -1,0 +1,212 @@
+//! Constants of magnets, sensors and controllers.
+
+use super::conditions::{Change, Conditions};
+use ::levitation::{Levitation, LinearControl};
+use number::Vec2;
+use physics::magnet::{Magnet, Timing};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The magnets of a rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MagnetsConstants {
+    /// Each at a node.
+    pub magnets: Vec<MagnetConstants>,
+    /// What holds the rotor by them.
+    pub supply: SupplyConstants,
+}
+
+/// Where the currents of magnets come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SupplyConstants {
+    /// From nothing: they decay.
+    Lost {
+        /// 1/τ, 1/s.
+        decay_rate: f64,
+        /// Instant from which on they do, not after the start, s.
+        at: f64,
+    },
+    /// From controllers.
+    Control(ControlConstants),
+}
+
+/// A magnet at a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MagnetConstants {
+    /// Row φ of the node.
+    pub node: Vec<f64>,
+    /// Its axes, in the order of the levitation.
+    pub axes: Vec<AxisConstants>,
+}
+
+/// An axis of a magnet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisConstants {
+    /// Direction, a unit vector.
+    pub direction: Vec2<f64>,
+    /// Force law.
+    pub law: Magnet<f64>,
+    /// Control current at the start, where nothing controls it, A.
+    pub current: f64,
+}
+
+/// Sensors, controllers and amplifiers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlConstants {
+    /// Their rates.
+    pub levitation: Arc<Levitation>,
+    /// Row φ of each sensor's node with the directions of its axes, in the order of the levitation.
+    pub sensors: Vec<(Vec<f64>, Vec<Vec2<f64>>)>,
+    /// States of the levitation at the start.
+    pub start: Vec<f64>,
+    /// What happens during the run; when, the schedule of the machine says.
+    pub changes: Vec<Change>,
+}
+
+/// What happens to magnets and controllers at an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ControlEvent {
+    /// One of the changes of the run.
+    Change(usize),
+    /// A sample is taken and its command computed.
+    Sample,
+    /// The last command computed is held from now on.
+    Release,
+}
+
+impl ControlConstants {
+    /// First channel behind the states of the levitation: currents that are none there, as they were when the power was lost.
+    pub(super) fn kept(&self) -> Vec<Range<usize>> {
+        let mut last = self.levitation.states();
+        let axes = 0..self.levitation.actuators().len();
+        axes.map(|axis| {
+            let own = self.levitation.current_states(axis);
+            match own.is_empty() {
+                true => {
+                    last += 1;
+                    last - 1..last
+                }
+                false => own,
+            }
+        })
+        .collect()
+    }
+    pub(super) fn conditions(&self) -> Conditions {
+        let last = self.kept().iter().map(|own| own.end).max().unwrap_or(0);
+        let first = last.max(self.levitation.states());
+        Conditions::of(&self.levitation, &self.changes, first)
+    }
+    /// Samples of the controller between two instants of a run, with what they do; the sample of the start is taken already.
+    pub fn samples(&self, from: f64, to: f64) -> Vec<(f64, ControlEvent)> {
+        let mut events = Vec::new();
+        if let Timing::Sampled {
+            period,
+            computation,
+        } = self.levitation.timing()
+        {
+            let mut k = 0.0;
+            while k * period < to {
+                if k > 0.0 {
+                    events.push((k * period, ControlEvent::Sample));
+                }
+                // one without computing time is released in the start already; none comes after the next sample
+                if k > 0.0 || computation > 0.0 {
+                    let release = (k * period + computation).min((k + 1.0) * period);
+                    events.push((release, ControlEvent::Release));
+                }
+                k += 1.0;
+            }
+            events.retain(|(time, _)| (from..to).contains(time));
+        }
+        events
+    }
+    /// The states at the start of a run.
+    pub fn start(&self) -> Vec<f64> {
+        let conditions = self.conditions();
+        let mut states = self.start.clone();
+        states.resize(self.names().len(), 0.0);
+        conditions.start(&self.levitation, &mut states);
+        states
+    }
+    /// Names of the states: those of the levitation, then currents that are none there, as they were when the power was lost, then
+    /// the conditions.
+    fn names(&self) -> Vec<String> {
+        let mut names = self.levitation.names().to_vec();
+        for (k, actuator) in self.levitation.actuators().iter().enumerate() {
+            if self.levitation.current_states(k).is_empty() {
+                names.push(format!("{}.current kept", actuator.axis.name));
+            }
+        }
+        names.extend(self.conditions().names);
+        names
+    }
+}
+
+impl MagnetsConstants {
+    /// Linear magnets whose currents decay from an instant on, not after the start: the row of each, its force F_0 = k_i i (N) of that instant, k_s (N/m).
+    pub fn fading(
+        all: impl IntoIterator<Item = (Vec<f64>, Vec2<f64>, f64)>,
+        decay_rate: f64,
+        at: f64,
+    ) -> Self {
+        let magnet = |(node, force, stiffness): (Vec<f64>, Vec2<f64>, f64)| {
+            let axis = |direction: Vec2<f64>| AxisConstants {
+                direction,
+                law: Magnet::Linear {
+                    current_stiffness: 1.0,
+                    position_stiffness: stiffness,
+                },
+                current: force.dot(direction),
+            };
+            let axes = vec![axis(Vec2::new(1.0, 0.0)), axis(Vec2::new(0.0, 1.0))];
+            MagnetConstants { node, axes }
+        };
+        MagnetsConstants {
+            magnets: all.into_iter().map(magnet).collect(),
+            supply: SupplyConstants::Lost { decay_rate, at },
+        }
+    }
+
+    /// What controls the currents, where anything does.
+    pub fn control(&self) -> Option<&ControlConstants> {
+        match &self.supply {
+            SupplyConstants::Lost { .. } => None,
+            SupplyConstants::Control(control) => Some(control),
+        }
+    }
+
+    /// Rows of all nodes.
+    pub fn nodes(&self) -> impl Iterator<Item = &Vec<f64>> {
+        let sensors = self.control().into_iter().flat_map(|own| &own.sensors);
+        let magnets = self.magnets.iter().map(|magnet| &magnet.node);
+        magnets.chain(sensors.map(|(node, _)| node))
+    }
+
+    /// Names of the states.
+    pub fn state_names(&self) -> Vec<String> {
+        self.control().map_or(Vec::new(), ControlConstants::names)
+    }
+
+    /// What matters in each state when the rotor is displaced by a length, m.
+    pub fn error_scale(&self, scale: &mut [f64], displacement: f64) {
+        if let Some(control) = self.control() {
+            scale.fill(1.0);
+            let own = LinearControl::scales(&control.levitation, displacement);
+            scale[..own.len()].copy_from_slice(&own);
+        }
+    }
+
+    /// Whether other magnets can stand beside these in lanes.
+    pub fn share_lanes(&self, other: &Self) -> bool {
+        let kinds = |all: &Self| -> Vec<Vec<bool>> {
+            let pair = |axis: &AxisConstants| matches!(axis.law, Magnet::Pair(_));
+            let axes = |magnet: &MagnetConstants| magnet.axes.iter().map(pair).collect();
+            all.magnets.iter().map(axes).collect()
+        };
+        let loop_of = |all: &Self| {
+            let control = all.control();
+            control.map(|own| (own.levitation.clone(), own.conditions()))
+        };
+        kinds(self) == kinds(other) && loop_of(self) == loop_of(other)
+    }
+}

@@ -1,0 +1,469 @@
+//! What happens to a machine, and when: `[[event]]`.
+
+use crate::drop::kinds::SpinKind;
+use crate::key::quoted;
+use crate::rotor::keys::EVENT;
+use crate::rotor::levitation::Magnets;
+use crate::rotor::tables::Part;
+use crate::run::Until;
+use crate::values::Values;
+use problem::words::Words;
+use problem::{Code, Result, did_you_mean, words};
+
+words! {
+    /// What happens, as a word.
+    pub enum Happening {
+        /// All magnets lose their power.
+        PowerLost = "power lost",
+        /// A magnet loses its power.
+        MagnetLost = "magnet lost",
+        /// An axis of a magnet loses its power.
+        AxisLost = "axis lost",
+        /// A sensor keeps showing what it shows.
+        SensorStuck = "sensor stuck",
+        /// A sensor shows nothing.
+        SensorDead = "sensor dead",
+        /// A sensor shows more.
+        SensorOffset = "sensor offset",
+        /// A command keeps its value.
+        ControllerFrozen = "controller frozen",
+        /// The limits of an amplifier change.
+        AmplifierLimit = "amplifier limit",
+        /// All magnets hold the rotor again.
+        Relevitate = "re-levitate",
+        /// The rotor is braked.
+        Brake = "brake",
+    }
+}
+
+/// Something that happens during a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// Its name, else its number.
+    pub name: String,
+    /// When.
+    pub when: When,
+    /// What.
+    pub what: Happens,
+    /// Whether `levitation.power_lost_at`, or its default, says so.
+    pub by_key: bool,
+}
+
+/// When something happens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum When {
+    /// At an instant of the run, s.
+    At(f64),
+    /// So long, s, after the size of the spin reaches a value.
+    Speed {
+        /// The value, rad/s.
+        speed: f64,
+        /// Whether the spin rises to it; else it falls to it.
+        rising: bool,
+        /// How long after, s.
+        delay: f64,
+    },
+}
+
+/// What happens.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happens {
+    /// Axes lose their power; their currents decay in this time, s.
+    Lost {
+        /// The axes, two of each magnet in turn.
+        axes: Vec<usize>,
+        /// Time to 1/e, s.
+        decay_time: f64,
+    },
+    /// Sensors keep showing what they show.
+    SensorStuck(Vec<usize>),
+    /// Sensors show nothing.
+    SensorDead(Vec<usize>),
+    /// Sensors show so much more, m.
+    SensorOffset(Vec<usize>, f64),
+    /// Commands keep their value.
+    ControllerFrozen(Vec<usize>),
+    /// Limits of amplifiers, where they change.
+    AmplifierLimit {
+        /// The axes.
+        axes: Vec<usize>,
+        /// Largest current of a coil, A.
+        largest_current: Option<f64>,
+        /// Largest rate of a current, A/s.
+        slew: Option<f64>,
+    },
+    /// All magnets hold the rotor again.
+    Relevitate(Relevitation),
+    /// A torque of this size brakes the rotor, N m.
+    Brake(f64),
+}
+
+/// How a rotor is levitated again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relevitation {
+    /// Time in which the bias rises, s.
+    pub bias_time: f64,
+    /// Time in which the references lead to the middle, s.
+    pub reference_time: f64,
+    /// Share of the clearance within which the rotor must stay.
+    pub within: f64,
+    /// How long before the end it must have, s.
+    pub hold: f64,
+}
+
+/// Name of the event of `levitation.power_lost_at`.
+const POWER_LOST: &str = "power_lost";
+/// Name of the event of `rotor.brake_start`.
+const BRAKE: &str = "brake";
+const LOST_AT: &str = "levitation.power_lost_at";
+
+/// Most different speeds that events wait for.
+const MOST_SPEEDS: usize = 4;
+
+impl Happens {
+    /// The axes of the magnets that it is of; none of what is not of magnets.
+    pub fn axes(&self) -> Option<&[usize]> {
+        match self {
+            Happens::Lost { axes, .. } | Happens::AmplifierLimit { axes, .. } => Some(axes),
+            Happens::SensorStuck(axes)
+            | Happens::SensorDead(axes)
+            | Happens::SensorOffset(axes, _)
+            | Happens::ControllerFrozen(axes) => Some(axes),
+            Happens::Relevitate(_) => Some(&[]),
+            Happens::Brake(_) => None,
+        }
+    }
+    /// Whether both change the same thing.
+    fn conflicts(&self, other: &Happens) -> bool {
+        let kind = |of: &Happens| match of {
+            Happens::Lost { .. } | Happens::Relevitate(_) => 0,
+            Happens::SensorStuck(_) | Happens::SensorDead(_) => 1,
+            Happens::SensorOffset(..) => 2,
+            Happens::ControllerFrozen(_) => 3,
+            Happens::AmplifierLimit { .. } => 4,
+            Happens::Brake(_) => 5,
+        };
+        let all = |of: &Happens| matches!(of, Happens::Relevitate(_) | Happens::Brake(_));
+        let shared = |a: &[usize], b: &[usize]| a.iter().any(|axis| b.contains(axis));
+        let axes = |of: &Happens| of.axes().unwrap_or_default().to_vec();
+        kind(self) == kind(other) && (all(self) || all(other) || shared(&axes(self), &axes(other)))
+    }
+}
+
+/// Keys of what happens besides its name and when, those that are needed first.
+fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]) {
+    const AXIS: &[&str] = &["magnet", "axis"];
+    match what {
+        Happening::PowerLost => (&[], &["decay_time"]),
+        Happening::MagnetLost => (&["magnet"], &["decay_time"]),
+        Happening::AxisLost => (AXIS, &["decay_time"]),
+        Happening::SensorStuck | Happening::SensorDead | Happening::ControllerFrozen => (&[], AXIS),
+        Happening::SensorOffset => (&["offset"], AXIS),
+        Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
+        Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
+        Happening::Brake => (&["torque"], &[]),
+    }
+}
+
+/// All events of a machine; the loss of power that the file gives by its key, or by its default, is one of them.
+pub fn events(parts: &[Part], magnets: Option<&Magnets>, values: &Values) -> Result<Vec<Event>> {
+    let parts: Vec<&Part> = parts
+        .iter()
+        .filter(|part| part.kind.word == EVENT)
+        .collect();
+    let mut events = Vec::new();
+    for part in &parts {
+        events.push(Event {
+            name: part.label.clone(),
+            when: when(part, &parts, values, 0)?,
+            what: happens(part, magnets, values)?,
+            by_key: false,
+        });
+    }
+    check(&parts, &events, values)?;
+    let of_magnets = events.iter().any(|event| event.what.axes().is_some());
+    let given = values.is_own(LOST_AT);
+    if let Some(own) = magnets.filter(|_| given || !of_magnets) {
+        events.push(Event {
+            name: POWER_LOST.to_string(),
+            when: When::At(values.number(LOST_AT).unwrap_or_default()),
+            what: Happens::Lost {
+                axes: (0..2 * own.magnets.len()).collect(),
+                decay_time: values.number("levitation.decay_time").unwrap_or_default(),
+            },
+            by_key: true,
+        });
+    }
+    relevitated(&parts, &events, magnets)?;
+    Ok(events)
+}
+
+/// What happens.
+fn happens(part: &Part, magnets: Option<&Magnets>, values: &Values) -> Result<Happens> {
+    let word = part.word("do").unwrap_or_default();
+    let Some(what) = Happening::of_word(word) else {
+        unreachable!("a key of words has one of them");
+    };
+    let (needed, possible) = keys_of(what);
+    for key in needed {
+        if !part.known.contains_key(key) {
+            let found = format!("do = {} without it", quoted(word));
+            let allowed = format!("{key} is needed");
+            return part.refuse(Code::MissingKey, key, found, allowed);
+        }
+    }
+    let others = [
+        "name",
+        "do",
+        "at",
+        "below_speed",
+        "above_speed",
+        "after",
+        "delay",
+    ];
+    let useless = part.known.keys().find(|key| {
+        let of = [needed, possible, &others[..]];
+        !of.iter().any(|list| list.contains(key))
+    });
+    if let Some(key) = useless {
+        let found = "a key that has no effect";
+        let allowed = format!("do = {} takes no {key}", quoted(word));
+        return part.refuse(Code::UnusedKey, key, found, allowed);
+    }
+    if what == Happening::Brake {
+        return Ok(Happens::Brake(part.needed("torque")));
+    }
+    let Some(magnets) = magnets else {
+        let found = format!("do = {} without magnets", quoted(word));
+        let allowed = "[[levitation.magnet]] with sensor and controller is needed";
+        return part.refuse(Code::LevitationParts, "do", found, allowed);
+    };
+    let axes = axes(part, magnets)?;
+    let decay_time = || {
+        let usual = values.number("levitation.decay_time").unwrap_or_default();
+        part.number("decay_time").unwrap_or(usual)
+    };
+    Ok(match what {
+        Happening::PowerLost | Happening::MagnetLost | Happening::AxisLost => Happens::Lost {
+            axes,
+            decay_time: decay_time(),
+        },
+        Happening::SensorStuck => Happens::SensorStuck(axes),
+        Happening::SensorDead => Happens::SensorDead(axes),
+        Happening::SensorOffset => Happens::SensorOffset(axes, part.needed("offset")),
+        Happening::ControllerFrozen => Happens::ControllerFrozen(axes),
+        Happening::AmplifierLimit => {
+            let [largest_current, slew] =
+                ["largest_current", "slew_rate"].map(|key| part.number(key));
+            if largest_current.or(slew).is_none() {
+                let found = "an amplifier limit without a limit";
+                let allowed = "largest_current or slew_rate is needed";
+                return part.refuse(Code::MissingKey, "largest_current", found, allowed);
+            }
+            Happens::AmplifierLimit {
+                axes,
+                largest_current,
+                slew,
+            }
+        }
+        Happening::Relevitate => Happens::Relevitate(Relevitation {
+            bias_time: part.needed("bias_time"),
+            reference_time: part.number("reference_time").unwrap_or(0.0),
+            within: part.number("within").unwrap_or(0.5),
+            hold: part.number("hold").unwrap_or(0.1),
+        }),
+        Happening::Brake => unreachable!("a brake is of no magnet"),
+    })
+}
+
+/// The axes that a part names: of all magnets, of one, or one.
+fn axes(part: &Part, magnets: &Magnets) -> Result<Vec<usize>> {
+    let Some(named) = part.text("magnet") else {
+        return Ok((0..2 * magnets.magnets.len()).collect());
+    };
+    let names = || magnets.magnets.iter().map(|magnet| magnet.name.as_str());
+    let Some(magnet) = names().position(|name| name == named) else {
+        let allowed = names().collect::<Vec<_>>().join(", ");
+        let allowed = format!("one of the magnets {allowed} is needed");
+        let problem = part.problem(Code::LevitationParts, "magnet", quoted(named), allowed);
+        return Err(problem.with_hint(did_you_mean(named, names())));
+    };
+    Ok(match part.number("axis") {
+        Some(axis) => vec![2 * magnet + axis as usize - 1],
+        None => vec![2 * magnet, 2 * magnet + 1],
+    })
+}
+
+/// When an event happens, by what it follows; `steps` are those on the way.
+fn when(part: &Part, all: &[&Part], values: &Values, steps: usize) -> Result<When> {
+    let words = ["at", "below_speed", "above_speed", "after"];
+    let given: Vec<&str> = words
+        .into_iter()
+        .filter(|key| part.known.contains_key(key))
+        .collect();
+    let speed = |rising, speed| When::Speed {
+        speed,
+        rising,
+        delay: 0.0,
+    };
+    let allowed = "exactly one of at, below_speed, above_speed and after is needed";
+    match given[..] {
+        ["at"] => Ok(When::At(part.needed("at"))),
+        ["below_speed"] => Ok(speed(false, part.needed("below_speed"))),
+        ["above_speed"] => Ok(speed(true, part.needed("above_speed"))),
+        ["after"] => {
+            let named = part.text("after").unwrap_or_default();
+            let delay = part.number("delay").unwrap_or(0.0);
+            if steps > all.len() {
+                let found = format!("{}, which follows it in turn", quoted(named));
+                let allowed = "events that do not wait for each other are needed";
+                return part.refuse(Code::Conflict, "after", found, allowed);
+            }
+            let base = match all.iter().find(|other| other.label == named) {
+                Some(other) => when(other, all, values, steps + 1)?,
+                None => of_key(part, named, all, values)?,
+            };
+            Ok(match base {
+                When::At(time) => When::At(time + delay),
+                When::Speed {
+                    speed,
+                    rising,
+                    delay: before,
+                } => When::Speed {
+                    speed,
+                    rising,
+                    delay: before + delay,
+                },
+            })
+        }
+        [] => part.refuse(
+            Code::MissingKey,
+            "at",
+            "an event that never happens",
+            allowed,
+        ),
+        [_, second, ..] => part.refuse(
+            Code::Conflict,
+            second,
+            format!("{} beside it", given[0]),
+            allowed,
+        ),
+        [other] => unreachable!("{other} is none of the words"),
+    }
+}
+
+/// When the event of a key happens that another one follows.
+fn of_key(part: &Part, named: &str, all: &[&Part], values: &Values) -> Result<When> {
+    let lost = values.number(LOST_AT).unwrap_or_default();
+    let start = values.number("rotor.brake_start");
+    match (named, start) {
+        (POWER_LOST, _) => return Ok(When::At(lost)),
+        (BRAKE, Some(start)) => return Ok(When::At(lost + start)),
+        _ => {}
+    }
+    let names = || {
+        all.iter()
+            .map(|part| part.label.as_str())
+            .filter(|name| *name != part.label)
+    };
+    let names: Vec<&str> = names().chain([POWER_LOST]).collect();
+    let allowed = format!("the name of another event is needed: {}", names.join(", "));
+    let problem = part.problem(Code::UnknownWord, "after", quoted(named), allowed);
+    Err(problem.with_hint(did_you_mean(named, names)))
+}
+
+/// Refuses events that contradict each other or what keys say, and those that no run of the file has.
+fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
+    let Some(first) = parts.first() else {
+        return Ok(());
+    };
+    if values.chosen("run.until") == Some(Until::Standstill) {
+        let found = "an event beside run.until = \"standstill\"";
+        let allowed = "run.until = \"duration\" is needed: the coast-down knows no events";
+        return first.refuse(Code::Conflict, "", found, allowed);
+    }
+    let speed = values.number("rotor.speed").unwrap_or_default().abs();
+    let mut speeds = Vec::new();
+    for (k, (part, event)) in parts.iter().zip(events).enumerate() {
+        let brakes = matches!(event.what, Happens::Brake(_));
+        if brakes && values.chosen("rotor.spin") == Some(SpinKind::Held) {
+            let found = "a brake beside rotor.spin = \"held\"";
+            let allowed = "a rotor whose spin is not held is needed";
+            return part.refuse(Code::Conflict, "do", found, allowed);
+        }
+        if brakes && values.is_own("rotor.brake_torque") {
+            let place = values.place("rotor.brake_torque").line();
+            let found = format!("a brake beside rotor.brake_torque{}", line(place));
+            return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
+        }
+        if let (Happens::Lost { .. }, Some("power lost")) = (&event.what, part.word("do"))
+            && values.is_own(LOST_AT)
+        {
+            let place = values.place(LOST_AT).line();
+            let found = format!("a loss of all power beside {LOST_AT}{}", line(place));
+            return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
+        }
+        if let Some(other) = events[..k]
+            .iter()
+            .find(|other| other.when == event.when && other.what.conflicts(&event.what))
+        {
+            let found = format!(
+                "what contradicts the event {} at the same instant",
+                quoted(&other.name)
+            );
+            let allowed = "another instant, or one of the two, is needed";
+            return part.refuse(Code::Conflict, "do", found, allowed);
+        }
+        if let When::Speed {
+            speed: own, rising, ..
+        } = event.when
+        {
+            let there = if rising { speed >= own } else { speed <= own };
+            let key = ["below_speed", "above_speed"][usize::from(rising)];
+            if there && part.known.contains_key(key) {
+                let side = ["below", "above"][usize::from(rising)];
+                let found = format!("a rotor that is {side} it from the start on");
+                let allowed =
+                    "a speed that the rotor comes to during the run is needed, or at = \"0 s\"";
+                return part.refuse(Code::OutOfRange, key, found, allowed);
+            }
+            if !speeds.contains(&(own, rising)) {
+                speeds.push((own, rising));
+            }
+            if speeds.len() > MOST_SPEEDS {
+                let found = "a fifth speed that events wait for";
+                return part.refuse(Code::OutOfRange, key, found, "at most four are possible");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn line(line: Option<usize>) -> String {
+    line.map_or(String::new(), |line| format!(" in line {line}"))
+}
+
+/// Refuses a re-levitation of a rotor that was not lost before, or whose hold is longer than the run.
+fn relevitated(parts: &[&Part], events: &[Event], magnets: Option<&Magnets>) -> Result<()> {
+    let axes = magnets.map_or(0, |own| 2 * own.magnets.len());
+    let lost_before = |event: &Event| {
+        events.iter().any(|other| {
+            let lost =
+                matches!(&other.what, Happens::Lost { axes: lost, .. } if lost.len() == axes);
+            let before = match (other.when, event.when) {
+                (When::At(lost), When::At(again)) => lost < again,
+                _ => true,
+            };
+            lost && before
+        })
+    };
+    for (part, event) in parts.iter().zip(events) {
+        let again = matches!(event.what, Happens::Relevitate(_));
+        if again && !lost_before(event) {
+            let found = "a re-levitation before the loss of all power";
+            let allowed = "an event with do = \"power lost\" before it, or levitation.power_lost_at, is needed";
+            return part.refuse(Code::Conflict, "do", found, allowed);
+        }
+    }
+    Ok(())
+}
