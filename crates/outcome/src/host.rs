@@ -22,6 +22,17 @@ pub fn each<'a, T: Sync, R: Send>(
     list.map(|(k, item)| work(k, item)).collect()
 }
 
+/// Drops a list on the threads of the pool in which this is called: what many members hold takes long to give back.
+pub fn discard<T: Send>(list: Vec<T>) {
+    #[cfg(feature = "parallel")]
+    rayon::prelude::ParallelIterator::for_each(
+        rayon::prelude::IntoParallelIterator::into_par_iter(list),
+        drop,
+    );
+    #[cfg(not(feature = "parallel"))]
+    drop(list);
+}
+
 /// Threads that work side by side here.
 pub fn threads() -> usize {
     #[cfg(feature = "parallel")]

@@ -236,28 +236,25 @@ impl<'a> Reader<'a> {
             self.problem(code, place, found, key.needed())
                 .with_hint(hint)
         })?;
-        let (fits, wanted) = match key.kind {
+        let own = key.dimension();
+        let fits = match key.kind {
             Kind::ContactStiffness { .. } => {
-                let (n, here) = &self.exponent;
                 let power = quantity.dimension.length_power_under_force();
-                let fits = power.is_some_and(|power| (power.value() - *n).abs() <= POWER_TOLERANCE);
-                (fits, format!("{}; here n = {here}", key.needed()))
+                power
+                    .is_some_and(|power| (power.value() - self.exponent.0).abs() <= POWER_TOLERANCE)
             }
-            _ => (key.dimension() == Some(quantity.dimension), key.needed()),
+            _ => own == Some(quantity.dimension),
         };
+        let turns =
+            quantity.dimension == Dimension::FREQUENCY && own == Some(Dimension::ANGULAR_SPEED);
         // of a mode people say Hz, of a rotor that may be its drive's
-        let cycles = quantity.dimension == Dimension::FREQUENCY
-            && text.ends_with("Hz")
-            && key.dimension() == Some(Dimension::ANGULAR_SPEED);
-        if cycles && key.is_frequency() {
+        if turns && text.ends_with("Hz") && key.is_frequency() {
             let value = 2.0 * std::f64::consts::PI * quantity.value_si;
             return Ok((Value::Number(value), text.to_string()));
         }
         if fits {
             return Ok((Value::Number(quantity.value_si), text.to_string()));
         }
-        let turns = quantity.dimension == Dimension::FREQUENCY
-            && key.dimension() == Some(Dimension::ANGULAR_SPEED);
         // Rotational speeds are given in 1/min, as frequencies are not.
         if turns
             && ["1/min", "min^-1", "min⁻¹"]
@@ -267,6 +264,12 @@ impl<'a> Reader<'a> {
             let speed = quantity.value_si * std::f64::consts::TAU;
             return Ok((Value::Number(speed), text.to_string()));
         }
+        let wanted = match key.kind {
+            Kind::ContactStiffness { .. } => {
+                format!("{}; here n = {}", key.needed(), self.exponent.1)
+            }
+            _ => key.needed(),
+        };
         let hint = turns.then(|| {
             let speed = quantity.value_si * 2.0 * std::f64::consts::PI;
             format!(

@@ -64,6 +64,7 @@ fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
             known::with_those_before(one.scenario, &one.built.drop, outcome.warnings);
         list[place] = Some(outcome);
     }
+    host::discard(drops);
     list.into_iter().flatten().collect()
 }
 

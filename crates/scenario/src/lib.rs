@@ -92,6 +92,7 @@ pub use vary::{Distribution, Vary};
 
 use problem::warning::Warning;
 use problem::{Code, Problem, Result};
+use resolve::Before;
 use std::path::Path;
 
 /// Ends of the names of measurement files.
@@ -207,6 +208,23 @@ impl System {
     }
 }
 
+/// A scenario of which many are made that differ in a few values: the other values are not read again.
+pub struct Variations<'a> {
+    scenario: &'a Scenario,
+    /// Of each auxiliary bearing, or of the whole file.
+    before: Vec<Before>,
+}
+
+impl Variations<'_> {
+    /// As [`Scenario::with`].
+    ///
+    /// # Errors
+    /// What an override of this value would be refused for.
+    pub fn with(&self, changes: &[(String, String)]) -> Result<Scenario> {
+        self.scenario.changed(changes, &self.before)
+    }
+}
+
 /// A scenario that was read and checked. It does not change; to vary it, read it again with an override.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
@@ -272,7 +290,7 @@ impl Scenario {
                 "a scenario is needed; auxbear new drop writes one to start from",
             ));
         }
-        Scenario::of(document::Document::read(text, name, sets)?, bearings)
+        Scenario::of(document::Document::read(text, name, sets)?, bearings, &[])
     }
 
     /// The scenario with other values at these paths, each as an override has it. Bearings are those of the built-in
@@ -281,11 +299,29 @@ impl Scenario {
     /// # Errors
     /// What an override of this value would be refused for.
     pub fn with(&self, changes: &[(String, String)]) -> Result<Scenario> {
+        self.changed(changes, &[])
+    }
+
+    fn changed(&self, changes: &[(String, String)], before: &[Before]) -> Result<Scenario> {
         let mut document = self.document.clone();
         for (path, value) in changes {
             document.add_override(&format!("{path}={value}"))?;
         }
-        Scenario::of(document, &BuiltIn)
+        Scenario::of(document, &BuiltIn, before)
+    }
+
+    /// The scenario as the first of many that differ from it in a few values.
+    pub fn variations(&self) -> Variations<'_> {
+        let documents = self.document.of_each_bearing().into_iter();
+        let read = documents.map(|document| {
+            let values = values::Values::resolve(&document, &BuiltIn, None)?;
+            Ok(Before::new(document, values))
+        });
+        Variations {
+            scenario: self,
+            // what cannot be read alone is read, and refused, with the changes
+            before: read.collect::<Result<_>>().unwrap_or_default(),
+        }
     }
 
     /// The analysis of a machine's rotor, by default where a machine does not say what is asked; none of what is no machine.
@@ -294,7 +330,7 @@ impl Scenario {
     /// What this rotor would be refused for.
     pub fn rotor_alone(&self) -> Option<Result<Scenario>> {
         let machine = self.drop().filter(|drop| drop.body_bends())?;
-        let alone = Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn);
+        let alone = Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn, &[]);
         Some(alone.map(|mut alone| {
             if let System::Rotor(analysis) = &mut alone.system {
                 analysis.machine = Some(Box::new(machine.clone()));
@@ -323,7 +359,7 @@ impl Scenario {
     pub fn varied(&self, path: &str, raw: &document::Raw, place: problem::Place) -> Result<Vary> {
         let documents = self.document.of_each_bearing();
         let values = (documents.iter())
-            .map(|document| values::Values::resolve(document, &BuiltIn))
+            .map(|document| values::Values::resolve(document, &BuiltIn, None))
             .collect::<Result<Vec<_>, _>>()?;
         let vary = vary::one(path, raw, place, &values)?;
         self.with_parts(std::slice::from_ref(&vary))?;
@@ -356,11 +392,15 @@ impl Scenario {
     }
 
     /// Resolves and checks what was read.
-    fn of(document: document::Document, bearings: &dyn BearingSource) -> Result<Scenario> {
+    fn of(
+        document: document::Document,
+        bearings: &dyn BearingSource,
+        before: &[Before],
+    ) -> Result<Scenario> {
         let name = &document.file.clone();
         let documents = document.of_each_bearing();
-        let values = (documents.iter())
-            .map(|document| values::Values::resolve(document, bearings))
+        let values = (documents.iter().enumerate())
+            .map(|(k, document)| values::Values::resolve(document, bearings, before.get(k)))
             .collect::<Result<Vec<_>, _>>()?;
         let system = System::of(&documents[0], &values, bearings, name)?;
         let vary = match &system {

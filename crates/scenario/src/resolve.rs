@@ -14,9 +14,65 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use units::{Rational, parse_quantity};
 
+/// A file as it was read, for reading it again with other values at a few keys.
+#[derive(Clone, Debug)]
+pub struct Before {
+    /// What it gave.
+    document: Document,
+    /// What that came to.
+    pub(crate) known: BTreeMap<&'static str, Known>,
+}
+
+impl Before {
+    /// A file with its values.
+    pub fn new(document: Document, values: Values) -> Self {
+        let known = values.known;
+        Before { document, known }
+    }
+
+    /// The value of a key that is given, or left to its default, as it was, and that follows from nothing else.
+    fn same(&self, key: &Key, document: &Document) -> Option<&Known> {
+        let given = document.values.get(key.path);
+        let known = self.known.get(key.path)?;
+        let alone = match known.provenance {
+            Provenance::Given | Provenance::GivenWithSource(_) | Provenance::Assumed(_) => {
+                given.is_some() && !known.filled_in
+            }
+            Provenance::Default(_) | Provenance::DefaultAssumed(_) => {
+                given.is_none()
+                    && matches!(table::presence(key, document.system), Presence::Default(_))
+            }
+            Provenance::Catalogue { .. } | Provenance::Derived(_) => false,
+        };
+        let own = alone && !matches!(key.kind, Kind::ContactStiffness { .. });
+        (own && given == self.document.values.get(key.path)).then_some(known)
+    }
+
+    /// A value that was computed from others, where these are as they were.
+    pub(crate) fn derived(
+        &self,
+        path: &str,
+        inputs: &[&str],
+        now: &BTreeMap<&'static str, Known>,
+    ) -> Option<&Known> {
+        let value = |all: &BTreeMap<&'static str, Known>, path: &str| {
+            all.get(path).map(|known| known.value.clone())
+        };
+        let known = self.known.get(path)?;
+        let computed = matches!(known.provenance, Provenance::Derived(_));
+        let same = |path: &&str| value(&self.known, path) == value(now, path);
+        (computed && inputs.iter().all(same)).then_some(known)
+    }
+}
+
 impl Values {
-    /// Reads every given value and fills the rest from catalogue and defaults.
-    pub fn resolve(document: &Document, bearings: &dyn BearingSource) -> Result<Values> {
+    /// Reads every given value and fills the rest from catalogue and defaults; `before` is the file with other values at a few keys.
+    pub fn resolve(
+        document: &Document,
+        bearings: &dyn BearingSource,
+        before: Option<&Before>,
+    ) -> Result<Values> {
+        let same = |key| before?.same(key, document).cloned();
         let mut values = Values {
             file: document.file.clone(),
             system: document.system,
@@ -70,12 +126,22 @@ impl Values {
             let known = match given {
                 Some(given) => {
                     values.refuse_conflict(key, given, document)?;
-                    let known = values.lasting_path(key, values.reader(key).read(key, given)?);
-                    Some(values.as_filled_in(key, known, record.as_ref(), document))
+                    Some(match same(key) {
+                        Some(known) => known,
+                        None => {
+                            let known = values.reader(key).read(key, given)?;
+                            let known = values.lasting_path(key, known);
+                            values.as_filled_in(key, known, record.as_ref(), document)
+                        }
+                    })
                 }
                 None => match values.catalogued(key, record.as_ref())? {
                     Some(known) => Some(known),
-                    None => match values.without(key, record.as_ref(), document) {
+                    None if values.is_replaced(key, document) => None,
+                    None => match same(key).map_or_else(
+                        || values.without(key, record.as_ref()),
+                        |known| Ok(Some(known)),
+                    ) {
                         Err(problem) if problem.code == Code::MissingKey => {
                             missing.push(*problem);
                             None
@@ -92,7 +158,7 @@ impl Values {
         if !missing.is_empty() {
             return Err(values.all_missing(missing));
         }
-        values.derive()?;
+        values.derive(before)?;
         Ok(values)
     }
 
@@ -252,18 +318,14 @@ impl Values {
         ))
     }
 
-    fn without(
-        &self,
-        key: &Key,
-        record: Option<&BearingRecord>,
-        document: &Document,
-    ) -> Result<Option<Known>> {
-        let replaced = table::keys().any(|other| {
+    /// Whether another key is given that gives the same thing.
+    fn is_replaced(&self, key: &Key, document: &Document) -> bool {
+        table::keys_that_exclude().iter().any(|other| {
             other.excludes == Some(key.path) && document.values.contains_key(other.path)
-        });
-        if replaced {
-            return Ok(None);
-        }
+        })
+    }
+
+    fn without(&self, key: &Key, record: Option<&BearingRecord>) -> Result<Option<Known>> {
         match table::presence(key, self.system) {
             Presence::Optional(_) | Presence::Derived(_) => Ok(None),
             Presence::Default(fallback) => self.reader(key).fall_back(key, &fallback).map(Some),
@@ -301,7 +363,10 @@ impl Values {
             return known;
         }
         let catalogued = self.catalogued(key, record).ok().flatten();
-        let filled = catalogued.or_else(|| self.without(key, record, document).ok().flatten());
+        let filled = catalogued.or_else(|| match self.is_replaced(key, document) {
+            true => None,
+            false => self.without(key, record).ok().flatten(),
+        });
         match filled {
             Some(filled) if filled.value == known.value => Known {
                 provenance: filled.provenance,

@@ -29,8 +29,7 @@ pub struct ResolvedValue {
 impl ResolvedValue {
     /// Whether machines that differ in it are of different kinds: a word, a switch, a text, a count, or whether it is given.
     pub fn is_of_kind(&self) -> bool {
-        let counted =
-            || table::keys().any(|key| key.path == self.path && matches!(key.kind, Kind::Count));
+        let counted = || table::key(self.path).is_some_and(|key| matches!(key.kind, Kind::Count));
         !self.path.starts_with("repeat.") && (self.value_si.is_none() || counted())
     }
     /// The path as the file has it: `auxiliary_bearing.drive_end.bearing.name`.

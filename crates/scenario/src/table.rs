@@ -84,8 +84,15 @@ pub const ANALYSIS: &str = "analysis";
 
 /// The keys of [`ANALYSIS`] in a file of a system that does not read them.
 pub fn keys_of_analysis(system: SystemName) -> impl Iterator<Item = &'static Key> {
-    let there = system == SystemName::Machine;
-    keys().filter(move |key| there && key.section() == ANALYSIS)
+    let there = (system == SystemName::Machine).then(|| keys_of(SystemName::Rotor));
+    (there.into_iter().flatten()).filter(|key| key.section() == ANALYSIS)
+}
+
+/// The keys that give the same thing as another.
+pub fn keys_that_exclude() -> &'static [&'static Key] {
+    static KEYS: LazyLock<Vec<&Key>> =
+        LazyLock::new(|| keys().filter(|key| key.excludes.is_some()).collect());
+    &KEYS
 }
 
 /// The key of a path; none where there is no such key.

@@ -109,7 +109,7 @@ impl Layout {
     }
     /// What a kind of heat of a part has summed up in a state, J, or its rate, W; none where there is no such heat.
     pub fn heat_of(&self, state: &[f64], part: &str, kind: &str) -> Option<f64> {
-        let is = |heat: &Entry| heat.part == part && heat.kind == kind;
+        let is = |heat: &Entry| heat.kind == kind && heat.part == part;
         Some(state[self.heat(self.heats.iter().position(is)?)])
     }
     /// Channel of the work of a source by its place among all.

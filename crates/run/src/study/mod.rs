@@ -32,7 +32,8 @@ pub fn evaluate(
     changes: &[Vec<(String, String)>],
     options: &Options,
 ) -> Result<Option<Table>> {
-    let scenarios = host::each(changes, |_, changes| scenario.with(changes));
+    let variations = scenario.variations();
+    let scenarios = host::each(changes, |_, changes| variations.with(changes));
     let mut refused = scenarios.iter().filter_map(|read| read.as_ref().err());
     if let Some(problem) = refused.find(|problem| problem.code.is_of_form()) {
         return Err(problem.clone());
@@ -194,13 +195,15 @@ impl Study {
     /// Runs some members with values that all of them have besides.
     fn run_with(&self, members: &[usize], all: &[(String, String)], options: &Options) -> Table {
         let drawn: Vec<Drawn> = members.iter().map(|k| self.drawn(*k)).collect();
+        let variations = self.file.scenario.variations();
         let scenarios = host::each(&drawn, |_, drawn| {
             let values = drawn.values.iter().chain(all).cloned();
-            self.file.scenario.with(&values.collect::<Vec<_>>())
+            variations.with(&values.collect::<Vec<_>>())
         });
         let inputs = drawn.into_iter().map(|drawn| drawn.numbers);
         let numbered = members.iter().copied().zip(inputs);
         let table = table_of(&scenarios, numbered, self.input_columns(), options);
+        host::discard(scenarios);
         self.in_order(table)
     }
 

@@ -95,6 +95,7 @@ impl Table {
             if let Some(why) = row.why {
                 table.failed.insert(row.member, why);
             }
+            let mut last = 0;
             for result in &row.results {
                 let value = match result.value {
                     Value::Number(value) => value,
@@ -103,15 +104,16 @@ impl Table {
                 };
                 // results of a run that ended early are those of another question
                 let value = if row.whole { value } else { f64::NAN };
-                table.set(&result.name, result.unit, result.law, value);
+                last = table.set(last + 1, &result.name, result.unit, || result.law, value);
                 if result.awaited && value.is_nan() && row.whole {
-                    let meaning = "the run ended before it came";
-                    table.set(&format!("{LATE}{}", result.name), "s", meaning, row.time);
+                    let name = format!("{LATE}{}", result.name);
+                    let meaning = || "the run ended before it came";
+                    last = table.set(last + 1, &name, "s", meaning, row.time);
                 }
             }
             for warning in &row.warnings {
                 let name = format!("{WARNING}{}", warning.code);
-                table.set(&name, "", explain::title(warning.code), 1.0);
+                last = table.set(last + 1, &name, "", || explain::title(warning.code), 1.0);
             }
             let count = table.members.len();
             for column in &mut table.columns {
@@ -121,14 +123,26 @@ impl Table {
         table
     }
 
-    /// The last member has a value in a column, which begins with it where there is none yet.
-    fn set(&mut self, name: &str, unit: &str, meaning: &str, value: f64) {
-        let known = self.columns.iter().position(|column| column.name == name);
+    /// The last member has a value in a column, which begins with it where there is none yet; returns the place of the column, which
+    /// in most rows is the one expected.
+    fn set(
+        &mut self,
+        expected: usize,
+        name: &str,
+        unit: &str,
+        meaning: impl FnOnce() -> &'static str,
+        value: f64,
+    ) -> usize {
+        let has = |column: &Column| column.name == name;
+        let known = match self.columns.get(expected) {
+            Some(column) if has(column) => Some(expected),
+            _ => self.columns.iter().position(has),
+        };
         let at = known.unwrap_or_else(|| {
             self.columns.push(Column {
                 name: name.to_string(),
                 unit: unit.to_string(),
-                meaning: meaning.to_string(),
+                meaning: meaning().to_string(),
                 values: Vec::new(),
             });
             self.columns.len() - 1
@@ -136,6 +150,7 @@ impl Table {
         let values = &mut self.columns[at].values;
         values.resize(self.members.len() - 1, f64::NAN);
         values.push(value);
+        at
     }
 
     /// Whether each member has a warning of these, 1 or 0; not known of those that failed without one.

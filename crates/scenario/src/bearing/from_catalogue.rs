@@ -84,7 +84,7 @@ impl Values {
         bearings: &dyn BearingSource,
     ) -> Result<Option<BearingRecord>> {
         let given = document.values.get("bearing.name");
-        let key = table::keys().find(|key| key.path == "bearing.name");
+        let key = table::key("bearing.name");
         let (Some(key), Some(given)) = (key, given) else {
             return Ok(None);
         };

@@ -208,7 +208,7 @@ fn moment_by(
     all.dedup();
     let all = all.into_iter().map(|law| Raw::Text(law.to_string()));
     set(COMPARED_LAWS, Raw::List(all.collect()));
-    let values = Values::resolve(&document, bearings)?;
+    let values = Values::resolve(&document, bearings, None)?;
     let moment = Moment::from_values(&values);
     let bearing = Section {
         values: &values,

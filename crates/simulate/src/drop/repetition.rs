@@ -15,7 +15,7 @@ use outcome::joined::Joined;
 use outcome::options::Options;
 use outcome::{Members, Outcome, Quantity, Spread, Stop, Value, Work};
 use problem::{Place, Problem};
-use scenario::Scenario;
+use scenario::{Scenario, Variations};
 use statistics::random::Random;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -42,16 +42,17 @@ pub fn others(scenario: &Scenario, built: &Built) -> Result<Vec<Arc<Other>>, Box
         return Ok(Vec::new());
     }
     let drop = &built.drop;
+    let variations = scenario.variations();
     let first: Vec<usize> = (1..count(drop).min(BEFORE)).collect();
     let first = host::each(&first, |_, k| {
-        member(scenario, &draw(scenario, drop, *k), *k)
+        member(&variations, &draw(scenario, drop, *k), *k)
     });
     let first = first.into_iter().collect::<Result<_, _>>()?;
     // what they draw is refused in time
     let later: Vec<usize> = (BEFORE..count(drop).max(BEFORE)).collect();
     let refused = host::each(&later, |_, k| {
         let drawn = draw(scenario, drop, *k);
-        let problem = scenario.with(&drawn).err()?;
+        let problem = variations.with(&drawn).err()?;
         Some(member_problem(*k, &drawn, problem))
     });
     match refused.into_iter().flatten().next() {
@@ -75,9 +76,9 @@ fn draw(scenario: &Scenario, drop: &Drop, k: usize) -> Drawn {
 }
 
 /// A member of a machine of its own.
-fn member(scenario: &Scenario, drawn: &Drawn, k: usize) -> Result<Arc<Other>, Box<Problem>> {
+fn member(of: &Variations, drawn: &Drawn, k: usize) -> Result<Arc<Other>, Box<Problem>> {
     let blame = |problem: Box<Problem>| member_problem(k, drawn, problem);
-    let member = scenario.with(drawn).map_err(blame)?;
+    let member = of.with(drawn).map_err(blame)?;
     let Some(of) = member.drop() else {
         unreachable!("no value that is varied changes the system");
     };
@@ -120,6 +121,7 @@ pub fn run(
 fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition {
     let (scenario, drop) = (given.scenario, &given.built.drop);
     let count = count(drop);
+    let variations = scenario.variations();
     let mut given = given.clone();
     given.members = count;
     let mut all = Repetition::default();
@@ -132,13 +134,14 @@ fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition 
             match known.get(k.wrapping_sub(1)) {
                 Some(other) => Ok(Some(other.clone())),
                 None if drawn.is_empty() => Ok(None),
-                None => member(scenario, drawn, k).map(Some),
+                None => member(&variations, drawn, k).map(Some),
             }
         });
         let whole = part.clone().zip(&read);
-        let ones: Vec<One> = whole
-            .filter_map(|(k, other)| Some(perturbed(&given, k, other.as_ref().ok()?.as_deref())))
+        let whole: Vec<_> = whole
+            .filter_map(|(k, other)| Some((k, other.as_ref().ok()?.as_deref())))
             .collect();
+        let ones = host::each(&whole, |_, (k, other)| perturbed(&given, *k, *other));
         let progress = |fraction: f64| {
             let done = begin as f64 + fraction * ones.len() as f64;
             (options.progress)(done / count as f64);
@@ -148,6 +151,7 @@ fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition 
             ..*options
         };
         let mut made = each::run(&ones, &plan).into_iter();
+        host::discard(ones);
         for ((k, other), drawn) in part.zip(&read).zip(drawn) {
             let stop = match other {
                 Ok(_) => made.next().and_then(|made| all.add(k, made, drawn)),
@@ -157,6 +161,7 @@ fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition 
                 all.broken.get_or_insert((k, stop));
             }
         }
+        host::discard(read);
         if options.interrupt.load(Ordering::Relaxed) {
             break;
         }
