@@ -1,8 +1,10 @@
 //! The command line as types; its texts are what `--help` prints.
 
-use auxbear::scenario::KINDS;
+use auxbear::problem::Result;
+use auxbear::report::directory::free_path;
+use auxbear::scenario::{BuiltIn, KINDS, Scenario};
 use clap::{Args, Parser, Subcommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What happens when a magnetically levitated rotor falls onto its auxiliary rolling bearings, how these bearings are brought
 /// to speed, which torque they make, and what measurements of them say.
@@ -37,21 +39,9 @@ pub enum Command {
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),
     /// Read and check a file, print it with every default and its unit; run nothing
-    Check {
-        /// Scenario file
-        file: PathBuf,
-        /// Override a value of the file, e.g. bearing.name=6005; may be repeated
-        #[arg(long, value_name = "PATH=VALUE")]
-        set: Vec<String>,
-    },
+    Check(Given),
     /// List results and columns of a run of a file, with units and meanings; run nothing
-    Results {
-        /// Scenario file
-        file: PathBuf,
-        /// Override a value of the file, e.g. bearing.name=6005; may be repeated
-        #[arg(long, value_name = "PATH=VALUE")]
-        set: Vec<String>,
-    },
+    Results(Given),
     /// Write a commented starting file
     New {
         #[arg(help = format!("What to describe: {}", KINDS.join(", ")))]
@@ -114,25 +104,63 @@ pub enum Command {
     },
 }
 
+/// A scenario.
 #[derive(Debug, Args)]
-pub struct Run {
-    /// Scenario file
+pub struct Given {
+    /// Scenario file; `auxbear new` writes one to start from
     pub file: PathBuf,
-    /// Run directory to write [runs/NAME of the file, with a number where that is taken]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Override a value of the file, e.g. bearing.name=6005; may be repeated
+    /// Override a value of the file, e.g. bearing.name=6005 or mount.stiffness="1e7 N/m"; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+}
+
+/// Where results go.
+#[derive(Debug, Args)]
+pub struct Output {
+    /// Run directory to write [runs/NAME of the file or runs/torque-BEARING, with a number where that is taken]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print no progress and no tables; warnings, problems and fitted lines are printed all the same
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl Given {
+    /// Reads the scenario.
+    pub fn read(&self) -> Result<Scenario> {
+        Scenario::read(&self.file, &self.set, &BuiltIn)
+    }
+    /// Name of the file without its ending.
+    pub fn name(&self) -> String {
+        stem(&self.file)
+    }
+}
+
+impl Output {
+    /// The run directory asked for, or a free one of this name.
+    pub fn place(&self, name: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| free_path(name))
+    }
+}
+
+/// Name of a file without its ending.
+pub fn stem(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
+}
+
+#[derive(Debug, Args)]
+pub struct Run {
+    #[command(flatten)]
+    pub given: Given,
+    #[command(flatten)]
+    pub output: Output,
     /// Number of runs of a drop, from sampled unbalance angles and perturbed starts; the same as --set repeat.count=N
     #[arg(long, value_name = "N")]
     pub repeat: Option<String>,
     /// Number of threads [all cores]; the numbers do not depend on it
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub threads: Option<String>,
-    /// Print no progress and no tables; warnings and problems are printed all the same
-    #[arg(long)]
-    pub quiet: bool,
 }
 
 #[derive(Debug, Args)]
@@ -158,38 +186,24 @@ pub struct Study {
 
 #[derive(Debug, Args)]
 pub struct Measured {
-    /// File of this kind; `auxbear new signals`, `auxbear new identify` and `auxbear new rotor` write one to start from
-    pub file: PathBuf,
-    /// Run directory to write [runs/NAME of the file, with a number where that is taken]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Override a value of the file, e.g. signals.file=test_7.tdms; may be repeated
-    #[arg(long, value_name = "PATH=VALUE")]
-    pub set: Vec<String>,
-    /// Print no progress and no tables; warnings and problems are printed all the same
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub given: Given,
+    #[command(flatten)]
+    pub output: Output,
 }
 
 #[derive(Debug, Args)]
 pub struct Mount {
-    /// Scenario file of a drop or a machine
-    pub file: PathBuf,
+    #[command(flatten)]
+    pub given: Given,
     /// Table of a measured stiffness to fit: columns frequency, storage (K') and loss (K''), each with its unit, e.g. "frequency [Hz]"
     #[arg(long, value_name = "TABLE")]
     pub fit: Option<PathBuf>,
     /// Amplitude at which friction rings count
     #[arg(long, value_name = "LENGTH", default_value = "10 um")]
     pub amplitude: String,
-    /// Run directory to write [runs/NAME of the file, with a number where that is taken]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Override a value of the file, e.g. mount.stiffness="1e7 N/m"; may be repeated
-    #[arg(long, value_name = "PATH=VALUE")]
-    pub set: Vec<String>,
-    /// Print no tables; warnings, problems and fitted lines are printed all the same
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub output: Output,
 }
 
 #[derive(Debug, Args)]
@@ -236,12 +250,8 @@ pub struct Torque {
     /// Set any value of the scenario, e.g. bearing.moment.f0=2; may be repeated
     #[arg(long, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Run directory to write [runs/torque-BEARING, with a number where that is taken]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Print no progress and no tables; warnings and problems are printed all the same
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub output: Output,
 }
 
 #[derive(Debug, Subcommand)]

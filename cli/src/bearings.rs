@@ -74,19 +74,15 @@ fn list(bearings: &[&Bearing]) -> String {
     ];
     let units = ["", "", "mm", "mm", "mm", "mm", "kN", "rpm", "values"];
     let rows = bearings.iter().map(|bearing| row(bearing));
-    let rows: Vec<[String; 9]> = [head, units]
-        .map(|line| line.map(String::from))
-        .into_iter()
-        .chain(rows)
-        .collect();
+    let heads = [head, units].map(|line| line.map(String::from));
+    let rows: Vec<[String; 9]> = heads.into_iter().chain(rows).collect();
     console::table(&rows)
 }
 
 fn row(bearing: &Bearing) -> [String; 9] {
     let number = |key, unit| {
-        bearing
-            .number(key)
-            .map_or("-".to_string(), |si| in_unit(si, unit))
+        let si = bearing.number(key);
+        si.map_or("-".to_string(), |si| in_unit(si, unit))
     };
     let balls = bearing.number("ball_count");
     let balls = balls.map_or("-".to_string(), |count| {

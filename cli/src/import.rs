@@ -2,30 +2,16 @@
 
 use crate::arguments::Import;
 use crate::console;
+use crate::start::write_new;
 use auxbear::import::{Compared, import};
-use auxbear::problem::{Code, Problem, Result};
-use auxbear::report::directory::{failed, misplaced};
-use std::fs::File;
-use std::io::{ErrorKind, Write};
+use auxbear::problem::Result;
 
 /// Writes the scenario of a rotor of another program, and tells what was not understood.
 pub fn perform(wish: &Import) -> Result<()> {
     let imported = import(&wish.file)?;
     match &wish.out {
         None => console::print(&imported.toml)?,
-        Some(path) => {
-            let mut file = File::create_new(path).map_err(|error| match error.kind() {
-                ErrorKind::AlreadyExists => Problem::at_path(
-                    Code::OutputExists,
-                    path,
-                    "something of this name",
-                    "a file is never written over another: choose another path",
-                ),
-                _ => misplaced(path, &error),
-            })?;
-            file.write_all(imported.toml.as_bytes())
-                .map_err(|error| failed(path, &error))?;
-        }
+        Some(path) => write_new(path, &imported.toml)?,
     }
     // The text may go into a pipe: what is told of it goes beside it.
     console::report(&format!("read: a {}", imported.kind));

@@ -13,6 +13,12 @@ pub fn text(outcome: &Outcome) -> String {
     }
 }
 
+/// "most 3 kN".
+pub fn bound(judged: &Judged) -> String {
+    let Judged { limit, unit, .. } = judged;
+    format!("{} {}", limit.side.word(), readable(limit.bound, unit))
+}
+
 fn row(judged: &Judged) -> [String; 4] {
     let limit = &judged.limit;
     let value = judged
@@ -21,11 +27,7 @@ fn row(judged: &Judged) -> [String; 4] {
     [
         format!("  {}", judged.verdict.word()),
         limit.quantity.replace(['_', '.'], " "),
-        format!(
-            "{value}, at {} {}",
-            limit.side.word(),
-            readable(limit.bound, judged.unit)
-        ),
+        format!("{value}, at {}", bound(judged)),
         judged.why.clone(),
     ]
 }

@@ -28,7 +28,7 @@ use auxbear::problem::{Code, Result};
 use auxbear::report::directory;
 use auxbear::report::export::{self, Format};
 use auxbear::run::panic_is_caught;
-use auxbear::scenario::{BuiltIn, Scenario, SystemName};
+use auxbear::scenario::SystemName;
 use clap::Parser;
 use exit::Exit;
 use progress::Busy;
@@ -90,8 +90,8 @@ fn perform(command: &Command) -> Result<Exit> {
         Command::Rotor(wish) => return measured::perform(wish, SystemName::Rotor),
         Command::Mount(wish) => return mount::perform(wish),
         Command::Import(wish) => import::perform(wish)?,
-        Command::Check { file, set } => {
-            let scenario = Scenario::read(file, set, &BuiltIn)?;
+        Command::Check(given) => {
+            let scenario = given.read()?;
             run::listen(false);
             let busy = Busy::building(&scenario);
             let machine = auxbear::run::build(&scenario)?;
@@ -99,7 +99,7 @@ fn perform(command: &Command) -> Result<Exit> {
             console::print(&scenario.resolved.toml())?;
             console::warn(&machine.warnings());
         }
-        Command::Results { file, set } => results::perform(file, set)?,
+        Command::Results(given) => results::perform(given)?,
         Command::New { kind, path } => start::perform(kind, path.as_deref())?,
         Command::Schema { kind } => schema::perform(kind)?,
         Command::Report { directories, out } => report(directories, out.as_deref())?,

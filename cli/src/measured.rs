@@ -4,12 +4,11 @@ use crate::arguments::Measured;
 use crate::exit::Exit;
 use crate::run;
 use auxbear::problem::{Code, Problem, Result};
-use auxbear::report::directory::free_path;
-use auxbear::scenario::{BuiltIn, Scenario, SystemName};
+use auxbear::scenario::SystemName;
 
 /// Computes what a file of this system asks for.
 pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit> {
-    let mut scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
+    let mut scenario = wish.given.read()?;
     if !wanted.reads_measurements()
         && let Some(rotor) = scenario.rotor_alone()
     {
@@ -17,20 +16,12 @@ pub fn perform(wish: &Measured, wanted: SystemName) -> Result<Exit> {
     }
     let system = scenario.system.name();
     if system != wanted {
-        let problem = Problem::at_path(
-            Code::UnknownWord,
-            &wish.file,
-            format!("system = \"{}\"", system.word()),
-            format!(
-                "system = \"{}\" is needed; auxbear run runs any system",
-                wanted.word()
-            ),
-        );
+        let (found, wanted) = (system.word(), wanted.word());
+        let found = format!("system = \"{found}\"");
+        let needed = format!("system = \"{wanted}\" is needed; auxbear run runs any system");
+        let problem = Problem::at_path(Code::UnknownWord, &wish.given.file, found, needed);
         return Err(problem.on_key("system"));
     }
-    let path = wish.out.clone().unwrap_or_else(|| {
-        let stem = wish.file.file_stem().unwrap_or_default();
-        free_path(&stem.to_string_lossy())
-    });
-    run::execute(&scenario, &path, None, wish.quiet)
+    let path = wish.output.place(&wish.given.name());
+    run::execute(&scenario, &path, None, wish.output.quiet)
 }

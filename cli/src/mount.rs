@@ -5,22 +5,19 @@ use crate::exit::Exit;
 use crate::{console, summary};
 use auxbear::outcome::Value;
 use auxbear::problem::{self, Code, Problem};
-use auxbear::report::directory::{NewDirectory, free_path};
+use auxbear::report::directory::NewDirectory;
 use auxbear::run::mount::{self, Request, fit::MeasuredStiffness};
-use auxbear::scenario::{BuiltIn, Scenario};
 use auxbear::units::parse_quantity;
 
 /// Computes it and writes a run directory.
 pub fn perform(wish: &Mount) -> problem::Result<Exit> {
-    let scenario = Scenario::read(&wish.file, &wish.set, &BuiltIn)?;
+    let scenario = wish.given.read()?;
     let metres = parse_quantity(&wish.amplitude)
         .ok()
         .filter(|own| own.dimension.si_unit() == "m" && own.value_si > 0.0);
     let Some(metres) = metres else {
-        let (found, needed) = (
-            format!("\"{}\"", wish.amplitude),
-            "a length above 0 is needed, e.g. \"20 um\"",
-        );
+        let found = format!("\"{}\"", wish.amplitude);
+        let needed = "a length above 0 is needed, e.g. \"20 um\"";
         let problem = Problem::new(Code::OutOfRange, "auxbear mount", found, needed);
         return Err(problem.on_key("--amplitude"));
     };
@@ -33,13 +30,9 @@ pub fn perform(wish: &Mount) -> problem::Result<Exit> {
         table: wish.fit.as_ref().map(read).transpose()?,
     };
     let outcome = mount::run(&scenario, &request).map_err(|own| scenario.locate(own))?;
-    let stem = wish.file.file_stem().unwrap_or_default();
-    let path = wish
-        .out
-        .clone()
-        .unwrap_or_else(|| free_path(&stem.to_string_lossy()));
+    let path = wish.output.place(&wish.given.name());
     NewDirectory::reserve(&path)?.finish(&scenario, &outcome)?;
-    if !wish.quiet {
+    if !wish.output.quiet {
         console::print(&summary::text(&path, &outcome))?;
     }
     let mut all = outcome.quantities.iter();

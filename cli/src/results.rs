@@ -1,20 +1,20 @@
 //! `auxbear results`: results and columns of a run of a file, before it is run.
 
+use crate::arguments::Given;
 use crate::console;
 use crate::run::listen;
 use auxbear::problem::Result;
-use auxbear::scenario::{BuiltIn, STUDY_FORMAT, Scenario, StudyFile};
-use std::path::Path;
+use auxbear::scenario::{STUDY_FORMAT, StudyFile};
 
 /// Says what stands for a part of a name that no file decides.
 const PATTERNS: &str = "\n* stands for a number or name that only the run or its data decide.\n";
 /// Marks a column that a run may lack.
 const OPTIONAL: &str = " (if found)";
 
-pub fn perform(file: &Path, sets: &[String]) -> Result<()> {
+pub fn perform(given: &Given) -> Result<()> {
     // of a study its scenario
-    let scenario = match Scenario::read(file, sets, &BuiltIn) {
-        Err(problem) if problem.found.contains(STUDY_FORMAT) => StudyFile::read(file)?.scenario,
+    let scenario = match given.read() {
+        Err(told) if told.found.contains(STUDY_FORMAT) => StudyFile::read(&given.file)?.scenario,
         read => read?,
     };
     listen(false);
@@ -34,16 +34,9 @@ pub fn perform(file: &Path, sets: &[String]) -> Result<()> {
         lines.collect::<String>()
     };
     let (results, columns) = (results.collect::<Vec<_>>(), columns.collect::<Vec<_>>());
-    let mut text = format!(
-        "{}\nColumns of the history:\n{}",
-        listed(&results),
-        listed(&columns)
-    );
-    if results
-        .iter()
-        .chain(&columns)
-        .any(|row| row[0].contains('*'))
-    {
+    let (above, below) = (listed(&results), listed(&columns));
+    let mut text = format!("{above}\nColumns of the history:\n{below}");
+    if (results.iter().chain(&columns)).any(|row| row[0].contains('*')) {
         text.push_str(PATTERNS);
     }
     console::print(&text)

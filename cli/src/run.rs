@@ -6,7 +6,7 @@ use crate::progress::{Busy, Progress};
 use crate::{console, summary};
 use auxbear::outcome::Stop;
 use auxbear::problem::{Code, Problem, Result};
-use auxbear::report::directory::{NewDirectory, free_path};
+use auxbear::report::directory::NewDirectory;
 use auxbear::run::Options;
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::num::NonZeroUsize;
@@ -27,15 +27,12 @@ const ECHO: Duration = Duration::from_millis(500);
 /// Simulates a scenario and writes its run directory.
 pub fn perform(wish: &Run) -> Result<Exit> {
     let threads = wish.threads.as_deref().map(threads).transpose()?;
-    let mut sets = wish.set.clone();
+    let mut sets = wish.given.set.clone();
     // As an override it is checked like any value, and the resolved file repeats it.
     sets.extend(wish.repeat.iter().map(|n| format!("repeat.count={n}")));
-    let scenario = Scenario::read(&wish.file, &sets, &BuiltIn)?;
-    let path = wish.out.clone().unwrap_or_else(|| {
-        let stem = wish.file.file_stem().unwrap_or_default();
-        free_path(&stem.to_string_lossy())
-    });
-    execute(&scenario, &path, threads, wish.quiet)
+    let scenario = Scenario::read(&wish.given.file, &sets, &BuiltIn)?;
+    let path = wish.output.place(&wish.given.name());
+    execute(&scenario, &path, threads, wish.output.quiet)
 }
 
 /// The number of threads asked for.

@@ -12,11 +12,8 @@ const DECISIVE: f64 = 1000.0;
 
 /// Prints what many drops do to the bearings together.
 pub fn perform(wish: &Service) -> Result<()> {
-    let occasions: Vec<Occasion> = wish
-        .occasions
-        .iter()
-        .map(|text| occasion(text))
-        .collect::<Result<_, _>>()?;
+    let occasions = wish.occasions.iter().map(|text| occasion(text));
+    let occasions: Vec<Occasion> = occasions.collect::<Result<_, _>>()?;
     let found = service(&occasions)?;
     let mut rows = vec![head(&occasions)];
     rows.extend(found.modes.iter().map(row));
@@ -40,10 +37,8 @@ pub fn perform(wish: &Service) -> Result<()> {
 
 /// `40:runs/full_speed`.
 fn occasion(text: &str) -> Result<Occasion> {
-    let parts = text
-        .split_once(':')
-        .and_then(|(count, path)| Some((count.trim().parse().ok()?, path)));
-    match parts {
+    let parts = text.split_once(':');
+    match parts.and_then(|(count, path)| Some((count.trim().parse().ok()?, path))) {
         Some((count, path)) if count > 0 && !path.is_empty() => Ok(Occasion {
             count,
             directory: PathBuf::from(path),
@@ -58,9 +53,7 @@ fn occasion(text: &str) -> Result<Occasion> {
 }
 
 fn head(occasions: &[Occasion]) -> Vec<String> {
-    let each = occasions
-        .iter()
-        .map(|one| format!("{} x {}", one.count, one.directory.display()));
+    let each = (occasions.iter()).map(|one| format!("{} x {}", one.count, one.directory.display()));
     let mut row = vec!["bearing".to_string(), String::new(), "service".to_string()];
     row.extend(each);
     row
@@ -70,11 +63,10 @@ fn row(mode: &Mode) -> Vec<String> {
     let value = match (&mode.value, mode.band) {
         (Err(why), _) => format!("- ({why})"),
         (Ok(value), None) => readable(*value, &mode.unit),
-        (Ok(value), Some(band)) => format!(
-            "{} ± {}",
-            readable(*value, &mode.unit),
-            readable(band, &mode.unit)
-        ),
+        (Ok(value), Some(band)) => {
+            let [value, band] = [*value, band].map(|size| readable(size, &mode.unit));
+            format!("{value} ± {band}")
+        }
     };
     let how = if mode.adds { "" } else { ", the worst" };
     let mut row = vec![mode.bearing.clone(), format!("{}{how}", mode.what), value];

@@ -18,12 +18,17 @@ pub fn perform(kind: &str, path: Option<&Path>) -> Result<()> {
     let Some(path) = path.filter(|path| *path != Path::new("-")) else {
         return console::print(&text);
     };
+    write_new(path, &text)
+}
+
+/// Writes a file where none of its name is.
+pub fn write_new(path: &Path, text: &str) -> Result<()> {
     let mut file = File::create_new(path).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => Problem::at_path(
             Code::OutputExists,
             path,
             "something of this name",
-            "a starting file is never written over another: choose another path",
+            "a file is never written over another: choose another path",
         ),
         _ => misplaced(path, &error),
     })?;

@@ -1,8 +1,9 @@
 //! `auxbear study`.
 
-use crate::arguments::Study as Wish;
+use crate::arguments::{Study as Wish, stem};
 use crate::digits::readable;
 use crate::exit::Exit;
+use crate::limits::bound;
 use crate::{console, run};
 use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::free_path;
@@ -24,17 +25,9 @@ const PAUSE: Duration = Duration::from_secs(2);
 pub fn perform(wish: &Wish) -> Result<Exit> {
     let threads = wish.threads.as_deref().map(run::threads).transpose()?;
     let file = StudyFile::read(&wish.file)?;
-    let name = wish
-        .file
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
-    let add = wish
-        .add
-        .as_deref()
-        .map(|text| whole(text, "--add"))
-        .transpose()?;
+    let name = stem(&wish.file);
+    let add = wish.add.as_deref().map(|text| whole(text, "--add"));
+    let add = add.transpose()?;
     if let Some(text) = &wish.member {
         let file = match add {
             Some(more) => file.extended(more)?,
@@ -49,16 +42,12 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
             return Err(problem.on_key("--member"));
         }
         let scenario = study.scenario(k)?;
-        let path = wish
-            .out
-            .clone()
-            .unwrap_or_else(|| free_path(&format!("{name}-member-{k}")));
+        let own = || free_path(&format!("{name}-member-{k}"));
+        let path = wish.out.clone().unwrap_or_else(own);
         return run::execute(&scenario, &path, threads, wish.quiet);
     }
-    let path = wish
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new("runs").join(&name));
+    let own = || Path::new("runs").join(&name);
+    let path = wish.out.clone().unwrap_or_else(own);
     let study = Study::new(file)?;
     run::listen(true);
     let directory = Directory::open(&path, study, add.unwrap_or(0))?;
@@ -74,18 +63,13 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
     }
     let warned = done.warned.iter();
     for warned in warned.filter(|warned| warned.severity() < Severity::Note) {
-        console::report(&format!(
-            "warning[{}]: {}: {}",
-            warned.code,
-            warned.title,
-            warned.share(done.answer.members)
-        ));
+        let share = warned.share(done.answer.members);
+        let (code, title) = (&warned.code, &warned.title);
+        console::report(&format!("warning[{code}]: {title}: {share}"));
     }
     if done.failed > 0 {
-        console::report(&format!(
-            "{} members failed: summary.json says why",
-            done.failed
-        ));
+        let failed = done.failed;
+        console::report(&format!("{failed} members failed: summary.json says why"));
     }
     match done.complete {
         // no member has results
@@ -105,13 +89,8 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
 fn whole(text: &str, key: &str) -> Result<usize> {
     text.trim().parse().map_err(|_| {
         let needed = "a whole number is needed";
-        let problem = Problem::new(
-            Code::OutOfRange,
-            "auxbear study",
-            format!("\"{text}\""),
-            needed,
-        );
-        problem.on_key(key)
+        let found = format!("\"{text}\"");
+        Problem::new(Code::OutOfRange, "auxbear study", found, needed).on_key(key)
     })
 }
 
@@ -147,30 +126,21 @@ impl Pace {
             true => {
                 let each = self.begin.elapsed().as_secs_f64() / done;
                 let left = (self.all as f64 - members) * each;
-                format!(
-                    ", {} each, {} left",
-                    readable(each, "s"),
-                    readable(left, "s")
-                )
+                let [each, left] = [each, left].map(|seconds| readable(seconds, "s"));
+                format!(", {each} each, {left} left")
             }
             false => String::new(),
         };
-        console::report(&format!(
-            "study: {members:.0} of {} members{left}",
-            self.all
-        ));
+        let all = self.all;
+        console::report(&format!("study: {members:.0} of {all} members{left}"));
     }
 }
 
 /// The best candidates of a selection, and what is said of the first.
 fn ranking(study: &Study, answer: &Answer) -> String {
     const FIRST: usize = 6;
-    let Some((name, ..)) = study
-        .file
-        .rank
-        .as_ref()
-        .filter(|_| !answer.ranking.is_empty())
-    else {
+    let rank = study.file.rank.as_ref();
+    let Some((name, ..)) = rank.filter(|_| !answer.ranking.is_empty()) else {
         return String::new();
     };
     let known = study.known.iter().find(|known| known.name == *name);
@@ -187,13 +157,8 @@ fn ranking(study: &Study, answer: &Answer) -> String {
             }),
         ]
     };
-    let rows: Vec<[String; 4]> = answer
-        .ranking
-        .iter()
-        .enumerate()
-        .take(FIRST)
-        .map(row)
-        .collect();
+    let first = answer.ranking.iter().enumerate().take(FIRST);
+    let rows: Vec<[String; 4]> = first.map(row).collect();
     format!(
         "by {}, of which 95 % of the draws are not worse:\n{}{}\n",
         name.replace(['_', '.'], " "),
@@ -216,21 +181,13 @@ fn text(path: &Path, study: &Study, done: &Done) -> String {
         .map(|limit| {
             let judged = &limit.judged;
             let beyond = limit.beyond.map_or(String::new(), |(share, [low, high])| {
-                format!(
-                    "; beyond it {} of members, 95 % interval {} to {}",
-                    percent(share),
-                    percent(low),
-                    percent(high)
-                )
+                let [share, low, high] = [share, low, high].map(percent);
+                format!("; beyond it {share} of members, 95 % interval {low} to {high}")
             });
             [
                 format!("  {}", judged.verdict.word()),
                 judged.limit.quantity.replace(['_', '.'], " "),
-                format!(
-                    "{} {}",
-                    judged.limit.side.word(),
-                    readable(judged.limit.bound, judged.unit)
-                ),
+                bound(judged),
                 format!("{}{beyond}", judged.why),
             ]
         })
@@ -279,13 +236,8 @@ fn spreads(study: &Study, answer: &Answer) -> String {
 
 /// What each result owes to each input.
 fn sensitivities(study: &Study, answer: &Answer) -> String {
-    let inputs = || {
-        study
-            .file
-            .inputs
-            .iter()
-            .map(|input| input.vary.path.clone())
-    };
+    let inputs = study.file.inputs.iter();
+    let inputs = || inputs.clone().map(|input| format!("  {}", input.vary.path));
     let banded = |value: f64, [low, high]: [f64; 2]| format!("{value:.3} ({low:.3} to {high:.3})");
     let mut text = String::new();
     for (name, unit, found) in &answer.sensitivity {
@@ -305,11 +257,8 @@ fn sensitivities(study: &Study, answer: &Answer) -> String {
             Sensitivity::Effects(effects) => {
                 let rows = inputs().zip(effects).filter_map(|(path, effect)| {
                     let effect = effect.as_ref()?;
-                    Some([
-                        path,
-                        readable(effect.mean_size, unit),
-                        readable(effect.deviation, unit),
-                    ])
+                    let [size, spread] = [effect.mean_size, effect.deviation];
+                    Some([path, readable(size, unit), readable(spread, unit)])
                 });
                 (
                     format!("{name}: mean size and deviation of the effects of each input"),
@@ -318,12 +267,9 @@ fn sensitivities(study: &Study, answer: &Answer) -> String {
             }
             Sensitivity::Indices(indices) => {
                 let rows = inputs().zip(indices).map(|(path, index)| {
-                    let [first, total] = [&index.first, &index.total];
-                    [
-                        path,
-                        banded(first.value, first.band),
-                        banded(total.value, total.band),
-                    ]
+                    let both = [&index.first, &index.total];
+                    let [first, total] = both.map(|one| banded(one.value, one.band));
+                    [path, first, total]
                 });
                 (
                     format!("{name}: Sobol indices, first order and total (95 % bands)"),
@@ -331,20 +277,12 @@ fn sensitivities(study: &Study, answer: &Answer) -> String {
                 )
             }
         };
-        let rows: Vec<[String; 3]> = rows
-            .into_iter()
-            .map(|[path, a, b]| [format!("  {path}"), a, b])
-            .collect();
         text.push_str(&format!("{head}:\n{}", console::table(&rows)));
     }
     text
 }
 
 fn percent(share: f64) -> String {
-    format!(
-        "{} %",
-        format!("{:.3}", 100.0 * share)
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-    )
+    let digits = format!("{:.3}", 100.0 * share);
+    format!("{} %", digits.trim_end_matches('0').trim_end_matches('.'))
 }

@@ -101,17 +101,12 @@ fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
         let speeds = list(all().find(|one| one.words_in("slow_speeds").is_some()))?;
         let torques = list(Some(quantity))?;
         let deviations = list(outcome.quantity(&quantity.name.replace("torques", "deviations")))?;
-        let known: Vec<usize> = (0..torques.len())
-            .filter(|k| torques[*k].is_finite())
-            .collect();
+        let known = (0..torques.len()).filter(|k| torques[*k].is_finite());
+        let known: Vec<usize> = known.collect();
         let places = [known.first(), known.get(known.len() / 2), known.last()];
         let told = places.into_iter().flatten().map(|&k| {
-            format!(
-                "{} ± {} at {}",
-                readable(torques[k], "N m"),
-                readable(deviations[k], "N m"),
-                readable(speeds[k], "rad/s")
-            )
+            let [torque, band] = [torques[k], deviations[k]].map(|own| readable(own, "N m"));
+            format!("{torque} ± {band} at {}", readable(speeds[k], "rad/s"))
         });
         let told: Vec<String> = told.collect();
         (!told.is_empty()).then(|| [format!("  steady torque, {words}"), told.join("; ")])
@@ -130,11 +125,8 @@ fn value(quantity: &Quantity) -> String {
                 true => (0.5 / PI, "Hz"),
                 false => (30.0 / PI, "rpm"),
             };
-            format!(
-                "{} ({})",
-                readable(*speed, "rad/s"),
-                readable(speed * factor, unit)
-            )
+            let other = readable(speed * factor, unit);
+            format!("{} ({other})", readable(*speed, "rad/s"))
         }
         Value::Number(number) => readable(*number, quantity.unit),
         Value::List(list) => format!("{} values", list.len()),
@@ -142,12 +134,11 @@ fn value(quantity: &Quantity) -> String {
         Value::None { why } => format!("none: {why}"),
     };
     match &quantity.spread {
-        Some(spread) => format!(
-            "{text} (mean {} ± {} of {} runs)",
-            readable(spread.mean, quantity.unit),
-            readable(spread.standard_deviation, quantity.unit),
-            spread.members
-        ),
+        Some(spread) => {
+            let both = [spread.mean, spread.standard_deviation];
+            let [mean, sd] = both.map(|own| readable(own, quantity.unit));
+            format!("{text} (mean {mean} ± {sd} of {} runs)", spread.members)
+        }
         None => text,
     }
 }

@@ -4,7 +4,6 @@ use crate::arguments::Torque;
 use crate::exit::Exit;
 use crate::run;
 use auxbear::problem::Result;
-use auxbear::report::directory::free_path;
 use auxbear::scenario::{BuiltIn, FORMAT, Scenario};
 
 /// What messages name as the file.
@@ -14,23 +13,14 @@ const PLACE: &str = "auxbear torque";
 pub fn perform(wish: &Torque) -> Result<Exit> {
     let text = format!("format = \"{FORMAT}\"\nsystem = \"torque\"\n");
     let scenario = Scenario::parse(&text, PLACE, &overrides(wish), &BuiltIn)?;
-    let path = wish
-        .out
-        .clone()
-        .unwrap_or_else(|| free_path(&name(&wish.bearing)));
-    run::execute(&scenario, &path, None, wish.quiet)
+    let path = wish.output.place(&name(&wish.bearing));
+    run::execute(&scenario, &path, None, wish.output.quiet)
 }
 
 /// Name of a run directory.
 fn name(bearing: &str) -> String {
-    let plain = |letter: char| {
-        if letter.is_alphanumeric() {
-            letter
-        } else {
-            '-'
-        }
-    };
-    format!("torque-{}", bearing.chars().map(plain).collect::<String>())
+    let other = |letter: char| !letter.is_alphanumeric();
+    format!("torque-{}", bearing.replace(other, "-"))
 }
 
 /// Each word of the command line as a value of the file; `--set` comes last and counts.
@@ -38,21 +28,16 @@ fn overrides(wish: &Torque) -> Vec<String> {
     let mut sets = vec![format!("bearing.name={}", wish.bearing)];
     let catalogue = wish.catalogue.as_ref();
     sets.extend(catalogue.map(|path| format!("catalogue={}", path.display())));
-    sets.extend(
-        wish.speed_to
-            .iter()
-            .map(|speed| format!("torque.speed_to={speed}")),
-    );
-    sets.extend(
-        wish.law
-            .first()
-            .map(|law| format!("bearing.moment.law={law}")),
-    );
+    for (path, value) in [
+        ("torque.speed_to", wish.speed_to.as_ref()),
+        ("bearing.moment.law", wish.law.first()),
+        ("bearing.moment.temperature", wish.temperature.first()),
+    ] {
+        sets.extend(value.map(|value| format!("{path}={value}")));
+    }
     if wish.law.len() > 1 {
         sets.push(list("torque.laws", &wish.law));
     }
-    let temperature = wish.temperature.first();
-    sets.extend(temperature.map(|first| format!("bearing.moment.temperature={first}")));
     for (path, values) in [
         ("torque.loads", &wish.load),
         ("torque.accelerations", &wish.acceleration),

@@ -57,21 +57,25 @@ impl<'a> Found<'a> {
     }
 
     /// Lists beside each other under their words: what is varied, then the moments.
-    fn over(&self, figure: &'static str, unit: &str, fixed: &[(&str, String)]) -> Vec<Vec<String>> {
-        let columns: Vec<_> = self
-            .in_figure(figure)
-            .filter_map(|quantity| match &quantity.value {
-                Value::List(list) => Some((quantity.words_in(figure)?, list)),
-                _ => None,
-            })
-            .collect();
+    fn over(
+        &self,
+        figure: &'static str,
+        unit: &str,
+        fixed: &[(String, String)],
+    ) -> Vec<Vec<String>> {
+        let columns = self.in_figure(figure);
+        let columns = columns.filter_map(|quantity| match &quantity.value {
+            Value::List(list) => Some((quantity.words_in(figure)?, list)),
+            _ => None,
+        });
+        let columns: Vec<_> = columns.collect();
         let words = |range: std::ops::Range<usize>| {
             columns[range].iter().map(|column| column.0.to_string())
         };
         let (first, all) = (columns.len().min(1), columns.len());
         let mut rows = vec![
             words(0..first)
-                .chain(fixed.iter().map(|one| one.0.to_string()))
+                .chain(fixed.iter().map(|one| one.0.clone()))
                 .chain(words(first..all))
                 .collect(),
         ];
@@ -80,10 +84,9 @@ impl<'a> Found<'a> {
         };
         rows.extend(varied.iter().enumerate().map(|(row, at)| {
             let at = format!("{} {unit}", four_digits(*at));
-            let moments = moments.iter().map(|(_, list)| {
-                list.get(row)
-                    .map_or("-".to_string(), |si| in_unit(*si, "N mm"))
-            });
+            let moment = |si: &f64| in_unit(*si, "N mm");
+            let moments =
+                (moments.iter()).map(|(_, list)| list.get(row).map_or("-".to_string(), moment));
             [at].into_iter()
                 .chain(fixed.iter().map(|one| one.1.clone()))
                 .chain(moments)
@@ -94,13 +97,9 @@ impl<'a> Found<'a> {
 
     fn accelerations(&self) -> Vec<Vec<String>> {
         let parts = self.in_figure("parts").take(2);
+        let named = |part: &Quantity| part.words_in("parts").unwrap_or_default().to_string();
         let parts: Vec<_> = parts
-            .map(|part| {
-                (
-                    part.words_in("parts").unwrap_or_default(),
-                    value(part, "N mm"),
-                )
-            })
+            .map(|part| (named(part), value(part, "N mm")))
             .collect();
         self.over("by_acceleration", "rad/s^2", &parts)
     }

@@ -4,7 +4,6 @@
 use crate::repository::{Outcome, Repository};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::process::ExitCode;
 use toml::{Table, Value};
 
 const LIST: &str = "advisories.toml";
@@ -39,42 +38,29 @@ pub fn check(repository: &Repository) -> Outcome {
 }
 
 /// Writes the list from a copy of the database.
-pub fn write(database: &str) -> ExitCode {
-    let written = Repository::open().and_then(|repository| {
-        let packages = packages(&repository)?;
-        let old = match repository.text(LIST) {
-            Some(_) => read(&repository)?,
-            None => List::default(),
-        };
-        let list = gather(Path::new(database), &packages, old)?;
-        std::fs::write(repository.root.join(LIST), text(&list)).map_err(|e| e.to_string())?;
-        println!(
-            "{LIST}: {} listed of {}",
-            list.advisories.len(),
-            list.newest
-        );
-        Ok(findings(&list, &packages))
-    });
-    match written {
-        Ok(findings) => findings.iter().for_each(|finding| println!("{finding}")),
-        Err(error) => {
-            eprintln!("{error}");
-            return ExitCode::FAILURE;
-        }
+pub fn write(database: &str) -> Result<(), String> {
+    let repository = Repository::open()?;
+    let packages = packages(&repository)?;
+    let old = match repository.text(LIST) {
+        Some(_) => read(&repository)?,
+        None => List::default(),
+    };
+    let list = gather(Path::new(database), &packages, old)?;
+    repository.write(LIST, &text(&list))?;
+    let count = list.advisories.len();
+    println!("{LIST}: {count} listed of {}", list.newest);
+    for finding in findings(&list, &packages) {
+        println!("{finding}");
     }
-    ExitCode::SUCCESS
+    Ok(())
 }
 
 fn packages(repository: &Repository) -> Result<Packages, String> {
     let lock = repository.text("Cargo.lock").ok_or("Cargo.lock: missing")?;
     let lock = table(&lock)?;
     let mut packages = Packages::new();
-    for package in lock
-        .get("package")
-        .and_then(Value::as_array)
-        .into_iter()
-        .flatten()
-    {
+    let all = lock.get("package").and_then(Value::as_array);
+    for package in all.into_iter().flatten() {
         let word = |key: &str| package.get(key).and_then(Value::as_str);
         if let (Some(name), Some(version), Some(_)) =
             (word("name"), word("version"), word("source"))
@@ -113,10 +99,8 @@ fn gather(database: &Path, packages: &Packages, old: List) -> Result<List, Strin
     let pages: Result<Vec<_>, String> = folders.iter().map(|folder| entries(folder)).collect();
     for page in pages?.iter().flatten() {
         let text = std::fs::read_to_string(page).map_err(|e| format!("{}: {e}", page.display()))?;
-        let head = text
-            .split("```")
-            .nth(1)
-            .and_then(|part| part.strip_prefix("toml"));
+        let head = text.split("```").nth(1);
+        let head = head.and_then(|part| part.strip_prefix("toml"));
         let head = head.ok_or(format!("{}: no block of TOML", page.display()))?;
         let head = table(head).map_err(|error| format!("{}: {error}", page.display()))?;
         let part = |key: &str| head.get(key).and_then(Value::as_table).cloned();
@@ -167,10 +151,8 @@ fn shown(value: &Value) -> String {
 }
 
 fn word<'a>(advisory: &'a Table, key: &str) -> &'a str {
-    advisory
-        .get(key)
-        .and_then(Value::as_str)
-        .unwrap_or_default()
+    let text = advisory.get(key).and_then(Value::as_str);
+    text.unwrap_or_default()
 }
 
 /// Advisories that apply, and no reason to accept them.

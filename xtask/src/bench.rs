@@ -11,11 +11,11 @@ mod rotor;
 use crate::repository::Repository;
 use page::{Page, signed, three};
 use peer::{CVODE, EXUDYN, Peer, ROSS, SCIPY, number};
-pub use program::build;
+pub use program::given_or_built;
 use program::{Program, Task};
 use serde_json::Value;
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 const RESULTS: &str = "benchmarks/RESULTS.md";
 const DROP: &str = "scenarios/reference_drop.toml";
@@ -50,25 +50,12 @@ const QUANTITIES: [(&str, &str, f64); 6] = [
 ];
 
 /// Measures the command given, or the release build; prints the tables and writes them to `benchmarks/RESULTS.md`.
-pub fn run(program: Option<&str>) -> ExitCode {
-    match measure(program) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn measure(program: Option<&str>) -> Result<(), String> {
+pub fn run(program: Option<&str>) -> Result<(), String> {
     let repository = Repository::open()?;
-    let program = match program {
-        Some(path) => std::path::absolute(path).map_err(|error| format!("{path}: {error}"))?,
-        None => build(&repository)?,
-    };
+    let program = given_or_built(&repository, program)?;
     let mut bench = Bench {
         program: Program::new(&repository.root, program),
-        root: repository.root,
+        root: repository.root.clone(),
         page: Page::default(),
         peers: Vec::new(),
     };
@@ -93,8 +80,7 @@ fn measure(program: Option<&str>) -> Result<(), String> {
     bench.machines()?;
     bench.ball_bearing()?;
     bench.instructions()?;
-    let path = bench.root.join(RESULTS);
-    std::fs::write(&path, bench.page.text()).map_err(|error| format!("{RESULTS}: {error}"))
+    repository.write(RESULTS, bench.page.text())
 }
 
 struct Bench {
@@ -102,12 +88,6 @@ struct Bench {
     program: Program,
     page: Page,
     peers: Vec<Peer>,
-}
-
-/// A line of the comparison: who, for how long a drop, and the CPU seconds of one.
-struct Line {
-    name: String,
-    seconds: f64,
 }
 
 impl Bench {
@@ -239,21 +219,9 @@ impl Bench {
     ) -> Result<(), String> {
         let alone = self.program.cost(drop_of(settings, 1))?;
         let lanes = self.program.cost(drop_of(settings, LANE_RUNS))?;
-        let mut lines = vec![
-            Line {
-                name: "auxbear, alone".to_owned(),
-                seconds: alone,
-            },
-            Line {
-                name: "auxbear, in lanes".to_owned(),
-                seconds: lanes,
-            },
-        ];
+        let mut lines = vec![("auxbear, alone", alone), ("auxbear, in lanes", lanes)];
         for (index, answer) in others {
-            lines.push(Line {
-                name: self.peers[*index].name.to_owned(),
-                seconds: number(answer, "/cpu_seconds")?,
-            });
+            lines.push((self.peers[*index].name, number(answer, "/cpu_seconds")?));
         }
         self.page.table([
             &format!("drop of {duration} s") as &str,
@@ -262,9 +230,9 @@ impl Bench {
             "over alone",
             "over lanes",
         ]);
-        for Line { name, seconds } in lines {
+        for (name, seconds) in lines {
             self.page.row(&[
-                name,
+                name.to_owned(),
                 three(seconds),
                 three(seconds.recip()),
                 three(seconds / alone),
@@ -319,14 +287,8 @@ impl Bench {
         tolerance: &str,
         runs: usize,
     ) -> Result<Value, String> {
-        let words = [
-            "--duration",
-            duration,
-            "--traction-speed",
-            traction,
-            "--rtol",
-            tolerance,
-        ];
+        let words = format!("--duration {duration} --traction-speed {traction} --rtol {tolerance}");
+        let words: Vec<&str> = words.split(' ').collect();
         self.peers[index].run(&self.root, &words, runs)
     }
 

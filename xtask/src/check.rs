@@ -6,7 +6,7 @@ use crate::{
     source_text, suites, toolchain,
 };
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 use std::time::Instant;
 
 /// Where a full check that passed writes the commit that it passed on.
@@ -45,14 +45,8 @@ const SLOW: [Guard; 6] = [
 ];
 
 /// Runs the guards and prints a line for each, and every finding.
-pub fn run(extent: Extent) -> ExitCode {
-    let repository = match Repository::open() {
-        Ok(repository) => repository,
-        Err(error) => {
-            eprintln!("{error}");
-            return ExitCode::FAILURE;
-        }
-    };
+pub fn run(extent: Extent) -> Result<(), String> {
+    let repository = Repository::open()?;
     let mut failed = failures(&FAST, &repository);
     if extent == Extent::Fast {
         return verdict(failed.is_empty());
@@ -64,12 +58,8 @@ pub fn run(extent: Extent) -> ExitCode {
     }
     println!("tests: the runner's own lines follow");
     let passed = toolchain::tests(&repository) && failed.is_empty();
-    if passed
-        && begun.is_some()
-        && begun == commit(&repository.root)
-        && let Err(error) = note(&repository.root, &begun.unwrap_or_default())
-    {
-        eprintln!("{PASSED}: {error}");
+    if passed && begun.is_some() && begun == commit(&repository.root) {
+        note(&repository.root, &begun.unwrap_or_default())?;
     }
     verdict(passed)
 }
@@ -86,17 +76,17 @@ fn commit(root: &Path) -> Option<String> {
 }
 
 /// Writes the commit that a check passed on.
-fn note(root: &Path, commit: &str) -> std::io::Result<()> {
+fn note(root: &Path, commit: &str) -> Result<(), String> {
     let place = root.join(PASSED);
-    std::fs::create_dir_all(place.with_file_name(""))?;
-    std::fs::write(place, commit)
+    let done = std::fs::create_dir_all(place.with_file_name(""));
+    let done = done.and_then(|()| std::fs::write(place, commit));
+    done.map_err(|error| format!("{PASSED}: {error}"))
 }
 
-fn verdict(is_clean: bool) -> ExitCode {
-    if is_clean {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
+fn verdict(is_clean: bool) -> Result<(), String> {
+    match is_clean {
+        true => Ok(()),
+        false => Err("the check failed".to_owned()),
     }
 }
 
@@ -118,13 +108,10 @@ fn failures(guards: &[Guard], repository: &Repository) -> Vec<&'static str> {
 }
 
 fn line(name: &str, outcome: &Outcome, seconds: u64) -> String {
-    let verdict = if outcome.findings.is_empty() {
-        "ok  "
-    } else {
-        "FAIL"
-    };
+    let is_clean = outcome.findings.is_empty();
+    let verdict = if is_clean { "ok  " } else { "FAIL" };
     let mut notes = Vec::new();
-    if outcome.findings.is_empty() && !outcome.seen.is_empty() {
+    if is_clean && !outcome.seen.is_empty() {
         notes.push(outcome.seen.clone());
     }
     if seconds >= 2 {

@@ -1,33 +1,20 @@
 //! `cargo xtask docs`: writes the page of the book that shows what the program was compared with.
 
-use crate::bench::build;
+use crate::bench::given_or_built;
 use crate::book::CASES;
 use crate::repository::Repository;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 const PAGE: &str = "book/src/validation.md";
 
 /// Writes the page from what the command given says, or the release build.
-pub fn run(program: Option<&str>) -> ExitCode {
-    match write_page(program) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn write_page(program: Option<&str>) -> Result<(), String> {
+pub fn run(program: Option<&str>) -> Result<(), String> {
     let repository = Repository::open()?;
-    let program = match program {
-        Some(path) => std::path::absolute(path).map_err(|error| format!("{path}: {error}"))?,
-        None => build(&repository)?,
-    };
+    let program = given_or_built(&repository, program)?;
     let output = Command::new(&program)
         .args(["validate", "--json"])
         .current_dir(&repository.root)
@@ -45,7 +32,7 @@ fn write_page(program: Option<&str>) -> Result<(), String> {
         sources.insert(name.to_string_lossy().into_owned(), case);
     }
     let page = page(&report, &sources);
-    std::fs::write(repository.root.join(PAGE), page).map_err(|error| format!("{PAGE}: {error}"))
+    repository.write(PAGE, &page)
 }
 
 /// The page as Markdown.

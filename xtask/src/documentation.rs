@@ -1,48 +1,34 @@
-//! Guard: every law says where it comes from and where it holds; every public item has a sentence.
+//! Guard: every law says where it comes from and where it holds. That public items have a sentence at all is a lint of the compiler.
 
 use crate::repository::{Outcome, Repository};
 use crate::rust_text::{code_only, is_word, without_tests};
 
-/// Scans the crates that hold laws and parts.
+/// Scans the crate that holds the laws.
 pub fn check(repository: &Repository) -> Outcome {
     let mut findings = Vec::new();
-    let mut laws = 0;
-    let mut items = 0;
-    for (folder, holds_laws) in [("crates/physics/src/", true), ("crates/model/src/", false)] {
-        for file in repository.below(folder, ".rs") {
-            let text = repository.text(file).unwrap_or_default();
-            for item in public_items(&text) {
-                items += 1;
-                laws += usize::from(holds_laws && item.kind == "fn");
-                findings.extend(faults(&item, holds_laws).into_iter().map(|what| {
-                    format!("{file}:{}: {} {}: {what}", item.line, item.kind, item.name)
-                }));
-            }
+    let mut count = 0;
+    for file in repository.below("crates/physics/src/", ".rs") {
+        let text = repository.text(file).unwrap_or_default();
+        for law in laws(&text) {
+            count += 1;
+            let place = format!("{file}:{}: fn {}", law.line, law.name);
+            findings.extend(faults(&law).map(|what| format!("{place}: {what}")));
         }
     }
-    Outcome::new(format!("{items} public items, {laws} laws"), findings)
+    Outcome::new(format!("{count} laws"), findings)
 }
 
-/// A public item with the lines of its doc comment.
-struct Item {
+/// A public function with the lines of its doc comment.
+struct Law {
     line: usize,
-    kind: &'static str,
     name: String,
     doc: Vec<String>,
 }
 
-fn faults(item: &Item, holds_laws: bool) -> Vec<String> {
-    if item.doc.iter().all(|line| line.is_empty()) {
-        return vec!["has no doc comment".to_owned()];
-    }
-    if !holds_laws || item.kind != "fn" {
-        return Vec::new();
-    }
-    ["Source:", "Valid:"]
-        .into_iter()
-        .filter(|label| !says(&item.doc, label))
-        .map(|label| format!("has no line `{label} …`"))
-        .collect()
+fn faults(law: &Law) -> impl Iterator<Item = String> {
+    let labels = ["Source:", "Valid:"].into_iter();
+    let missing = labels.filter(|label| !says(&law.doc, label));
+    missing.map(|label| format!("has no line `{label} …`"))
 }
 
 /// Whether a doc line starts with the label and goes on, there or in the next line.
@@ -54,42 +40,29 @@ fn says(doc: &[String], label: &str) -> bool {
     })
 }
 
-/// The public functions and types of a file, tests aside.
-fn public_items(source: &str) -> Vec<Item> {
+/// The public functions of a file, tests aside.
+fn laws(source: &str) -> Vec<Law> {
     let code = without_tests(&code_only(source));
     let code: Vec<&str> = code.lines().collect();
     let source: Vec<&str> = source.lines().collect();
-    let mut items = Vec::new();
-    for (at, line) in code.iter().enumerate() {
-        if let Some((kind, name)) = declared(line) {
-            items.push(Item {
-                line: at + 1,
-                kind,
-                name: name.to_owned(),
-                doc: doc_above(at, &code, &source),
-            });
-        }
-    }
-    items
+    let named = code.iter().enumerate();
+    let named = named.filter_map(|(at, line)| Some((at, declared(line)?)));
+    let law = |(at, name): (usize, &str)| Law {
+        line: at + 1,
+        name: name.to_owned(),
+        doc: doc_above(at, &code, &source),
+    };
+    named.map(law).collect()
 }
 
-/// Kind and name of what a line declares as public; names made by a macro are left to the compiler's own lint.
-fn declared(line: &str) -> Option<(&'static str, &str)> {
-    let mut words = line.trim_start().strip_prefix("pub ")?.split_whitespace();
-    loop {
-        let kind = match words.next()? {
-            "const" | "unsafe" | "async" | "extern" => continue,
-            "fn" => "fn",
-            "struct" => "struct",
-            "enum" => "enum",
-            "trait" => "trait",
-            "union" => "union",
-            _ => return None,
-        };
-        let rest = words.next()?;
-        let name = &rest[..rest.find(|c| !is_word(c)).unwrap_or(rest.len())];
-        return (!name.is_empty()).then_some((kind, name));
-    }
+/// Name of the function that a line declares as public.
+fn declared(line: &str) -> Option<&str> {
+    let words = line.trim_start().strip_prefix("pub ")?.split_whitespace();
+    let before = ["const", "unsafe", "async", "extern"];
+    let mut words = words.skip_while(|word| before.contains(word));
+    let rest = (words.next()? == "fn").then(|| words.next())??;
+    let name = &rest[..rest.find(|c| !is_word(c)).unwrap_or(rest.len())];
+    (!name.is_empty()).then_some(name)
 }
 
 /// The doc comment above a line, attributes passed over.
@@ -122,59 +95,45 @@ fn doc_above(item: usize, code: &[&str], source: &[&str]) -> Vec<String> {
 mod tests {
     use super::*;
 
-    fn found(source: &str, holds_laws: bool) -> Vec<String> {
-        public_items(source)
-            .iter()
-            .flat_map(|item| {
-                faults(item, holds_laws)
-                    .into_iter()
-                    .map(|what| format!("{} {}", item.name, what))
-            })
-            .collect()
+    fn found(source: &str) -> Vec<String> {
+        let of = |law: &Law| -> Vec<String> {
+            let faults = faults(law);
+            faults.map(|what| format!("{} {what}", law.name)).collect()
+        };
+        laws(source).iter().flat_map(of).collect()
     }
 
     const LAW: &str = "/// Friction.\n///\n/// Source: Coulomb 1785.\n/// Valid: dry, slow.\n#[inline]\n#[allow(\n    dead_code\n)]\npub fn friction(x: f64) -> f64 {\n    x\n}\n";
 
     #[test]
     fn a_complete_law_is_fine() {
-        assert_eq!(found(LAW, true), Vec::<String>::new());
+        assert_eq!(found(LAW), Vec::<String>::new());
     }
 
     #[test]
     fn each_missing_line_is_found() {
-        assert_eq!(
-            found(&LAW.replace("Source:", "From"), true),
-            ["friction has no line `Source: …`"]
-        );
-        assert_eq!(
-            found(&LAW.replace("/// Valid: dry, slow.", "/// Valid:"), true),
-            ["friction has no line `Valid: …`"]
-        );
-        assert_eq!(
-            found("pub const fn bare() {}", true),
-            ["bare has no doc comment"]
-        );
+        let source = "friction has no line `Source: …`";
+        assert_eq!(found(&LAW.replace("Source:", "From")), [source]);
+        let valid = "friction has no line `Valid: …`";
+        let empty = LAW.replace("/// Valid: dry, slow.", "/// Valid:");
+        assert_eq!(found(&empty), [valid]);
+        assert_eq!(found("pub const fn bare() {}").len(), 2);
         // The doc of the item above does not count for the next one.
-        assert_eq!(
-            found(&format!("{LAW}pub fn next() {{}}"), true),
-            ["next has no doc comment"]
-        );
+        let next = found(&format!("{LAW}pub fn next() {{}}"));
+        assert_eq!(next[0], "next has no line `Source: …`");
+        assert_eq!(next.len(), 2);
     }
 
     #[test]
-    fn only_laws_need_source_and_range() {
+    fn functions_of_a_type_are_laws_too_and_types_are_none() {
         let source = "/// A part.\npub struct Part;\nimpl Part {\n    /// Makes one.\n    pub fn new() -> Self {\n        Part\n    }\n}\n";
-        assert_eq!(found(source, false), Vec::<String>::new());
-        assert_eq!(found(source, true).len(), 2);
-        assert_eq!(
-            found("#[derive(Clone)]\npub enum Kind {}", false),
-            ["Kind has no doc comment"]
-        );
+        assert_eq!(found(source).len(), 2);
+        assert!(found("#[derive(Clone)]\npub enum Kind {}").is_empty());
     }
 
     #[test]
     fn tests_strings_and_private_items_are_passed_over() {
         let source = "const TEXT: &str = \"\npub fn text() {}\n\";\npub(crate) fn inner() {}\nfn own() {}\n#[cfg(test)]\nmod tests {\n    pub fn probe() {}\n}\n";
-        assert_eq!(found(source, true), Vec::<String>::new());
+        assert_eq!(found(source), Vec::<String>::new());
     }
 }

@@ -25,15 +25,11 @@ fn allowed(repository: &Repository) -> Result<Vec<String>, String> {
         .text(LIST)
         .ok_or_else(|| format!("{LIST}: missing"))?;
     let table: toml::Table = text.parse().map_err(|error| format!("{LIST}: {error}"))?;
-    let list = table
-        .get("licenses")
-        .and_then(|part| part.get("allow"))
-        .and_then(toml::Value::as_array)
-        .ok_or_else(|| format!("{LIST}: has no list licenses.allow"))?;
-    Ok(list
-        .iter()
-        .filter_map(|name| name.as_str().map(str::to_owned))
-        .collect())
+    let list = table.get("licenses").and_then(|part| part.get("allow"));
+    let list = list.and_then(toml::Value::as_array);
+    let list = list.ok_or_else(|| format!("{LIST}: has no list licenses.allow"))?;
+    let names = list.iter().filter_map(toml::Value::as_str);
+    Ok(names.map(str::to_owned).collect())
 }
 
 fn packages(repository: &Repository) -> Result<Vec<Value>, String> {
@@ -56,11 +52,8 @@ fn packages(repository: &Repository) -> Result<Vec<Value>, String> {
 }
 
 fn fault(package: &Value, allowed: &[String]) -> Option<String> {
-    let name = format!(
-        "{} {}",
-        package["name"].as_str().unwrap_or("?"),
-        package["version"].as_str().unwrap_or("?")
-    );
+    let word = |key: &str| package[key].as_str().unwrap_or("?");
+    let name = format!("{} {}", word("name"), word("version"));
     let Some(expression) = package["license"].as_str() else {
         return Some(format!("{name}: names no licence"));
     };

@@ -45,7 +45,7 @@ cargo xtask help            this text
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match words.as_slice() {
+    let done = match words.as_slice() {
         ["check"] => check::run(check::Extent::Full),
         ["check", "--fast"] => check::run(check::Extent::Fast),
         ["bench"] => bench::run(None),
@@ -59,11 +59,15 @@ fn main() -> ExitCode {
         ["coverage", name] => coverage::run(Some(name)),
         ["help" | "--help" | "-h"] => {
             print!("{HELP}");
-            ExitCode::SUCCESS
+            Ok(())
         }
         _ => {
             eprint!("not understood: {}\n{HELP}", words.join(" "));
-            ExitCode::from(2)
+            return ExitCode::from(2);
         }
+    };
+    if let Err(error) = &done {
+        eprintln!("{error}");
     }
+    ExitCode::from(u8::from(done.is_err()))
 }

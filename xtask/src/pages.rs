@@ -27,8 +27,8 @@ const COMPARED: [&[&str]; 2] = [
 
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// Time that a page has to draw itself, ms, on a clock that does not wait.
-const BUDGET: &str = "--virtual-time-budget=4000";
+/// Words of the browser: a page has 4000 ms to draw itself, on a clock that does not wait.
+const WORDS: &str = "--headless --no-sandbox --disable-gpu --enable-logging=stderr --virtual-time-budget=4000 --dump-dom";
 
 /// Opens reports of the runs in a folder; none where there is no browser.
 pub fn faults(folder: &Path, program: &Path) -> Option<Vec<String>> {
@@ -63,16 +63,9 @@ pub fn faults(folder: &Path, program: &Path) -> Option<Vec<String>> {
         pages.push(page);
     }
     for page in pages {
-        let name = page
-            .strip_prefix(folder)
-            .unwrap_or(&page)
-            .display()
-            .to_string();
-        findings.extend(
-            opened(browser, &page)
-                .into_iter()
-                .map(|fault| format!("{name}: {fault}")),
-        );
+        let name = page.strip_prefix(folder).unwrap_or(&page).display();
+        let faults = opened(browser, &page).into_iter();
+        findings.extend(faults.map(|fault| format!("{name}: {fault}")));
     }
     Some(findings)
 }
@@ -80,25 +73,17 @@ pub fn faults(folder: &Path, program: &Path) -> Option<Vec<String>> {
 /// What the console of the browser says of a page, and which of its parts could not be drawn.
 fn opened(browser: &str, page: &Path) -> Vec<String> {
     let output = Command::new(browser)
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--enable-logging=stderr",
-            BUDGET,
-            "--dump-dom",
-        ])
+        .args(WORDS.split(' '))
         .arg(format!("file://{}", page.display()))
         .stdin(Stdio::null())
         .output();
-    let output = match output {
-        Ok(output) => output,
-        Err(error) => return vec![format!("{browser}: {error}")],
-    };
-    read(
-        &String::from_utf8_lossy(&output.stdout),
-        &String::from_utf8_lossy(&output.stderr),
-    )
+    match output {
+        Err(error) => vec![format!("{browser}: {error}")],
+        Ok(output) => read(
+            &String::from_utf8_lossy(&output.stdout),
+            &String::from_utf8_lossy(&output.stderr),
+        ),
+    }
 }
 
 fn read(document: &str, log: &str) -> Vec<String> {

@@ -7,17 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the tests of the package need beside it.
-const PACKAGES: [&str; 9] = [
-    "distributed",
-    "numpy",
-    "optuna",
-    "pandas",
-    "pint",
-    "plotly",
-    "polars",
-    "pyarrow",
-    "pytest",
-];
+const PACKAGES: &str = "distributed numpy optuna pandas pint plotly polars pyarrow pytest";
 
 /// Builds the native part as the tests are built, puts the package together in a folder of its own, and runs its tests there.
 /// Where there is no Python, or nowhere to install from, it says so.
@@ -55,32 +45,18 @@ fn put_together(repository: &Repository, native: &Path, folder: &Path) -> std::i
 }
 
 fn tested(repository: &Repository, folder: &Path, command: &Path) -> Outcome {
-    let made = quiet(
-        Command::new("python3")
-            .args(["-m", "venv", "environment"])
-            .current_dir(folder),
-    );
+    let mut made = Command::new("python3");
+    let made = quiet((made.args(["-m", "venv", "environment"])).current_dir(folder));
     if !made.findings.is_empty() {
         return made;
     }
     let python = folder.join("environment/bin/python");
     let mut install = Command::new(&python);
-    install.args([
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-    ]);
-    if !quiet(install.args(PACKAGES).current_dir(folder))
-        .findings
-        .is_empty()
-    {
-        let packages = PACKAGES.join(", ");
-        return Outcome::new(
-            format!("not run: {packages} cannot be installed here"),
-            Vec::new(),
-        );
+    let words = format!("-m pip install --quiet --disable-pip-version-check {PACKAGES}");
+    let installed = quiet(install.args(words.split(' ')).current_dir(folder));
+    if !installed.findings.is_empty() {
+        let seen = format!("not run: {PACKAGES} cannot be installed here");
+        return Outcome::new(seen, Vec::new());
     }
     let mut tests = Command::new(&python);
     tests

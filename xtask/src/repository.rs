@@ -12,6 +12,14 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// All findings as one error, where there are any.
+    pub fn result(self) -> Result<(), String> {
+        match self.findings.as_slice() {
+            [] => Ok(()),
+            findings => Err(findings.join("\n")),
+        }
+    }
+
     /// An outcome with a text for the line and its findings.
     pub fn new(seen: impl Into<String>, findings: Vec<String>) -> Self {
         Self {
@@ -39,13 +47,7 @@ impl Repository {
             .ok_or_else(|| format!("{manifest} has no parent folder"))?
             .to_owned();
         let listing = Command::new("git")
-            .args([
-                "ls-files",
-                "-z",
-                "--cached",
-                "--others",
-                "--exclude-standard",
-            ])
+            .args("ls-files -z --cached --others --exclude-standard".split(' '))
             .current_dir(&root)
             .output()
             .map_err(|error| format!("git could not be started: {error}"))?;
@@ -68,6 +70,11 @@ impl Repository {
     /// The text of a file, or `None` when it is not UTF-8 or cannot be read.
     pub fn text(&self, file: &str) -> Option<String> {
         std::fs::read_to_string(self.root.join(file)).ok()
+    }
+
+    /// Writes a file.
+    pub fn write(&self, file: &str, text: &str) -> Result<(), String> {
+        std::fs::write(self.root.join(file), text).map_err(|error| format!("{file}: {error}"))
     }
 
     /// The files below a folder (written with a closing `/`) whose name ends as given.

@@ -16,18 +16,7 @@ pub fn summary_in(directory: &Path) -> Result<Value, String> {
 
 /// Builds everything as the tests are built. What scenarios and Python need comes from that build too: of fewer packages some
 /// dependencies have fewer features, and all that uses them would be built once more.
-const AS_TESTED: [&str; 10] = [
-    "build",
-    "--quiet",
-    "--profile",
-    "test",
-    "--workspace",
-    "--lib",
-    "--bins",
-    "--tests",
-    "--locked",
-    "--message-format=json-render-diagnostics",
-];
+const AS_TESTED: &str = "build --quiet --profile test --workspace --lib --bins --tests --locked --message-format=json-render-diagnostics";
 
 /// The command, as the tests are built: the same bits.
 pub fn program(repository: &Repository) -> Result<PathBuf, Vec<String>> {
@@ -46,7 +35,7 @@ fn built(
     target: &str,
 ) -> Result<PathBuf, Vec<String>> {
     let output = cargo(repository)
-        .args(AS_TESTED)
+        .args(AS_TESTED.split(' '))
         .output()
         .map_err(|error| vec![format!("cargo could not be started: {error}")])?;
     if !output.status.success() {
@@ -69,10 +58,10 @@ fn made(messages: &str, file: fn(&Value) -> Option<&str>, target: &str) -> Optio
 
 pub fn call(folder: &Path, program: &Path, words: &[&str]) -> Vec<String> {
     let outcome = quiet(Command::new(program).args(words).current_dir(folder));
-    outcome
-        .findings
-        .into_iter()
-        .map(|line| format!("auxbear {}: {line}", words[..words.len().min(2)].join(" ")))
+    let named = words[..words.len().min(2)].join(" ");
+    let findings = outcome.findings.into_iter();
+    findings
+        .map(|line| format!("auxbear {named}: {line}"))
         .collect()
 }
 
@@ -92,12 +81,9 @@ mod tests {
             message("_auxbear", true, "deps/auxbear-1"),
             message("_auxbear", false, "lib_auxbear.so"),
         ];
-        let found =
-            |messages: &str| made(messages, |made| made["filenames"][0].as_str(), "_auxbear");
-        assert_eq!(
-            found(&messages.concat()),
-            Some(PathBuf::from("lib_auxbear.so"))
-        );
+        let found = |text: &str| made(text, |made| made["filenames"][0].as_str(), "_auxbear");
+        let library = Some(PathBuf::from("lib_auxbear.so"));
+        assert_eq!(found(&messages.concat()), library);
         assert_eq!(found("{\"reason\":\"build-finished\"}"), None);
     }
 }

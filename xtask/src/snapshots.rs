@@ -14,7 +14,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 const FOLDER: &str = "xtask/snapshots";
 
@@ -136,17 +136,7 @@ impl Lines {
 }
 
 /// Runs the scenarios, writes golden values and snapshots.
-pub fn write() -> ExitCode {
-    match written() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn written() -> Result<(), String> {
+pub fn write() -> Result<(), String> {
     let repository = Repository::open()?;
     let program = shipped::program(&repository).map_err(|lines| lines.join("\n"))?;
     // the same each time: resolved files have paths in it
@@ -158,8 +148,7 @@ fn written() -> Result<(), String> {
     let golden = golden::of_runs(&repository, &runs)?;
     of_runs(&repository, &program, &runs)?;
     let _ = std::fs::remove_dir_all(&folder);
-    let path = repository.root.join(golden::FILE);
-    std::fs::write(&path, golden).map_err(|error| format!("{}: {error}", path.display()))
+    repository.write(golden::FILE, &golden)
 }
 
 /// Snapshots of all runs in a folder.
@@ -168,8 +157,7 @@ fn of_runs(repository: &Repository, program: &Path, runs: &Path) -> Result<(), S
     let told = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
     std::fs::create_dir_all(&folder).map_err(|error| told(&folder, error))?;
     let save = |name: &str, kind: &str, text: &str| {
-        let path = folder.join(format!("{name}.{kind}"));
-        std::fs::write(&path, text).map_err(|error| told(&path, error))
+        repository.write(&format!("{FOLDER}/{name}.{kind}"), text)
     };
     let scenarios = repository.below("scenarios/", ".toml");
     for file in scenarios {

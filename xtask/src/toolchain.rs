@@ -27,39 +27,14 @@ pub fn format(repository: &Repository) -> Outcome {
 /// No lint of the compiler or of clippy, in any target; and nothing that computes asks for a file, a thread or a clock where the library is
 /// built without them.
 pub fn lints(repository: &Repository) -> Outcome {
-    let mut outcome = quiet(cargo(repository).args([
-        "clippy",
-        "--quiet",
-        "--package",
-        "auxbear",
-        "--lib",
-        "--no-default-features",
-        "--locked",
-        "--",
-        "-D",
-        "warnings",
-        "-D",
-        "clippy::disallowed_methods",
-        "-D",
-        "clippy::disallowed_types",
-    ]));
+    let mut outcome = done(
+        repository,
+        "clippy --quiet --package auxbear --lib --no-default-features --locked -- \
+         -D warnings -D clippy::disallowed_methods -D clippy::disallowed_types",
+    );
+    let everywhere = "clippy --quiet --workspace --all-targets --locked -- -D warnings";
+    (outcome.findings).append(&mut done(repository, everywhere).findings);
     outcome
-        .findings
-        .append(&mut everywhere(repository).findings);
-    outcome
-}
-
-fn everywhere(repository: &Repository) -> Outcome {
-    quiet(cargo(repository).args([
-        "clippy",
-        "--quiet",
-        "--workspace",
-        "--all-targets",
-        "--locked",
-        "--",
-        "-D",
-        "warnings",
-    ]))
 }
 
 /// The documentation of the libraries builds without a warning.
@@ -67,46 +42,27 @@ fn everywhere(repository: &Repository) -> Outcome {
 /// Libraries only: the command and the library share the name `auxbear`, and so would their pages. There are no examples: asked for,
 /// they give dependencies the features that lints and tests give them, and what they share is not built again.
 pub fn pages(repository: &Repository) -> Outcome {
-    quiet(
-        cargo(repository)
-            .args([
-                "doc",
-                "--quiet",
-                "--workspace",
-                "--lib",
-                "--examples",
-                "--no-deps",
-                "--locked",
-            ])
-            .env("RUSTDOCFLAGS", "-D warnings"),
-    )
+    let words = "doc --quiet --workspace --lib --examples --no-deps --locked";
+    let mut command = cargo(repository);
+    quiet((command.args(words.split(' '))).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// Every crate that is published can be packed: its manifest says what a registry asks for.
 pub fn packages(repository: &Repository) -> Outcome {
-    quiet(cargo(repository).args([
-        "package",
-        "--quiet",
-        "--workspace",
-        "--exclude",
-        "auxbear-python",
-        "--exclude",
-        "xtask",
-        "--no-verify",
-        "--allow-dirty",
-    ]))
+    let but = "--exclude auxbear-python --exclude xtask";
+    let words = format!("package --quiet --workspace {but} --no-verify --allow-dirty");
+    done(repository, &words)
 }
 
 /// The examples inside the documentation compile and run.
 pub fn examples(repository: &Repository) -> Outcome {
-    quiet(cargo(repository).args([
-        "test",
-        "--quiet",
-        "--workspace",
-        "--doc",
-        "--no-fail-fast",
-        "--locked",
-    ]))
+    let words = "test --quiet --workspace --doc --no-fail-fast --locked";
+    done(repository, words)
+}
+
+/// Runs cargo with the words of a line.
+fn done(repository: &Repository, words: &str) -> Outcome {
+    quiet(cargo(repository).args(words.split(' ')))
 }
 
 /// All other tests, with the runner's own lines as the last ones printed; true when all passed.
@@ -161,24 +117,11 @@ mod tests {
 
     #[test]
     fn a_command_that_fails_is_a_finding_even_when_it_says_nothing() {
-        assert_eq!(
-            quiet(Command::new("sh").args(["-c", "exit 3"]))
-                .findings
-                .len(),
-            1
-        );
-        assert_eq!(
-            quiet(Command::new("sh").args(["-c", "echo a; echo b >&2; exit 1"])).findings,
-            ["a", "b"]
-        );
-        assert!(
-            quiet(Command::new("sh").args(["-c", "echo fine"]))
-                .findings
-                .is_empty()
-        );
-        assert_eq!(
-            quiet(&mut Command::new("no such program")).findings.len(),
-            1
-        );
+        let of = |script: &str| quiet(Command::new("sh").args(["-c", script])).findings;
+        assert_eq!(of("exit 3").len(), 1);
+        assert_eq!(of("echo a; echo b >&2; exit 1"), ["a", "b"]);
+        assert!(of("echo fine").is_empty());
+        let lost = quiet(&mut Command::new("no such program"));
+        assert_eq!(lost.findings.len(), 1);
     }
 }

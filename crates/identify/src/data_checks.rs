@@ -20,7 +20,7 @@ use statistics::normal::MEDIAN_OF_SIZE;
 use statistics::uncertain::Uncertain;
 
 /// What is known beside the tests.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct CheckSettings {
     /// Speed at which the tests are to be analysed, rad/s.
     pub wanted_speed: Option<f64>,
@@ -28,20 +28,6 @@ pub struct CheckSettings {
     pub ball_count: Option<u32>,
     /// Relative change of the moment per kelvin, 1/K, where a temperature is measured: M ∝ e^(change·rise), within two deviations.
     pub moment_per_kelvin: Option<Uncertain>,
-    /// Shortest hold after a spin-up that shows whether the torque settles, s.
-    pub shortest_hold: f64,
-}
-
-impl Default for CheckSettings {
-    /// Nothing known. The hold is 4 s: the source paper's slow change takes 3 to 4 s.
-    fn default() -> Self {
-        Self {
-            wanted_speed: None,
-            ball_count: None,
-            moment_per_kelvin: None,
-            shortest_hold: 4.0,
-        }
-    }
 }
 
 /// One doubt.
@@ -159,6 +145,8 @@ pub enum Doubt {
 
 /// Number of deviations from which on two values count as different.
 const APART: f64 = 3.0;
+/// Shortest hold after a spin-up that shows whether the torque settles, s: the source paper's slow change takes 3 to 4 s.
+const SHORTEST_HOLD: f64 = 4.0;
 
 /// All doubts of tests against a steady moment.
 ///
@@ -339,11 +327,11 @@ fn hold(
     }
     let (start, end) = held(test);
     let lasts = end - start;
-    if lasts < settings.shortest_hold {
+    if lasts < SHORTEST_HOLD {
         found.push(Doubt::TooShort {
             test: test.name.clone(),
             lasts,
-            needed: settings.shortest_hold,
+            needed: SHORTEST_HOLD,
         });
     }
     let quarter = 0.25 * lasts;

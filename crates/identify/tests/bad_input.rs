@@ -4,7 +4,7 @@ use crate::made_up::{Random, set};
 use identify::data_checks::{CheckSettings, doubts};
 use identify::dissipation::dissipation;
 use identify::loss::{LossMap, LossSettings, Rolling, loss};
-use identify::moment::{MomentSettings, SteadyMoment, moment};
+use identify::moment::{SteadyMoment, moment};
 use identify::skid::skid;
 use identify::slip::cage_slip;
 use identify::{CageTrace, Measurement, SetDeviation};
@@ -94,7 +94,7 @@ proptest! {
         };
         let set = RollingSet { cage_mass: odd(&mut random), ..set() };
         for tests in [vec![&test], vec![&test, &other]] {
-            if let Ok(found) = moment(&tests, &set, &MomentSettings::default()) {
+            if let Ok(found) = moment(&tests, &set, None) {
                 prop_assert!(found.curve.sound().is_ok());
                 prop_assert!(found.forms.iter().all(|f| (0.0..=1.0).contains(&f.probability)));
             }

@@ -47,7 +47,6 @@ fn stated() -> CheckSettings {
         wanted_speed: Some(140.0),
         ball_count: Some(10),
         moment_per_kelvin: Some(Uncertain::new(-0.025, 0.0075)),
-        ..CheckSettings::default()
     }
 }
 

@@ -5,7 +5,7 @@ use crate::made_up::{
     set, steady,
 };
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, State, loss};
-use identify::moment::{MomentSettings, moment};
+use identify::moment::moment;
 use identify::{Measurement, SetDeviation, SteadyMoment};
 use statistics::uncertain::Uncertain;
 
@@ -37,9 +37,7 @@ fn a_known_friction_lies_in_its_band() {
         let mut random = Random::new(1000 + seed);
         let scale = random.normal();
         let slow = coast_down(&mut random, 20.0, 0.01, scale);
-        let curve = moment(&[&slow], &set(), &MomentSettings::default())
-            .unwrap()
-            .curve;
+        let curve = moment(&[&slow], &set(), None).unwrap().curve;
         let runs: Vec<(Measurement, Vec<f64>)> = [1300.0, 3000.0, 7200.0]
             .map(|peak| rolling_spin_up(&mut random, peak, 0.3, scale))
             .into();

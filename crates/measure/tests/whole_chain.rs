@@ -5,9 +5,7 @@ use measure::cage_speed::{Line, QuickChange, from_pulses, from_vibration};
 use measure::converter::{Converter, faults};
 use measure::order::orders;
 use measure::shaft::Shaft;
-use measure::spectrum::{
-    AngularSettings, Segments, Window, order_spectrogram, spectrogram, spectrum,
-};
+use measure::spectrum::{AngularSettings, order_spectrogram, spectrogram, spectrum};
 use measure::torque_sensor::{Clipped, Inversion, Sensor, identify_free_response, invert};
 use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
@@ -85,22 +83,15 @@ fn ten_seconds_are_quick() {
             assert!(faults(&slow, Some(&converter)).is_empty());
         }
     });
-    let hann = |length| Segments {
-        length,
-        overlap: 0.5,
-        window: Window::Hann,
-    };
     timed("spectrum of 42 000 a second", &mut sum, || {
-        spectrum(&fast, 1.0 / 42_000.0, &hann(8192)).expect("a spectrum")
+        spectrum(&fast, 1.0 / 42_000.0, 8192).expect("a spectrum")
     });
     timed("spectrogram of 42 000 a second", &mut sum, || {
-        spectrogram(&fast, 1.0 / 42_000.0, &hann(4096)).expect("a spectrogram")
+        spectrogram(&fast, 1.0 / 42_000.0, 4096).expect("a spectrogram")
     });
     let settings = AngularSettings {
         highest_order: 50.0,
         turns: 16,
-        overlap: 0.5,
-        window: Window::Hann,
         slowest: 20.0,
     };
     timed("order spectrogram of 42 000 a second", &mut sum, || {
@@ -207,13 +198,8 @@ fn nonsense_is_survived() {
         let (a, b, c, d) = (nonsense(r), nonsense(r), nonsense(r), nonsense(r));
         let (x, y, z) = (number(r), number(r), number(r));
         let length = [0, 1, 8, 16, 33, usize::MAX][(r.uniform() * 6.0) as usize];
-        let segments = Segments {
-            length,
-            overlap: number(r),
-            window: Window::Hann,
-        };
-        answers += usize::from(spectrum(&a, x, &segments).is_ok());
-        answers += usize::from(spectrogram(&a, x, &segments).is_ok());
+        answers += usize::from(spectrum(&a, x, length).is_ok());
+        answers += usize::from(spectrogram(&a, x, length).is_ok());
         let even: Vec<f64> = (0..300).map(|k| k as f64 * 1.5).collect();
         let (angle, speed) = if r.uniform() < 0.5 {
             (b.as_slice(), c.as_slice())
@@ -230,8 +216,6 @@ fn nonsense_is_survived() {
         let settings = AngularSettings {
             highest_order: number(r),
             turns: length.min(3),
-            overlap: 0.5,
-            window: Window::FlatTop,
             slowest: z,
         };
         answers += usize::from(order_spectrogram(&a, x, y, &shaft, &settings).is_ok());

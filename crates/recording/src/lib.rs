@@ -122,9 +122,10 @@ impl Note {
         Note { channel, text }
     }
 
-    /// A note of a channel.
+    /// A note of a channel; of the file where the name is empty.
     pub fn of(channel: &str, text: impl Into<String>) -> Note {
-        let (channel, text) = (Some(channel.to_string()), text.into());
+        let text = text.into();
+        let channel = (!channel.is_empty()).then(|| channel.to_string());
         Note { channel, text }
     }
 }
@@ -148,11 +149,36 @@ pub trait Recording {
         &[]
     }
 
+    /// The file, which errors name.
+    fn path(&self) -> &Path;
+
+    /// Fills `values`, which are not more than the channel of numbers has from the index `first` on; returns how many there were.
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError>;
+
+    /// `count` texts of a channel of such, which has them from the index `first` on: fewer where the file is damaged.
+    fn texts(
+        &mut self,
+        _channel: usize,
+        _first: u64,
+        _count: usize,
+    ) -> Result<Vec<String>, FileError> {
+        Ok(Vec::new())
+    }
+
     /// Fills `values` with values of a channel from the index `first` on; a gap in the file is NaN.
     ///
     /// Returns how many there were: fewer than asked at the end of the channel only.
     /// A channel that the recording does not have, or one of text, is an error.
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError>;
+    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let count = match self.channels().get(channel) {
+            Some(known) if known.content != Content::Text => known.count,
+            _ => return Err(self.refusal(channel, "holds texts, not numbers")),
+        };
+        match count.saturating_sub(first).min(values.len() as u64) as usize {
+            0 => Ok(0),
+            there => self.fill(channel, first, &mut values[..there]),
+        }
+    }
 
     /// Up to `count` texts of a channel from the index `first` on: fewer at the end of the channel only.
     ///
@@ -162,7 +188,29 @@ pub trait Recording {
         channel: usize,
         first: u64,
         count: usize,
-    ) -> Result<Vec<String>, FileError>;
+    ) -> Result<Vec<String>, FileError> {
+        let known = match self.channels().get(channel) {
+            Some(known) if known.content == Content::Text => known.count,
+            _ => return Err(self.refusal(channel, "holds numbers, not texts")),
+        };
+        match known.saturating_sub(first).min(count as u64) as usize {
+            0 => Ok(Vec::new()),
+            there => self.texts(channel, first, there),
+        }
+    }
+
+    /// The error where a channel holds something else, or is not there.
+    fn refusal(&self, channel: usize, holds: &str) -> FileError {
+        let (place, found) = match self.channels().get(channel) {
+            Some(known) => (format!("channel {}", known.name), holds.to_string()),
+            None => {
+                let count = self.channels().len();
+                let found = format!("is not there; the file has {count} channels, counted from 0");
+                (format!("channel {channel}"), found)
+            }
+        };
+        FileError::new(self.path(), place, found, "")
+    }
 }
 
 /// Why a file, or a channel of it, cannot be read or written.

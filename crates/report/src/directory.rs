@@ -52,23 +52,16 @@ impl NewDirectory {
             return Err(taken(path));
         }
         let partial = partial_of(path).ok_or_else(|| {
-            Problem::at_path(
-                Code::OutputPlace,
-                path,
-                "no name of a directory",
-                "a directory with a name of its own is needed",
-            )
+            let needed = "a directory with a name of its own is needed";
+            Problem::at_path(Code::OutputPlace, path, "no name of a directory", needed)
         })?;
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| misplaced(parent, &error))?;
         }
         let in_use = || {
-            Problem::at_path(
-                Code::OutputExists,
-                &partial,
-                "what another run is writing or left behind",
-                "choose another directory, or remove this one if no run is using it",
-            )
+            let found = "what another run is writing or left behind";
+            let needed = "choose another directory, or remove this one if no run is using it";
+            Problem::at_path(Code::OutputExists, &partial, found, needed)
         };
         let lock = match fs::create_dir(&partial) {
             Ok(()) => match locked(&partial) {
@@ -126,17 +119,13 @@ impl NewDirectory {
     /// Gives what was written the name `DIR.incomplete`; tells that. None where nothing was.
     fn kept(&self) -> Option<String> {
         fs::read_dir(&self.partial).ok()?.next()?.ok()?;
-        let first = with_end(&self.path, "incomplete")?;
-        let others =
-            (2..100).filter_map(|number| with_end(&self.path, &format!("incomplete-{number}")));
-        let place = std::iter::once(first)
-            .chain(others)
-            .find(|place| !exists(place))?;
+        let others = (2..100).map(|number| format!("incomplete-{number}"));
+        let ends = std::iter::once("incomplete".to_string()).chain(others);
+        let mut places = ends.filter_map(|end| with_end(&self.path, &end));
+        let place = places.find(|place| !exists(place))?;
         fs::rename(&self.partial, &place).ok()?;
-        Some(format!(
-            "What could be written is kept in {}",
-            place.display()
-        ))
+        let place = place.display();
+        Some(format!("What could be written is kept in {place}"))
     }
 
     /// Writes the files, each whatever became of the others; tells of the first that could not be written.
@@ -155,17 +144,13 @@ impl NewDirectory {
                 history::write(file, &outcome.history).map_err(io_error)
             }),
         ];
-        written.extend(
-            outcome
-                .files
-                .iter()
-                .map(|attachment| match &attachment.content {
-                    Attached::Text(text) => {
-                        self.file(&attachment.name, |file| file.write_all(text.as_bytes()))
-                    }
-                    Attached::Recording(channels) => self.recording(&attachment.name, channels),
-                }),
-        );
+        for attachment in &outcome.files {
+            let name = &attachment.name;
+            written.push(match &attachment.content {
+                Attached::Text(text) => self.file(name, |file| file.write_all(text.as_bytes())),
+                Attached::Recording(channels) => self.recording(name, channels),
+            });
+        }
         let run = PageRun {
             name: name_of(&self.path),
             directory: self.path.display().to_string(),
@@ -345,27 +330,18 @@ pub fn read(path: &Path) -> Result<PageRun> {
         return Err(unreadable(path, &missing));
     }
     if !path.is_dir() {
-        return Err(Problem::at_path(
-            Code::FileUnreadable,
-            path,
-            "a file",
-            NEEDED,
-        ));
+        let code = Code::FileUnreadable;
+        return Err(Problem::at_path(code, path, "a file", NEEDED));
     }
     let history = path.join(HISTORY);
+    let damaged = |error: recording::FileError| {
+        let what = format!("{} {}", error.place, error.found);
+        let found = format!("what cannot be read as a history ({})", what.trim());
+        Problem::at_path(Code::FileUnreadable, &history, found, NEEDED)
+    };
     let columns = open_file(&history)
         .map_err(|error| unreadable(&history, &error))
-        .and_then(|file| {
-            history::read(file, &history).map_err(|error| {
-                let what = format!("{} {}", error.place, error.found);
-                Problem::at_path(
-                    Code::FileUnreadable,
-                    &history,
-                    format!("what cannot be read as a history ({})", what.trim()),
-                    NEEDED,
-                )
-            })
-        });
+        .and_then(|file| history::read(file, &history).map_err(damaged));
     Ok(PageRun {
         name: name_of(path),
         directory: path.display().to_string(),
@@ -426,40 +402,30 @@ pub(super) fn aside(path: &Path, write: impl FnOnce(File) -> std::io::Result<()>
 /// Writes the page of one run directory, or of several side by side, to a new file; to a file `*.svg` one run's orbit,
 /// contact force and speeds as a picture.
 pub fn write_report(file: &Path, directories: &[PathBuf]) -> Result<()> {
-    let runs = directories
-        .iter()
-        .map(|path| read(path))
-        .collect::<Result<Vec<_>, _>>()?;
-    let picture = match file.extension().and_then(|end| end.to_str()) {
-        Some("html" | "htm") => false,
-        Some("svg") => true,
+    let runs = directories.iter().map(|path| read(path));
+    let runs = runs.collect::<Result<Vec<_>, _>>()?;
+    let refused =
+        |code, found: String, needed: &str| Err(Problem::at_path(code, file, found, needed));
+    let text = match (
+        file.extension().and_then(|end| end.to_str()),
+        runs.as_slice(),
+    ) {
+        (Some("html" | "htm"), _) => page::html(&runs),
+        (Some("svg"), [run]) if picture::shows(run) => picture::orbit_svg(run),
+        (Some("svg"), [run]) => {
+            let found = format!("a picture of {}, which is no drop", run.name);
+            let needed = "a picture (*.svg) shows the orbit of a drop; name a *.html file";
+            return refused(Code::Conflict, found, needed);
+        }
+        (Some("svg"), _) => {
+            let found = format!("a picture of {} runs", runs.len());
+            let needed = "a picture (*.svg) shows one run; name one directory, or a *.html file";
+            return refused(Code::Conflict, found, needed);
+        }
         _ => {
-            return Err(Problem::at_path(
-                Code::UnknownWord,
-                file,
-                "a name of no kind that the report has",
-                "*.html is needed, or *.svg for the picture of one run; a browser prints the page to PDF, and history.parquet of the run holds the columns",
-            ));
-        }
-    };
-    let text = match (picture, runs.as_slice()) {
-        (false, _) => page::html(&runs),
-        (true, [run]) if picture::shows(run) => picture::orbit_svg(run),
-        (true, [run]) => {
-            return Err(Problem::at_path(
-                Code::Conflict,
-                file,
-                format!("a picture of {}, which is no drop", run.name),
-                "a picture (*.svg) shows the orbit of a drop; name a *.html file",
-            ));
-        }
-        (true, _) => {
-            return Err(Problem::at_path(
-                Code::Conflict,
-                file,
-                format!("a picture of {} runs", runs.len()),
-                "a picture (*.svg) shows one run; name one directory, or a *.html file",
-            ));
+            let found = "a name of no kind that the report has".to_string();
+            let needed = "*.html is needed, or *.svg for the picture of one run; a browser prints the page to PDF, and history.parquet of the run holds the columns";
+            return refused(Code::UnknownWord, found, needed);
         }
     };
     new_file(file, |mut out| out.write_all(text.as_bytes()))
@@ -499,13 +465,8 @@ fn is_at(held: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |data: fs::Metadata| (data.is_dir(), data.dev(), data.ino());
     let there = fs::symlink_metadata(path).map(identity);
-    there.is_ok_and(|there| {
-        there.0
-            && held
-                .metadata()
-                .map(identity)
-                .is_ok_and(|held| held == there)
-    })
+    let held = held.metadata().map(identity);
+    there.is_ok_and(|there| there.0 && held.is_ok_and(|held| held == there))
 }
 
 /// Elsewhere a directory that is open cannot be renamed.
@@ -543,12 +504,8 @@ fn name_of(path: &Path) -> String {
 }
 
 pub(super) fn taken(path: &Path) -> Box<Problem> {
-    Problem::at_path(
-        Code::OutputExists,
-        path,
-        "something of this name",
-        "results are never written over others: choose another --out, or remove it",
-    )
+    let needed = "results are never written over others: choose another --out, or remove it";
+    Problem::at_path(Code::OutputExists, path, "something of this name", needed)
 }
 
 /// Why nothing can be made at a path that was given: the place is wrong, or the disk is full.

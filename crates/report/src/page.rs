@@ -8,6 +8,7 @@
 use super::closely;
 use super::page_summary::for_page;
 use recording::file::parquet::arrow_schema::push_base64;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Largest number of rows of a history that the page carries.
@@ -164,43 +165,32 @@ fn of_a_ball(column: &PageColumn) -> bool {
     })
 }
 
+fn longest(columns: &[PageColumn]) -> usize {
+    let lengths = columns.iter().map(|column| column.values.len());
+    lengths.max().unwrap_or(0)
+}
+
 /// Adds a run as JSON.
 fn push_run(json: &mut String, run: &PageRun, limit: usize, with_balls: bool) {
-    let total = run
-        .columns
-        .iter()
-        .map(|column| column.values.len())
-        .max()
-        .unwrap_or(0);
+    let total = longest(&run.columns);
     let windows = closely::windows(&run.summary_json);
-    let rows = kept_rows(
-        &run.columns,
-        limit,
-        &windows.values().copied().collect::<Vec<_>>(),
-    );
+    let close: Vec<[f64; 2]> = windows.values().copied().collect();
+    let rows = kept_rows(&run.columns, limit, &close);
     // The summary travels as text: should it not be JSON, only its own part of the page is missing.
     let summary = for_page(&run.summary_json);
-    let texts: [(&str, &str); 4] = [
-        ("name", &run.name),
-        ("directory", &run.directory),
-        ("summary", &summary),
-        ("scenario", &run.scenario_toml),
-    ];
-    json.push('{');
-    for (key, text) in texts {
-        push_text(json, key);
-        json.push(':');
-        push_text(json, text);
-        json.push(',');
-    }
-    let windows: Vec<String> = (windows.iter())
-        .map(|(bearing, [begin, end])| format!("{}:[{begin:e},{end:e}]", json_text(bearing)))
-        .collect();
-    json.push_str(&format!(
-        "\"rows\":{},\"rows_total\":{total},\"balls\":{with_balls},\"closely\":{{{}}},\"columns\":[",
-        rows.len(),
-        windows.join(",")
-    ));
+    let head = json!({
+        "name": run.name,
+        "directory": run.directory,
+        "summary": summary,
+        "scenario": run.scenario_toml,
+        "rows": rows.len(),
+        "rows_total": total,
+        "balls": with_balls,
+        "closely": windows,
+    });
+    json.push_str(&in_script(&head));
+    json.pop(); // goes on
+    json.push_str(",\"columns\":[");
     let columns = run.columns.iter();
     let shown = columns.filter(|column| with_balls || !of_a_ball(column));
     for (k, column) in shown.enumerate() {
@@ -220,24 +210,22 @@ fn push_column(json: &mut String, column: &PageColumn, rows: &[usize]) {
         values.truncate(1);
     }
     let wide = column.name == "time" || single_precision_is_coarse(&values);
+    let values = values.iter();
     let bytes: Vec<u8> = match wide {
-        true => values
-            .iter()
-            .flat_map(|value| value.to_le_bytes())
-            .collect(),
-        false => (values.iter())
-            .flat_map(|&value| (value as f32).to_le_bytes())
-            .collect(),
+        true => values.flat_map(|value| value.to_le_bytes()).collect(),
+        false => (values.flat_map(|&value| (value as f32).to_le_bytes())).collect(),
     };
-    json.push_str(&format!(
-        "{{\"name\":{},\"unit\":{},\"meaning\":{},\"type\":\"{}\",\"data\":\"",
-        json_text(&column.name),
-        json_text(&column.unit),
-        json_text(&column.meaning),
-        if wide { "f64" } else { "f32" },
-    ));
-    push_base64(json, &bytes);
-    json.push_str("\"}");
+    let mut data = String::new();
+    push_base64(&mut data, &bytes);
+    let kind = if wide { "f64" } else { "f32" };
+    let column = json!({
+        "name": column.name,
+        "unit": column.unit,
+        "meaning": column.meaning,
+        "type": kind,
+        "data": data,
+    });
+    json.push_str(&in_script(&column));
 }
 
 /// True when rounding to single precision would be visible in a picture of these values: more than 1e-5 of their
@@ -256,11 +244,7 @@ fn single_precision_is_coarse(values: &[f64]) -> bool {
 /// extremes of each column, those of the close-ups, and in equal stretches the first row and those where the contact and the
 /// balls peak.
 fn kept_rows(columns: &[PageColumn], limit: usize, windows: &[[f64; 2]]) -> Vec<usize> {
-    let total = columns
-        .iter()
-        .map(|column| column.values.len())
-        .max()
-        .unwrap_or(0);
+    let total = longest(columns);
     if total <= limit {
         return (0..total).collect();
     }
@@ -275,20 +259,13 @@ fn kept_rows(columns: &[PageColumn], limit: usize, windows: &[[f64; 2]]) -> Vec<
     let time = columns.iter().find(|column| column.name == "time");
     for [begin, end] in windows {
         let inside = |instant: &f64| (*begin..=*end).contains(instant);
-        let close: Vec<usize> = time.map_or_else(Vec::new, |time| {
-            let instants = time.values.iter().enumerate();
-            instants
-                .filter(|(_, instant)| inside(instant))
-                .map(|(row, _)| row)
-                .collect()
-        });
+        let instants = time.into_iter().flat_map(|time| &time.values).enumerate();
+        let close = instants.filter(|(_, instant)| inside(instant));
+        let close: Vec<usize> = close.map(|(row, _)| row).collect();
         // of more than fit into half of the room every so many
         let room = (limit / 2).saturating_sub(kept.len());
-        kept.extend(
-            close
-                .iter()
-                .step_by(close.len().div_ceil(room.max(1)).max(1)),
-        );
+        let every = close.len().div_ceil(room.max(1)).max(1);
+        kept.extend(close.iter().step_by(every));
     }
     let watched: Vec<(&PageColumn, f64)> = [
         ("bearing.contact.force", 1.0),
@@ -325,26 +302,9 @@ fn extreme(column: &PageColumn, begin: usize, end: usize, sign: f64) -> Option<u
         })
 }
 
-fn json_text(text: &str) -> String {
-    let mut json = String::new();
-    push_text(&mut json, text);
-    json
-}
-
-/// Adds a text as JSON. "<" is written as an escape; it occurs nowhere else in JSON, and without it no text can close the script element.
-fn push_text(json: &mut String, text: &str) {
-    json.push('"');
-    for letter in text.chars() {
-        match letter {
-            '"' => json.push_str("\\\""),
-            '\\' => json.push_str("\\\\"),
-            '\n' => json.push_str("\\n"),
-            '<' => json.push_str("\\u003c"),
-            control if control < ' ' => json.push_str(&format!("\\u{:04x}", control as u32)),
-            other => json.push(other),
-        }
-    }
-    json.push('"');
+/// JSON inside a script: "<" is an escape, so that no text can close the element.
+fn in_script(value: &Value) -> String {
+    value.to_string().replace('<', "\\u003c")
 }
 
 pub(super) fn escape_text(text: &str) -> String {
@@ -433,10 +393,8 @@ mod tests {
     fn values_are_little_endian_single_precision_unless_that_is_coarse() {
         // 1.0f32 is 00 00 80 3f and 2.0f32 is 00 00 00 40 in memory order.
         let json = column_json(&column("force", vec![1.0, 2.0]), &[0, 1]);
-        assert!(
-            json.contains("\"type\":\"f32\",\"data\":\"AACAPwAAAEA=\""),
-            "{json}"
-        );
+        assert!(json.contains("\"type\":\"f32\""), "{json}");
+        assert!(json.contains("\"data\":\"AACAPwAAAEA=\""), "{json}");
         // A change of 4 J on top of 6321 J: single precision steps are 5e-4 J there, 1e-4 of the change.
         let energy = column("energy.kinetic", vec![6321.3, 6320.123456, 6317.234567]);
         assert!(column_json(&energy, &[0, 1, 2]).contains("\"type\":\"f64\""));
@@ -566,7 +524,7 @@ mod tests {
         let closings = |text: &str| text.to_lowercase().matches("</script").count();
         assert_eq!(closings(&page), closings(&empty));
         assert!(page.contains("<title>&lt;/script&gt;&lt;b&gt;&quot;quoted&quot; &amp; {{script}} · auxbear report</title>"));
-        assert!(page.contains("\\u003c/SCRIPT>'\\u0009\\\\ \\u0001\""));
+        assert!(page.contains("\\u003c/SCRIPT>'\\t\\\\ \\u0001\""));
     }
 
     #[test]

@@ -50,6 +50,19 @@ pub(super) struct Panel {
 }
 
 impl Panel {
+    /// A panel of the picture of a run.
+    fn of_run(left: f64, width: f64, x: (f64, f64), y: (f64, f64)) -> Panel {
+        let (top, height) = (40.0, 325.0);
+        Panel {
+            left,
+            top,
+            width,
+            height,
+            x,
+            y,
+        }
+    }
+
     pub(super) fn place(&self, x: f64, y: f64) -> (f64, f64) {
         (
             self.left + self.width * (x - self.x.0) / (self.x.1 - self.x.0),
@@ -59,13 +72,8 @@ impl Panel {
 
     pub(super) fn axes(&self, svg: &mut String, title: &str, x_label: &str, y_label: &str) {
         let (right, bottom) = (self.left + self.width, self.top + self.height);
-        text(
-            svg,
-            self.left,
-            self.top - 12.0,
-            "start",
-            &format!("<tspan font-weight=\"600\">{title}</tspan>"),
-        );
+        let title = format!("<tspan font-weight=\"600\">{title}</tspan>");
+        text(svg, self.left, self.top - 12.0, "start", &title);
         for value in ticks(self.x, self.width / 60.0) {
             let (x, _) = self.place(value, self.y.0);
             line(svg, (x, self.top), (x, bottom), RULE, "");
@@ -84,18 +92,10 @@ impl Panel {
             "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\" fill=\"none\" stroke=\"#8995a0\"/>",
             self.left, self.top, self.width, self.height
         );
-        text(
-            svg,
-            self.left + self.width / 2.0,
-            bottom + 36.0,
-            "middle",
-            x_label,
-        );
+        let (x, y) = (self.left + self.width / 2.0, self.top + self.height / 2.0);
+        text(svg, x, bottom + 36.0, "middle", x_label);
         // Digits of 12 px are at most 7.7 px wide in the usual fonts; the label stands left of the longest number.
-        let (x, y) = (
-            self.left - 14.0 - 7.7 * widest as f64,
-            self.top + self.height / 2.0,
-        );
+        let x = self.left - 14.0 - 7.7 * widest as f64;
         let _ = writeln!(
             svg,
             "<text transform=\"translate({x:.1} {y:.1}) rotate(-90)\" text-anchor=\"middle\">{y_label}</text>"
@@ -111,11 +111,8 @@ impl Panel {
             if (x - last.0).hypot(y - last.1) < 0.2 {
                 continue;
             }
-            let _ = write!(
-                path,
-                "{}{x:.1} {y:.1}",
-                if path.is_empty() { 'M' } else { 'L' }
-            );
+            let step = if path.is_empty() { 'M' } else { 'L' };
+            let _ = write!(path, "{step}{x:.1} {y:.1}");
             last = (x, y);
         }
         let _ = writeln!(
@@ -150,32 +147,17 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
         .map(|(x, y)| x.abs().max(y.abs()))
         .fold(clearance.unwrap_or(0.0), f64::max);
     let reach = if reach > 0.0 { 1.08 * reach } else { 1.0 };
-    let panel = Panel {
-        left: 62.0,
-        top: 40.0,
-        width: 325.0,
-        height: 325.0,
-        x: (-reach, reach),
-        y: (-reach, reach),
-    };
-    panel.axes(
-        svg,
-        "Rotor centre relative to the inner race",
-        "x, to the right [µm]",
-        "y, up [µm]",
-    );
+    let panel = Panel::of_run(62.0, 325.0, (-reach, reach), (-reach, reach));
+    let title = "Rotor centre relative to the inner race";
+    panel.axes(svg, title, "x, to the right [µm]", "y, up [µm]");
     // Colour by time: the orbit in stretches, pale green to dark violet.
     let stretches = 48;
     for stretch in 0..stretches {
         let begin = points.len() * stretch / stretches;
         let end = (points.len() * (stretch + 1) / stretches + 1).min(points.len());
         let share = stretch as f64 / (stretches - 1) as f64;
-        panel.curve(
-            svg,
-            &points[begin..end],
-            &colour(share),
-            "stroke-width=\"1\"",
-        );
+        let part = &points[begin..end];
+        panel.curve(svg, part, &colour(share), "stroke-width=\"1\"");
     }
     let centre = panel.place(0.0, 0.0);
     if let Some(radius) = clearance {
@@ -185,15 +167,10 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
             "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"{pixels:.1}\" fill=\"none\" stroke=\"{INK}\" stroke-dasharray=\"5 4\"/>",
             centre.0, centre.1
         );
-        let y = panel.top + 14.0;
-        line(
-            svg,
-            (panel.left + 8.0, y),
-            (panel.left + 30.0, y),
-            INK,
-            "stroke-dasharray=\"5 4\"",
-        );
-        text(svg, panel.left + 36.0, y + 4.0, "start", "clearance");
+        let (x, y) = (panel.left + 8.0, panel.top + 14.0);
+        let dashes = "stroke-dasharray=\"5 4\"";
+        line(svg, (x, y), (x + 22.0, y), INK, dashes);
+        text(svg, x + 28.0, y + 4.0, "start", "clearance");
     }
     if let Some(instant) = peak_contact(run) {
         // The words stand in the lower corner, which an orbit inside its clearance circle leaves free.
@@ -201,21 +178,15 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
         match place_at(run, &names, instant) {
             Some((x, y)) => {
                 let at = panel.place(micro * x, micro * y);
-                for (x, y) in [at, (left, bottom)] {
-                    let _ = writeln!(
-                        svg,
-                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4.5\" fill=\"#b3261e\" stroke=\"#ffffff\"/>"
-                    );
+                for place in [at, (left, bottom)] {
+                    dot(svg, place, 4.5, "#b3261e", "stroke=\"#ffffff\"");
                 }
                 text(svg, left + 9.0, bottom + 4.0, "start", "peak force");
             }
-            None => text(
-                svg,
-                panel.left + panel.width,
-                HEIGHT - 5.0,
-                "end",
-                "rows too coarse for marks",
-            ),
+            None => {
+                let right = panel.left + panel.width;
+                text(svg, right, HEIGHT - 5.0, "end", "rows too coarse for marks");
+            }
         }
     }
 }
@@ -224,9 +195,8 @@ fn draw_orbit(svg: &mut String, run: &PageRun) {
 pub(super) fn shows(run: &PageRun) -> bool {
     let summary: Option<Value> = serde_json::from_str(&run.summary_json).ok();
     let system = summary.as_ref().and_then(|summary| summary.get("system"));
-    system
-        .and_then(|system| system.as_str())
-        .is_none_or(|system| ["drop", "machine"].contains(&system))
+    let system = system.and_then(Value::as_str);
+    system.is_none_or(|system| ["drop", "machine"].contains(&system))
 }
 
 /// Instant of the largest contact force, from the contacts of the summary.
@@ -247,9 +217,8 @@ fn peak_contact(run: &PageRun) -> Option<f64> {
 fn place_at(run: &PageRun, names: &[&str; 4], instant: f64) -> Option<(f64, f64)> {
     let time = column(run, "time")?;
     let [x, y, race_x, race_y] = columns(run, *names)?;
-    let after = time
-        .partition_point(|&row| row <= instant)
-        .clamp(1, time.len() - 1);
+    let after = time.partition_point(|&row| row <= instant);
+    let after = after.clamp(1, time.len() - 1);
     let before = after - 1;
     let (begin, end) = (*time.get(before)?, *time.get(after)?);
     let around = begin <= instant && instant <= end && end > begin;
@@ -272,14 +241,7 @@ fn draw_force(svg: &mut String, run: &PageRun) {
     };
     let points = curve_points(time, force, 1.0);
     let top = 1.06 * highest(&points);
-    let panel = Panel {
-        left: 470.0,
-        top: 40.0,
-        width: 310.0,
-        height: 325.0,
-        x: span(&points),
-        y: (0.0, top.max(1e-9)),
-    };
+    let panel = Panel::of_run(470.0, 310.0, span(&points), (0.0, top.max(1e-9)));
     panel.axes(svg, "Contact force", "time [ms]", "force [N]");
     panel.curve(svg, &points, ROTOR, "stroke-width=\"1.1\"");
 }
@@ -302,31 +264,16 @@ fn draw_speeds(svg: &mut String, run: &PageRun) {
         ("cage", CAGE, cage),
     ]
     .map(|(name, colour, values)| (name, colour, curve_points(time, values, rpm)));
-    let values = || {
-        curves
-            .iter()
-            .flat_map(|(_, _, points)| points.iter().map(|point| point.1))
-    };
-    let high = 1.08 * values().fold(0.0, f64::max);
-    let low = 1.08 * values().fold(0.0, f64::min);
+    let points = || curves.iter().flat_map(|(_, _, points)| points);
+    let high = 1.08 * points().map(|point| point.1).fold(0.0, f64::max);
+    let low = 1.08 * points().map(|point| point.1).fold(0.0, f64::min);
     let y = if high > low { (low, high) } else { (0.0, 1.0) };
-    let panel = Panel {
-        left: 870.0,
-        top: 40.0,
-        width: 310.0,
-        height: 325.0,
-        x: span(&curves[0].2),
-        y,
-    };
+    let panel = Panel::of_run(870.0, 310.0, span(&curves[0].2), y);
     panel.axes(svg, "Speeds", "time [ms]", "speed [rpm]");
     if let Some(ratio) = summary_number(run, "rolling_cage_ratio") {
         let rolling: Vec<(f64, f64)> = curves[1].2.iter().map(|&(x, y)| (x, ratio * y)).collect();
-        panel.curve(
-            svg,
-            &rolling,
-            CAGE,
-            "stroke-width=\"1\" stroke-dasharray=\"2 3\"",
-        );
+        let dotted = "stroke-width=\"1\" stroke-dasharray=\"2 3\"";
+        panel.curve(svg, &rolling, CAGE, dotted);
     }
     for (name, colour, points) in &curves {
         panel.curve(svg, points, colour, "stroke-width=\"1.5\"");
@@ -334,13 +281,8 @@ fn draw_speeds(svg: &mut String, run: &PageRun) {
         if let Some(&(x, y)) = points.get(points.len() * 9 / 10) {
             let (x, y) = panel.place(x, y);
             let shift = if *name == "inner race" { 17.0 } else { -7.0 };
-            text(
-                svg,
-                x,
-                y + shift,
-                "end",
-                &format!("<tspan fill=\"{colour}\">{name}</tspan>"),
-            );
+            let words = format!("<tspan fill=\"{colour}\">{name}</tspan>");
+            text(svg, x, y + shift, "end", &words);
         }
     }
 }
@@ -354,11 +296,8 @@ fn columns<'a, const COUNT: usize>(
     run: &'a PageRun,
     names: [&str; COUNT],
 ) -> Option<[&'a [f64]; COUNT]> {
-    let found: Vec<&[f64]> = names
-        .into_iter()
-        .map_while(|name| column(run, name))
-        .collect();
-    found.try_into().ok()
+    let found = names.into_iter().map_while(|name| column(run, name));
+    found.collect::<Vec<_>>().try_into().ok()
 }
 
 /// A plain number at a key of the summary that occurs once.
@@ -366,10 +305,8 @@ fn summary_number(run: &PageRun, key: &str) -> Option<f64> {
     let (_, after) = run.summary_json.split_once(&format!("\"{key}\""))?;
     let value = after.trim_start().strip_prefix(':')?.trim_start();
     let end = value.find([',', '}', '\n', ' ']).unwrap_or(value.len());
-    value[..end]
-        .parse()
-        .ok()
-        .filter(|number: &f64| number.is_finite() && *number > 0.0)
+    let number: f64 = value[..end].parse().ok()?;
+    (number.is_finite() && number > 0.0).then_some(number)
 }
 
 fn curve_points(time: &[f64], values: &[f64], scale: f64) -> Vec<(f64, f64)> {
@@ -413,24 +350,18 @@ fn number(value: f64) -> String {
 /// From pale green over blue to dark violet.
 fn colour(share: f64) -> String {
     let stops = [
-        (147.0, 200.0, 120.0),
-        (42.0, 143.0, 143.0),
-        (48.0, 84.0, 160.0),
-        (66.0, 25.0, 95.0),
+        [147.0, 200.0, 120.0],
+        [42.0, 143.0, 143.0],
+        [48.0, 84.0, 160.0],
+        [66.0, 25.0, 95.0],
     ];
     let place = share.clamp(0.0, 1.0) * 3.0;
-    let (index, rest) = (
-        (place as usize).min(2),
-        place - (place as usize).min(2) as f64,
-    );
-    let mix = |from: f64, to: f64| (from + rest * (to - from)).round() as u8;
-    let (from, to) = (stops[index], stops[index + 1]);
-    format!(
-        "#{:02x}{:02x}{:02x}",
-        mix(from.0, to.0),
-        mix(from.1, to.1),
-        mix(from.2, to.2)
-    )
+    let index = (place as usize).min(2);
+    let rest = place - index as f64;
+    let (from, to): ([f64; 3], [f64; 3]) = (stops[index], stops[index + 1]);
+    let mix = |k: usize| (from[k] + rest * (to[k] - from[k])).round() as u8;
+    let [red, green, blue] = [0, 1, 2].map(mix);
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 pub(super) fn text(svg: &mut String, x: f64, y: f64, anchor: &str, words: &str) {
@@ -448,14 +379,16 @@ pub(super) fn line(svg: &mut String, from: (f64, f64), to: (f64, f64), colour: &
     );
 }
 
-fn absent(svg: &mut String, left: f64, what: &str) {
-    text(
+pub(super) fn dot(svg: &mut String, (x, y): (f64, f64), radius: f64, colour: &str, style: &str) {
+    let _ = writeln!(
         svg,
-        left,
-        60.0,
-        "start",
-        &format!("not in this run: {what}"),
+        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{colour}\" {style}/>"
     );
+}
+
+fn absent(svg: &mut String, left: f64, what: &str) {
+    let words = format!("not in this run: {what}");
+    text(svg, left, 60.0, "start", &words);
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What comparisons with reference files share.
 
-use super::report::{Row, Verdict};
+use super::report::{Row, Tolerance, Verdict};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -32,6 +32,11 @@ pub(super) fn rows_of(found: Result<Vec<Row>, Refusal>) -> Vec<Row> {
     })
 }
 
+/// What a law or a model says against its inputs.
+pub(super) fn told(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}
+
 /// Whether there is a `null` in it, at any depth.
 fn has_null(value: &Value) -> bool {
     match value {
@@ -52,7 +57,31 @@ pub(super) struct Worst {
     rows: Vec<(Row, usize)>,
 }
 
+/// Comparisons under one tolerance, with its reason.
+pub(super) struct Under<'a> {
+    worst: &'a mut Worst,
+    tolerance: Tolerance,
+    why: String,
+}
+
+impl Under<'_> {
+    /// Compares two numbers, theirs and ours.
+    pub(super) fn add(&mut self, quantity: &str, unit: &str, [theirs, ours]: [f64; 2]) {
+        let (tolerance, why) = (self.tolerance, self.why.as_str());
+        let row = Row::compared(quantity, unit, theirs, ours, tolerance, why);
+        self.worst.add(row);
+    }
+}
+
 impl Worst {
+    /// Comparisons under a tolerance.
+    pub(super) fn under(&mut self, tolerance: Tolerance, why: impl Into<String>) -> Under<'_> {
+        Under {
+            worst: self,
+            tolerance,
+            why: why.into(),
+        }
+    }
     /// Adds the comparisons of a row of a file. One that lacks a number where the file has `null` is left out by itself.
     pub(super) fn row(
         &mut self,

@@ -7,14 +7,15 @@
 //! The film is steady and isothermal: neither squeeze nor heating of the inlet.
 
 use super::inputs::{BallOnRace, Computed, Inputs, ball_on_race, law, positive, ratio};
+use crate::compare::told;
 use physics::film::{EntrainedContact, FilmThickness, lambda_ratio};
 use units::Dimension;
 
 /// A contact with its film.
 pub(super) fn film_thickness(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
     let of = |unit: &str| units::parse_quantity(unit).map(|unit| unit.dimension);
-    let dynamic_viscosity = of("1 Pa s").map_err(|error| error.to_string())?;
-    let per_pressure = of("1 1/Pa").map_err(|error| error.to_string())?;
+    let dynamic_viscosity = of("1 Pa s").map_err(told)?;
+    let per_pressure = of("1 1/Pa").map_err(told)?;
     let given = ball_on_race(inputs)?;
     let mut taken = |key: &str, dimension| positive(key, inputs.quantity(key, dimension)?);
     let viscosity = taken("viscosity", dynamic_viscosity)?;
@@ -24,8 +25,7 @@ pub(super) fn film_thickness(inputs: &mut Inputs) -> Result<Vec<Computed>, Strin
     if !(supply > 0.0 && supply <= 1.0) {
         return Err("inputs.supply: above 0 up to 1 is needed".to_string());
     }
-    let contact =
-        EntrainedContact::new(given.curvature, given.modulus).map_err(|error| error.to_string())?;
+    let contact = EntrainedContact::new(given.curvature, given.modulus).map_err(told)?;
     let groups = contact.groups(viscosity, pressure_coefficient, entrainment, given.load);
     let film = FilmThickness::new(&contact, viscosity, pressure_coefficient, supply);
     let minimum = film.minimum(entrainment, given.load);

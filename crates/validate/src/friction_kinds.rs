@@ -7,6 +7,7 @@
 //! | `oil_viscosity` | `first_temperature`, `first_viscosity`, `second_temperature`, `second_viscosity`, `temperature` | `viscosity` |
 
 use super::inputs::{Computed, Inputs, law, length, positive, ratio};
+use crate::compare::told;
 use physics::palmgren_factors::{FactorType, Lubrication, palmgren_factors};
 use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
 use physics::viscosity::Viscosity;
@@ -82,9 +83,7 @@ pub(super) fn skf_friction(inputs: &mut Inputs) -> Result<Vec<Computed>, String>
     let axial = inputs
         .maybe_quantity("axial_load", Dimension::FORCE)?
         .unwrap_or(0.0);
-    let moment = bearing
-        .moment(&lubricant)
-        .map_err(|refusal| refusal.to_string())?;
+    let moment = bearing.moment(&lubricant).map_err(told)?;
     let model = moment.intermediates(speed, radial, axial);
     // the model's own moments are in N mm
     let torque = |quantity, value| law(quantity, Dimension::TORQUE, 1e-3 * value);
@@ -135,8 +134,7 @@ pub(super) fn factors(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
             ("oil_bath", Lubrication::OilBath),
         ],
     )?;
-    let factors =
-        palmgren_factors(kind, &series, lubrication).map_err(|refusal| refusal.to_string())?;
+    let factors = palmgren_factors(kind, &series, lubrication).map_err(told)?;
     Ok(vec![
         ratio("viscous_factor", factors.viscous_factor),
         ratio("load_factor", factors.load_factor),
@@ -160,11 +158,11 @@ pub(super) fn oil_viscosity(inputs: &mut Inputs) -> Result<Vec<Computed>, String
         temperature(inputs, "second_temperature")?,
         viscosity(inputs, "second_viscosity")?,
     );
-    let oil = Viscosity::through(first, second).map_err(|error| error.to_string())?;
+    let oil = Viscosity::through(first, second).map_err(told)?;
     let at = temperature(inputs, "temperature")?;
     Ok(vec![law(
         "viscosity",
         Dimension::KINEMATIC_VISCOSITY,
-        oil.at(at).map_err(|error| error.to_string())?,
+        oil.at(at).map_err(told)?,
     )])
 }

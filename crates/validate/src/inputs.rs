@@ -1,5 +1,6 @@
 //! What a case gives and what is computed of it.
 
+use crate::compare::told;
 use physics::hertz::{BallRace, Curvature, Race};
 use physics::materials::{BEARING_STEEL, Material, contact_modulus};
 use serde::Deserialize;
@@ -123,7 +124,7 @@ pub(super) fn amount(raw: &Raw, dimension: Dimension) -> Result<(f64, String, f6
         Raw::Number(number) if dimension == Dimension::NONE => Ok((*number, String::new(), 1.0)),
         Raw::Number(_) => Err(format!("a quantity in {} is needed", dimension.si_unit())),
         Raw::Text(text) => {
-            let quantity = parse_quantity(text).map_err(|error| error.to_string())?;
+            let quantity = parse_quantity(text).map_err(told)?;
             if quantity.dimension != dimension {
                 return Err(format!(
                     "found \"{text}\", a quantity in {} is needed",
@@ -134,9 +135,7 @@ pub(super) fn amount(raw: &Raw, dimension: Dimension) -> Result<(f64, String, f6
                 .trim()
                 .trim_start_matches(|c: char| !c.is_whitespace())
                 .trim();
-            let factor = parse_quantity(&format!("1 {unit}"))
-                .map_err(|error| error.to_string())?
-                .value_si;
+            let factor = parse_quantity(&format!("1 {unit}")).map_err(told)?.value_si;
             Ok((quantity.value_si / factor, unit.to_string(), factor))
         }
     }

@@ -14,6 +14,7 @@
 use super::inputs::{Computed, Inputs, ball_on_race, law, length, positive, ratio};
 use super::simulator::{ElasticBounce, FreeFall, Simulator};
 use super::{film_kinds, friction_kinds};
+use crate::compare::told;
 use physics::hertz::{PointContact, maximum_pressure};
 use physics::kinematics::BallSet;
 use physics::palmgren::{
@@ -61,12 +62,9 @@ pub fn compute(
 fn hertz_point_contact(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
     let given = ball_on_race(inputs)?;
     let load = given.load;
-    let contact =
-        PointContact::new(given.curvature, given.modulus).map_err(|error| error.to_string())?;
+    let contact = PointContact::new(given.curvature, given.modulus).map_err(told)?;
     let shear = contact.maximum_shear(load, given.poisson_ratio);
-    let stiffness_dimension = units::parse_quantity("1 N/m^1.5")
-        .map_err(|error| error.to_string())?
-        .dimension;
+    let stiffness_dimension = units::parse_quantity("1 N/m^1.5").map_err(told)?.dimension;
     let length = |quantity, value| law(quantity, Dimension::LENGTH, value);
     let pressure = |quantity, value| law(quantity, Dimension::PRESSURE, value);
     let maximum = maximum_pressure(contact.pressure_factor, load);
@@ -109,9 +107,7 @@ fn rolling_moments(inputs: &mut Inputs) -> Result<Vec<Computed>, String> {
             * inputs.quantity("ball_mass", Dimension::MASS)?,
         cage_mass: inputs.quantity("cage_mass", Dimension::MASS)?,
     };
-    let angular_acceleration = units::parse_quantity("1 rad/s^2")
-        .map_err(|error| error.to_string())?
-        .dimension;
+    let angular_acceleration = units::parse_quantity("1 rad/s^2").map_err(told)?.dimension;
     let motion = set.rolling(inputs.quantity("race_acceleration", angular_acceleration)?);
     let friction = inputs
         .maybe_quantity("pocket_friction", Dimension::FORCE)?

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 /// Constants of the planar ball-by-ball bearing with its rotor, SI, under the words of this program.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceMachine {
     /// Number of balls.

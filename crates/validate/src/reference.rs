@@ -5,7 +5,7 @@
 //! compared here, rotors in `rotors.rs`; states and drops go to the [`Simulator`] and are compared in `points.rs` and `drops.rs`.
 //! A file with hundreds of numbers becomes one row per quantity: the one that deviates most.
 
-use super::compare::{Refusal, Worst, never, part, rows_of};
+use super::compare::{Refusal, Worst, never, part, rows_of, told};
 use super::report::{Row, Tolerance};
 use super::simulator::Simulator;
 use super::{drops, points, rotors};
@@ -106,9 +106,8 @@ fn hertz_row(row: &HertzRow, tolerance: f64, worst: &mut Worst) -> Result<(), St
     };
     let curvature = geometry.curvature();
     let modulus = contact_modulus(material, material);
-    let contact = PointContact::new(curvature, modulus).map_err(|error| error.to_string())?;
-    let fast =
-        PointContact::hamrock_brewe(curvature, modulus).map_err(|error| error.to_string())?;
+    let contact = PointContact::new(curvature, modulus).map_err(told)?;
+    let fast = PointContact::hamrock_brewe(curvature, modulus).map_err(told)?;
     let factors = EllipseFactors::exact(curvature.difference().abs())
         .ok_or("a curvature difference outside 0 to 1")?;
     let which = format!(
@@ -117,62 +116,34 @@ fn hertz_row(row: &HertzRow, tolerance: f64, worst: &mut Worst) -> Result<(), St
         row.groove_curvature,
         row.ball_diameter * 1e3
     );
+    let mut all = worst.under(Tolerance::Relative(tolerance), which);
+    let difference = curvature.difference();
+    all.add("curvature_sum", "1/m", [row.sum_rho, curvature.sum()]);
+    all.add("curvature_difference", "", [row.difference, difference]);
+    let [a, b, approach, ellipticity] = row.stars;
+    all.add("semi_major_factor", "", [a, factors.semi_major]);
+    all.add("semi_minor_factor", "", [b, factors.semi_minor]);
+    all.add("approach_factor", "", [approach, factors.approach]);
+    all.add("ellipticity", "", [ellipticity, factors.ellipticity]);
+    all.add("stiffness", "N/m^1.5", [row.stiffness, contact.stiffness]);
     let load = 100.0;
-    let mut compare = |quantity: &str, unit: &str, reference: f64, ours: f64| {
-        let tolerance = Tolerance::Relative(tolerance);
-        worst.add(Row::compared(
-            quantity,
-            unit,
-            reference,
-            ours,
-            tolerance,
-            which.as_str(),
-        ));
-    };
-    compare("curvature_sum", "1/m", row.sum_rho, curvature.sum());
-    compare(
-        "curvature_difference",
-        "",
-        row.difference,
-        curvature.difference(),
-    );
-    compare("semi_major_factor", "", row.stars[0], factors.semi_major);
-    compare("semi_minor_factor", "", row.stars[1], factors.semi_minor);
-    compare("approach_factor", "", row.stars[2], factors.approach);
-    compare("ellipticity", "", row.stars[3], factors.ellipticity);
-    compare("stiffness", "N/m^1.5", row.stiffness, contact.stiffness);
-    compare(
+    let [a, b, approach, pressure] = row.at_100_newton;
+    let maximum = maximum_pressure(contact.pressure_factor, load);
+    all.add(
         "semi_major_axis_at_100_N",
         "m",
-        row.at_100_newton[0],
-        contact.semi_major(load),
+        [a, contact.semi_major(load)],
     );
-    compare(
+    all.add(
         "semi_minor_axis_at_100_N",
         "m",
-        row.at_100_newton[1],
-        contact.semi_minor(load),
+        [b, contact.semi_minor(load)],
     );
-    compare(
-        "approach_at_100_N",
-        "m",
-        row.at_100_newton[2],
-        contact.approach(load),
-    );
-    let pressure = maximum_pressure(contact.pressure_factor, load);
-    compare(
-        "max_pressure_at_100_N",
-        "Pa",
-        row.at_100_newton[3],
-        pressure,
-    );
+    all.add("approach_at_100_N", "m", [approach, contact.approach(load)]);
+    all.add("max_pressure_at_100_N", "Pa", [pressure, maximum]);
     if let Some(reference) = row.fast_stiffness {
-        compare(
-            "stiffness_hamrock_brewe",
-            "N/m^1.5",
-            reference,
-            fast.stiffness,
-        );
+        let both = [reference, fast.stiffness];
+        all.add("stiffness_hamrock_brewe", "N/m^1.5", both);
     }
     Ok(())
 }
@@ -285,39 +256,15 @@ fn rolling(value: &Value) -> Result<Vec<Row>, String> {
             "W {} N, speed {} rad/s, acceleration {} rad/s², F {} N; (16) as printed on both sides",
             row.load, row.speed, row.acceleration, row.pocket_friction
         );
-        for (quantity, unit, reference, ours) in [
-            (
-                "viscous_moment",
-                "N m",
-                row.viscous,
-                palmgren.printed_moment(row.speed, 0.0),
-            ),
-            ("load_moment", "N m", row.by_load, by_load),
-            ("inner_traction", "N", row.inner_traction, inner),
-            ("outer_traction", "N", row.outer_traction, outer),
-            (
-                "inner_moment",
-                "N m",
-                row.inner_moment,
-                set.inner_moment(steady, inner),
-            ),
-            (
-                "outer_moment",
-                "N m",
-                row.outer_moment,
-                set.outer_moment(steady, outer),
-            ),
-        ] {
-            let tolerance = Tolerance::Relative(file.tol_rel);
-            worst.add(Row::compared(
-                quantity,
-                unit,
-                reference,
-                ours,
-                tolerance,
-                which.as_str(),
-            ));
-        }
+            let viscous = palmgren.printed_moment(row.speed, 0.0);
+            let moments = [set.inner_moment(steady, inner), set.outer_moment(steady, outer)];
+            let mut all = worst.under(Tolerance::Relative(file.tol_rel), which);
+            all.add("viscous_moment", "N m", [row.viscous, viscous]);
+            all.add("load_moment", "N m", [row.by_load, by_load]);
+            all.add("inner_traction", "N", [row.inner_traction, inner]);
+            all.add("outer_traction", "N", [row.outer_traction, outer]);
+            all.add("inner_moment", "N m", [row.inner_moment, moments[0]]);
+            all.add("outer_moment", "N m", [row.outer_moment, moments[1]]);
             Ok(())
         })?;
     }

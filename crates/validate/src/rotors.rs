@@ -3,7 +3,7 @@
 //! Matrices are those of M q̈ + (C + ΩG)q̇ + Kq = F with the coordinates (x, y, z, α, β, θ) of each node, β = Re ψ, α = -Im ψ;
 //! only the bending planes are compared. Whirl labels are not: eigenvalues are.
 
-use super::compare::{Refusal, Worst};
+use super::compare::{Refusal, Worst, told};
 use super::report::{Row, Tolerance};
 use auxbear::import::draft::Draft;
 use auxbear::import::{case, ross};
@@ -32,7 +32,7 @@ pub(super) fn rows(file: &Value) -> Result<Vec<Row>, Refusal> {
     let mut worst = Worst::default();
     body(file, &rotor, &mut worst)?;
     matrices(file, &rotor, &mut worst)?;
-    let analysis = Analysis::full(&rotor).map_err(|error| error.to_string())?;
+    let analysis = Analysis::full(&rotor).map_err(told)?;
     let (tolerance, why) = match hard(&rotor, &analysis) {
         true => (
             HARD_EIGENVALUE,
@@ -141,9 +141,8 @@ fn body(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String> {
         let Some(reference) = file["model"][key].as_f64() else {
             continue;
         };
-        let tolerance = Tolerance::Relative(MATRIX);
-        let why = "sums over elements and disks";
-        worst.add(Row::compared(name, unit, reference, value, tolerance, why));
+        let mut sums = worst.under(Tolerance::Relative(MATRIX), "sums over elements and disks");
+        sums.add(name, unit, [reference, value]);
     }
     Ok(())
 }
@@ -265,9 +264,7 @@ fn eigenvalues(
     why: &str,
     worst: &mut Worst,
 ) -> Result<(), String> {
-    let mut ours = analysis
-        .oscillations(speed)
-        .map_err(|error| error.to_string())?;
+    let mut ours = analysis.oscillations(speed).map_err(told)?;
     for reference in stated {
         // the files list each pair once, without the sense in the sign
         let distance = |z: &C64| (C64::new(z.re, z.im.abs()) - reference).norm();
@@ -306,12 +303,10 @@ fn criticals(
     let speeds: Vec<f64> = (0..SPEEDS)
         .map(|k| top * k as f64 / (SPEEDS - 1) as f64)
         .collect();
-    let diagram = analysis
-        .campbell(&speeds, top)
-        .map_err(|error| error.to_string())?;
+    let diagram = analysis.campbell(&speeds, top).map_err(told)?;
     let ours: Vec<f64> = analysis
         .criticals(&diagram)
-        .map_err(|error| error.to_string())?
+        .map_err(told)?
         .iter()
         .map(|one| one.speed)
         .collect();
@@ -321,14 +316,8 @@ fn criticals(
             .copied()
             .min_by(|a, b| (a - speed).abs().total_cmp(&(b - speed).abs()));
         let own = own.unwrap_or(f64::NAN);
-        worst.add(Row::compared(
-            "critical_speed",
-            "rad/s",
-            speed,
-            own,
-            Tolerance::Relative(tolerance),
-            why,
-        ));
+        let mut criticals = worst.under(Tolerance::Relative(tolerance), why);
+        criticals.add("critical_speed", "rad/s", [speed, own]);
     }
     Ok(())
 }
@@ -355,9 +344,7 @@ fn unbalance(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), Strin
     }
     let responder = Responder::new(rotor);
     for (k, speed) in numbers(&given["speeds_rad_s"]).into_iter().enumerate() {
-        let ours = responder
-            .unbalance(&planes, speed)
-            .map_err(|error| error.to_string())?;
+        let ours = responder.unbalance(&planes, speed).map_err(told)?;
         for entry in given["response"].as_array().into_iter().flatten() {
             let node = entry["node"]
                 .as_u64()
@@ -395,7 +382,7 @@ fn standing(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
     let Some(forces) = file["static"]["bearing_forces"].as_object() else {
         return Ok(());
     };
-    let ours = sag(rotor, 0.0, C64::new(0.0, -9.8065)).map_err(|error| error.to_string())?;
+    let ours = sag(rotor, 0.0, C64::new(0.0, -9.8065)).map_err(told)?;
     for (support, load) in rotor.supports.iter().zip(&ours.loads) {
         let Place::Node(node) = support.at else {
             continue;
@@ -405,14 +392,8 @@ fn standing(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String
         };
         let reference = reference.as_f64().unwrap_or(f64::NAN);
         let why = "the file holds the rotor in rigid supports";
-        worst.add(Row::compared(
-            "support_load",
-            "N",
-            reference,
-            load.norm(),
-            Tolerance::Relative(STATIC),
-            why,
-        ));
+        let mut loads = worst.under(Tolerance::Relative(STATIC), why);
+        loads.add("support_load", "N", [reference, load.norm()]);
     }
     Ok(())
 }

@@ -35,7 +35,7 @@ impl Simulator for Simulation {
         Ok(())
     }
     fn free_fall(&self, case: &FreeFall) -> Result<f64, String> {
-        let machine = falling_machine(1.0, 1e7, case.clearance, case.gravity);
+        let machine = falling_machine(1.0, 1e7, case.clearance, case.gravity)?;
         let fall = (2.0 * case.clearance / case.gravity).sqrt();
         let finished = simulate(machine, None, 1.1 * fall, CLOSED_FORM_TOLERANCE)?;
         finished.record.bearings[0]
@@ -46,7 +46,7 @@ impl Simulator for Simulation {
     }
 
     fn elastic_bounce(&self, case: &ElasticBounce) -> Result<f64, String> {
-        let machine = falling_machine(case.mass, case.stiffness, case.clearance, case.gravity);
+        let machine = falling_machine(case.mass, case.stiffness, case.clearance, case.gravity)?;
         let fall = (2.0 * case.clearance / case.gravity).sqrt();
         let half_period = std::f64::consts::PI * (case.mass / case.stiffness).sqrt();
         let finished = simulate(
@@ -106,25 +106,18 @@ impl Simulator for Simulation {
         let finished = simulate(machine.clone(), Some(start), reference.duration, TOLERANCE)?;
         let (record, end) = (&finished.record.bearings[0], &finished.ending.state);
         let heat = |name: &str| layout.heat_of(end, "", name).unwrap_or(f64::NAN);
+        let contacts = &record.contacts;
+        let slip = heat("inner_ball_slip") + heat("outer_ball_slip");
         Ok(DropAnswer {
             values: BTreeMap::from([
-                (
-                    "peak1",
-                    record.contacts.first().map(|contact| contact.peak_force),
-                ),
-                (
-                    "peak_all",
-                    record.peak_contact_force().map(|peak| peak.value),
-                ),
-                ("n_contacts", Some(record.contacts.len() as f64)),
+                ("peak1", contacts.first().map(|contact| contact.peak_force)),
+                ("peak_all", record.peak_contact_force().map(|p| p.value)),
+                ("n_contacts", Some(contacts.len() as f64)),
                 ("t_inner_50%", record.inner_race_time_to_50_percent()),
                 ("t_inner_95%", record.inner_race_time_to_95_percent()),
                 ("t_cage_95%roll", record.cage_time_to_95_percent()),
                 ("fric", Some(heat("rotor_race_friction"))),
-                (
-                    "slip",
-                    Some(heat("inner_ball_slip") + heat("outer_ball_slip")),
-                ),
+                ("slip", Some(slip)),
                 ("dissipated", Some(machine.flows(end).heat)),
                 ("wi_end", Some(end[layout.bearings[0].inner.spin()])),
                 ("wc_end", Some(machine.cage_speed(0, end))),
@@ -132,11 +125,7 @@ impl Simulator for Simulation {
                 ("maxrel", Some(record.rotor_race_displacement.value)),
                 ("maxouter", Some(record.mount_displacement.value)),
             ]),
-            contact_start_times: record
-                .contacts
-                .iter()
-                .map(|contact| contact.start)
-                .collect(),
+            contact_start_times: contacts.iter().map(|contact| contact.start).collect(),
         })
     }
 }
@@ -185,99 +174,41 @@ pub(super) fn falling_machine(
     stiffness: f64,
     clearance: f64,
     gravity: f64,
-) -> RotorMachine {
-    let gravity = Vec2::new(0.0, -gravity);
-    let (ball_mass, radius) = (1e-3, 3e-3);
-    let bearing = PlanarConstants {
-        balls: 8,
-        ball: BallConstants {
-            radius,
-            ball_radius: radius,
-            load_per_radial_force: 1.0,
-            mass: ball_mass,
-            inverse_mass: 1.0 / ball_mass,
-            inverse_inertia: 1.0 / (0.4 * ball_mass * radius * radius),
-            inner_track: 15e-3,
-            inner_track_growth: 0.0,
-            outer_track: 21e-3,
-            inner_stiffness: 2e10,
-            outer_stiffness: 2e10,
-            damping_time: 2e-6,
-            pocket_radius: 18e-3,
-            pocket_gap: 1e-4,
-            pocket_stiffness: 1e7,
-            pocket_damping: 0.0,
-            pocket_friction: 0.0,
-            pocket_inverse_reference_speed: 10.0,
-            orbit_drag: 0.0,
-            spin_drag: 0.0,
-            gravity: Vec2::zero(),
-        },
-        traction: Traction::Tanh(TanhTraction {
-            maximum: 0.0,
-            inverse_reference_speed: 10.0,
-        }),
-        separation: Separation::CentredCage,
+) -> Result<RotorMachine, String> {
+    let machine = ReferenceMachine {
+        ball_count: 8,
+        gravity,
+        ball_radius: 3e-3,
+        inner_track_radius: 15e-3,
+        outer_track_radius: 21e-3,
+        ball_mass: 1e-3,
+        inner_race_mass: 0.02,
+        inner_race_inertia: 4e-6,
+        outer_race_mass: 0.15,
         cage_mass: 5e-3,
         cage_inertia: 1.6e-6,
-        cage_drag: 0.0,
-        first_ball_angle: 0.0,
-        moment: None,
-        inlet_rolling: None,
-        lubricant: None,
-        races: None,
+        inner_contact_stiffness: 2e10,
+        outer_contact_stiffness: 2e10,
+        contact_damping_time: 2e-6,
+        traction_reference_speed: 0.1,
+        pocket_radius: 18e-3,
+        pocket_gap: 1e-4,
+        pocket_stiffness: 1e7,
+        pocket_friction_reference_speed: 0.1,
+        mount_stiffness: 1e8,
+        inner_race_centre_held: 1,
+        has_rotor: 1,
+        rotor_mass: mass,
+        rotor_inertia: 1e-2,
+        bore_radius: 12.5e-3 + clearance,
+        radial_air_clearance: clearance,
+        contact_stiffness: stiffness,
+        contact_exponent: 1.0,
+        contact_friction_reference_speed: 0.1,
+        levitation_stiffness: 1e6,
+        ..ReferenceMachine::default()
     };
-    let mut constants = MachineConstants {
-        rotor: RotorConstants::point(mass, 1e-2, 0.0),
-        levitation: Levitation {
-            stiffness: 1e6,
-            damping: 0.0,
-            centre: Vec2::zero(),
-            carried: Vec2::zero(),
-        },
-        magnets: None,
-        seals: Vec::new(),
-        forces: Vec::new(),
-        bearings: vec![AuxiliaryBearingConstants {
-            name: String::new(),
-            node: vec![1.0],
-            planes: 1.0,
-            datum: Vec2::zero(),
-            contact: JournalContact {
-                radial_clearance: clearance,
-                bore_radius: 12.5e-3 + clearance,
-                stiffness,
-                exponent: 1.0,
-                damping: 0.0,
-                friction: 0.0,
-                inverse_reference_speed: 10.0,
-            },
-            inner_race: RaceConstants {
-                mass: 0.02,
-                inertia: 4e-6,
-                centre_held: true,
-                torque: 0.0,
-            },
-            bearing: BearingConstants::Planar(bearing),
-            outer_race_mass: 0.15,
-            mount: Mount {
-                stiffness: 1e8,
-                damping: 0.0,
-                free_position: Vec2::zero(),
-            },
-            mount_parts: MountParts::NONE,
-            surfaces: None,
-            warm: None,
-            fixture: None,
-        }],
-        gravity,
-        speed: 0.0,
-        unbalance_angle: 0.0,
-        schedule: Schedule::default(),
-        at_speeds: Vec::new(),
-    };
-    constants.balance_mounts();
-    RotorMachine::new(constants)
+    constants(&machine, 0.0).map(RotorMachine::new)
 }
 
 /// The machine of a reference file.

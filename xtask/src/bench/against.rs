@@ -10,7 +10,7 @@ use super::{DROP, LANE_RUNS};
 use crate::repository::Repository;
 use crate::toolchain::{cargo, quiet};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 const PAIRS: usize = 10;
 
@@ -47,17 +47,7 @@ const CASES: [Case; 7] = [
 ];
 
 /// Builds the command of a commit, measures it beside that of this tree, and prints the table.
-pub fn run(commit: &str) -> ExitCode {
-    match measure(commit) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn measure(commit: &str) -> Result<(), String> {
+pub fn run(commit: &str) -> Result<(), String> {
     let repository = Repository::open()?;
     let hash = resolve(&repository.root, commit)?;
     let old = Program::new(&repository.root, built_at(&repository, &hash)?);
@@ -151,11 +141,8 @@ fn built_at(repository: &Repository, hash: &str) -> Result<PathBuf, String> {
     command.args(["build", "--quiet", "--release", "--locked"]);
     command.current_dir(&checkout);
     command.env("CARGO_TARGET_DIR", &builds);
-    let outcome = quiet(&mut command);
-    if !outcome.findings.is_empty() {
-        let findings = outcome.findings.join("\n");
-        return Err(format!("{hash} was not built\n{findings}"));
-    }
+    let outcome = quiet(&mut command).result();
+    outcome.map_err(|findings| format!("{hash} was not built\n{findings}"))?;
     let built = builds.join("release").join(executable());
     std::fs::create_dir_all(&kept)
         .and_then(|()| std::fs::copy(&built, &program))
@@ -177,11 +164,7 @@ impl<'a> Worktree<'a> {
         let mut git = git(root);
         git.args(["worktree", "add", "--quiet", "--detach"]);
         let outcome = quiet(git.arg(tree.folder.join("tree")).arg(hash));
-        if outcome.findings.is_empty() {
-            Ok(tree)
-        } else {
-            Err(outcome.findings.join("\n"))
-        }
+        outcome.result().map(|()| tree)
     }
 }
 

@@ -27,6 +27,14 @@ pub struct Task<'a> {
     pub count: usize,
 }
 
+/// The command given, or the release build.
+pub fn given_or_built(repository: &Repository, program: Option<&str>) -> Result<PathBuf, String> {
+    match program {
+        Some(path) => std::path::absolute(path).map_err(|error| format!("{path}: {error}")),
+        None => build(repository),
+    }
+}
+
 /// The release build of the command; it lies beside the build of this tool.
 pub fn build(repository: &Repository) -> Result<PathBuf, String> {
     let outcome = quiet(cargo(repository).args(["build", "--quiet", "--release", "--locked"]));
@@ -83,12 +91,7 @@ impl Program {
     pub fn simulate(&self, task: Task) -> Result<(), String> {
         let mut command = Command::new(&self.path);
         self.arguments(&mut command, task);
-        let outcome = quiet(&mut command);
-        if outcome.findings.is_empty() {
-            Ok(())
-        } else {
-            Err(outcome.findings.join("\n"))
-        }
+        quiet(&mut command).result()
     }
     /// The words of one run, for this command or one that starts it.
     pub fn arguments(&self, command: &mut Command, task: Task) {

@@ -13,7 +13,7 @@ use identify::explain::{
     self, Candidate, Conclusion, PredictionErrors, Priors, Verdict, with_prediction_errors,
 };
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
-use identify::moment::{Moment, MomentSettings, moment, same_load};
+use identify::moment::{Moment, moment, same_load};
 use identify::rotor_friction::{self, Race, RubbingSpinUp};
 use identify::signals::{Signals, before_the_stop, measurement};
 use identify::skid::{Skid, skid};
@@ -165,14 +165,11 @@ impl Found {
         let steady: Vec<Measurement> = (coast_downs.iter())
             .map(|test| before_the_stop(test, wish.settling_time))
             .collect();
-        let settings = MomentSettings {
-            viscosity: wish.viscosity,
-            ..MomentSettings::default()
-        };
+        let viscosity = wish.viscosity;
         let mut moment = match steady.is_empty() {
             true => Err("none of the slow tests can be used".to_string()),
             false => interruptible(interrupt, move || {
-                moment(&steady.iter().collect::<Vec<_>>(), &set, &settings)
+                moment(&steady.iter().collect::<Vec<_>>(), &set, viscosity)
             }),
         };
         // a reading that is not the torque says nothing of the bearing, whatever else follows from it
@@ -479,7 +476,6 @@ fn doubted(
             wanted_speed: wanted.is_finite().then_some(wanted),
             ball_count: Some(wish.ball_count as u32),
             moment_per_kelvin: Some(Uncertain::new(change, open)),
-            ..CheckSettings::default()
         },
     )
 }

@@ -94,7 +94,6 @@ fn settings(wish: &SpeedSignal) -> SpeedSettings {
         wanted: wish.wanted,
         latency: wish.delay_deviation,
         ripple: wish.ripple,
-        ..SpeedSettings::default()
     }
 }
 

@@ -4,7 +4,7 @@
 //! hundredths. The spectrum ends behind the last line above the floor, and behind the sensor's frequency and the shaft's orders,
 //! and its lines are as fine as that leaves room for.
 
-use measure::spectrum::{Segments, Spectrum, Window, spectrum};
+use measure::spectrum::{Spectrum, spectrum};
 
 /// Values in a segment where nothing is known of the spectrum, at most.
 const COARSE: usize = 2048;
@@ -41,14 +41,7 @@ pub(crate) fn of(
     highest: Option<f64>,
     least: f64,
 ) -> Result<Spectrum, String> {
-    let cut = |length: usize| {
-        let segments = Segments {
-            length,
-            overlap: 0.5,
-            window: Window::Hann,
-        };
-        spectrum(reading, interval, &segments)
-    };
+    let cut = |length| spectrum(reading, interval, length);
     let longest = (reading.len() / SEGMENTS).max(8);
     let coarse = longest.min(COARSE);
     let whole = cut(coarse)?;

@@ -5,7 +5,7 @@ use crate::signals::shaft;
 use crate::signals::spectrum::{FEWEST_COLUMNS, LONGEST};
 use crate::signals::unit::unit_in_si;
 use measure::order::{Orders, orders};
-use measure::spectrum::{AngularSettings, Segments, Window, order_spectrogram, spectrogram};
+use measure::spectrum::{AngularSettings, order_spectrogram, spectrogram};
 use scenario::VibrationSignal;
 
 /// Columns of a picture, at most.
@@ -70,12 +70,8 @@ impl Found {
         let rows = (ROWS as f64 / (highest * interval)) as usize;
         let rows = rows.min(values.len() / FEWEST_COLUMNS).min(LONGEST);
         let length = columns.max(rows.next_power_of_two());
-        let segments = Segments {
-            length: length.min(values.len().max(8)),
-            overlap: 0.5,
-            window: Window::Hann,
-        };
-        let over_time = spectrogram(&values, interval, &segments).map(|found| {
+        let length = length.min(values.len().max(8));
+        let over_time = spectrogram(&values, interval, length).map(|found| {
             let amplitudes = found.density.iter();
             let amplitudes = amplitudes.map(|d| d.iter().map(|v| v.sqrt()).collect());
             let time = found.time.iter().map(|t| first + t).collect();
@@ -86,8 +82,6 @@ impl Found {
         let settings = AngularSettings {
             highest_order: wish.highest_order,
             turns: wish.turns,
-            overlap: 0.5,
-            window: Window::Hann,
             slowest: (SLOW * turning.fastest()).max(1e-3),
         };
         let over_order =

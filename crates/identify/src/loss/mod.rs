@@ -36,31 +36,22 @@ use statistics::uncertain::Uncertain;
 const CAGE_WINDOW: f64 = 0.01;
 
 /// What is known of the rolling of the balls.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rolling {
     /// The user states that they roll throughout.
     Stated,
     /// As the cage signal shows; unknown without one.
+    #[default]
     ByCage,
 }
 
 /// What is known beside a test.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LossSettings {
     /// Whether the balls roll.
     pub rolling: Rolling,
     /// What is not known of masses and radius.
     pub set_deviation: SetDeviation,
-}
-
-impl Default for LossSettings {
-    /// By the cage, exact masses.
-    fn default() -> Self {
-        Self {
-            rolling: Rolling::ByCage,
-            set_deviation: SetDeviation::default(),
-        }
-    }
 }
 
 /// What is known of the balls at one time.

@@ -4,7 +4,7 @@ use super::blocks::Blocks;
 use super::curve::SteadyMoment;
 use super::forms::Member;
 use super::found::{FormFit, Moment, Parameter};
-use super::settings::{Form, MomentSettings};
+use super::settings::Form;
 use crate::algebra::log_sum_exp;
 use crate::evidence::{effective_number, limited, linear, shares};
 use crate::measurement::Measurement;
@@ -102,12 +102,12 @@ fn weigh(weighed: &mut [Weighed], data: &Data) -> f64 {
 pub(super) fn fitted(
     tests: &[&Measurement],
     set: &RollingSet<f64>,
-    settings: &MomentSettings,
+    viscosity: Option<f64>,
 ) -> Result<Moment, String> {
     let blocks = Blocks::new(tests, set)?;
     let level = blocks.data.level();
     let load = tests[0].load;
-    let members = Member::all(settings, set, load, blocks.range, &blocks.data.x);
+    let members = Member::all(viscosity, set, blocks.range, &blocks.data.x);
     let mut weighed: Vec<Weighed> = members
         .into_iter()
         .filter_map(|member| {

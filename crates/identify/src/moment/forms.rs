@@ -1,11 +1,10 @@
 //! The forms of a steady moment that are set against each other, as sums of given shapes.
 
-use super::settings::{Form, MomentSettings};
+use super::settings::Form;
 use crate::regression::spline::{self, SPLINES};
 use nalgebra::DMatrix;
 use physics::palmgren::viscous_moment;
 use physics::rolling::RollingSet;
-use physics::skf::SkfMoment;
 
 /// Standard deviations of second differences of the coefficients of a spline, as parts of the level, that are tried.
 const SMOOTHNESS: [f64; 6] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3];
@@ -28,7 +27,6 @@ pub(super) struct Meaning {
 #[derive(Clone, Copy, Debug)]
 enum Shapes {
     Palmgren { viscosity: f64, pitch_diameter: f64 },
-    Skf { law: SkfMoment<f64>, load: f64 },
     Powers,
     Spline { range: (f64, f64) },
 }
@@ -45,15 +43,14 @@ pub(super) struct Member {
 impl Member {
     /// All forms that can be tried.
     pub(super) fn all(
-        settings: &MomentSettings,
+        viscosity: Option<f64>,
         set: &RollingSet<f64>,
-        load: f64,
         range: (f64, f64),
         speeds: &[f64],
     ) -> Vec<Self> {
         let pitch_diameter = 2.0 * set.inner_track_radius * (1.0 + set.ball_ratio);
         let mut all = Vec::new();
-        let viscosities = match settings.viscosity {
+        let viscosities = match viscosity {
             Some(viscosity) => vec![viscosity],
             None => VISCOSITIES.iter().map(|nu_mm2_s| 1e-6 * nu_mm2_s).collect(),
         };
@@ -66,20 +63,14 @@ impl Member {
                 },
             ));
         }
-        all.push((
-            Form::Skf,
-            match settings.skf {
-                Some(law) => Shapes::Skf { law, load },
-                None => Shapes::Powers,
-            },
-        ));
+        all.push((Form::Skf, Shapes::Powers));
         all.push((Form::Spline, Shapes::Spline { range }));
         all.into_iter()
-            .map(|(form, shapes)| Self::new(form, shapes, settings, speeds))
+            .map(|(form, shapes)| Self::new(form, shapes, viscosity.is_some(), speeds))
             .collect()
     }
 
-    fn new(form: Form, shapes: Shapes, settings: &MomentSettings, speeds: &[f64]) -> Self {
+    fn new(form: Form, shapes: Shapes, viscosity_is_known: bool, speeds: &[f64]) -> Self {
         let mut squares = vec![0.0; shapes.row(speeds[0]).len()];
         for &speed in speeds {
             for (square, value) in squares.iter_mut().zip(shapes.row(speed)) {
@@ -94,7 +85,7 @@ impl Member {
                 .collect(),
         };
         let named: Vec<(&'static str, &'static str, f64)> = match shapes {
-            Shapes::Palmgren { viscosity, .. } if settings.viscosity.is_none() => vec![
+            Shapes::Palmgren { viscosity, .. } if !viscosity_is_known => vec![
                 (
                     "f0 ν^(2/3)",
                     "(mm²/s)^(2/3)",
@@ -103,11 +94,6 @@ impl Member {
                 ("M1", "N m", 1.0),
             ],
             Shapes::Palmgren { .. } => vec![("f0", "1", 1.0), ("M1", "N m", 1.0)],
-            Shapes::Skf { .. } => vec![
-                ("rolling", "of the law's", 1.0),
-                ("sliding", "of the law's", 1.0),
-                ("drag", "of the law's", 1.0),
-            ],
             Shapes::Powers => vec![
                 ("rolling at 100 rad/s", "N m", 1.0),
                 ("sliding", "N m", 1.0),
@@ -167,19 +153,6 @@ impl Shapes {
                 viscosity,
                 pitch_diameter,
             } => vec![viscous_moment(1.0, *viscosity, speed, *pitch_diameter), 1.0],
-            Shapes::Skf { law, load } => {
-                let inside = law.intermediates(speed, *load, 0.0);
-                let mut row = vec![
-                    1e-3 * inside.inlet_shear_factor
-                        * inside.starvation_factor
-                        * inside.rolling_moment,
-                    1e-3 * inside.sliding_moment,
-                ];
-                if law.drag > 0.0 {
-                    row.push(1e-3 * inside.drag_moment);
-                }
-                row
-            }
             Shapes::Powers => {
                 let part = speed / 100.0;
                 vec![part.powf(0.6), 1.0, part * part]

@@ -4,7 +4,7 @@
 //!   y = (t_O + J_O Ω̇) sgn Ω  =  M(|Ω|) + zero of the test + noise          means over equal times, |Ω̇| small, balls roll
 //!
 //!   Palmgren   M = f0·1e-7 d_m³ max(160, (ν n)^(2/3)) + M1      two coefficients; without ν twelve viscosities for its floor
-//!   SKF        M = a φ_ish φ_rs (ν n)^0.6 + b μ_sl(Ω) + c n²    factors on the law's parts; without a law φ = 1, μ_sl constant
+//!   SKF        M = a n^0.6 + b + c n²                            the law's form, without φ_ish, φ_rs and the change of μ_sl
 //!   spline     sixteen cubic B-splines, second differences drawn to 0 as strongly as the data ask
 //! ```
 //! Every coefficient has a normal prior about 0, its shape scaled to the root mean square 1 over the data and its deviation the
@@ -31,7 +31,7 @@ mod unequal;
 
 pub use curve::SteadyMoment;
 pub use found::{FormFit, Moment, Parameter, Unequal};
-pub use settings::{Form, LEAST_SPEED, MomentSettings, SLOW_ACCELERATION};
+pub use settings::{Form, LEAST_SPEED, SLOW_ACCELERATION};
 
 use crate::measurement::Measurement;
 use fitted::{difference, fitted, speeds_up};
@@ -48,21 +48,21 @@ pub(crate) const SAME_LOAD: f64 = 0.02;
 ///
 /// - `tests`: slow tests, or tests with slow parts; quick parts and rest are left out
 /// - `set`: balls and cage, for the small part of their inertia
-/// - `settings`: what is known beside
+/// - `viscosity`: kinematic, ν, m²/s: sets Palmgren's floor; none where it is not known
 ///
 /// Refused: tests at different loads, too little slow running, a single speed.
 pub fn moment(
     tests: &[&Measurement],
     set: &RollingSet<f64>,
-    settings: &MomentSettings,
+    viscosity: Option<f64>,
 ) -> Result<Moment, String> {
-    refuse(tests, set, settings)?;
+    refuse(tests, set, viscosity)?;
     let mut notes = Vec::new();
-    let mut whole = fitted(tests, set, settings)?;
+    let mut whole = fitted(tests, set, viscosity)?;
     let (up, down): (Vec<_>, Vec<_>) = tests.iter().partition(|test| speeds_up(test));
     let mut up_against_down = None;
     if !up.is_empty() && !down.is_empty() {
-        match (fitted(&up, set, settings), fitted(&down, set, settings)) {
+        match (fitted(&up, set, viscosity), fitted(&down, set, viscosity)) {
             (Ok(up), Ok(down)) => match difference(&up.curve, &down.curve) {
                 Ok(found) => {
                     if found.chance < 0.01 {
@@ -95,22 +95,20 @@ pub fn moment(
             ));
         }
     }
-    if settings.viscosity.is_none() {
+    if viscosity.is_none() {
         notes.push("the viscosity is not known: Palmgren's floor is averaged over viscosities from 5 to 450 mm²/s".into());
     }
-    if settings.skf.is_none() {
-        notes.push("no SKF law is given: its form stands without shear heating, starvation and change of sliding friction".into());
-    }
+    notes.push("no SKF law is given: its form stands without shear heating, starvation and change of sliding friction".into());
     whole.notes = notes;
     whole.up_against_down = up_against_down;
-    whole.unequal = unequal::unequal(tests, set, settings);
+    whole.unequal = unequal::unequal(tests, set, viscosity);
     Ok(whole)
 }
 
 fn refuse(
     tests: &[&Measurement],
     set: &RollingSet<f64>,
-    settings: &MomentSettings,
+    viscosity: Option<f64>,
 ) -> Result<(), String> {
     if tests.is_empty() {
         return Err("a steady moment needs a slow test".into());
@@ -126,7 +124,7 @@ fn refuse(
     {
         return Err("masses and radii of balls and cage must be positive and finite".into());
     }
-    let viscosity = settings.viscosity.unwrap_or(1.0);
+    let viscosity = viscosity.unwrap_or(1.0);
     if !(viscosity > 0.0 && viscosity.is_finite()) {
         return Err(format!(
             "the viscosity is {viscosity}; it must be positive and finite"

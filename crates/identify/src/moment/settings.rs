@@ -1,6 +1,4 @@
-//! What is known of a steady moment beside the tests.
-
-use physics::skf::SkfMoment;
+//! The forms of a steady moment, and what counts as slow.
 
 /// A form of the steady moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -11,15 +9,6 @@ pub enum Form {
     Skf,
     /// Any smooth curve.
     Spline,
-}
-
-/// What is known beside the tests.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MomentSettings {
-    /// Kinematic viscosity ν, m²/s: sets Palmgren's floor; none where it is not known.
-    pub viscosity: Option<f64>,
-    /// The SKF law of this bearing with its lubricant; none where it is not known.
-    pub skf: Option<SkfMoment<f64>>,
 }
 
 /// Largest |Ω̇| of slow running, rad/s²: the part of inertia, which is taken out, is then 1 % of the moment of a greased 6005.

@@ -2,7 +2,6 @@
 
 use super::fitted::{difference, fitted, speeds_up};
 use super::found::Unequal;
-use super::settings::MomentSettings;
 use crate::measurement::Measurement;
 use physics::rolling::RollingSet;
 
@@ -14,13 +13,13 @@ const NOTABLE: f64 = 0.02;
 pub(super) fn unequal(
     tests: &[&Measurement],
     set: &RollingSet<f64>,
-    settings: &MomentSettings,
+    viscosity: Option<f64>,
 ) -> Option<Unequal> {
     if tests.len() < 2 {
         return None;
     }
     let alone: Vec<_> = (tests.iter())
-        .map(|test| fitted(&[*test], set, settings).ok())
+        .map(|test| fitted(&[*test], set, viscosity).ok())
         .collect();
     let mut most: Option<Unequal> = None;
     for (k, one) in tests.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Spectra over orders: the signal at equal angles of the shaft.
 
-use super::{Segments, Window, transformed};
+use super::transformed;
 use crate::kernel::Kernel;
 use crate::shaft::Shaft;
 use std::f64::consts::TAU;
@@ -12,10 +12,6 @@ pub struct AngularSettings {
     pub highest_order: f64,
     /// Turns in a segment: orders are separated down to about two over this.
     pub turns: usize,
-    /// Overlap of segments, 0 to 0.95.
-    pub overlap: f64,
-    /// Weights.
-    pub window: Window,
     /// Speed below which the signal is left out, rad/s; positive.
     pub slowest: f64,
 }
@@ -57,12 +53,7 @@ pub fn order_spectrogram(
         );
     }
     let per_turn = ((2.56 * settings.highest_order).ceil() as usize).max(8);
-    let segments = Segments {
-        length: per_turn * settings.turns,
-        overlap: settings.overlap,
-        window: settings.window,
-    };
-    segments.check()?;
+    let length = per_turn * settings.turns;
     let end = first + signal.len().saturating_sub(1) as f64 * interval;
     let (from, to) = stretch(shaft, settings.slowest, first, end).ok_or_else(|| {
         format!(
@@ -80,7 +71,7 @@ pub fn order_spectrogram(
         ));
     }
     let times = equal_angles(shaft, from, to, per_turn);
-    if times.len() < segments.length {
+    if times.len() < length {
         return Err(format!(
             "the shaft turns {:.1} times while it is fast enough; a segment has {} turns",
             times.len() as f64 / per_turn as f64,
@@ -130,10 +121,10 @@ pub fn order_spectrogram(
     let (mut time, mut speed, mut amplitude) = (Vec::new(), Vec::new(), Vec::new());
     let mut lost = 0;
     let mut raw = Vec::new();
-    let transform = transformed(&values, &segments, |start, one| {
-        let (a, b) = (times[start], times[start + segments.length - 1]);
+    let transform = transformed(&values, length, |start, one| {
+        let (a, b) = (times[start], times[start + length - 1]);
         time.push(0.5 * (a + b));
-        speed.push(TAU * settings.turns as f64 / (b - a) * (1.0 - 1.0 / segments.length as f64));
+        speed.push(TAU * settings.turns as f64 / (b - a) * (1.0 - 1.0 / length as f64));
         raw.push(one);
     });
     let bandwidth = transform.squares / (transform.sum * transform.sum);
@@ -142,7 +133,7 @@ pub fn order_spectrogram(
             Some(one) => one.iter().map(|d| (2.0 * d * bandwidth).sqrt()).collect(),
             None => {
                 lost += 1;
-                vec![f64::NAN; segments.length / 2 + 1]
+                vec![f64::NAN; length / 2 + 1]
             }
         });
     }
@@ -152,7 +143,7 @@ pub fn order_spectrogram(
             time.len()
         ));
     }
-    let order: Vec<f64> = (0..=segments.length / 2)
+    let order: Vec<f64> = (0..=length / 2)
         .map(|k| k as f64 / settings.turns as f64)
         .collect();
     let kept = order

@@ -1,13 +1,13 @@
 //! Spectra and spectrograms, calibrated: amplitudes of sines in the unit of the signal, densities in its square over Hz.
 //!
 //! ```text
-//! signal ─▶ overlapping segments ─▶ mean removed, windowed ─▶ Fourier ─▶ mean of the squares
+//! signal ─▶ segments that overlap by half ─▶ mean removed, Hann's window ─▶ Fourier ─▶ mean of the squares
 //! ```
 //!
 //! [`spectrum`] averages over a record, [`spectrogram`] shows it over time, [`order_spectrogram`] over the turns of a shaft whose
 //! speed varies, by values at equal angles.
 //!
-//! Source: Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70; windows as by Harris, Proc. IEEE 66 (1978) 51 (from memory).
+//! Source: Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70; window as by Harris, Proc. IEEE 66 (1978) 51 (from memory).
 
 mod angular;
 
@@ -18,85 +18,12 @@ use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Weights of the values of a segment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Window {
-    /// All alike: for signals that repeat in the segment.
-    Rectangular,
-    /// The usual choice.
-    Hann,
-    /// Lower first side lobe than Hann, slower fall after.
-    Hamming,
-    /// Side lobes below 1/30 000: small lines beside large ones.
-    BlackmanHarris,
-    /// Amplitudes right to 0.2 % between lines of the spectrum.
-    FlatTop,
-}
+/// Fewest values in a segment.
+const SHORTEST: usize = 8;
 
-impl Window {
-    fn terms(self) -> &'static [f64] {
-        match self {
-            Self::Rectangular => &[1.0],
-            Self::Hann => &[0.5, -0.5],
-            Self::Hamming => &[0.54, -0.46],
-            Self::BlackmanHarris => &[0.358_75, -0.488_29, 0.141_28, -0.011_68],
-            Self::FlatTop => &[
-                0.215_578_95,
-                -0.416_631_58,
-                0.277_263_158,
-                -0.083_578_947,
-                0.006_947_368,
-            ],
-        }
-    }
-
-    /// Weights of a segment of `length` values.
-    pub fn weights(self, length: usize) -> Vec<f64> {
-        let terms = self.terms();
-        (0..length)
-            .map(|i| {
-                let turn = TAU * i as f64 / length as f64;
-                terms
-                    .iter()
-                    .enumerate()
-                    .map(|(k, a)| a * (k as f64 * turn).cos())
-                    .sum()
-            })
-            .collect()
-    }
-}
-
-/// How a signal is cut into segments.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segments {
-    /// Values in a segment; at least 8.
-    pub length: usize,
-    /// Overlap of neighbours, 0 to 0.95; 0.5 is usual with Hann.
-    pub overlap: f64,
-    /// Weights.
-    pub window: Window,
-}
-
-impl Segments {
-    fn check(&self) -> Result<(), String> {
-        if self.length < 8 {
-            return Err(format!(
-                "a segment of {} values is too short; at least 8 are needed",
-                self.length
-            ));
-        }
-        if !(0.0..=0.95).contains(&self.overlap) {
-            return Err(format!(
-                "an overlap of {} is not between 0 and 0.95",
-                self.overlap
-            ));
-        }
-        Ok(())
-    }
-
-    fn hop(&self) -> usize {
-        ((self.length as f64 * (1.0 - self.overlap)).round() as usize).max(1)
-    }
+/// Values from the start of a segment to that of the next: half of it, as is usual with Hann's window.
+fn hop(length: usize) -> usize {
+    length.div_ceil(2)
 }
 
 /// A spectrum, one-sided. All lists have the same length.
@@ -131,7 +58,7 @@ pub struct Spectrogram {
     pub notes: Vec<String>,
 }
 
-/// Fourier transform of weighted segments.
+/// Fourier transform of segments weighted by Hann's window.
 struct Transform {
     plan: Arc<dyn Fft<f64>>,
     weights: Vec<f64>,
@@ -143,13 +70,15 @@ struct Transform {
 }
 
 impl Transform {
-    fn new(segments: &Segments) -> Self {
-        let plan = FftPlanner::new().plan_fft_forward(segments.length);
-        let weights = segments.window.weights(segments.length);
+    fn new(length: usize) -> Self {
+        let plan = FftPlanner::new().plan_fft_forward(length);
+        let weights: Vec<f64> = (0..length)
+            .map(|i| 0.5 - 0.5 * (TAU * i as f64 / length as f64).cos())
+            .collect();
         let zero = Complex::new(0.0, 0.0);
         Self {
             scratch: vec![zero; plan.get_inplace_scratch_len()],
-            buffer: vec![zero; segments.length],
+            buffer: vec![zero; length],
             sum: weights.iter().sum(),
             squares: weights.iter().map(|w| w * w).sum(),
             weights,
@@ -185,16 +114,16 @@ impl Transform {
 /// Calls `each` with start and density (per unit of 1/interval = 1) of every segment; none where values are missing.
 fn transformed(
     signal: &[f64],
-    segments: &Segments,
+    length: usize,
     mut each: impl FnMut(usize, Option<Vec<f64>>),
 ) -> Transform {
-    let mut transform = Transform::new(segments);
+    let mut transform = Transform::new(length);
     let starts: Vec<usize> = (0..)
-        .map(|k| k * segments.hop())
-        .take_while(|s| s + segments.length <= signal.len())
+        .map(|k| k * hop(length))
+        .take_while(|s| s + length <= signal.len())
         .collect();
     for pair in starts.chunks(2) {
-        let part = |start: usize| &signal[start..start + segments.length];
+        let part = |start: usize| &signal[start..start + length];
         let (first, second) = (pair[0], pair[pair.len() - 1]);
         let whole = |start: usize| part(start).iter().all(|v| v.is_finite());
         // A part that misses values must not spoil its partner.
@@ -216,16 +145,19 @@ fn transformed(
     transform
 }
 
-fn check(signal: &[f64], interval: f64, segments: &Segments) -> Result<(), String> {
-    segments.check()?;
+fn check(signal: &[f64], interval: f64, length: usize) -> Result<(), String> {
+    if length < SHORTEST {
+        return Err(format!(
+            "a segment of {length} values is too short; at least {SHORTEST} are needed"
+        ));
+    }
     if !(interval > 0.0 && interval.is_finite()) {
         return Err("the interval of the signal must be positive and finite".into());
     }
-    if signal.len() < segments.length {
+    if signal.len() < length {
         return Err(format!(
-            "the signal has {} values, a segment {}",
-            signal.len(),
-            segments.length
+            "the signal has {} values, a segment {length}",
+            signal.len()
         ));
     }
     Ok(())
@@ -237,12 +169,12 @@ fn lines(length: usize, interval: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Spectrum of a signal with values at equal `interval`, s. Segments with missing values are left out and reported.
-pub fn spectrum(signal: &[f64], interval: f64, segments: &Segments) -> Result<Spectrum, String> {
-    check(signal, interval, segments)?;
-    let mut density = vec![0.0; segments.length / 2 + 1];
+/// Spectrum of a signal with values at equal `interval`, s, from segments of `length` values. Segments with missing values are left out and reported.
+pub fn spectrum(signal: &[f64], interval: f64, length: usize) -> Result<Spectrum, String> {
+    check(signal, interval, length)?;
+    let mut density = vec![0.0; length / 2 + 1];
     let (mut used, mut lost) = (0_usize, 0_usize);
-    let transform = transformed(signal, segments, |_, one| match one {
+    let transform = transformed(signal, length, |_, one| match one {
         Some(one) => {
             used += 1;
             for (sum, value) in density.iter_mut().zip(&one) {
@@ -261,7 +193,7 @@ pub fn spectrum(signal: &[f64], interval: f64, segments: &Segments) -> Result<Sp
             lost + used
         ));
     }
-    let averages = worth(&transform.weights, segments.hop(), used);
+    let averages = worth(&transform.weights, hop(length), used);
     if averages < 4.0 {
         notes.push(format!(
             "densities are averages of {averages:.1} segments only"
@@ -277,7 +209,7 @@ pub fn spectrum(signal: &[f64], interval: f64, segments: &Segments) -> Result<Sp
         .enumerate()
         .map(|(k, d)| {
             // A line at the ends of the spectrum has no partner.
-            let sides = if k == 0 || (k == last && segments.length.is_multiple_of(2)) {
+            let sides = if k == 0 || (k == last && length.is_multiple_of(2)) {
                 1.0
             } else {
                 2.0
@@ -286,7 +218,7 @@ pub fn spectrum(signal: &[f64], interval: f64, segments: &Segments) -> Result<Sp
         })
         .collect();
     Ok(Spectrum {
-        frequency: lines(segments.length, interval),
+        frequency: lines(length, interval),
         density,
         amplitude,
         bandwidth,
@@ -312,21 +244,19 @@ fn worth(weights: &[f64], hop: usize, count: usize) -> f64 {
     count as f64 / sum
 }
 
-/// Spectra of a signal over time, values at equal `interval`, s.
-pub fn spectrogram(
-    signal: &[f64],
-    interval: f64,
-    segments: &Segments,
-) -> Result<Spectrogram, String> {
-    check(signal, interval, segments)?;
-    let count = (signal.len() - segments.length) / segments.hop() + 1;
-    if count.saturating_mul(segments.length / 2 + 1) > 50_000_000 {
-        return Err("the spectrogram would hold more than 50 million values; take longer segments or less overlap".into());
+/// Spectra of a signal over time, values at equal `interval`, s, in segments of `length` values.
+pub fn spectrogram(signal: &[f64], interval: f64, length: usize) -> Result<Spectrogram, String> {
+    check(signal, interval, length)?;
+    let count = (signal.len() - length) / hop(length) + 1;
+    if count.saturating_mul(length / 2 + 1) > 50_000_000 {
+        return Err(
+            "the spectrogram would hold more than 50 million values; take longer segments".into(),
+        );
     }
     let (mut time, mut density) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let mut lost = 0;
-    let transform = transformed(signal, segments, |start, one| {
-        time.push((start as f64 + 0.5 * segments.length as f64) * interval);
+    let transform = transformed(signal, length, |start, one| {
+        time.push((start as f64 + 0.5 * length as f64) * interval);
         density.push(match one {
             Some(mut one) => {
                 one.iter_mut().for_each(|v| *v *= interval);
@@ -334,7 +264,7 @@ pub fn spectrogram(
             }
             None => {
                 lost += 1;
-                vec![f64::NAN; segments.length / 2 + 1]
+                vec![f64::NAN; length / 2 + 1]
             }
         });
     });
@@ -345,7 +275,7 @@ pub fn spectrogram(
     let bandwidth = transform.squares / (transform.sum * transform.sum) / interval;
     Ok(Spectrogram {
         time,
-        frequency: lines(segments.length, interval),
+        frequency: lines(length, interval),
         density,
         to_amplitude: (2.0 * bandwidth).sqrt(),
         notes,

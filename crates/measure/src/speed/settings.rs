@@ -19,8 +19,6 @@ pub struct SpeedSettings {
     /// Largest uncertainty of the acceleration in the quick change, root mean square over it, as a part of the peak;
     /// pulses that cannot carry it are refused. None: take what there is.
     pub wanted: Option<f64>,
-    /// How long the quick change lasts, s, where it is known, to state how many marks are needed when there are too few.
-    pub duration: Option<f64>,
     /// Standard uncertainty of a delay that all pulses have in common (pickup, filter), s. Pulses cannot show it.
     pub latency: f64,
     /// Standard uncertainty (root mean square) of an acceleration ripple once per revolution while the wheel was calibrated,
@@ -35,7 +33,6 @@ impl Default for SpeedSettings {
         SpeedSettings {
             transient: Transient::Auto,
             wanted: None,
-            duration: None,
             latency: 0.0,
             ripple: 0.0,
         }

@@ -37,28 +37,17 @@ pub(super) fn enough(data: &Data, sight: &Sight, settings: &SpeedSettings) -> Re
     let change = sight.change / data.unit;
     // The change is over before the angle between two marks has passed at the new speed twice.
     let longest = (2.0 * data.pitch / change).max((sight.lock - sight.engage) * data.unit);
-    let duration = settings.duration.filter(|d| *d > 0.0).unwrap_or(longest);
     let wanted = settings.wanted.unwrap_or(0.1);
     let timing = median(data.passages.iter().map(|p| p.spread * data.unit));
-    let marks = marks_needed(change, duration, timing, wanted);
-    let least = if settings.duration.is_some() {
-        ""
-    } else {
-        " or less"
-    };
+    let marks = marks_needed(change, longest, timing, wanted);
     Err(Refusal::new(
         format!(
-            "the speed changes by {change:.1} rad/s in {:.1} ms{least}, in which {within} pulses came",
-            1e3 * duration
+            "the speed changes by {change:.1} rad/s in {:.1} ms or less, in which {within} pulses came",
+            1e3 * longest
         ),
         match marks {
             Some(marks) => format!(
-                "{}{marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
-                if settings.duration.is_some() {
-                    ""
-                } else {
-                    "at least "
-                },
+                "at least {marks} marks per revolution for an acceleration within {:.0} % of its peak (there are {:.0})",
                 100.0 * wanted,
                 std::f64::consts::TAU / data.pitch
             ),

@@ -6,61 +6,13 @@
 use crate::{Channel, Clock, Content, Note, Property, Recording, Value};
 
 /// Names of a channel of times, in lower case and without its unit.
-const TIME_NAMES: &[&str] = &[
-    "t",
-    "time",
-    "times",
-    "zeit",
-    "temps",
-    "tiempo",
-    "tempo",
-    "x_value",
-    "timestamp",
-    "timestamps",
-    "time stamp",
-    "time_stamp",
-    "elapsed",
-    "elapsed time",
-    "elapsed_time",
-    "relative time",
-    "relative_time",
-    "tijd",
-];
+const TIME_NAMES: &str = "t, time, times, zeit, temps, tiempo, tempo, x_value, timestamp, timestamps, time stamp, elapsed, elapsed time, relative time, tijd";
 
 /// Names of a sampling rate in 1/s.
-const RATE_NAMES: &[&str] = &[
-    "fs",
-    "sr",
-    "f_s",
-    "f_sample",
-    "sampling rate",
-    "sample rate",
-    "samplingrate",
-    "samplerate",
-    "sampling frequency",
-    "sample frequency",
-    "samplingfrequency",
-    "samplefrequency",
-    "abtastrate",
-    "abtastfrequenz",
-];
+const RATE_NAMES: &str = "fs, sr, f_s, f_sample, sampling rate, sample rate, samplingrate, samplerate, sampling frequency, sample frequency, samplingfrequency, samplefrequency, abtastrate, abtastfrequenz";
 
 /// Names of a sampling interval in s.
-const INTERVAL_NAMES: &[&str] = &[
-    "dt",
-    "delta_t",
-    "delta t",
-    "delta_x",
-    "ts",
-    "interval",
-    "sampling interval",
-    "sample interval",
-    "sampling period",
-    "sample period",
-    "sample time",
-    "wf_increment",
-    "increment",
-];
+const INTERVAL_NAMES: &str = "dt, delta t, delta_x, ts, interval, sampling interval, sample interval, sampling period, sample period, sample time, wf_increment, increment";
 
 /// Names of the time of the first value, s, beside a sampling interval.
 const FIRST_NAMES: &[&str] = &["start", "x0", "t0", "wf_start_offset"];
@@ -72,20 +24,26 @@ fn plain(name: &str) -> String {
     last.trim().to_string()
 }
 
+/// Whether a name is one of these, as it is or with blanks for its `_`.
+fn is_among(names: &str, name: &str) -> bool {
+    let spaced = name.replace('_', " ");
+    names
+        .split(", ")
+        .any(|known| known == name || known == spaced)
+}
+
 /// Whether a channel of this name holds times.
 pub(crate) fn is_time_name(name: &str) -> bool {
-    TIME_NAMES.contains(&plain(name).as_str())
+    is_among(TIME_NAMES, &plain(name))
 }
 
 /// The interval, s, that a number of this name states: a rate in 1/s or an interval in s; none for other names, and
 /// for numbers that are no interval.
 pub(crate) fn interval_of(name: &str, value: f64) -> Option<f64> {
     let name = plain(name);
-    let spaced = name.replace('_', " ");
-    let known = |names: &[&str]| names.contains(&&*name) || names.contains(&&*spaced);
-    let interval = if known(RATE_NAMES) {
+    let interval = if is_among(RATE_NAMES, &name) {
         1.0 / value
-    } else if known(INTERVAL_NAMES) {
+    } else if is_among(INTERVAL_NAMES, &name) {
         value
     } else {
         return None;
@@ -259,10 +217,8 @@ pub(crate) fn clocks(
 ) -> (Vec<(usize, Clock)>, Vec<Note>) {
     let (mut clocks, mut notes) = (Vec::new(), Vec::new());
     let channels = file.channels().to_vec();
-    let mut open: Vec<bool> = channels
-        .iter()
-        .map(|channel| channel.clock == Clock::Unknown)
-        .collect();
+    let is_open = |channel: &Channel| channel.clock == Clock::Unknown;
+    let mut open: Vec<bool> = channels.iter().map(is_open).collect();
     // Times by their name, then the index of a table of pandas, then other instants.
     let rank = |channel: &Channel| match channel.content {
         Content::Text => None,
@@ -287,10 +243,8 @@ pub(crate) fn clocks(
             clock = spacing.clock(time, &channel.unit);
         }
         if seconds_in(&channel.unit).is_none() {
-            notes.push(Note::of(
-                &channel.name,
-                "is a time by its name, but its unit is not stated",
-            ));
+            let text = "is a time by its name, but its unit is not stated";
+            notes.push(Note::of(&channel.name, text));
         }
         for (index, beside) in channels.iter().enumerate() {
             let near = group_of(&beside.name).starts_with(group_of(&channel.name));
@@ -302,11 +256,8 @@ pub(crate) fn clocks(
     }
     let properties = file.properties();
     let mut origins: Vec<(&str, usize)> = Vec::new();
-    for (index, channel) in channels
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| open[*index])
-    {
+    let left = channels.iter().enumerate();
+    for (index, channel) in left.filter(|(index, _)| open[*index]) {
         if let Some((interval, origin)) = stated_by(properties, channel) {
             let first = properties.iter().find_map(|property| match property.value {
                 Value::Number(first) if FIRST_NAMES.contains(&plain(&property.name).as_str()) => {
@@ -345,14 +296,8 @@ fn spacing(
             break;
         };
         for &value in &values[..read] {
-            spacing.add(
-                value,
-                if absolute {
-                    rounding
-                } else {
-                    rounding * value.abs()
-                },
-            );
+            let scale = if absolute { 1.0 } else { value.abs() };
+            spacing.add(value, rounding * scale);
         }
         at += read as u64;
     }

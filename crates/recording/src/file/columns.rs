@@ -24,12 +24,8 @@ impl Times {
 /// An error where a channel holds texts, or the channels have different clocks.
 pub(crate) fn times(path: &Path, channels: &[Channel]) -> Result<Option<Times>, FileError> {
     let Some(one) = channels.first() else {
-        return Err(FileError::new(
-            path,
-            "",
-            "cannot be written: there is no channel",
-            "",
-        ));
+        let found = "cannot be written: there is no channel";
+        return Err(FileError::new(path, "", found, ""));
     };
     for channel in channels {
         let place = || format!("channel {}", channel.name);
@@ -57,11 +53,8 @@ pub(crate) fn rows(
     values: &[&[f64]],
 ) -> Result<usize, FileError> {
     if values.len() != channels.len() {
-        let found = format!(
-            "{} slices of values for {} channels",
-            values.len(),
-            channels.len()
-        );
+        let (given, wanted) = (values.len(), channels.len());
+        let found = format!("{given} slices of values for {wanted} channels");
         return Err(FileError::new(path, "", found, "give one for each channel"));
     }
     let rows = values.first().map_or(0, |slice| slice.len());

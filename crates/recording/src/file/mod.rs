@@ -15,17 +15,20 @@
 //! | [`uff`] | the universal file format, sets 58 and 58b: reader |
 //! | [`wav`] | WAV: reader |
 
-/// What a reader says of its file, where it keeps that in fields of these names.
+/// What a reader says of its file: where it keeps the path, and what holds notes and properties.
 macro_rules! contents {
-    () => {
-        fn channels(&self) -> &[$crate::Channel] {
-            &self.channels
+    ($self:ident, $path:expr, $of:expr) => {
+        fn path(&$self) -> &std::path::Path {
+            $path
         }
-        fn properties(&self) -> &[$crate::Property] {
-            &self.properties
+        fn channels(&$self) -> &[$crate::Channel] {
+            &$self.channels
         }
-        fn notes(&self) -> &[$crate::Note] {
-            &self.notes
+        fn properties(&$self) -> &[$crate::Property] {
+            &$of.properties
+        }
+        fn notes(&$self) -> &[$crate::Note] {
+            &$of.notes
         }
     };
 }
@@ -44,6 +47,22 @@ macro_rules! shown_by_contents {
     };
 }
 
+/// What is noted of a channel once values of it could not be read.
+const DAMAGED_PART: &str = "a part is damaged or cut off; its values are not-a-number";
+
+/// Most notes of a file that are kept: a broken one would else fill the memory with them.
+const NOTES: usize = 100;
+
+/// Keeps a note unless it is there, or there are many.
+fn keep_note(notes: &mut Vec<Note>, note: Note) {
+    if notes.len() > NOTES || notes.contains(&note) {
+        return;
+    }
+    let many = || Note::of_file("more was found that is not listed");
+    let note = if notes.len() == NOTES { many() } else { note };
+    notes.push(note);
+}
+
 mod clock;
 mod columns;
 pub mod csv;
@@ -52,7 +71,6 @@ pub mod hdf5;
 pub mod mat5;
 mod number;
 pub mod parquet;
-mod request;
 pub mod source;
 pub mod tdms;
 pub mod uff;
@@ -65,7 +83,7 @@ use std::fmt;
 use std::fs::File;
 use std::path::Path;
 
-use crate::{Channel, FileError, Recording};
+use crate::{Channel, FileError, Note, Recording};
 use problem::open_file;
 
 /// A format of measurement files.
@@ -103,20 +121,13 @@ impl Format {
 
     /// Recognises the format by the first bytes of a file; none where they are of no format that is known.
     pub fn of(head: &[u8]) -> Option<Format> {
-        FORMATS
-            .iter()
-            .find(|row| (row.recognise)(head))
-            .map(|row| row.format)
+        let row = FORMATS.iter().find(|row| (row.recognise)(head));
+        row.map(|row| row.format)
     }
 
     /// Which formats a file of this name would be of, going by its extension.
     fn promised_by(path: &Path) -> &'static [Format] {
-        let extension = path
-            .extension()
-            .and_then(|e| e.to_str())
-            .unwrap_or("")
-            .to_ascii_lowercase();
-        match extension.as_str() {
+        match extension(path).as_str() {
             "tdms" => &[Format::Tdms],
             "uff" | "unv" => &[Format::Uff],
             "mat" => &[Format::Mat5, Format::Hdf5],
@@ -126,6 +137,12 @@ impl Format {
             _ => &[],
         }
     }
+}
+
+/// What the name of a file ends with, in lower case.
+fn extension(path: &Path) -> String {
+    let end = path.extension().and_then(|end| end.to_str());
+    end.unwrap_or_default().to_ascii_lowercase()
 }
 
 impl fmt::Display for Format {
@@ -218,20 +235,14 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
 /// The counts of the channels do not matter: the values that are appended count.
 pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Writer>, FileError> {
     let path = path.as_ref();
-    let extension = path
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or("")
-        .to_ascii_lowercase();
-    match extension.as_str() {
+    match extension(path).as_str() {
         "tdms" => Ok(Box::new(tdms::TdmsWriter::create(path, channels)?)),
         "csv" => Ok(Box::new(csv::CsvWriter::create(path, channels)?)),
         "parquet" => Ok(Box::new(parquet::ParquetWriter::create(path, channels)?)),
-        _ => Err(FileError::new(
-            path,
-            "",
-            "cannot be written: its name has no format that can be",
-            "end the name with: .tdms, .csv, .parquet",
-        )),
+        _ => {
+            let found = "cannot be written: its name has no format that can be";
+            let needed = "end the name with: .tdms, .csv, .parquet";
+            Err(FileError::new(path, "", found, needed))
+        }
     }
 }

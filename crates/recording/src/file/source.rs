@@ -69,6 +69,11 @@ impl<S: Read + Seek> Source<S> {
         FileError::new(&self.path, format!("byte {offset}"), found, needed)
     }
 
+    fn cut_off(&self, offset: u64, needed: u64, there: u64) -> FileError {
+        let found = format!("{needed} bytes are needed, {there} are there");
+        self.error(offset, found, "the file was cut off")
+    }
+
     /// Fills `bytes` from `offset` on; returns how many there were, fewer than asked at the end only.
     pub fn read_at(&mut self, offset: u64, bytes: &mut [u8]) -> Result<usize, FileError> {
         if offset >= self.length || bytes.is_empty() {
@@ -97,25 +102,19 @@ impl<S: Read + Seek> Source<S> {
     /// Fills all of `bytes` from `offset` on; an error where the file ends before.
     pub fn fill_at(&mut self, offset: u64, bytes: &mut [u8]) -> Result<(), FileError> {
         let done = self.read_at(offset, bytes)?;
-        if done < bytes.len() {
-            return Err(self.error(
-                offset,
-                format!("{} bytes are needed, {done} are there", bytes.len()),
-                "the file was cut off",
-            ));
+        match done < bytes.len() {
+            true => Err(self.cut_off(offset, bytes.len() as u64, done as u64)),
+            false => Ok(()),
         }
-        Ok(())
     }
 
     /// The `count` bytes from `offset` on, out of a window over the file that moves as needed: for many small pieces
     /// near to each other. At most [`WINDOW`] bytes; an error where the file ends before.
     pub fn window(&mut self, offset: u64, count: usize) -> Result<&[u8], FileError> {
-        let behind = offset
-            .checked_sub(self.window_at)
-            .and_then(|b| usize::try_from(b).ok());
-        let here = behind.filter(|b| {
-            b.checked_add(count)
-                .is_some_and(|end| end <= self.window.len())
+        let behind = offset.checked_sub(self.window_at);
+        let here = behind.and_then(|b| usize::try_from(b).ok()).filter(|b| {
+            let end = b.checked_add(count);
+            end.is_some_and(|end| end <= self.window.len())
         });
         let from = match here {
             Some(from) => from,
@@ -130,11 +129,7 @@ impl<S: Read + Seek> Source<S> {
         };
         if from + count > self.window.len() {
             let there = self.length.saturating_sub(offset);
-            return Err(self.error(
-                offset,
-                format!("{count} bytes are needed, {there} are there"),
-                "the file was cut off",
-            ));
+            return Err(self.cut_off(offset, count as u64, there));
         }
         Ok(&self.window[from..from + count])
     }
@@ -144,11 +139,7 @@ impl<S: Read + Seek> Source<S> {
         let there = self.length.saturating_sub(offset);
         let needed = usize::try_from(count).ok().filter(|_| count <= there);
         let Some(needed) = needed else {
-            return Err(self.error(
-                offset,
-                format!("{count} bytes are needed, {there} are there"),
-                "the file was cut off",
-            ));
+            return Err(self.cut_off(offset, count, there));
         };
         let mut bytes = Vec::new();
         while bytes.len() < needed {
@@ -162,10 +153,6 @@ impl<S: Read + Seek> Source<S> {
 
 /// What the system said when bytes could not be read.
 fn unreadable(path: &Path, offset: u64, error: &std::io::Error) -> FileError {
-    FileError::new(
-        path,
-        format!("byte {offset}"),
-        format!("cannot be read ({error})"),
-        "",
-    )
+    let found = format!("cannot be read ({error})");
+    FileError::new(path, format!("byte {offset}"), found, "")
 }

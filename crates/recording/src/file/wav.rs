@@ -104,20 +104,12 @@ impl<S: Read + Seek> Wav<S> {
         let big = head.starts_with(b"RIFX");
         let chunks = Chunks::of(&mut source, big)?;
         let Some(layout) = chunks.layout else {
-            return Err(FileError::new(
-                path,
-                "",
-                "does not state the type of its values: the chunk 'fmt ' is missing",
-                "a whole file",
-            ));
+            let what = "does not state the type of its values: the chunk 'fmt ' is missing";
+            return Err(FileError::new(path, "", what, "a whole file"));
         };
         let Some((at, length)) = chunks.data else {
-            return Err(FileError::new(
-                path,
-                "",
-                "has no values: the chunk 'data' is missing",
-                "a whole file",
-            ));
+            let what = "has no values: the chunk 'data' is missing";
+            return Err(FileError::new(path, "", what, "a whole file"));
         };
         let mut notes = chunks.notes;
         if length % layout.row != 0 {
@@ -325,45 +317,17 @@ fn decode(layout: &Layout, bytes: &[u8], values: &mut [f64]) {
 }
 
 impl<S: Read + Seek> Recording for Wav<S> {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
+    contents!(self, self.source.path(), self);
 
-    fn notes(&self) -> &[Note] {
-        &self.notes
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.properties
-    }
-
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let Some(known) = self.channels.get(channel) else {
-            return Err(FileError::new(
-                self.source.path(),
-                format!("channel {}", channel + 1),
-                "is not in the file",
-                "",
-            ));
-        };
-        let count = known.count.saturating_sub(first).min(values.len() as u64) as usize;
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let (row, size) = (self.layout.row, self.layout.kind.size());
         let most = ((WINDOW as u64 - size) / row + 1) as usize;
-        let mut at = self.at + first.min(known.count) * row + channel as u64 * size;
-        for some in values[..count].chunks_mut(most) {
+        let mut at = self.at + first * row + channel as u64 * size;
+        for some in values.chunks_mut(most) {
             let needed = (some.len() as u64 - 1) * row + size;
             decode(&self.layout, self.source.window(at, needed as usize)?, some);
             at += some.len() as u64 * row;
         }
-        Ok(count)
-    }
-
-    fn read_text(&mut self, channel: usize, _: u64, _: usize) -> Result<Vec<String>, FileError> {
-        Err(FileError::new(
-            self.source.path(),
-            format!("channel {}", channel + 1),
-            "holds no texts",
-            "read it as numbers",
-        ))
+        Ok(values.len())
     }
 }

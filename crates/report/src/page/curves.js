@@ -75,26 +75,25 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
   const toX = (x) => box.left + ((placed(x) - left) / (right - left)) * wide;
   const toY = (y) => box.top + high_ - ((y - low) / (high - low)) * high_;
   const bottom = box.top + high_;
-  const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, words);
-  const turned = (x, words) => text(x, box.top + high_ / 2, "middle", words, { transform: `rotate(-90 ${x} ${box.top + high_ / 2})` });
+  const turned = (x, words) => axisText(x, box.top + high_ / 2, "middle", words, { transform: `rotate(-90 ${x} ${box.top + high_ / 2})` });
   const grid = [
-    (across10 ? decades(left, right).filter(([, at]) => at >= left && at <= right).map(([x]) => x) : axisSteps(left, right, columns)).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: bottom, stroke: RULE }), text(toX(x), bottom + 17, "middle", numberText(x, 6))]),
+    (across10 ? decades(left, right).filter(([, at]) => at >= left && at <= right).map(([x]) => x) : axisSteps(left, right, columns)).map((x) => [drawing("line", { x1: toX(x), x2: toX(x), y1: box.top, y2: bottom, stroke: RULE }), axisText(toX(x), bottom + 17, "middle", numberText(x, 6))]),
     rungs.map(([value, y]) => [
       drawing("line", { x1: box.left, x2: width - box.right, y1: toY(y), y2: toY(y), stroke: !logarithmic && value === 0 ? "#8995a0" : RULE }),
-      text(box.left - 7, toY(y) + 4, "end", numberText(value, 6)),
+      axisText(box.left - 7, toY(y) + 4, "end", numberText(value, 6)),
     ]),
-    text(box.left + wide / 2, height - 6, "middle", across),
+    axisText(box.left + wide / 2, height - 6, "middle", across),
     turned(box.left - 18 - 7 * longest, upright),
   ];
   if (above) {
     for (const x of axisSteps(left * above.factor, right * above.factor, columns)) {
       const at = toX(x / above.factor);
-      grid.push(drawing("line", { x1: at, x2: at, y1: box.top - 5, y2: box.top, stroke: "#b9c2ca" }), text(at, box.top - 9, "middle", numberText(x, 6)));
+      grid.push(drawing("line", { x1: at, x2: at, y1: box.top - 5, y2: box.top, stroke: "#b9c2ca" }), axisText(at, box.top - 9, "middle", numberText(x, 6)));
     }
-    grid.push(text(box.left + wide / 2, box.top - 25, "middle", above.label), drawing("line", { x1: box.left, x2: box.left + wide, y1: box.top, y2: box.top, stroke: "#b9c2ca" }));
+    grid.push(axisText(box.left + wide / 2, box.top - 25, "middle", above.label), drawing("line", { x1: box.left, x2: box.left + wide, y1: box.top, y2: box.top, stroke: "#b9c2ca" }));
   }
   if (beside) {
-    for (const y of axisSteps(low * beside.factor, high * beside.factor, rows)) grid.push(text(box.left + wide + 7, toY(y / beside.factor) + 4, "start", numberText(y, 6)));
+    for (const y of axisSteps(low * beside.factor, high * beside.factor, rows)) grid.push(axisText(box.left + wide + 7, toY(y / beside.factor) + 4, "start", numberText(y, 6)));
     grid.push(turned(width - 8, beside.label));
   }
   const drawn = series.map((line) => {
@@ -121,9 +120,9 @@ function curveDrawing({ series, across, upright, height: tall = 300, logarithmic
     // words that would meet those before them are left to the line alone
     const fits = x > free;
     if (fits) free = x + 7 * words.length + 8;
-    return [drawing("line", { x1: x, x2: x, y1: box.top, y2: bottom, stroke: colour, "stroke-dasharray": "3 3" }), fits ? text(Math.min(x - 3, width - 7 * words.length), box.top - (above ? UPPER_AXIS + 5 : 5), "start", words, { fill: colour, "font-size": 11 }) : null];
+    return [drawing("line", { x1: x, x2: x, y1: box.top, y2: bottom, stroke: colour, "stroke-dasharray": "3 3" }), fits ? axisText(Math.min(x - 3, width - 7 * words.length), box.top - (above ? UPPER_AXIS + 5 : 5), "start", words, { fill: colour, "font-size": 11 }) : null];
   });
-  const line = level ? [drawing("line", { x1: box.left, x2: box.left + wide, y1: toY(level.at), y2: toY(level.at), stroke: SERIES_COLOURS.limit, "stroke-dasharray": "7 4" }), text(box.left + wide - 6, toY(level.at) - 4, "end", level.words, { fill: SERIES_COLOURS.limit, "font-size": 11 })] : [];
+  const line = level ? [drawing("line", { x1: box.left, x2: box.left + wide, y1: toY(level.at), y2: toY(level.at), stroke: SERIES_COLOURS.limit, "stroke-dasharray": "7 4" }), axisText(box.left + wide - 6, toY(level.at) - 4, "end", level.words, { fill: SERIES_COLOURS.limit, "font-size": 11 })] : [];
   return drawing("svg", { class: "curves", width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, grid, drawn, events, line);
 }
 

@@ -32,6 +32,17 @@ function figure(title, note, ...content) {
   return element("figure", {}, caption, content);
 }
 
+// Words in a drawing, in the letters of all axes.
+function axisText(x, y, anchor, words, more) {
+  return drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, words);
+}
+
+// A table with a head.
+function tableOfRows(look, heads, rows) {
+  const head = element("tr", {}, heads.map((words) => element("th", {}, words)));
+  return element("table", { class: look }, element("thead", {}, head), element("tbody", {}, rows));
+}
+
 // What stands where a picture or a number cannot: always with the reason. With several runs it names the one.
 function notInThisRun(why, run) {
   return element("p", { class: "absent" }, (run && run.prefix ? `not in run ${run.letter}: ` : "not in this run: ") + why);
@@ -58,6 +69,20 @@ function sizedCanvas(width, height, canvas) {
   pen.clearRect(0, 0, width, height);
   pen.font = FONT;
   return pen;
+}
+
+function strokeLine(pen, fromX, fromY, toX, toY) {
+  pen.beginPath();
+  pen.moveTo(fromX, fromY);
+  pen.lineTo(toX, toY);
+  pen.stroke();
+}
+
+// Words at a place of a canvas.
+function penWords(pen, words, x, y, align = "left", baseline = "middle") {
+  pen.textAlign = align;
+  pen.textBaseline = baseline;
+  pen.fillText(words, x, y);
 }
 
 const FONT = "12px system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";

@@ -45,5 +45,5 @@ function limitSection(runs) {
   const rows = runs.flatMap((run) => limitsOf(run).map((limit) => row(run, limit)));
   const repeated = runs.some((run) => limitsOf(run).some((limit) => limit.members > 1));
   const note = repeated ? element("p", { class: "lead" }, "Of a repeated run the value is the one that the share of the members holds: of all of them the worst.") : null;
-  return section("limits", "Limits", note, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
+  return section("limits", "Limits", note, tableOfRows("held", heads, rows));
 }

@@ -150,21 +150,18 @@ function colourBar(pen, left, top, height, largest, map) {
   const shade = SHADES[mapState.shade];
   paintRamp(pen, left, top, 11, height, (share) => `rgb(${mapColour(share).join(",")})`, true);
   pen.fillStyle = INK;
-  pen.textAlign = "left";
-  pen.textBaseline = "middle";
   const candidates = [largest];
   for (let power = Math.floor(Math.log10(largest || 1)); power >= Math.log10(largest || 1) - 5; power--) for (const digit of [5, 2, 1]) candidates.push(digit * 10 ** power);
   const taken = [top + height];
   if (mapState.shade.startsWith("log")) taken.pop();
-  else pen.fillText("0", left + 15, top + height);
+  else penWords(pen, "0", left + 15, top + height);
   for (const value of candidates.filter((each) => each <= largest)) {
     const y = top + height * (1 - shade(value / largest));
     if (y > top + height || taken.some((other) => Math.abs(other - y) < 14)) continue;
     taken.push(y);
-    pen.fillText(numberText(Number(value.toPrecision(3)), 3), left + 15, y);
+    penWords(pen, numberText(Number(value.toPrecision(3)), 3), left + 15, y);
   }
-  pen.textBaseline = "alphabetic";
-  pen.fillText(`${map.label} [${map.unit}]`, left - 4, top - 12);
+  penWords(pen, `${map.label} [${map.unit}]`, left - 4, top - 12, "left", "alphabetic");
 }
 
 function mapCanvas(run, runs, map, limit) {
@@ -204,30 +201,20 @@ function drawMapAxes(pen, place, grid) {
   pen.lineWidth = 0.75;
   pen.strokeRect(left, top, width, height);
   pen.fillStyle = INK;
-  pen.textAlign = "right";
-  pen.textBaseline = "middle";
   const step = Math.max(1, Math.ceil((14 * grid.bins) / height));
   const ticks = grid.byAzimuth ? MAP_TICKS : grid.balls.flatMap((ball, index) => (index % step ? [] : [[(index + 0.5) / grid.bins, ball.name]]));
   for (const [share, words] of ticks) {
     const y = top + height * (1 - share);
-    pen.fillText(words, left - 7, y);
-    pen.beginPath();
-    pen.moveTo(left - 4, y);
-    pen.lineTo(left, y);
-    pen.stroke();
+    penWords(pen, words, left - 7, y, "right");
+    strokeLine(pen, left - 4, y, left, y);
   }
-  pen.textAlign = "center";
-  pen.textBaseline = "top";
   const spacing = niceStep((timeline.end - timeline.begin) / timeline.unit[1], Math.max(2, width / 90)) * timeline.unit[1];
   for (let n = Math.ceil(timeline.begin / spacing - 1e-9); n * spacing <= timeline.end * (1 + 1e-9); n++) {
     const x = left + (width * (n * spacing - timeline.begin)) / (timeline.end - timeline.begin);
-    pen.fillText(numberText(Number(((n * spacing) / timeline.unit[1]).toPrecision(10)), 6), x, top + height + 6);
-    pen.beginPath();
-    pen.moveTo(x, top + height);
-    pen.lineTo(x, top + height + 4);
-    pen.stroke();
+    penWords(pen, numberText(Number(((n * spacing) / timeline.unit[1]).toPrecision(10)), 6), x, top + height + 6, "center", "top");
+    strokeLine(pen, x, top + height, x, top + height + 4);
   }
-  pen.fillText(`${timeline.words} [${timeline.unit[0]}]`, left + width / 2, top + height + 22);
+  penWords(pen, `${timeline.words} [${timeline.unit[0]}]`, left + width / 2, top + height + 22, "center", "top");
 }
 
 function mapReadout(run, grid, place, px, py) {

@@ -16,7 +16,7 @@ function mountFigures(run, runs) {
   const fitted = all.filter((part) => part === "fit" || part === "measured");
   const names = [...new Set(all.filter((part) => !fitted.includes(part)).map((part) => part.split(".")[0]))];
   const group = (name) => all.filter((part) => part.startsWith(`${name}.`));
-  const figures = names.map((name) => figure(shareOfRun(run, runs, `Dynamic stiffness: ${name}`), "K' in phase with the displacement, K'' with the velocity; their quotient is the loss factor.", plainTable(["", ""], rowsIn(run, "mounts").filter(([begin]) => begin === name).flatMap(([, entries]) => entries.map((entry) => [entry.words, cellOf(entry)]))), mountCurves(run, group(name), "storage", "K' [N/m]"), mountCurves(run, group(name), "loss", "K'' [N/m]"), mountCurves(run, [`${name}.sum`], "loss_factor", "loss factor")));
+  const figures = names.map((name) => figure(shareOfRun(run, runs, `Dynamic stiffness: ${name}`), "K' in phase with the displacement, K'' with the velocity; their quotient is the loss factor.", factTable(rowsIn(run, "mounts").filter(([begin]) => begin === name).flatMap(([, entries]) => entries)), mountCurves(run, group(name), "storage", "K' [N/m]"), mountCurves(run, group(name), "loss", "K'' [N/m]"), mountCurves(run, [`${name}.sum`], "loss_factor", "loss factor")));
   const fit = fitted.length ? figure(shareOfRun(run, runs, "Spring, damper and branches fitted to the table"), "Distances are over the size of the measured stiffness.", plainTable(["", ""], shownIn(run, "fit").map((entry) => [entry.words, element("span", { style: "white-space: pre" }, cellOf(entry))])), mountCurves(run, fitted, "storage", "K' [N/m]"), mountCurves(run, fitted, "loss", "K'' [N/m]")) : null;
   return [fit, ...figures];
 }

@@ -135,30 +135,19 @@ function drawOrbitAxes(pen, place, view) {
     return marks;
   };
   const number = (value) => numberText(Number((value / scale).toPrecision(10)), 6);
-  pen.textAlign = "center";
-  pen.textBaseline = "top";
   for (const x of ticks(view.x)) {
-    pen.beginPath();
-    pen.moveTo(place.toX(x), top);
-    pen.lineTo(place.toX(x), top + width);
-    pen.stroke();
-    pen.fillText(number(x), place.toX(x), top + width + 5);
+    strokeLine(pen, place.toX(x), top, place.toX(x), top + width);
+    penWords(pen, number(x), place.toX(x), top + width + 5, "center", "top");
   }
-  pen.fillText(`x, to the right [${unit}]`, left + width / 2, top + width + 22);
-  pen.textAlign = "right";
-  pen.textBaseline = "middle";
+  penWords(pen, `x, to the right [${unit}]`, left + width / 2, top + width + 22, "center", "top");
   for (const y of ticks(view.y)) {
-    pen.beginPath();
-    pen.moveTo(left, place.toY(y));
-    pen.lineTo(left + width, place.toY(y));
-    pen.stroke();
-    pen.fillText(number(y), left - 6, place.toY(y));
+    strokeLine(pen, left, place.toY(y), left + width, place.toY(y));
+    penWords(pen, number(y), left - 6, place.toY(y), "right");
   }
   pen.save();
   pen.translate(12, top + width / 2);
   pen.rotate(-Math.PI / 2);
-  pen.textAlign = "center";
-  pen.fillText(`y, up [${unit}]`, 0, 0);
+  penWords(pen, `y, up [${unit}]`, 0, 0, "center");
   pen.restore();
   pen.strokeStyle = PALE_INK;
   pen.strokeRect(left, top, width, width);
@@ -167,19 +156,14 @@ function drawOrbitAxes(pen, place, view) {
 const GROUND_KEY = [["inner race centre", "#b98a5e"], ["outer race centre", "#4b5a66"], ["clearance circle at the end of the time shown", INK]];
 
 function drawOrbitKey(pen, place) {
-  pen.textAlign = "left";
-  pen.textBaseline = "middle";
   GROUND_KEY.forEach(([words, colour], index) => {
     const [x, y] = [place.left + 10, place.top + 14 + 16 * index];
     pen.strokeStyle = colour;
     pen.lineWidth = 1.5;
     pen.setLineDash(index === 2 ? [5, 4] : []);
-    pen.beginPath();
-    pen.moveTo(x, y);
-    pen.lineTo(x + 20, y);
-    pen.stroke();
+    strokeLine(pen, x, y, x + 20, y);
     pen.fillStyle = INK;
-    pen.fillText(words, x + 26, y);
+    penWords(pen, words, x + 26, y);
   });
   pen.setLineDash([]);
 }
@@ -232,10 +216,7 @@ function drawOrbitPath(pen, place, run, ground) {
     const corners = [path.x[row], path.y[row], path.x[row + 1], path.y[row + 1]];
     if (!corners.every(isNumber)) continue;
     pen.strokeStyle = lineColour((run.time[row] - timeline.begin) / span);
-    pen.beginPath();
-    pen.moveTo(place.toX(corners[0]), place.toY(corners[1]));
-    pen.lineTo(place.toX(corners[2]), place.toY(corners[3]));
-    pen.stroke();
+    strokeLine(pen, place.toX(corners[0]), place.toY(corners[1]), place.toX(corners[2]), place.toY(corners[3]));
   }
   const marks = orbitMarks(run).filter((mark) => mark.sure);
   for (const { instant, fill } of marks) {
@@ -274,14 +255,12 @@ function drawDot(pen, x, y, fill) {
 // The words stand in the lower corners, which an orbit inside its clearance circle leaves free; in small pictures, where it lies low,
 // in the upper ones.
 function drawMarkKey(pen, place, marks) {
-  pen.textBaseline = "middle";
   marks.forEach(({ words, fill }, index) => {
     const [side, edge] = index ? [-1, place.left + place.width] : [1, place.left];
     const [x, y] = [edge + 13 * side, place.width < 350 ? place.top + 13 : place.top + place.width - 13];
     drawDot(pen, x, y, fill);
     pen.fillStyle = INK;
-    pen.textAlign = index ? "right" : "left";
-    pen.fillText(words, x + 10 * side, y);
+    penWords(pen, words, x + 10 * side, y, index ? "right" : "left");
   });
 }
 
@@ -289,13 +268,9 @@ function drawTimeBar(pen, place, size) {
   const top = size + 4;
   paintRamp(pen, place.left, top, place.width, 9, lineColour, false);
   pen.fillStyle = INK;
-  pen.textBaseline = "top";
-  pen.textAlign = "left";
-  pen.fillText(timeline.text(timeline.begin), place.left, top + 14);
-  pen.textAlign = "center";
-  pen.fillText(timeline.words, place.left + place.width / 2, top + 14);
-  pen.textAlign = "right";
-  pen.fillText(timeline.text(timeline.end), place.left + place.width, top + 14);
+  penWords(pen, timeline.text(timeline.begin), place.left, top + 14, "left", "top");
+  penWords(pen, timeline.words, place.left + place.width / 2, top + 14, "center", "top");
+  penWords(pen, timeline.text(timeline.end), place.left + place.width, top + 14, "right", "top");
 }
 
 function orbitReadout(run, ground, place, px, py) {
@@ -330,12 +305,12 @@ function contactTable(run) {
   const cell = (part, contact) => (isNumber(part.value(contact)) ? part.scale.text(part.value(contact)) : part.absent);
   const row = (contact, index) =>
     element("tr", { class: index >= CONTACTS_PRINTED ? "screen-only" : null }, element("td", {}, index + 1), parts.map((part) => element("td", {}, cell(part, contact))));
-  const heads = ["", ...parts.map((part) => `${part.words} [${part.scale.name}]`)].map((words) => element("th", {}, words));
+  const heads = ["", ...parts.map((part) => `${part.words} [${part.scale.name}]`)];
   const more = run.contacts.length - CONTACTS_PRINTED;
   return figure(
     run.prefix + "Contacts",
     run.contacts.length + (run.contacts.length === 1 ? " contact" : " contacts") + ` of rotor and inner race, in order of ${timeline.words}.`,
-    element("div", { class: "scroll" }, element("table", { class: "numbers contacts" }, element("thead", {}, element("tr", {}, heads)), element("tbody", {}, run.contacts.map(row)))),
+    element("div", { class: "scroll" }, tableOfRows("numbers contacts", heads, run.contacts.map(row))),
     more > 0 ? element("p", { class: "print-only" }, `and ${more} more, in summary.json`) : null,
   );
 }

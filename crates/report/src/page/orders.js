@@ -25,17 +25,16 @@ function orderDrawing(run, width) {
       return drawing("rect", { x: toX(time - half).toFixed(1), y: toY(order + step / 2).toFixed(1), width: (toX(time + half) - toX(time - half) + 0.5).toFixed(1), height: (toY(order - step / 2) - toY(order + step / 2) + 0.5).toFixed(1), fill: `rgb(${mapColour(share).join(",")})` });
     }),
   );
-  const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, words);
   const middle = ORDER_BOX.top + high / 2;
   return drawing(
     "svg",
     { width, height, viewBox: `0 0 ${width} ${height}` },
     drawing("rect", { x: ORDER_BOX.left, y: ORDER_BOX.top, width: wide, height: high, fill: "#fff", stroke: RULE }),
     cells,
-    axisSteps(first * factor, last * factor, 8).map((x) => [drawing("line", { x1: toX(x / factor), x2: toX(x / factor), y1: ORDER_BOX.top + high, y2: ORDER_BOX.top + high + 4, stroke: INK }), text(toX(x / factor), ORDER_BOX.top + high + 18, "middle", numberText(x, 5))]),
-    [-3, -2, -1, 0, 1, 2, 3].filter((order) => order >= least && order <= most).map((order) => [drawing("line", { x1: ORDER_BOX.left, x2: ORDER_BOX.left + wide, y1: toY(order), y2: toY(order), stroke: "#8995a0", "stroke-width": order === 0 ? 1 : 0.4, "stroke-dasharray": order === 0 ? null : "2 3" }), text(ORDER_BOX.left - 8, toY(order) + 4, "end", numberText(order, 2))]),
-    text(ORDER_BOX.left + wide / 2, height - 6, "middle", `time after ${countedFrom(run)} [${long ? "s" : "ms"}]`),
-    text(16, middle, "middle", "order: whirl over spin", { transform: `rotate(-90 16 ${middle})` }),
+    axisSteps(first * factor, last * factor, 8).map((x) => [drawing("line", { x1: toX(x / factor), x2: toX(x / factor), y1: ORDER_BOX.top + high, y2: ORDER_BOX.top + high + 4, stroke: INK }), axisText(toX(x / factor), ORDER_BOX.top + high + 18, "middle", numberText(x, 5))]),
+    [-3, -2, -1, 0, 1, 2, 3].filter((order) => order >= least && order <= most).map((order) => [drawing("line", { x1: ORDER_BOX.left, x2: ORDER_BOX.left + wide, y1: toY(order), y2: toY(order), stroke: "#8995a0", "stroke-width": order === 0 ? 1 : 0.4, "stroke-dasharray": order === 0 ? null : "2 3" }), axisText(ORDER_BOX.left - 8, toY(order) + 4, "end", numberText(order, 2))]),
+    axisText(ORDER_BOX.left + wide / 2, height - 6, "middle", `time after ${countedFrom(run)} [${long ? "s" : "ms"}]`),
+    axisText(16, middle, "middle", "order: whirl over spin", { transform: `rotate(-90 16 ${middle})` }),
   );
 }
 

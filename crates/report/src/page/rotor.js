@@ -26,13 +26,12 @@ function senseDash(sense) {
 
 function rotorSection(runs) {
   return section("rotor", "The rotor", runs.map((run) => {
-    const rows = shownIn(run, "properties").map((entry) => [entry.words, cellOf(entry)]);
     const sagging = tableOf(run, "sag")("sag");
     const largest = Math.max(...sagging);
     const loads = shownIn(run, "support_loads");
     return [
       figure(shareOfRun(run, runs, "Rotor to scale"), DRAWN, rotorPicture(run, [])),
-      figure(shareOfRun(run, runs, "Mass properties"), null, plainTable(["", ""], rows)),
+      figure(shareOfRun(run, runs, "Mass properties"), null, factTable(shownIn(run, "properties"))),
       sagging.length && largest
         ? figure(shareOfRun(run, runs, "Sag under its weight"), `Largest ${engineeringText(largest, "m", 4)}, in the direction of gravity.`, curves({ series: [{ x: tableOf(run, "nodes")("place").map((at) => 1e3 * at), y: sagging.map((value) => -1e6 * value), colour: LINE_COLOURS[0] }], across: "z [mm]", upright: "sag [µm]", height: 200 }), loads.length ? plainTable(["support", "load"], loads.map((entry) => [entry.words, cellOf(entry)])) : null)
         : null,

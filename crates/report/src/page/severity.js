@@ -52,7 +52,7 @@ function severitySection(runs) {
     );
   const rows = machines.flatMap((bearings) => marginsOf(bearings).map((entry) => row(bearings, entry)));
   const lead = element("p", { class: "lead" }, "The smallest margin first. Fracture of the cage, smearing, spalls that grow from dents, life of the lubricant and whirl have no index here: they may decide all the same.");
-  return section("severity", "Smallest margins", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
+  return section("severity", "Smallest margins", lead, tableOfRows("held", heads, rows));
 }
 
 // Rolling fatigue of a drop: the scatter of single bearings by Weibull, and apart from it the spread of repeated runs.
@@ -78,7 +78,7 @@ function lifeSection(runs) {
   const row = (run, { name, words, said, quantity }) => element("tr", {}, several ? element("td", {}, run.short) : null, element("td", { class: "name" }, words, said ? null : element("code", {}, name)), element("td", {}, said || known(quantity)), repeated ? element("td", {}, said ? "–" : between(quantity)) : null);
   const rows = runs.flatMap((run) => lifeRows(run).map((entry) => row(run, entry)));
   const lead = element("p", { class: "lead" }, "Rolling fatigue rarely decides a drop: dents, cage, lubricant, wear, smearing and heat end auxiliary bearings first. 1, 10 and 50\u00a0% are the scatter of single bearings under equal drops (Weibull, slope 10/9)" + (repeated ? "; how drops differ stands apart from it" : "") + ". One bearing; a drop that goes on until standstill counts with its coast-down. The factor of the lubricant is taken where it is known. An order, never a promise.");
-  return section("life", "Life by rolling fatigue", lead, element("table", { class: "held" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows)));
+  return section("life", "Life by rolling fatigue", lead, tableOfRows("held", heads, rows));
 }
 
 const LIMIT_SECTIONS = (runs) => [[85, severitySection, runs.filter((run) => marginsOf([run]).length)], [86, lifeSection, runs.filter((run) => shownIn(run, "life").length)]].filter(([, , some]) => some.length);

@@ -188,14 +188,13 @@ function levelDrawing(sheet, times, rungs, words, width) {
   const ends = (values) => [values[0] - half(values), values[values.length - 1] + half(values)];
   const [[left, right], [low, high]] = [ends(times), ends(rungs)];
   const [wide, tall] = [width - box.left - box.right, height - box.top - box.bottom];
-  const text = (x, y, anchor, label, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, label);
   const toX = (x) => box.left + ((x - left) / (right - left)) * wide;
   const toY = (y) => box.top + tall - ((y - low) / (high - low)) * tall;
   const ticks = [
-    ...axisSteps(left, right, Math.max(3, Math.floor(wide / 75))).map((x) => text(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))),
-    ...axisSteps(Math.max(low, 0), high).map((y) => text(box.left - 8, toY(y) + 4, "end", numberText(y, 6))),
-    text(box.left + wide / 2, height - 6, "middle", "time [s]"),
-    text(14, box.top + tall / 2, "middle", words, { transform: `rotate(-90 14 ${box.top + tall / 2})` }),
+    ...axisSteps(left, right, Math.max(3, Math.floor(wide / 75))).map((x) => axisText(toX(x), height - box.bottom + 16, "middle", numberText(x, 6))),
+    ...axisSteps(Math.max(low, 0), high).map((y) => axisText(box.left - 8, toY(y) + 4, "end", numberText(y, 6))),
+    axisText(box.left + wide / 2, height - 6, "middle", "time [s]"),
+    axisText(14, box.top + tall / 2, "middle", words, { transform: `rotate(-90 14 ${box.top + tall / 2})` }),
   ];
   const picture = drawing("image", { x: box.left, y: box.top, width: wide, height: tall, href: sheet.toDataURL(), preserveAspectRatio: "none" });
   return drawing("svg", { class: "curves", width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, picture, ticks);
@@ -223,11 +222,8 @@ function steadySection(runs) {
     const x = list(speeds && speeds.value);
     const curve = ({ name, words: label, quantity }, index) => {
       const colour = [SERIES_COLOURS.race, SERIES_COLOURS.rotor, SERIES_COLOURS.cage, SERIES_COLOURS.quiet][index];
-      const torque = list(quantity.value).map((value) => (isNumber(value) ? 1e3 * value : null));
-      const deviation = wholeList(run, name.replace(/torques$/, "deviations"), 1e3);
-      if (!torque.length) return [];
-      const moved = (sign) => torque.map((value, row) => (value === null || deviation[row] === null ? null : value + sign * BAND * deviation[row]));
-      return [{ label, x, y: torque, colour }, { x, y: moved(1), colour: colour + "90", width: 0.75 }, { x, y: moved(-1), colour: colour + "90", width: 0.75 }];
+      const torque = list(quantity.value);
+      return torque.length ? bandCurves(x, torque, wholeList(run, name.replace(/torques$/, "deviations")), 1e3, label, colour) : [];
     };
     const series = shownIn(run, "steady_torques").flatMap(curve);
     const row = ({ name, words, quantity }) => {

@@ -228,12 +228,12 @@ function memberDetails(run) {
   const names = [...new Set(members.flatMap(Object.keys))].filter((name) => members.some((member) => isNumber(plain(member[name]))));
   const row = (member, index) => element("tr", {}, element("td", {}, index), names.map((name) => element("td", {}, numberText(plain(member[name]), 6))));
   const unit = (name) => unitText(quantityOf(run, name).unit);
-  const heads = names.map((name) => element("th", {}, wordsOf(name) + (unit(name) ? ` [${unit(name)}]` : "")));
+  const heads = names.map((name) => wordsOf(name) + (unit(name) ? ` [${unit(name)}]` : ""));
   return element(
     "details",
     { class: "screen-only" },
     element("summary", {}, `${run.prefix}${run.summary.members_total ? `the first ${members.length} of ${run.summary.members_total}` : members.length} members of the repeated run, in SI units${run.summary.members_total ? "; summary.json and auxbear export have all" : ""}`),
-    element("div", { class: "wide" }, element("table", { class: "numbers" }, element("thead", {}, element("tr", {}, element("th", {}, "member"), heads)), element("tbody", {}, members.map(row)))),
+    element("div", { class: "wide" }, tableOfRows("numbers", ["member", ...heads], members.map(row))),
   );
 }
 
@@ -286,7 +286,7 @@ function inputsDiffer(inputs) {
 function inputTable(runs, paths, keys) {
   const narrow = runs.length > RUNS_WITH_NOTES;
   const heads = ["Input", ...runs.flatMap((run) => [runs.length === 1 ? "Value" : run.short, ...(narrow ? [] : ["Origin"])]), ...(narrow ? [] : ["Note"])];
-  return element("table", { class: "inputs" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, keys.map((path) => inputRow(paths, path, runs))));
+  return tableOfRows("inputs", heads, keys.map((path) => inputRow(paths, path, runs)));
 }
 
 function differenceSection(runs) {

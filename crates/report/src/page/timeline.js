@@ -227,10 +227,7 @@ function instantLine(pen, plot, ratio, { x, colour }) {
   pen.strokeStyle = colour;
   pen.lineWidth = ratio;
   pen.setLineDash([3 * ratio, 3 * ratio]);
-  pen.beginPath();
-  pen.moveTo(x, top);
-  pen.lineTo(x, top + height);
-  pen.stroke();
+  strokeLine(pen, x, top, x, top + height);
   pen.setLineDash([]);
 }
 
@@ -239,9 +236,7 @@ function instantWords(pen, plot, ratio, { start, space, words, colour }, row) {
   pen.fillStyle = "#fff";
   if (row >= WORD_ROWS) pen.fillRect(start, base - 11 * ratio, space, 14 * ratio);
   pen.fillStyle = colour;
-  pen.textAlign = "left";
-  pen.textBaseline = "alphabetic";
-  pen.fillText(words, start + 4 * ratio, base);
+  penWords(pen, words, start + 4 * ratio, base, "left", "alphabetic");
 }
 
 function levelMark(pen, plot, ratio, level, words, colour) {
@@ -250,14 +245,9 @@ function levelMark(pen, plot, ratio, level, words, colour) {
   pen.strokeStyle = colour;
   pen.lineWidth = 1.5 * ratio;
   pen.setLineDash([7 * ratio, 4 * ratio]);
-  pen.beginPath();
-  pen.moveTo(left, y);
-  pen.lineTo(left + width, y);
-  pen.stroke();
+  strokeLine(pen, left, y, left + width, y);
   pen.setLineDash([]);
   pen.font = FONT.replace("12px", 11 * ratio + "px");
   pen.fillStyle = colour;
-  pen.textAlign = "right";
-  pen.textBaseline = "bottom";
-  pen.fillText(words, left + width - 6 * ratio, y - 3 * ratio);
+  penWords(pen, words, left + width - 6 * ratio, y - 3 * ratio, "right", "bottom");
 }

@@ -16,11 +16,13 @@ function listOf(run, name) {
 
 // A plain table: heads, then rows of texts; the first column is a name.
 function plainTable(heads, rows) {
-  return element(
-    "div",
-    { class: "wide" },
-    element("table", { class: "numbers torque" }, element("thead", {}, element("tr", {}, heads.map((words) => element("th", {}, words)))), element("tbody", {}, rows.map((cells) => element("tr", {}, cells.map((cell) => element("td", {}, cell)))))),
-  );
+  const row = (cells) => element("tr", {}, cells.map((cell) => element("td", {}, cell)));
+  return element("div", { class: "wide" }, tableOfRows("numbers torque", heads, rows.map(row)));
+}
+
+// Results of a figure, a row each: its words for them and what they say.
+function factTable(entries) {
+  return plainTable(["", ""], entries.map((entry) => [entry.words, cellOf(entry)]));
 }
 
 function millimetres(value) {

@@ -34,7 +34,6 @@ function whirlMap(run, begin, friction) {
   if (!count) return null;
   const [cell, left, top, bottom] = [20, 92, 14, 46];
   const size = cell * count;
-  const text = (x, y, anchor, words, more) => drawing("text", { x, y, "text-anchor": anchor, fill: INK, "font-size": 12, ...more }, words);
   const value = (row, column) => (row < 0 || column < 0 || row >= count || column >= count ? null : needed[row * count + column]);
   const enough = (row, column) => !isNumber(value(row, column)) || value(row, column) > friction;
   const shade = (own) => (isNumber(own) ? 0.5 + 0.25 * Math.log10(own / friction) : 1);
@@ -55,13 +54,13 @@ function whirlMap(run, begin, friction) {
   const place = (values, own) => (count - 1) * (Math.log(own / values[0]) / Math.log(values[count - 1] / values[0])) + 0.5;
   const [column, row] = [place(stiffness, today.stiffness), today.damping > 0 ? place(damping, today.damping) : 0];
   const middle = [left + cell * column, top + size - cell * Math.max(0, row)];
-  const mark = [drawing("circle", { cx: middle[0], cy: middle[1], r: 6, fill: "white", stroke: INK, "stroke-width": 2.5 }), text(middle[0] + 11, middle[1] + 4, "start", "today", { "font-weight": 600, stroke: "white", "stroke-width": 3, "paint-order": "stroke" })];
+  const mark = [drawing("circle", { cx: middle[0], cy: middle[1], r: 6, fill: "white", stroke: INK, "stroke-width": 2.5 }), axisText(middle[0] + 11, middle[1] + 4, "start", "today", { "font-weight": 600, stroke: "white", "stroke-width": 3, "paint-order": "stroke" })];
   const steps = Array.from({ length: Math.floor((count - 1) / 5) + 1 }, (_, k) => 5 * k);
-  const labels = steps.flatMap((k) => [text(left + cell * (k + 0.5), top + size + 17, "middle", numberText(stiffness[k], 2)), text(left - 7, top + size - cell * (k + 0.5) + 4, "end", numberText(damping[k], 2))]);
+  const labels = steps.flatMap((k) => [axisText(left + cell * (k + 0.5), top + size + 17, "middle", numberText(stiffness[k], 2)), axisText(left - 7, top + size - cell * (k + 0.5) + 4, "end", numberText(damping[k], 2))]);
   const scale = [0.01, 0.1, 1, 10, 100];
-  const ramp = scale.map((factor, k) => [drawing("rect", { x: left + size + 24, y: top + 40 * (scale.length - 1 - k), width: 22, height: 40, fill: `rgb(${mapColour(shade(factor * friction)).join(",")})` }), text(left + size + 52, top + 40 * (scale.length - 1 - k) + 24, "start", `μ_e ${numberText(factor * friction, 2)}`)]);
-  const border = [drawing("line", { x1: left + size + 24, x2: left + size + 46, y1: top + 226, y2: top + 226, stroke: GROWS, "stroke-width": 2.5 }), text(left + size + 52, top + 230, "start", `border: μ ${numberText(friction, 3)}`)];
-  const axes = [text(left + size / 2, top + size + 39, "middle", "mount stiffness [N/m]"), text(16, top + size / 2, "middle", "mount damping [N s/m]", { transform: `rotate(-90 16 ${top + size / 2})` })];
+  const ramp = scale.map((factor, k) => [drawing("rect", { x: left + size + 24, y: top + 40 * (scale.length - 1 - k), width: 22, height: 40, fill: `rgb(${mapColour(shade(factor * friction)).join(",")})` }), axisText(left + size + 52, top + 40 * (scale.length - 1 - k) + 24, "start", `μ_e ${numberText(factor * friction, 2)}`)]);
+  const border = [drawing("line", { x1: left + size + 24, x2: left + size + 46, y1: top + 226, y2: top + 226, stroke: GROWS, "stroke-width": 2.5 }), axisText(left + size + 52, top + 230, "start", `border: μ ${numberText(friction, 3)}`)];
+  const axes = [axisText(left + size / 2, top + size + 39, "middle", "mount stiffness [N/m]"), axisText(16, top + size / 2, "middle", "mount damping [N s/m]", { transform: `rotate(-90 16 ${top + size / 2})` })];
   const [width, height] = [left + size + 150, top + size + bottom];
   return drawing("svg", { class: "curves", width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, cells, borders, labels, axes, ramp, border, mark);
 }
@@ -72,7 +71,7 @@ function whirlFigures(run, runs) {
     const friction = entries[0].value;
     const map = whirlMap(run, begin, friction);
     return [
-      figure(shareOfRun(run, runs, `Dry backward whirl: ${name}`), "Whirl goes on at any frequency at which the friction of rotor and race exceeds the needed one (thick red): slower it is braked, in the range it accelerates, and in full slip it settles at the upper end. This bearing alone, race at rest, linear mount.", plainTable(["", ""], entries.map((entry) => [entry.words, cellOf(entry)])), whirlCurves(run, begin, friction)),
+      figure(shareOfRun(run, runs, `Dry backward whirl: ${name}`), "Whirl goes on at any frequency at which the friction of rotor and race exceeds the needed one (thick red): slower it is braked, in the range it accelerates, and in full slip it settles at the upper end. This bearing alone, race at rest, linear mount.", factTable(entries), whirlCurves(run, begin, friction)),
       map ? figure(shareOfRun(run, runs, `Mount against dry whirl: ${name}`), "Smallest needed friction with another spring and damper; Maxwell branches stay. On the dark side of the red border friction of the file drives no whirl at any frequency looked at.", map) : null,
     ];
   });

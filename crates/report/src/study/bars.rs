@@ -59,12 +59,9 @@ pub(super) fn bars(rows: &[Bars], title: &str, label: &str) -> String {
         // ticks of the values alone: the rows have names
         let mut own = String::new();
         axes.axes(&mut own, title, label, "");
-        svg.push_str(
-            &own.lines()
-                .filter(|line| !line.contains("text-anchor=\"end\""))
-                .map(|line| format!("{line}\n"))
-                .collect::<String>(),
-        );
+        let lines = own.lines();
+        let kept = lines.filter(|line| !line.contains("text-anchor=\"end\""));
+        svg.extend(kept.flat_map(|line| [line, "\n"]));
         for (k, row) in rows.iter().enumerate() {
             let y = top + (bottom - top) * (k as f64 + 0.5) / rows.len() as f64;
             text(svg, axes.left - 8.0, y + 4.0, "end", &plain(&row.name));
@@ -81,13 +78,8 @@ pub(super) fn bars(rows: &[Bars], title: &str, label: &str) -> String {
                 );
                 if let Some([low, high]) = band {
                     let middle = y + thick / 2.0 - 0.5;
-                    line(
-                        svg,
-                        (axes.place(*low, 0.0).0, middle),
-                        (axes.place(*high, 0.0).0, middle),
-                        "#22303c",
-                        "stroke-width=\"1.2\"",
-                    );
+                    let [from, to] = [low, high].map(|x| (axes.place(*x, 0.0).0, middle));
+                    line(svg, from, to, "#22303c", "stroke-width=\"1.2\"");
                 }
             }
         }

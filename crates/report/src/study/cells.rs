@@ -1,6 +1,7 @@
 //! Numbers, texts and tables for the page of a study.
 
 use crate::page::escape_text as plain;
+use outcome::{Judged, Verdict};
 
 /// A table; cells may hold markup.
 pub(super) fn rows(head: &[&str], body: &[Vec<String>]) -> String {
@@ -10,10 +11,8 @@ pub(super) fn rows(head: &[&str], body: &[Vec<String>]) -> String {
             .collect::<String>()
     };
     let head: Vec<String> = head.iter().map(|text| plain(text)).collect();
-    let body: String = body
-        .iter()
-        .map(|row| format!("<tr>{}</tr>\n", cells("td", row)))
-        .collect();
+    let body = body.iter();
+    let body: String = (body.map(|row| format!("<tr>{}</tr>\n", cells("td", row)))).collect();
     format!(
         "<div class=\"wide\"><table class=\"quantities\"><thead><tr>{}</tr></thead><tbody>\n{body}</tbody></table></div>\n",
         cells("th", &head)
@@ -51,14 +50,28 @@ pub(super) fn short(value: f64) -> String {
     units::number_text(rounded)
 }
 
+/// A verdict in bold; one that fails in its colour.
+pub(super) fn marked(verdict: Verdict) -> String {
+    match verdict {
+        Verdict::Fail => format!("<b class=\"failed\">{}</b>", verdict.word()),
+        _ => format!("<b>{}</b>", verdict.word()),
+    }
+}
+
+/// "most 3 kN".
+pub(super) fn bound(judged: &Judged) -> String {
+    let bound = amount(judged.limit.bound, judged.unit);
+    format!("{} {bound}", judged.limit.side.word())
+}
+
+/// A number with its unit, or a dash.
+pub(super) fn known(value: Option<f64>, unit: &str) -> String {
+    value.map_or("–".to_string(), |value| amount(value, unit))
+}
+
 /// A number with its unit, for people.
 pub(super) fn amount(value: f64, unit: &str) -> String {
     let (factor, label) = scaled("", unit, [value].into_iter());
-    format!(
-        "{} {}",
-        short(factor * value),
-        label.trim_start_matches(", ")
-    )
-    .trim()
-    .to_string()
+    let (number, unit) = (short(factor * value), label.trim_start_matches(", "));
+    format!("{number} {unit}").trim().to_string()
 }

@@ -77,13 +77,8 @@ impl Directory {
             Ok(lock) => Some(lock),
             Err(TryLockError::WouldBlock) => {
                 let found = "a study that another process works on";
-                let problem = Problem::at_path(
-                    Code::StudyInUse,
-                    path,
-                    found,
-                    "one process a study is possible",
-                );
-                return Err(problem);
+                let needed = "one process a study is possible";
+                return Err(Problem::at_path(Code::StudyInUse, path, found, needed));
             }
             Err(TryLockError::Error(_)) => None,
         };
@@ -115,14 +110,9 @@ impl Directory {
             text_file(&path.join(SCENARIO), &scenario)?;
             text_file(&known, &headed(&study.file))?;
         }
-        let parts = part_count(&study);
-        let there = (0..parts)
-            .map(|part| part_path(path, part))
-            .filter(|part| part.exists());
-        let there: Vec<usize> = there
-            .map(|part| part::count(&part))
-            .collect::<Result<_, _>>()?;
-        let there = there.into_iter().sum();
+        let places = (0..part_count(&study)).map(|part| part_path(path, part));
+        let counts = (places.filter(|part| part.exists())).map(|part| part::count(&part));
+        let there = counts.sum::<Result<usize>>()?;
         Ok(Directory {
             path: path.to_path_buf(),
             study,
@@ -159,11 +149,7 @@ impl Directory {
                 let members = members_of(&self.study, *part);
                 let of_part = |member: &usize| members.contains(member);
                 let begin = fresh.members.iter().position(of_part).unwrap_or(0);
-                let count = fresh
-                    .members
-                    .iter()
-                    .filter(|member| of_part(member))
-                    .count();
+                let count = fresh.members.iter().filter(|own| of_part(own)).count();
                 if count == 0 {
                     continue;
                 }
@@ -270,10 +256,8 @@ impl Directory {
         let json = summary::json(&self.study, &table, &answer, complete);
         text_file(&self.path.join(TABLE), &part::csv(&self.study, &table))?;
         text_file(&self.path.join(SUMMARY), &json)?;
-        text_file(
-            &self.path.join(REPORT),
-            &page::html(&self.study, &table, &answer),
-        )?;
+        let html = page::html(&self.study, &table, &answer);
+        text_file(&self.path.join(REPORT), &html)?;
         Ok(Done {
             failed: table.failed.len(),
             warned: table.warned(),
@@ -314,10 +298,8 @@ fn table_of(path: &Path, study: &Study) -> Result<Table> {
     let mut table = screened(path, study)?;
     let confirmed = confirmed_path(path);
     if confirmed.exists() {
-        study.with_confirmed(
-            &mut table,
-            &part::read(&confirmed, study, &(0..study.members()))?,
-        );
+        let read = part::read(&confirmed, study, &(0..study.members()))?;
+        study.with_confirmed(&mut table, &read);
     }
     Ok(table)
 }
@@ -341,19 +323,13 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile> {
         let path = path.join(name);
         fs::read_to_string(&path).map_err(|error| {
             let found = format!("what cannot be read ({error})");
-            Problem::at_path(
-                Code::StudyDamaged,
-                &path,
-                found,
-                "a study directory is needed",
-            )
+            let needed = "a study directory is needed";
+            Problem::at_path(Code::StudyDamaged, &path, found, needed)
         })
     };
     let before = read(STUDY)?;
-    let added = before
-        .lines()
-        .find_map(|line| line.strip_prefix("added = ")?.trim().parse().ok());
-    let added: usize = added.unwrap_or(0);
+    let number = |line: &str| line.strip_prefix("added = ")?.trim().parse().ok();
+    let added: usize = before.lines().find_map(number).unwrap_or(0);
     let file = match added.checked_sub(file.added) {
         Some(more @ 1..) => file.extended(more)?,
         _ => file,
@@ -362,11 +338,8 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile> {
         let at = before.lines().zip(now.lines()).position(|(a, b)| a != b);
         let at = at.unwrap_or(before.lines().count().min(now.lines().count()));
         let line = |text: &str| text.lines().nth(at).unwrap_or("nothing").to_string();
-        let found = format!(
-            "another study: there {name} has `{}`, now `{}`",
-            line(before),
-            line(now)
-        );
+        let (before, now) = (line(before), line(now));
+        let found = format!("another study: there {name} has `{before}`, now `{now}`");
         let allowed = "a study goes on with the same files and version; another one needs another --out, more members --add";
         Err(Problem::at_path(Code::StudyChanged, &known, found, allowed))
     };

@@ -1,12 +1,11 @@
 //! The page of a study: inputs and verdicts first, then what each result does, and which input matters.
 
 use super::bars::{Bars, WIDTH, bars, picture, room};
-use super::cells::{amount, rows, scaled, short};
+use super::cells::{amount, bound, known, marked, rows, scaled, short};
 use super::{parallel, ranking};
 use crate::page::{STYLE, escape_text as plain};
-use crate::picture::{Panel, line, text};
+use crate::picture::{Panel, dot, line, text};
 use outcome::Severity;
-use outcome::Verdict;
 use run::study::Study;
 use run::study::answer::{Answer, Sensitivity};
 use run::study::table::{Column, Table, Warned};
@@ -18,19 +17,17 @@ const BAR: &str = "#9db8d6";
 const DOT: &str = "#1f5fa8";
 const BOUND: &str = "#b3261e";
 const TOTAL: &str = "#c2571a";
+/// Look of a line at a limit.
+const DASHED: &str = "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"";
 /// Dots of a picture, at most: every so-manieth member is drawn.
 const MOST_DOTS: usize = 1500;
 
 /// The page as one self-contained text.
 pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
-    let title = study
-        .file
-        .title
-        .clone()
-        .unwrap_or_else(|| "Study".to_string());
+    let title = study.file.title.as_deref().unwrap_or("Study");
     let mut body = format!(
         "<h1>{}</h1>\n<p class=\"subtitle\">{}</p>\n",
-        plain(&title),
+        plain(title),
         plain(&subtitle(study, table, answer))
     );
     body.push_str(&warned(table));
@@ -47,7 +44,7 @@ pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">\n\
          <title>{} · auxbear study</title>\n<style>\n{}\nfigure svg {{ max-width: 100%; height: auto; }}\n</style>\n</head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n",
-        plain(&title),
+        plain(title),
         STYLE.concat()
     )
 }
@@ -58,18 +55,12 @@ fn subtitle(study: &Study, table: &Table, answer: &Answer) -> String {
         study.file.kind, study.file.seed, answer.members
     );
     if answer.members < answer.asked {
-        let _ = write!(
-            text,
-            " of {}, the others are not computed yet",
-            answer.asked
-        );
+        let asked = answer.asked;
+        let _ = write!(text, " of {asked}, the others are not computed yet");
     }
     if !table.failed.is_empty() {
-        let _ = write!(
-            text,
-            "; {} failed and are left out of every number",
-            table.failed.len()
-        );
+        let failed = table.failed.len();
+        let _ = write!(text, "; {failed} failed and are left out of every number");
     }
     text
 }
@@ -100,14 +91,10 @@ fn warned(table: &Table) -> String {
 
 fn inputs(study: &Study) -> String {
     let row = |input: &scenario::StudyInput| {
-        let given = study
-            .file
-            .scenario
-            .resolved
-            .get(&input.vary.path)
-            .and_then(|value| value.text.clone())
-            // parts of a rotor have paths of their own
-            .or_else(|| input.vary.given_text());
+        let resolved = study.file.scenario.resolved.get(&input.vary.path);
+        let given = resolved.and_then(|value| value.text.clone());
+        // parts of a rotor have paths of their own
+        let given = given.or_else(|| input.vary.given_text());
         vec![
             format!("<code>{}</code>", plain(&input.vary.path)),
             plain(&input.written),
@@ -115,10 +102,8 @@ fn inputs(study: &Study) -> String {
         ]
     };
     let body: Vec<Vec<String>> = study.file.inputs.iter().map(row).collect();
-    let mut out = format!(
-        "<h2>Inputs</h2>\n{}",
-        rows(&["input", "distribution", "as given"], &body)
-    );
+    let table = rows(&["input", "distribution", "as given"], &body);
+    let mut out = format!("<h2>Inputs</h2>\n{table}");
     for (a, b, coefficient) in &study.file.pairs {
         let name = |k: &usize| plain(&study.file.inputs[*k].vary.path);
         let _ = writeln!(
@@ -134,32 +119,16 @@ fn inputs(study: &Study) -> String {
 fn verdicts(answer: &Answer) -> String {
     let row = |limit: &run::study::answer::StudyLimit| {
         let judged = &limit.judged;
-        let word = match judged.verdict {
-            Verdict::Fail => format!("<b class=\"failed\">{}</b>", judged.verdict.word()),
-            _ => format!("<b>{}</b>", judged.verdict.word()),
+        let beyond = |(share, [low, high]): (f64, [f64; 2])| {
+            let [share, low, high] = [share, low, high].map(|own| short(100.0 * own));
+            format!("{share} % ({low} to {high} %)")
         };
-        let beyond = limit
-            .beyond
-            .map_or("–".to_string(), |(share, [low, high])| {
-                format!(
-                    "{} % ({} to {} %)",
-                    short(100.0 * share),
-                    short(100.0 * low),
-                    short(100.0 * high)
-                )
-            });
         vec![
-            word,
+            marked(judged.verdict),
             plain(&judged.limit.quantity),
-            format!(
-                "{} {}",
-                judged.limit.side.word(),
-                amount(judged.limit.bound, judged.unit)
-            ),
-            judged
-                .value
-                .map_or("–".to_string(), |value| amount(value, judged.unit)),
-            beyond,
+            bound(judged),
+            known(judged.value, judged.unit),
+            limit.beyond.map_or("–".to_string(), beyond),
             plain(&judged.why),
         ]
     };
@@ -167,14 +136,8 @@ fn verdicts(answer: &Answer) -> String {
         return String::new();
     }
     let body: Vec<Vec<String>> = answer.limits.iter().map(row).collect();
-    let head = [
-        "verdict",
-        "result",
-        "limit",
-        "decides",
-        "beyond it, with 95 % interval",
-        "why",
-    ];
+    let beyond = "beyond it, with 95 % interval";
+    let head = ["verdict", "result", "limit", "decides", beyond, "why"];
     format!("<h2>Limits</h2>\n{}", rows(&head, &body))
 }
 
@@ -186,9 +149,8 @@ fn spreads(study: &Study, answer: &Answer) -> String {
         let (factor, label) = scaled("", unit, [spread.smallest, spread.largest].into_iter());
         let unit = label.trim_start_matches(", ").to_string();
         let number = |value: f64| {
-            format!("{}\u{a0}{unit}", short(factor * value))
-                .trim()
-                .to_string()
+            let text = format!("{}\u{a0}{unit}", short(factor * value));
+            text.trim().to_string()
         };
         let mut cells = vec![
             plain(name),
@@ -222,12 +184,9 @@ fn spreads(study: &Study, answer: &Answer) -> String {
         Some(shown_cells.iter().map(|at| cells[*at].clone()).collect())
     };
     let of = |own: bool| -> Vec<Vec<String>> {
-        answer
-            .spreads
-            .iter()
-            .filter(|spread| shown.contains(&spread.0) == own)
-            .filter_map(row)
-            .collect()
+        let of = answer.spreads.iter();
+        let of = of.filter(|spread| shown.contains(&spread.0) == own);
+        of.filter_map(row).collect()
     };
     let wider = match study.file.design {
         Design::Widened(..) => {
@@ -247,16 +206,10 @@ fn failed(table: &Table) -> String {
     if table.failed.is_empty() {
         return String::new();
     }
-    let body: Vec<Vec<String>> = table
-        .failed
-        .iter()
-        .take(100)
-        .map(|(k, why)| vec![k.to_string(), plain(why)])
-        .collect();
-    format!(
-        "<h2>Failed members</h2>\n{}",
-        rows(&["member", "why"], &body)
-    )
+    let first = table.failed.iter().take(100);
+    let body = first.map(|(k, why)| vec![k.to_string(), plain(why)]);
+    let table = rows(&["member", "why"], &body.collect::<Vec<_>>());
+    format!("<h2>Failed members</h2>\n{table}")
 }
 
 /// One result: its histogram, what it owes to each input, and its members over each input.
@@ -264,27 +217,17 @@ fn result(study: &Study, table: &Table, answer: &Answer, name: &str) -> String {
     let Some(column) = table.column(name) else {
         return String::new();
     };
-    let mut out = format!(
-        "<h2>{}</h2>\n<div class=\"pair\">\n",
-        plain(&name.replace(['_', '.'], " "))
-    );
-    let limits: Vec<&Limit> = study
-        .file
-        .limits
-        .iter()
-        .filter(|limit| limit.quantity == name)
-        .collect();
+    let words = plain(&name.replace(['_', '.'], " "));
+    let mut out = format!("<h2>{words}</h2>\n<div class=\"pair\">\n");
+    let limits = study.file.limits.iter();
+    let limits: Vec<&Limit> = limits.filter(|limit| limit.quantity == name).collect();
     out.push_str(&figure(&histogram(column, &limits)));
     if let Some((.., of)) = answer.sensitivity.iter().find(|(known, ..)| known == name) {
         out.push_str(&figure(&sensitivity(study, column, of)));
     }
     for (at, input) in table.columns[..table.inputs].iter().enumerate() {
-        out.push_str(&figure(&scatter(
-            input,
-            column,
-            &limits,
-            &study.file.inputs[at].vary.path,
-        )));
+        let path = &study.file.inputs[at].vary.path;
+        out.push_str(&figure(&scatter(input, column, &limits, path)));
     }
     out.push_str("</div>\n");
     out
@@ -308,11 +251,8 @@ fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
 }
 
 fn label(column: &Column) -> (f64, String) {
-    scaled(
-        &column.name.replace(['_', '.'], " "),
-        &column.unit,
-        column.values.iter().copied(),
-    )
+    let name = column.name.replace(['_', '.'], " ");
+    scaled(&name, &column.unit, column.values.iter().copied())
 }
 
 /// Where words begin beside the title of a histogram, px.
@@ -320,12 +260,8 @@ const BESIDE_TITLE: f64 = 80.0;
 
 fn histogram(column: &Column, limits: &[&Limit]) -> String {
     let (factor, label) = label(column);
-    let values: Vec<f64> = column
-        .values
-        .iter()
-        .filter(|v| v.is_finite())
-        .map(|v| v * factor)
-        .collect();
+    let values = column.values.iter().filter(|v| v.is_finite());
+    let values: Vec<f64> = values.map(|v| v * factor).collect();
     let (low, high) = room(values.iter().copied());
     let bins = ((values.len() as f64).sqrt().ceil() as usize).clamp(5, 40);
     let mut counts = vec![0.0; bins];
@@ -355,11 +291,8 @@ fn histogram(column: &Column, limits: &[&Limit]) -> String {
         for limit in limits {
             let bound = limit.bound * factor;
             if !near(bound) {
-                let words = format!(
-                    "{} {}",
-                    bound_word(limit),
-                    amount(limit.bound, &column.unit)
-                );
+                let bound_text = amount(limit.bound, &column.unit);
+                let words = format!("{} {bound_text}", bound_word(limit));
                 let (x, anchor, words) = match bound > high {
                     true => (axes.left + axes.width, "end", format!("{words} →")),
                     false => (axes.left + BESIDE_TITLE, "start", format!("← {words}")),
@@ -368,24 +301,20 @@ fn histogram(column: &Column, limits: &[&Limit]) -> String {
                 continue;
             }
             let at = axes.place(bound, axes.y.0);
-            line(
-                svg,
-                at,
-                (at.0, axes.top),
-                BOUND,
-                "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"",
-            );
-            let anchor = if at.0 > WIDTH / 2.0 { "end" } else { "start" };
-            let shift = if at.0 > WIDTH / 2.0 { -5.0 } else { 5.0 };
-            text(
-                svg,
-                at.0 + shift,
-                axes.top + 14.0,
-                anchor,
-                bound_word(limit),
-            );
+            line(svg, at, (at.0, axes.top), BOUND, DASHED);
+            let (anchor, shift) = beside(at.0, 0.5, 5.0);
+            let words = bound_word(limit);
+            text(svg, at.0 + shift, axes.top + 14.0, anchor, words);
         }
     })
+}
+
+/// Where words stand beside a place, away from the nearer edge.
+fn beside(x: f64, share: f64, gap: f64) -> (&'static str, f64) {
+    match x > share * WIDTH {
+        true => ("end", -gap),
+        false => ("start", gap),
+    }
 }
 
 fn bound_word(limit: &Limit) -> &'static str {
@@ -401,18 +330,12 @@ fn scatter(input: &Column, result: &Column, limits: &[&Limit], path: &str) -> St
         ..input.clone()
     };
     let ((fx, lx), (fy, ly)) = (label(&named), label(result));
-    let both = input
-        .values
-        .iter()
-        .zip(&result.values)
-        .map(|(x, y)| (x * fx, y * fy));
-    let points: Vec<(f64, f64)> = both
-        .filter(|(x, y)| x.is_finite() && y.is_finite())
-        .collect();
-    let axes = panel(
-        room(points.iter().map(|p| p.0)),
-        room(points.iter().map(|p| p.1)),
-    );
+    let both = input.values.iter().zip(&result.values);
+    let both = both.map(|(x, y)| (x * fx, y * fy));
+    let both = both.filter(|(x, y)| x.is_finite() && y.is_finite());
+    let points: Vec<(f64, f64)> = both.collect();
+    let across = room(points.iter().map(|p| p.0));
+    let axes = panel(across, room(points.iter().map(|p| p.1)));
     let lx = match input.meaning.as_str() {
         "drawn" => lx,
         words => format!("{lx} ({})", plain(words)),
@@ -422,68 +345,37 @@ fn scatter(input: &Column, result: &Column, limits: &[&Limit], path: &str) -> St
         for limit in limits {
             let bound = limit.bound * fy;
             if axes.y.0 < bound && bound < axes.y.1 {
-                line(
-                    svg,
-                    axes.place(axes.x.0, bound),
-                    axes.place(axes.x.1, bound),
-                    BOUND,
-                    "stroke-width=\"1.5\" stroke-dasharray=\"5 3\"",
-                );
+                let [from, to] = [axes.x.0, axes.x.1].map(|x| axes.place(x, bound));
+                line(svg, from, to, BOUND, DASHED);
             }
         }
         let every = points.len().div_ceil(MOST_DOTS).max(1);
         for (x, y) in points.iter().step_by(every) {
-            let (x, y) = axes.place(*x, *y);
-            let _ = writeln!(
-                svg,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" fill=\"{DOT}\" fill-opacity=\"0.55\"/>"
-            );
+            dot(svg, axes.place(*x, *y), 2.0, DOT, "fill-opacity=\"0.55\"");
         }
     })
 }
 
 fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
-    let paths: Vec<&str> = study
-        .file
-        .inputs
-        .iter()
-        .map(|input| input.vary.path.as_str())
-        .collect();
+    let paths = study.file.inputs.iter();
+    let paths: Vec<&str> = paths.map(|input| input.vary.path.as_str()).collect();
     match of {
         Sensitivity::Effects(effects) => {
-            let known = || {
-                paths
-                    .iter()
-                    .zip(effects)
-                    .filter_map(|(path, effect)| Some((path, (*effect)?)))
-            };
-            let largest = known()
-                .map(|(_, e)| e.mean_size.max(e.deviation))
-                .fold(0.0, f64::max);
+            let known = paths.iter().zip(effects);
+            let known = known.filter_map(|(path, effect)| Some((path, (*effect)?)));
+            let sizes = known.clone().map(|(_, e)| e.mean_size.max(e.deviation));
+            let largest = sizes.fold(0.0, f64::max);
             let (factor, _) = scaled("", &column.unit, [largest].into_iter());
-            let axes = panel(
-                room([0.0, factor * largest].into_iter()),
-                room([0.0, factor * largest].into_iter()),
-            );
+            let range = room([0.0, factor * largest].into_iter());
+            let axes = panel(range, range);
             let name = |what: &str| scaled(what, &column.unit, [largest].into_iter()).1;
             picture(HEIGHT, |svg| {
-                axes.axes(
-                    svg,
-                    "Elementary effects, over the whole range of an input",
-                    &name("mean size μ*"),
-                    &name("deviation σ"),
-                );
-                for (path, effect) in known() {
+                let title = "Elementary effects, over the whole range of an input";
+                axes.axes(svg, title, &name("mean size μ*"), &name("deviation σ"));
+                for (path, effect) in known {
                     let (x, y) = axes.place(factor * effect.mean_size, factor * effect.deviation);
-                    let _ = writeln!(
-                        svg,
-                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{DOT}\"/>"
-                    );
-                    let (anchor, shift) = if x > 0.6 * WIDTH {
-                        ("end", -7.0)
-                    } else {
-                        ("start", 7.0)
-                    };
+                    dot(svg, (x, y), 4.0, DOT, "");
+                    let (anchor, shift) = beside(x, 0.6, 7.0);
                     text(svg, x + shift, y - 5.0, anchor, &plain(path));
                 }
             })
@@ -498,11 +390,8 @@ fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
                     ],
                 })
                 .collect();
-            bars(
-                &rows,
-                "Sobol indices, 95 % bands: first order blue, total orange",
-                "share of the variance",
-            )
+            let title = "Sobol indices, 95 % bands: first order blue, total orange";
+            bars(&rows, title, "share of the variance")
         }
         Sensitivity::Sweep(given, ranges) => {
             let (factor, label) = label(column);
@@ -514,13 +403,9 @@ fn sensitivity(study: &Study, column: &Column, of: &Sensitivity) -> String {
                     })
                 })
                 .collect();
-            let title = match given {
-                Some(value) => format!(
-                    "Range over each input alone; {} as given",
-                    amount(*value, &column.unit)
-                ),
-                None => "Range over each input alone".to_string(),
-            };
+            let given = given.map(|value| amount(value, &column.unit));
+            let given = given.map_or(String::new(), |value| format!("; {value} as given"));
+            let title = format!("Range over each input alone{given}");
             bars(&rows, &title, &label)
         }
     }

@@ -1,6 +1,6 @@
 //! The ranking of a selection: as a table of the page, and as lines of a terminal.
 
-use super::cells::{amount, rows, short};
+use super::cells::{amount, bound, known, marked, rows, short};
 use crate::page::escape_text as plain;
 use outcome::Verdict;
 use run::study::Study;
@@ -19,14 +19,9 @@ pub(super) fn html(study: &Study, answer: &Answer) -> String {
         (study.known.iter().find(|known| known.name == *name)).map_or("", |known| known.unit);
     // a number stays with its unit
     let whole = |text: String| text.replace(' ', "\u{a0}");
-    let number =
-        |value: Option<f64>| value.map_or("–".to_string(), |value| whole(amount(value, unit)));
+    let number = |value: Option<f64>| whole(known(value, unit));
     let row = |(place, one): (usize, &Candidate)| {
-        let word = match one.verdict {
-            Verdict::Fail => format!("<b class=\"failed\">{}</b>", one.verdict.word()),
-            _ => format!("<b>{}</b>", one.verdict.word()),
-        };
-        let mut cells = vec![(place + 1).to_string(), word];
+        let mut cells = vec![(place + 1).to_string(), marked(one.verdict)];
         cells.extend(one.values.iter().map(|(_, value)| plain(value)));
         cells.extend([
             number(one.quantile),
@@ -41,16 +36,12 @@ pub(super) fn html(study: &Study, answer: &Answer) -> String {
         cells
     };
     let words = name.replace(['_', '.'], " ");
-    let direction = if *most {
-        "not below, in 95 %"
-    } else {
-        "not above, in 95 %"
-    };
+    let direction = if *most { "below" } else { "above" };
     let mut head = vec!["place".to_string(), "verdict".to_string()];
     let paths = answer.ranking[0].values.iter();
     head.extend(paths.map(|(path, _)| path.clone()));
     head.extend([
-        format!("{words}: {direction}"),
+        format!("{words}: not {direction}, in 95 %"),
         "mean".to_string(),
         "first in".to_string(),
         "why not".to_string(),
@@ -69,20 +60,11 @@ pub(super) fn html(study: &Study, answer: &Answer) -> String {
 /// Why a candidate does not hold its limits.
 fn reason(one: &Candidate) -> String {
     let broken = one.broken().map(|judged| {
-        let worst = judged
-            .value
-            .map_or("no value".to_string(), |value| amount(value, judged.unit));
-        let bound = format!(
-            "{} {}",
-            judged.limit.side.word(),
-            amount(judged.limit.bound, judged.unit)
-        );
-        format!(
-            "{} {worst}, {bound}: {} of {} hold it",
-            judged.limit.quantity.replace(['_', '.'], " "),
-            judged.hold,
-            judged.members
-        )
+        let value = judged.value.map(|value| amount(value, judged.unit));
+        let worst = value.unwrap_or_else(|| "no value".to_string());
+        let name = judged.limit.quantity.replace(['_', '.'], " ");
+        let (bound, hold, all) = (bound(judged), judged.hold, judged.members);
+        format!("{name} {worst}, {bound}: {hold} of {all} hold it")
     });
     let mut parts: Vec<String> = broken.collect();
     if let (count @ 1.., Some(why)) = (one.draws[1], &one.why) {
@@ -93,40 +75,29 @@ fn reason(one: &Candidate) -> String {
 
 /// Which one to take, and how sure that is.
 pub fn verdict(study: &Study, answer: &Answer) -> String {
-    let passing = answer
-        .ranking
-        .iter()
-        .filter(|one| one.verdict == Verdict::Pass)
-        .count();
+    let passes = |one: &&Candidate| one.verdict == Verdict::Pass;
+    let passing = answer.ranking.iter().filter(passes).count();
     let all = answer.ranking.len();
-    let Some(best) = answer
-        .ranking
-        .first()
-        .filter(|one| one.verdict == Verdict::Pass)
-    else {
+    let Some(best) = answer.ranking.first().filter(passes) else {
         return format!("None of {all} candidates holds every limit in every draw.");
     };
     let unit = (study.file.rank.as_ref())
         .and_then(|(name, ..)| study.known.iter().find(|known| known.name == *name))
         .map_or("", |known| known.unit);
-    let value = best
-        .quantile
-        .map_or("no value".to_string(), |value| amount(value, unit));
+    let value = best.quantile.map(|value| amount(value, unit));
+    let value = value.unwrap_or_else(|| "no value".to_string());
+    let often = format!(
+        "first in {} % of the repetitions of the draws",
+        short(100.0 * best.first)
+    );
     let sure = match best.first >= SETTLED {
-        true => format!(
-            "first in {} % of the repetitions of the draws",
-            short(100.0 * best.first)
-        ),
+        true => often,
         false => format!(
-            "but the first place is not settled: it is first in {} % of the repetitions of the draws; more draws, or another seed, may change it",
-            short(100.0 * best.first)
+            "but the first place is not settled: it is {often}; more draws, or another seed, may change it"
         ),
     };
-    let values: Vec<&str> = best
-        .values
-        .iter()
-        .map(|(_, value)| value.as_str())
-        .collect();
+    let values = best.values.iter().map(|(_, value)| value.as_str());
+    let values: Vec<&str> = values.collect();
     let (draws, failed) = (best.draws[0], best.draws[1]);
     let rare = 100.0 * (1.0 - 0.05f64.powf(1.0 / draws.max(1) as f64));
     format!(

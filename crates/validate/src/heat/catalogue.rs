@@ -43,10 +43,7 @@ fn example(name: &str, row: &Value, tally: &mut Tally) -> Result<(), String> {
             tally.leave_out(&quantity, &format!("given without a tolerance: {reason}"));
             continue;
         }
-        let allowed = Allowed {
-            relative: tolerance(&row["tolerance"], key)?,
-            absolute: 0.0,
-        };
+        let allowed = Allowed::share(tolerance(&row["tolerance"], key)?);
         let Some(ours) = result(key, row)? else {
             tally.leave_out(&quantity, "a result that is not known");
             continue;
@@ -56,11 +53,8 @@ fn example(name: &str, row: &Value, tally: &mut Tally) -> Result<(), String> {
             _ => vec![number(&row["results"], key)?],
         };
         if printed.len() != ours.len() {
-            return Err(format!(
-                "{key} has {} numbers, not {}",
-                printed.len(),
-                ours.len()
-            ));
+            let (wanted, found) = (ours.len(), printed.len());
+            return Err(format!("{key} has {found} numbers, not {wanted}"));
         }
         tally.place = reason.to_string();
         for (printed, ours) in printed.iter().zip(&ours) {

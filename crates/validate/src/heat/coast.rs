@@ -1,7 +1,7 @@
 //! A rotor that coasts down on two warm bearings: stop time, temperatures, energies; in fine steps and in windows.
 
 use super::json::{number, numbers, within};
-use super::tally::{Allowed, Tally, tolerance};
+use super::tally::{Allowed, Tally};
 use super::{network, warm};
 use serde_json::Value;
 use thermal::coast_down::{CoastDown, Coasting};
@@ -32,7 +32,7 @@ fn machine(
             oil: warm::oil(inputs)?,
             load: BearingLoad::Radial(within(inputs, "load", 0.0, 1e9)?),
             windage: within(inputs, "windage", 0.0, 1e3)?,
-            lubricant: warm::node(names, &Value::from("lubricant"))?,
+            lubricant: network::node(names, &Value::from("lubricant"))?,
             shares: [
                 warm::shares(inputs, "share_M0", names)?,
                 warm::shares(inputs, "share_M1", names)?,
@@ -94,21 +94,8 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
     times.dedup();
     let found = follow(&fine, inputs, names.len(), &times)?;
 
-    let file = tally.file();
-    let relative = |key: &str| -> Result<Allowed, String> {
-        Ok(Allowed {
-            relative: tolerance(&file["tolerance"], key)?,
-            absolute: 0.0,
-        })
-    };
-    let kelvin = |key: &str| -> Result<Allowed, String> {
-        Ok(Allowed {
-            relative: 0.0,
-            absolute: tolerance(&file["tolerance"], key)?,
-        })
-    };
-    let (time, energy) = (relative("stop_time")?, relative("energies")?);
-    let temperature = kelvin("temperatures_K")?;
+    let (time, energy) = (tally.relative("stop_time")?, tally.relative("energies")?);
+    let temperature = tally.margin("temperatures_K")?;
     let start = within(inputs, "start_temperature", -273.0, 1e4)?;
     let cold = fine.network.stored(&vec![start; names.len()]);
     let energies = |end: &Coasting| {
@@ -139,12 +126,12 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
     }
     let windows = machine(inputs, &names, WINDOWS)?;
     let windows = follow(&windows, inputs, names.len(), &[])?;
-    let slow = relative("slow_scheme_stop_time")?;
+    let slow = tally.relative("slow_scheme_stop_time")?;
     let stop = windows.end.time;
     tally.add_by("stop time in windows", "s", reference, stop, slow);
     // a case without temperatures is one of the stop time alone
     if results["peak"].is_object() {
-        let slow = kelvin("slow_scheme_peak_K")?;
+        let slow = tally.margin("slow_scheme_peak_K")?;
         for (node, name) in names.iter().enumerate() {
             let end = number(&results["end_temperatures"], name)?;
             let ours = found.end.temperatures[node];
@@ -167,29 +154,18 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
                 return Err(format!("row at {instant} s, which the run did not reach"));
             };
             // as sure as the stop time: a speed that falls steadily is off by that share of the first
-            let allowed = Allowed {
-                relative: 0.0,
-                absolute: time.relative * number(inputs, "speed0")?,
-            };
+            let allowed = Allowed::size(time.relative * number(inputs, "speed0")?);
             let speed = number(row, "speed")?;
             tally.add_by("speed over time", "rad/s", speed, at.speed, allowed);
             let moments = fine.losses.of_one(at.speed, &at.temperatures);
             for (key, ours) in [("M0", moments[0]), ("M1", moments[1])] {
                 // a moment is as sure as the viscosity at a temperature: 4 % for each kelvin
-                let allowed = Allowed {
-                    relative: 0.04 * temperature.absolute,
-                    absolute: 0.0,
-                };
+                let allowed = Allowed::share(0.04 * temperature.absolute);
                 tally.add_by(key, "N m", number(row, key)?, ours, allowed);
             }
             for (node, name) in names.iter().enumerate() {
-                tally.add_by(
-                    "temperatures over time",
-                    "°C",
-                    number(row, name)?,
-                    at.temperatures[node],
-                    temperature,
-                );
+                let (wanted, ours) = (number(row, name)?, at.temperatures[node]);
+                tally.add_by("temperatures over time", "°C", wanted, ours, temperature);
             }
             Ok(())
         })?;

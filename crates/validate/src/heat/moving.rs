@@ -34,14 +34,8 @@ fn band(row: &Value, tally: &mut Tally) -> Result<(), String> {
         tally.add_by(name, "", number(row, key)?, ours, allowed);
     }
     let allowed = tally.absolute("max_at_band")?;
-    let reference = number(row, "max_at")?;
-    tally.add_by(
-        "band: place of the largest",
-        "",
-        reference,
-        place / half,
-        allowed,
-    );
+    let (reference, ours) = (number(row, "max_at")?, place / half);
+    tally.add_by("band: place of the largest", "", reference, ours, allowed);
     Ok(())
 }
 
@@ -54,22 +48,12 @@ fn ellipse(row: &Value, tally: &mut Tally) -> Result<(), String> {
     let aspect = within(row, "aspect", 1e-2, 1e2)?;
     let (place, largest) = ellipse_maximum(aspect, within(row, "Pe", 0.0, 1e3)?, flux);
     let allowed = tally.relative("ellipse")?;
-    tally.add_by(
-        "ellipse: largest",
-        "",
-        number(row, "max")?,
-        largest,
-        allowed,
-    );
+    let reference = number(row, "max")?;
+    tally.add_by("ellipse: largest", "", reference, largest, allowed);
     let allowed = tally.absolute("max_at_ellipse")?;
     let reference = number(row, "max_at")?;
-    tally.add_by(
-        "ellipse: place of the largest",
-        "",
-        reference,
-        place,
-        allowed,
-    );
+    let name = "ellipse: place of the largest";
+    tally.add_by(name, "", reference, place, allowed);
     Ok(())
 }
 

@@ -2,19 +2,21 @@
 
 use super::json::{exactly, list, within};
 use super::tally::{Allowed, Tally};
+use crate::compare::told;
 use serde_json::Value;
 use thermal::network::{Ground, Link, Network};
 
 /// Most bodies.
 const MOST_NODES: usize = 200;
 /// Capacities, conductances and times lie between its inverse and it.
-const LARGEST: f64 = 1e12;
+const LARGEST: f64 = 1e13;
 
 /// Compares a file.
 pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
     let names = names(file)?;
     let n = names.len();
-    let network = network(file, &names)?;
+    let capacities = exactly(file, "capacity", n)?;
+    let network = network(file, &names, &capacities, None)?;
     let (powers, start) = (exactly(file, "powers", n)?, exactly(file, "start", n)?);
     tally.place = "the network".to_string();
     let constants = exactly(file, "time_constants", n)?;
@@ -39,10 +41,7 @@ pub(super) fn compare(file: &Value, tally: &mut Tally) -> Result<(), String> {
             let put_in = powers.iter().sum::<f64>() * time;
             let end = network.stored(&ours);
             let size = end.abs() + powers.iter().map(|power| power.abs()).sum::<f64>() * time;
-            let allowed = Allowed {
-                absolute: tally.allowed()?.relative * size,
-                relative: 0.0,
-            };
+            let allowed = Allowed::size(tally.allowed()?.relative * size);
             let found = end - network.stored(&start) + given;
             tally.add_by("heat put in and found", "J", put_in, found, allowed);
             Ok(())
@@ -67,38 +66,42 @@ pub(super) fn names(file: &Value) -> Result<Vec<&str>, String> {
     }
 }
 
-/// The network of a file: capacities and links by name, each ground with its temperature, or the ambient's.
-fn network(file: &Value, names: &[&str]) -> Result<Network, String> {
-    let node = |value: &Value| {
-        let found = names.iter().position(|name| value == name);
-        found.ok_or_else(|| format!("{value} is no node"))
-    };
+/// A node by its name.
+pub(super) fn node(names: &[&str], value: &Value) -> Result<usize, String> {
+    let found = names.iter().position(|name| value == name);
+    found.ok_or_else(|| format!("{value} is no node"))
+}
+
+/// The network of a file or a case with these capacities: links by name, each ground with its temperature, or the one outside all.
+pub(super) fn network(
+    file: &Value,
+    names: &[&str],
+    capacities: &[f64],
+    outside: Option<f64>,
+) -> Result<Network, String> {
     let conductance = |value: &Value| {
-        let number = value
-            .as_f64()
-            .filter(|number| (0.0..=LARGEST).contains(number));
+        let number = value.as_f64().filter(|g| (0.0..=LARGEST).contains(g));
         number.ok_or_else(|| format!("conductance {value} is not 0 to {LARGEST}"))
     };
     let links = list(file, "links")?.iter().map(|link| {
         Ok(Link {
-            nodes: [node(&link[0])?, node(&link[1])?],
+            nodes: [node(names, &link[0])?, node(names, &link[1])?],
             conductance: conductance(&link[2])?,
         })
     });
     let links = links.collect::<Result<Vec<_>, String>>()?;
     let grounds = list(file, "grounds")?.iter().map(|ground| {
-        let outside = ground[2].as_f64().filter(|value| value.abs() <= LARGEST);
+        let own = || ground[2].as_f64().filter(|value| value.abs() <= LARGEST);
         Ok(Ground {
-            node: node(&ground[0])?,
+            node: node(names, &ground[0])?,
             conductance: conductance(&ground[1])?,
-            temperature: outside.ok_or("a ground has no temperature")?,
+            temperature: outside.or_else(own).ok_or("a ground has no temperature")?,
         })
     });
     let grounds = grounds.collect::<Result<Vec<_>, String>>()?;
-    let capacities = exactly(file, "capacity", names.len())?;
     let usual = 1.0 / LARGEST..=LARGEST;
     if !capacities.iter().all(|capacity| usual.contains(capacity)) {
         return Err(format!("a capacity is not {} to {LARGEST}", 1.0 / LARGEST));
     }
-    Network::new(&capacities, &links, &grounds).map_err(|error| error.to_string())
+    Network::new(capacities, &links, &grounds).map_err(told)
 }

@@ -1,7 +1,7 @@
 //! A bearing at constant speed whose inner parts grow faster than its outer ring: does it stay open, close, run away?
 
 use super::json::{list, number, numbers, text, within};
-use super::tally::{Allowed, Tally, tolerance};
+use super::tally::Tally;
 use super::{network, warm};
 use physics::load_zone::joint_stiffness;
 use serde_json::Value;
@@ -20,7 +20,7 @@ pub(super) fn compare(_: &Value, tally: &mut Tally) -> Result<(), String> {
 }
 
 fn machine(inputs: &Value, names: &[&str]) -> Result<SteadySpeed<WarmBearings>, String> {
-    let node = |name: &str| warm::node(names, &Value::from(name));
+    let node = |name: &str| network::node(names, &Value::from(name));
     let expansion = |name: &str| within(&inputs["expansion"], name, 0.0, 1e-3);
     let inner_track = within(inputs, "inner_track_diameter", 1e-4, 10.0)?;
     let ball = within(inputs, "D", 1e-5, 1.0)?;
@@ -73,11 +73,8 @@ impl Bounds {
     /// Why a state is beyond one.
     fn passed(&self, machine: &SteadySpeed<WarmBearings>, state: &Warming) -> Option<&'static str> {
         let (_, preload) = closing(machine, state);
-        let hottest = state
-            .temperatures
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max);
+        let temperatures = state.temperatures.iter().copied();
+        let hottest = temperatures.fold(f64::NEG_INFINITY, f64::max);
         if preload >= self.preload {
             Some("Q_limit")
         } else if hottest >= self.temperature || !hottest.is_finite() {
@@ -185,40 +182,16 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
     let start = Warming::start(vec![ambient; names.len()]);
     let found = follow(&machine, start, &bounds, &times, last)?;
 
-    let file = tally.file();
-    let given = |key: &str| tolerance(&file["tolerance"], key);
-    let relative = |key: &str| -> Result<Allowed, String> {
-        Ok(Allowed {
-            relative: given(key)?,
-            absolute: 0.0,
-        })
-    };
-    let absolute = |key: &str| -> Result<Allowed, String> {
-        Ok(Allowed {
-            relative: 0.0,
-            absolute: given(key)?,
-        })
-    };
-    let (time, moment) = (relative("times")?, relative("moments")?);
-    let (temperature, clearance) = (absolute("temperatures_K")?, absolute("clearance_m")?);
-    let preload = Allowed {
-        relative: given("preload")?,
-        absolute: tolerance(&file["absolute"], "preload")?,
-    };
-    if text(results, "end_reason")? != found.reason {
-        return Err(format!(
-            "the run ends by {}, not by {}",
-            found.reason,
-            text(results, "end_reason")?
-        ));
+    let (time, moment) = (tally.relative("times")?, tally.relative("moments")?);
+    let temperature = tally.margin("temperatures_K")?;
+    let clearance = tally.margin("clearance_m")?;
+    let preload = tally.both("preload")?;
+    let hot = tally.relative("end_M0")?;
+    let (wanted, reason) = (text(results, "end_reason")?, found.reason);
+    if wanted != reason {
+        return Err(format!("the run ends by {reason}, not by {wanted}"));
     }
-    tally.add_by(
-        "end time",
-        "s",
-        number(results, "end_time")?,
-        found.end.time,
-        time,
-    );
+    tally.add_number((results, "end_time"), "s", found.end.time, time)?;
     match (results["time_of_closure"].as_f64(), found.closure) {
         (Some(reference), Some(ours)) => {
             tally.add_by("time of closure", "s", reference, ours, time);
@@ -237,7 +210,7 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
         };
         // the floor of the viscosity is seen in M0 of a hot end alone
         let viscous = match end {
-            true => relative("end_M0")?,
+            true => hot,
             false => moment,
         };
         for (key, unit, ours, allowed) in [
@@ -246,8 +219,7 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
             (named_first, "N m", moments[0], viscous),
             (named_second, "N m", moments[1], moment),
         ] {
-            let quantity = key.replace('_', " ");
-            tally.add_by(&quantity, unit, number(row, key)?, ours, allowed);
+            tally.add_number((row, key), unit, ours, allowed)?;
         }
         let temperatures = match end {
             true => &row["end_temperatures"],
@@ -273,7 +245,7 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
     }
     let growth = machine.growth(&found.end.temperatures);
     let reference = number(results, "fastest_eigenvalue")?;
-    let allowed = relative("fastest_eigenvalue")?;
+    let allowed = tally.relative("fastest_eigenvalue")?;
     tally.add_by("growth rate at the end", "1/s", reference, growth, allowed);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! The skid of a rotor on a race under constant load: surface layers, flash, shares, energies.
 
 use super::json::{list, number, numbers, positive, within};
-use super::tally::{Allowed, Tally, tolerance};
+use super::tally::Tally;
 use physics::heat_conduction::ThermalMaterial;
 use physics::heat_exchange::line_half_width;
 use serde_json::Value;
@@ -166,13 +166,7 @@ fn one(case: &Value, tally: &mut Tally) -> Result<(), String> {
     }
     let (seen, hottest) = followed(&skid, end, &times);
 
-    let surface = {
-        let file = tally.file();
-        Allowed {
-            relative: tally.relative("surface_temperatures")?.relative,
-            absolute: tolerance(&file["absolute"], "surface_temperatures")?,
-        }
-    };
+    let surface = tally.both("surface_temperatures")?;
     let contact = tally.relative("contact_temperatures")?;
     let energy = tally.relative("energies")?;
     let exact = tally.relative("contact_time")?;

@@ -16,6 +16,16 @@ pub(super) struct Allowed {
 }
 
 impl Allowed {
+    /// A share of the reference.
+    pub fn share(relative: f64) -> Self {
+        let absolute = 0.0;
+        Allowed { relative, absolute }
+    }
+    /// A size, whatever the reference.
+    pub fn size(absolute: f64) -> Self {
+        let relative = 0.0;
+        Allowed { relative, absolute }
+    }
     /// What a tolerance of a reference means for it.
     pub fn of(self, reference: f64) -> Tolerance {
         if self.absolute > self.relative * reference.abs() {
@@ -65,17 +75,21 @@ impl<'a> Tally<'a> {
     }
     /// The relative tolerance under a key of `tolerance`.
     pub fn relative(&self, key: &str) -> Result<Allowed, String> {
-        Ok(Allowed {
-            relative: tolerance(&self.file["tolerance"], key)?,
-            absolute: 0.0,
-        })
+        tolerance(&self.file["tolerance"], key).map(Allowed::share)
+    }
+    /// The absolute tolerance under a key of `tolerance`.
+    pub fn margin(&self, key: &str) -> Result<Allowed, String> {
+        tolerance(&self.file["tolerance"], key).map(Allowed::size)
     }
     /// The absolute tolerance under a key of `absolute`.
     pub fn absolute(&self, key: &str) -> Result<Allowed, String> {
-        Ok(Allowed {
-            relative: 0.0,
-            absolute: tolerance(&self.file["absolute"], key)?,
-        })
+        tolerance(&self.file["absolute"], key).map(Allowed::size)
+    }
+    /// The relative and the absolute tolerance under a key.
+    pub fn both(&self, key: &str) -> Result<Allowed, String> {
+        let absolute = self.absolute(key)?.absolute;
+        self.relative(key)
+            .map(|share| Allowed { absolute, ..share })
     }
     /// Compares a value under the one tolerance of the file.
     pub fn add(

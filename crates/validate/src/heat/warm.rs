@@ -1,12 +1,10 @@
 //! What the files of warm bearings have in common: nodes by name, capacities, links, grounds, oil, shares.
 
 use super::json::{list, number, positive, within};
+use super::network;
 use physics::viscosity::ICE_POINT;
 use serde_json::Value;
-use thermal::network::{Ground, Link, Network};
-
-/// Capacities and conductances lie between its inverse and it.
-const LARGEST: f64 = 1e13;
+use thermal::network::Network;
 
 /// A number of each node, by its name; what is not there is `otherwise`, where that is allowed.
 fn by_name(
@@ -23,42 +21,11 @@ fn by_name(
     names.iter().map(one).collect()
 }
 
-/// A node by its name.
-pub(super) fn node(names: &[&str], value: &Value) -> Result<usize, String> {
-    let found = names.iter().position(|name| value == name);
-    found.ok_or_else(|| format!("{value} is no node"))
-}
-
 /// The network of a case; its grounds are all at the ambient temperature.
 pub(super) fn network(inputs: &Value, names: &[&str]) -> Result<Network, String> {
     let ambient = within(inputs, "ambient", -273.0, 1e4)?;
-    let conductance = |value: &Value| {
-        let number = value.as_f64().filter(|g| (0.0..=LARGEST).contains(g));
-        number.ok_or_else(|| format!("conductance {value} is not 0 to {LARGEST}"))
-    };
-    let links = list(inputs, "links")?.iter().map(|link| {
-        Ok(Link {
-            nodes: [node(names, &link[0])?, node(names, &link[1])?],
-            conductance: conductance(&link[2])?,
-        })
-    });
-    let links = links.collect::<Result<Vec<_>, String>>()?;
-    let grounds = list(inputs, "grounds")?.iter().map(|ground| {
-        Ok(Ground {
-            node: node(names, &ground[0])?,
-            conductance: conductance(&ground[1])?,
-            temperature: ambient,
-        })
-    });
-    let grounds = grounds.collect::<Result<Vec<_>, String>>()?;
     let capacities = by_name(inputs, "capacity", names, None)?;
-    if !capacities
-        .iter()
-        .all(|c| (1.0 / LARGEST..=LARGEST).contains(c))
-    {
-        return Err(format!("a capacity is not {} to {LARGEST}", 1.0 / LARGEST));
-    }
-    Network::new(&capacities, &links, &grounds).map_err(|error| error.to_string())
+    network::network(inputs, names, &capacities, Some(ambient))
 }
 
 /// Shares of a loss over the nodes, which must add to one.

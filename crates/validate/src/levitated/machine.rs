@@ -1,6 +1,6 @@
 //! The rotors, magnets and unbalances of the reference files as parts of the kernel.
 
-use crate::compare::{Refusal, part};
+use crate::compare::{Refusal, part, told};
 use crate::rotors;
 use levitation::{
     Actuator, Amplifier, Axis, C64, ClosedLoop, Control, Levitation, Plant, Refused, Sensor,
@@ -136,13 +136,13 @@ impl Machine {
         }
         let timing = Timing::Continuous { delay: 0.0 };
         let (nodes, control) = (self.rotor.nodes.len(), Control::Channels(channels));
-        Levitation::new(nodes, sensors, control, timing, actuators).map_err(|e| e.to_string())
+        Levitation::new(nodes, sensors, control, timing, actuators).map_err(told)
     }
 
     /// The rotor in free modes up to `cut` (rad/s) and residual flexibility of its loaded nodes; in all its modes without end.
     pub(crate) fn analysis(&self, cut: f64) -> Result<Analysis, String> {
         let matrices = Matrices::new(&self.rotor);
-        let mut basis = Basis::full(&self.rotor, &matrices).map_err(|error| error.to_string())?;
+        let mut basis = Basis::full(&self.rotor, &matrices).map_err(told)?;
         if cut.is_finite() {
             let mut kept: Vec<usize> = (self.loaded())
                 .map(|n| self.rotor.displacement(n))
@@ -151,7 +151,7 @@ impl Machine {
             kept.dedup();
             let forces = rotor::unit_forces(self.rotor.size(), &kept);
             let reduced = basis.reduced(cut, &forces);
-            basis = reduced.map_err(|error| error.to_string())?;
+            basis = reduced.map_err(told)?;
         }
         Ok(Analysis::new(&self.rotor, &matrices, basis))
     }
@@ -165,7 +165,7 @@ impl Machine {
         let nodes = self.rotor.nodes.len();
         let plant = Plant::turning(analysis, nodes, speed).ok_or("supports that do not turn")?;
         let plane = self.levitation()?.one_plane().ok_or("axes that differ")?;
-        ClosedLoop::new(plant, &plane).map_err(|error| error.to_string())
+        ClosedLoop::new(plant, &plane).map_err(told)
     }
 
     pub(crate) fn planes(&self, analysis: &Analysis, speed: f64) -> Plant<f64> {

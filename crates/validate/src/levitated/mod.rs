@@ -5,11 +5,11 @@
 
 pub(super) mod machine;
 
-use super::compare::{Refusal, Worst, part, rows_of};
+use super::compare::{Refusal, Worst, part, rows_of, told};
 use super::report::{Row, Tolerance};
 use levitation::response::{equilibrium, impulse, start, unbalance};
 use levitation::sensitivity::{Axes, Band, Sensitivity};
-use levitation::{C64, ClosedLoop, Refused, ZERO, weight};
+use levitation::{C64, ClosedLoop, ZERO, weight};
 use machine::Machine;
 use rotor::Analysis;
 use serde_json::Value;
@@ -133,9 +133,6 @@ fn number(value: &Value, key: &str) -> Result<f64, String> {
 fn largest<'a>(all: impl Iterator<Item = &'a Value>) -> f64 {
     all.map(|pair| complex(pair).norm()).fold(0.0, f64::max)
 }
-fn told(error: Refused) -> String {
-    error.to_string()
-}
 /// Nodes of a list, of so many that there are.
 fn nodes(value: &Value, count: usize) -> Result<Vec<usize>, String> {
     let all: Vec<usize> = part(&value["nodes"])?;
@@ -174,14 +171,8 @@ fn closed_loop(value: &Value, path: &Path) -> Result<Vec<Row>, Refusal> {
         let ours = open.iter().map(|value| value.re).fold(f64::MIN, f64::max);
         let why = "largest Re λ without control current, at standstill; tolerance of the file";
         let name = "open loop, largest real part";
-        worst.add(Row::compared(
-            name,
-            "1/s",
-            wanted,
-            ours,
-            Tolerance::Relative(1e-6),
-            why,
-        ));
+        let mut open = worst.under(Tolerance::Relative(1e-6), why);
+        open.add(name, "1/s", [wanted, ours]);
     }
     if let Some(standing) = value.get("static_values") {
         at_rest(&machine, &whole, standing, &mut worst)?;
@@ -223,9 +214,8 @@ fn at_speed(
         let ours = axes.at(number(sample, "rad_s")?).map_err(told)?;
         for (ours, wanted) in ours.iter().zip(list(sample, "S")) {
             let wanted = wanted.as_f64().unwrap_or(f64::NAN);
-            let tolerance = Tolerance::Relative(accept.sensitivity);
-            let name = format!("sensitivity, {basis}");
-            worst.add(Row::compared(name, "", wanted, ours.norm(), tolerance, why));
+            let mut all = worst.under(Tolerance::Relative(accept.sensitivity), why);
+            all.add(&format!("sensitivity, {basis}"), "", [wanted, ours.norm()]);
         }
     }
     let band = Band {
@@ -244,15 +234,8 @@ fn at_speed(
             ("frequency of peak", "rad/s", "at_rad_s", ours.at, 1e-4),
         ] {
             let name = format!("sensitivity, {word}, {basis}");
-            let tolerance = Tolerance::Relative(share);
-            worst.add(Row::compared(
-                name,
-                unit,
-                number(wanted, key)?,
-                ours,
-                tolerance,
-                why,
-            ));
+            let mut peaks = worst.under(Tolerance::Relative(share), why);
+            peaks.add(&name, unit, [number(wanted, key)?, ours]);
         }
     }
     Ok(())
@@ -429,31 +412,13 @@ fn zero_stiffness(
         let name = "next eigenvalue without static stiffness";
         add(worst, name, "1/s", pair, 1e-6 * next.norm(), &why);
         let largest = others.iter().map(|value| value.re).fold(f64::MIN, f64::max);
-        for (name, unit, key, ours, tolerance) in [
-            (
-                "eigenvalues at zero without static stiffness",
-                "",
-                "eigenvalues_at_zero",
-                zeros.len() as f64,
-                Tolerance::Absolute(0.0),
-            ),
-            (
-                "largest other real part without static stiffness",
-                "1/s",
-                "largest_other_real_part",
-                largest,
-                Tolerance::Relative(1e-6),
-            ),
-        ] {
-            worst.add(Row::compared(
-                name,
-                unit,
-                number(wanted, key)?,
-                ours,
-                tolerance,
-                why.as_str(),
-            ));
-        }
+        let mut exact = worst.under(Tolerance::Absolute(0.0), why.as_str());
+        let zeros = [number(wanted, "eigenvalues_at_zero")?, zeros.len() as f64];
+        exact.add("eigenvalues at zero without static stiffness", "", zeros);
+        let mut close = worst.under(Tolerance::Relative(1e-6), why);
+        let others = [number(wanted, "largest_other_real_part")?, largest];
+        let name = "largest other real part without static stiffness";
+        close.add(name, "1/s", others);
     }
     Ok(())
 }

@@ -200,7 +200,7 @@ impl<'a> Run<'a> {
         let samples = samples.map(|(time, event)| (time, Event::Control(event)));
         let times = list(self.given, "times")?.iter().filter_map(Value::as_f64);
         let knots = times.map(|time| (time, Event::Knot));
-        let mut constants = falling_machine(1.0, 1e7, 5e-3, 0.0).constants;
+        let mut constants = falling_machine(1.0, 1e7, 5e-3, 0.0)?.constants;
         constants.schedule = Schedule::of(
             changes
                 .iter()

@@ -1,7 +1,7 @@
 //! Machines of the files as constants of the model.
 
 use super::json::{list, number, numbers, pair};
-use crate::compare::{Refusal, part};
+use crate::compare::{Refusal, part, told};
 use crate::machine::ReferenceMachine;
 use crate::{rotors, simulation};
 use auxbear::simulate::drop::shaft::{in_coordinates, planes, row};
@@ -30,7 +30,7 @@ impl Coordinates {
     /// In all its coordinates.
     pub fn full(rotor: Rotor) -> Result<Self, String> {
         let matrices = Matrices::new(&rotor);
-        let basis = Basis::full(&rotor, &matrices).map_err(|error| error.to_string())?;
+        let basis = Basis::full(&rotor, &matrices).map_err(told)?;
         Ok(Coordinates {
             rotor,
             matrices,
@@ -46,7 +46,7 @@ impl Coordinates {
         let forces = rotor::unit_forces(full.rotor.size(), &kept);
         let basis = full.basis.reduced(cut, &forces);
         Ok(Coordinates {
-            basis: basis.map_err(|error| error.to_string())?,
+            basis: basis.map_err(told)?,
             ..full
         })
     }

@@ -118,27 +118,12 @@ fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), Stri
     let energy = 1e-6 * (most(&|row| row.2[0].2) + most(&|row| row.2[1].2));
     let why = format!("{kind}: 1e-6 of the largest of its series");
     for (ours, theirs, energies) in &found {
-        for (ours, theirs) in [(ours.x, theirs.x), (ours.y, theirs.y)] {
-            let allowed = Tolerance::Absolute(force);
-            worst.add(Row::compared(
-                "force",
-                "N",
-                theirs,
-                ours,
-                allowed,
-                why.as_str(),
-            ));
-        }
+        let mut forces = worst.under(Tolerance::Absolute(force), why.as_str());
+        forces.add("force", "N", [theirs.x, ours.x]);
+        forces.add("force", "N", [theirs.y, ours.y]);
         for (name, ours, theirs) in energies {
-            let allowed = Tolerance::Absolute(energy);
-            worst.add(Row::compared(
-                *name,
-                "J",
-                *theirs,
-                *ours,
-                allowed,
-                why.as_str(),
-            ));
+            let mut own = worst.under(Tolerance::Absolute(energy), why.as_str());
+            own.add(name, "J", [*theirs, *ours]);
         }
     }
     Ok(())
@@ -166,22 +151,10 @@ fn dynamic_stiffness(file: &Value, worst: &mut Worst) -> Result<(), String> {
         let frequency = number(row, "w")?;
         let ours = parts.linear(&spring, frequency);
         let [real, imaginary] = numbers(row, "K")?;
-        let both = [
-            ("real", ours.storage, real),
-            ("imaginary", ours.loss, imaginary),
-        ];
-        for (part, ours, theirs) in both {
-            let name = format!("dynamic stiffness, {part} part");
-            let allowed = Tolerance::Relative(1e-12);
-            worst.add(Row::compared(
-                name,
-                "N/m",
-                theirs,
-                ours,
-                allowed,
-                "1e-12, closed form",
-            ));
-        }
+        let mut all = worst.under(Tolerance::Relative(1e-12), "1e-12, closed form");
+        let name = |part| format!("dynamic stiffness, {part} part");
+        all.add(&name("real"), "N/m", [real, ours.storage]);
+        all.add(&name("imaginary"), "N/m", [imaginary, ours.loss]);
     }
     Ok(())
 }
@@ -205,11 +178,11 @@ fn squeeze_film(file: &Value, worst: &mut Worst) -> Result<(), String> {
             for (motion, velocity) in motions {
                 let ours = film.force(Vec2::new(eccentricity, 0.0), velocity);
                 let theirs = pair(&row[key][motion])?;
-                for (ours, theirs) in [(ours.x, theirs.x), (ours.y, theirs.y)] {
-                    let allowed = Tolerance::Absolute((share * theirs.abs()).max(1e-12));
-                    let name = format!("squeeze film {key}, {motion}");
+                let name = format!("squeeze film {key}, {motion}");
+                for both in [[theirs.x, ours.x], [theirs.y, ours.y]] {
+                    let allowed = Tolerance::Absolute((share * both[0].abs()).max(1e-12));
                     let why = "1e-9 (flooded) and 1e-7 (cavitated), zeros to 1e-12";
-                    worst.add(Row::compared(name, "", theirs, ours, allowed, why));
+                    worst.under(allowed, why).add(&name, "", both);
                 }
             }
         }

@@ -69,9 +69,9 @@ impl Classes {
     fn judge(self, worst: &mut Worst) {
         for (name, unit, (share, why), pairs) in self.0 {
             let largest = pairs.iter().fold(0.0_f64, |most, p| most.max(p.1.abs()));
-            let tolerance = Tolerance::Absolute(share * largest);
+            let mut class = worst.under(Tolerance::Absolute(share * largest), why);
             for (ours, reference) in pairs {
-                worst.add(Row::compared(name, unit, reference, ours, tolerance, why));
+                class.add(name, unit, [reference, ours]);
             }
         }
     }

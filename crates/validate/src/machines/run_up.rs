@@ -5,7 +5,7 @@
 
 use super::given::{Coordinates, index, on_springs, rotor};
 use super::json::{list, number, numbers};
-use crate::compare::{Refusal, Worst};
+use crate::compare::{Refusal, Worst, told};
 use crate::report::{Row, Tolerance};
 use crate::simulation::falling_machine;
 use model::bearing::rolling::RollingBall;
@@ -42,10 +42,8 @@ pub(super) fn rows(file: &Value, _: &Path) -> Result<Vec<Row>, Refusal> {
 /// Frequencies of the damped rotor on its supports, by the analysis that `auxbear rotor` uses.
 fn at_rest(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String> {
     let rotor = on_springs(rotor.clone(), file)?;
-    let analysis = Analysis::full(&rotor).map_err(|error| error.to_string())?;
-    let found = analysis
-        .eigenvalues(0.0)
-        .map_err(|error| error.to_string())?;
+    let analysis = Analysis::full(&rotor).map_err(told)?;
+    let found = analysis.eigenvalues(0.0).map_err(told)?;
     let mut found: Vec<f64> = found.iter().map(|value| value.im).collect();
     found.retain(|frequency| *frequency > 1.0);
     found.sort_by(f64::total_cmp);
@@ -53,10 +51,9 @@ fn at_rest(file: &Value, rotor: &Rotor, worst: &mut Worst) -> Result<(), String>
     found.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * b.abs());
     let key = "damped_frequencies_at_rest_rad_s";
     for (wanted, ours) in list(file, key)?.iter().zip(found) {
-        let wanted = wanted.as_f64().unwrap_or(f64::NAN);
-        let allowed = Tolerance::Relative(1e-8);
-        let name = "damped frequency at rest";
-        worst.add(Row::compared(name, "rad/s", wanted, ours, allowed, "1e-8"));
+        let both = [wanted.as_f64().unwrap_or(f64::NAN), ours];
+        let mut all = worst.under(Tolerance::Relative(1e-8), "1e-8");
+        all.add("damped frequency at rest", "rad/s", both);
     }
     Ok(())
 }
@@ -166,53 +163,27 @@ fn run_up(file: &Value, run: &Value, shaft: &Coordinates, worst: &mut Worst) -> 
     if ending.stop != Stop::Finished {
         return Err(format!("the run ended at {} s", ending.time));
     }
-    let (layout, close) = (machine.layout(), Tolerance::Relative(1e-4));
-    let mut add = |name: &str, unit: &str, wanted: f64, ours: f64, allowed: Tolerance| {
-        worst.add(Row::compared(
-            name,
-            unit,
-            wanted,
-            ours,
-            allowed,
-            "that of the file",
-        ));
-    };
+    let layout = machine.layout();
+    let why = "that of the file";
+    let mut close = worst.under(Tolerance::Relative(1e-4), why);
     for (sample, (spin, angle)) in samples.iter().zip(&watch.samples) {
-        add("spin", "rad/s", number(sample, "Om")?, *spin, close);
-        add("angle", "rad", number(sample, "phi")?, *angle, close);
+        close.add("spin", "rad/s", [number(sample, "Om")?, *spin]);
+        close.add("angle", "rad", [number(sample, "phi")?, *angle]);
     }
-    let largest = number(run, "largest_disk_displacement")?;
-    add("largest displacement", "m", largest, watch.largest, close);
-    let when = Tolerance::Absolute(1e-3);
-    let flat = ("time of the largest displacement", number(run, "at_t")?);
-    add(flat.0, "s", flat.1, watch.at, when);
-    let then = number(run, "Om_then")?;
-    add(
-        "spin at the largest displacement",
-        "rad/s",
-        then,
-        watch.spin_then,
-        close,
-    );
+    let largest = [number(run, "largest_disk_displacement")?, watch.largest];
+    close.add("largest displacement", "m", largest);
+    let then = [number(run, "Om_then")?, watch.spin_then];
+    close.add("spin at the largest displacement", "rad/s", then);
     let spin = ending.state[layout.rotor.spin()];
-    add(
-        "spin at the end",
-        "rad/s",
-        number(run, "Om_end")?,
-        spin,
-        close,
-    );
+    close.add("spin at the end", "rad/s", [number(run, "Om_end")?, spin]);
+    let mut when = worst.under(Tolerance::Absolute(1e-3), why);
+    let at = [number(run, "at_t")?, watch.at];
+    when.add("time of the largest displacement", "s", at);
     let work = ending.state[layout.source(1)];
     let heat = machine.flows(&ending.state).heat;
-    let share = Tolerance::Relative(1e-3);
-    add(
-        "work of the drive",
-        "J",
-        number(run, "drive_work")?,
-        work,
-        share,
-    );
-    add("heat", "J", number(run, "heat")?, heat, share);
+    let mut share = worst.under(Tolerance::Relative(1e-3), why);
+    share.add("work of the drive", "J", [number(run, "drive_work")?, work]);
+    share.add("heat", "J", [number(run, "heat")?, heat]);
     Ok(())
 }
 
@@ -223,7 +194,7 @@ fn of_run(
     (disk, gravity): (usize, Vec2<f64>),
     speed: f64,
 ) -> Result<MachineConstants, String> {
-    let mut constants = falling_machine(1.0, 1e7, 5e-3, 0.0).constants;
+    let mut constants = falling_machine(1.0, 1e7, 5e-3, 0.0)?.constants;
     constants.rotor = shaft.constants();
     constants.rotor.places = vec![shaft.row(disk)];
     constants.rotor.drive_torque = number(run, "tau0")?;

@@ -2,7 +2,7 @@
 
 use super::given::{Coordinates, index, on_springs};
 use super::json::{list, number, numbers};
-use crate::compare::{Refusal, Worst};
+use crate::compare::{Refusal, Worst, told};
 use crate::levitated::machine::rotor_beside;
 use crate::report::{Row, Tolerance};
 use physics::dry_whirl::{WhirlContact, needed_friction};
@@ -67,7 +67,7 @@ impl Whirl {
             stiffness - mass * frequency * frequency,
             -frequency * damping,
         );
-        Ok([rotor.map_err(|error| error.to_string())?, race.inv()])
+        Ok([rotor.map_err(told)?, race.inv()])
     }
 
     fn sample(&self, sample: &Value, worst: &mut Worst) -> Result<(), String> {
@@ -75,9 +75,9 @@ impl Whirl {
         for (key, ours) in ["alpha_rotor", "alpha_race"].into_iter().zip(ours) {
             let [re, im] = numbers(sample, key)?;
             let allowed = Tolerance::Absolute(1e-6 * re.hypot(im));
-            for (theirs, ours) in [(re, ours.re), (im, ours.im)] {
-                worst.add(Row::compared(key, "m/N", theirs, ours, allowed, WHY));
-            }
+            let mut parts = worst.under(allowed, WHY);
+            parts.add(key, "m/N", [re, ours.re]);
+            parts.add(key, "m/N", [im, ours.im]);
         }
         let sum = ours[0] + ours[1];
         let force = self.contact.normal_force(sum.re, sum.im);
@@ -161,9 +161,8 @@ impl Whirl {
 }
 
 /// Compares two numbers, theirs and ours, of the units of the file.
-fn add(worst: &mut Worst, name: &str, [theirs, ours]: [f64; 2], share: f64) {
-    let allowed = Tolerance::Relative(share);
-    worst.add(Row::compared(name, "", theirs, ours, allowed, WHY));
+fn add(worst: &mut Worst, name: &str, both: [f64; 2], share: f64) {
+    (worst.under(Tolerance::Relative(share), WHY)).add(name, "", both);
 }
 
 /// A Jeffcott rotor against a held race, by its receptance.

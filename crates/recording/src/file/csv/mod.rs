@@ -25,7 +25,6 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use super::clock::{self, Spacing};
-use super::request::{refuse_number, refuse_text};
 use super::source::Source;
 use crate::{Channel, Content, FileError, Instant, Note, Property, Recording};
 use cell::{Cell, cells};
@@ -448,15 +447,10 @@ fn cells_after(line: &[u8], between: cell::Between, width: usize) -> bool {
 }
 
 impl<S: Read + Seek> Recording for Csv<S> {
-    contents!();
+    contents!(self, self.source.path(), self);
 
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let entry = self.channels.get(channel);
-        if entry.is_none_or(|entry| entry.content == Content::Text) {
-            let path = self.source.path();
-            return Err(refuse_number(path, channel, &self.channels));
-        }
-        let there = self.rows.saturating_sub(first).min(values.len() as u64) as usize;
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let there = values.len();
         let (width, per_block) = (self.channels.len(), self.rows_of_block as u64);
         let mut done = 0;
         while done < there {
@@ -476,26 +470,18 @@ impl<S: Read + Seek> Recording for Csv<S> {
         Ok(done)
     }
 
-    fn read_text(
+    fn texts(
         &mut self,
         channel: usize,
         first: u64,
         count: usize,
     ) -> Result<Vec<String>, FileError> {
-        let entry = self.channels.get(channel);
-        if entry.is_none_or(|entry| entry.content != Content::Text) {
-            return Err(refuse_text(self.source.path(), channel, &self.channels));
-        }
-        let there = self.rows.saturating_sub(first).min(count as u64);
         let mut found = Vec::new();
-        if there == 0 {
-            return Ok(found);
-        }
         let block = self.blocks[(first / self.rows_of_block as u64) as usize];
         let (mut lines, mut line, mut row) =
             (Lines::new(self.letters, block.at), Vec::new(), Vec::new());
         let mut at = block.row;
-        while at < first + there && lines.next(&mut self.source, &mut line)? {
+        while at < first + count as u64 && lines.next(&mut self.source, &mut line)? {
             if !self.take_row(&line, &mut row, None) {
                 continue;
             }

@@ -19,6 +19,16 @@ pub(super) struct Chunk {
     pub left_out: u32,
 }
 
+impl Chunk {
+    fn at(address: u64, size: u64, left_out: u32) -> Chunk {
+        Chunk {
+            address,
+            size,
+            left_out,
+        }
+    }
+}
+
 /// Kind of index and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Index {
@@ -101,12 +111,7 @@ impl<S: Read + Seek> Storage<S> {
                         Some((place, size, left_out))
                     })();
                     let (place, size, left_out) = entry.ok_or_else(|| self.damaged(at, WHAT))?;
-                    let chunk = Chunk {
-                        address,
-                        size,
-                        left_out,
-                    };
-                    chunks.insert(place, chunk);
+                    chunks.insert(place, Chunk::at(address, size, left_out));
                 }
             }
             Index::NewTree => {
@@ -123,30 +128,18 @@ impl<S: Read + Seek> Storage<S> {
                             true => (fields.whole(size_bytes)?, fields.u32()?),
                             false => (grid.bytes, 0),
                         };
-                        let place = (0..rank)
-                            .map(|_| fields.u64())
-                            .collect::<Option<Vec<_>>>()?;
+                        let place = (0..rank).map(|_| fields.u64()).collect::<Option<_>>()?;
                         Some((place, address, size, left_out))
                     })();
                     let entry = entry.ok_or_else(|| self.damaged(at, WHAT))?;
                     if let (place, Some(address), size, left_out) = entry {
-                        let chunk = Chunk {
-                            address,
-                            size,
-                            left_out,
-                        };
-                        chunks.insert(place, chunk);
+                        chunks.insert(place, Chunk::at(address, size, left_out));
                     }
                 }
             }
             Index::Single(filtered) => {
                 let (size, left_out) = filtered.unwrap_or((grid.bytes, 0));
-                let chunk = Chunk {
-                    address: at,
-                    size,
-                    left_out,
-                };
-                chunks.insert(vec![0; rank], chunk);
+                chunks.insert(vec![0; rank], Chunk::at(at, size, left_out));
             }
             Index::Implicit => {
                 let there = self.source.length() / grid.bytes.max(1) + 1;
@@ -157,12 +150,8 @@ impl<S: Read + Seek> Storage<S> {
                     if place[0] >= grid.sizes[0].div_ceil(grid.chunk[0]) {
                         break;
                     }
-                    let chunk = Chunk {
-                        address: at.saturating_add(position.saturating_mul(grid.bytes)),
-                        size: grid.bytes,
-                        left_out: 0,
-                    };
-                    chunks.insert(place, chunk);
+                    let address = at.saturating_add(position.saturating_mul(grid.bytes));
+                    chunks.insert(place, Chunk::at(address, grid.bytes, 0));
                 }
             }
             Index::Fixed => {
@@ -289,10 +278,9 @@ impl<S: Read + Seek> Storage<S> {
                 }
             } else {
                 let address = fields.address().flatten();
-                let pages = if length > blocks.page {
-                    (length / blocks.page).div_ceil(8)
-                } else {
-                    0
+                let pages = match length > blocks.page {
+                    true => (length / blocks.page).div_ceil(8),
+                    false => 0,
                 };
                 if let Some(address) = address {
                     let bitmaps = here.saturating_mul(pages);
@@ -424,11 +412,7 @@ impl<'a> Table<'a> {
                     true => (fields.whole(size_bytes)?, fields.u32()?),
                     false => (self.grid.bytes, 0),
                 };
-                Some(address.map(|address| Chunk {
-                    address,
-                    size,
-                    left_out,
-                }))
+                Some(address.map(|address| Chunk::at(address, size, left_out)))
             })();
             let chunk = parsed.ok_or_else(|| storage.damaged(0, WHAT))?;
             let place = self.grid.place(position + number as u64, self.slowest);

@@ -48,8 +48,8 @@ mod tree;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+use super::DAMAGED_PART;
 use super::clock;
-use super::request::{refuse_number, refuse_text};
 use super::source::Source;
 use crate::{Channel, FileError, Note, Property, Recording};
 use dataset::{Cache, Dataset, Line};
@@ -122,51 +122,23 @@ impl<S: Read + Seek> Hdf5<S> {
 }
 
 impl<S: Read + Seek> Recording for Hdf5<S> {
-    contents!();
+    contents!(self, self.storage.source.path(), self);
 
     fn contradicts_checksum(&self, channel: usize) -> bool {
         let line = self.lines.get(channel);
         line.is_some_and(|line| self.cache.contradicted.contains(&line.dataset))
     }
 
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let (Some(entry), Some(line)) = (self.channels.get(channel), self.lines.get(channel))
-        else {
-            let path = self.storage.source.path();
-            return Err(refuse_number(path, channel, &self.channels));
-        };
-        let there = entry.count.saturating_sub(first).min(values.len() as u64) as usize;
-        if there == 0 {
-            return Ok(0);
-        }
-        let whole = dataset::read_line(
-            &mut self.storage,
-            &mut self.cache,
-            &self.datasets[line.dataset],
-            line,
-            first,
-            &mut values[..there],
-        );
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let line = &self.lines[channel];
+        let dataset = &self.datasets[line.dataset];
+        let (storage, cache) = (&mut self.storage, &mut self.cache);
+        let whole = dataset::read_line(storage, cache, dataset, line, first, values);
         if !whole && !self.reported[channel] {
             self.reported[channel] = true;
-            self.notes.push(Note::of(
-                &entry.name,
-                "a part is damaged or cut off; its values are not-a-number",
-            ));
+            let name = &self.channels[channel].name;
+            self.notes.push(Note::of(name, DAMAGED_PART));
         }
-        Ok(there)
-    }
-
-    fn read_text(
-        &mut self,
-        channel: usize,
-        _first: u64,
-        _count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        Err(refuse_text(
-            self.storage.source.path(),
-            channel,
-            &self.channels,
-        ))
+        Ok(values.len())
     }
 }

@@ -116,10 +116,8 @@ pub(super) fn survey<S: Read + Seek>(
             } else if depth < DEEPEST {
                 below.push((format!("{name}/"), address, depth + 1));
             } else {
-                found.note(
-                    &name,
-                    format!("stands below {DEEPEST} groups; it is left out"),
-                );
+                let text = format!("stands below {DEEPEST} groups; it is left out");
+                found.note(&name, text);
             }
         }
         groups.extend(below.into_iter().rev());
@@ -130,10 +128,9 @@ pub(super) fn survey<S: Read + Seek>(
             Some(path) => path.to_string(),
             None => format!("{prefix}{path}"),
         };
-        match paths.contains(whole.trim_end_matches('/')) {
-            true => found
-                .aliases
-                .push(format!("{name} (read as {})", whole.trim_end_matches('/'))),
+        let whole = whole.trim_end_matches('/');
+        match paths.contains(whole) {
+            true => found.aliases.push(format!("{name} (read as {whole})")),
             false => found.note(&name, format!("leads to {path}, which is not there")),
         }
     }
@@ -149,6 +146,11 @@ fn stated_interval(properties: &[Property]) -> Option<f64> {
     })
 }
 
+/// Whether a property is none that MATLAB keeps for itself.
+fn is_own(property: &Property) -> bool {
+    !property.name.starts_with("MATLAB_")
+}
+
 /// What an error says, without the name of the file, for a note of that file.
 fn left_out(error: &FileError) -> String {
     format!("{}: {}; it is left out", error.place, error.found)
@@ -156,27 +158,19 @@ fn left_out(error: &FileError) -> String {
 
 impl Found {
     fn note(&mut self, name: &str, text: impl Into<String>) {
-        let name = name.trim_end_matches('/');
-        self.notes.push(match name {
-            "" => Note::of_file(text),
-            name => Note::of(name, text),
-        });
+        self.notes.push(Note::of(name.trim_end_matches('/'), text));
     }
 
     /// One note each of what somebody may look for among the channels.
     fn tell_what_is_no_channel(&mut self) {
         const NAMED: usize = 8;
-        let lists = [
-            (
-                std::mem::take(&mut self.aliases),
-                "links or other names lead to what is read under its first name, and are no channels",
-            ),
-            (
-                std::mem::take(&mut self.singles),
-                "single values are properties of the file, and no channels",
-            ),
-        ];
-        for (names, what) in lists {
+        let aliases =
+            "links or other names lead to what is read under its first name, and are no channels";
+        let singles = "single values are properties of the file, and no channels";
+        for (names, what) in [
+            (std::mem::take(&mut self.aliases), aliases),
+            (std::mem::take(&mut self.singles), singles),
+        ] {
             let rest = match names.len().saturating_sub(NAMED) {
                 0 => String::new(),
                 more => format!(" and {more} more"),
@@ -204,9 +198,7 @@ impl Found {
     }
 
     fn take_properties(&mut self, prefix: &str, properties: Vec<Property>) {
-        let named = properties
-            .into_iter()
-            .filter(|property| !property.name.starts_with("MATLAB_"));
+        let named = properties.into_iter().filter(is_own);
         self.properties.extend(named.map(|property| Property {
             name: format!("{prefix}{}", property.name),
             value: property.value,
@@ -222,14 +214,16 @@ impl Found {
     ) {
         let attributes = self.attributes(storage, &name, messages);
         let text = |key: &str| {
-            attributes
+            let named = |property: &&Property| property.name.eq_ignore_ascii_case(key);
+            let found = attributes
                 .iter()
-                .find_map(|property| match &property.value {
-                    Value::Text(text) if property.name.eq_ignore_ascii_case(key) => {
-                        Some(text.clone())
-                    }
-                    _ => None,
-                })
+                .filter(named)
+                .map(|property| &property.value);
+            let mut texts = found.filter_map(|value| match value {
+                Value::Text(text) => Some(text.clone()),
+                _ => None,
+            });
+            texts.next()
         };
         let class = text("MATLAB_class").filter(|_| matlab);
         let is_empty = attributes
@@ -325,22 +319,10 @@ impl Found {
             let text = format!("{size} values are stated, {count} are there");
             self.note(&name, text);
         }
-        let mut unit = ["unit", "units", "unit_string", "physical_unit", "einheit"]
-            .into_iter()
-            .find_map(text)
-            .unwrap_or_default();
-        unit = unit.trim().chars().take(LONGEST_UNIT).collect();
-        let description = [
-            "description",
-            "long_name",
-            "meaning",
-            "comment",
-            "label",
-            "title",
-        ]
-        .into_iter()
-        .find_map(text)
-        .unwrap_or_default();
+        let first = |keys: &str| keys.split(' ').find_map(text).unwrap_or_default();
+        let unit = first("unit units unit_string physical_unit einheit");
+        let unit: String = unit.trim().chars().take(LONGEST_UNIT).collect();
+        let description = first("description long_name meaning comment label title");
         let clock = stated_interval(&attributes).map(|interval| {
             let first = attributes.iter().find_map(|property| {
                 let names = ["t0", "x0", "start_offset", "wf_start_offset"];
@@ -355,10 +337,7 @@ impl Found {
             }
         });
         let description: String = description.chars().take(LONGEST_DESCRIPTION).collect();
-        let mut properties: Vec<Property> = attributes
-            .into_iter()
-            .filter(|property| !property.name.starts_with("MATLAB_"))
-            .collect();
+        let mut properties: Vec<Property> = attributes.into_iter().filter(is_own).collect();
         for column in 0..columns {
             for (member, offset, datatype) in &numbers {
                 let mut line = line(&dataset, self.datasets.len(), along, *offset, datatype);

@@ -17,8 +17,8 @@ mod values;
 use std::io::{Read, Seek};
 use std::path::Path;
 
+use super::DAMAGED_PART;
 use super::clock;
-use super::request::{refuse_number, refuse_text};
 use super::source::{HEAD, Source};
 use crate::{Channel, FileError, Note, Property, Recording};
 use stream::Stream;
@@ -100,7 +100,7 @@ impl<S: Read + Seek> Mat5<S> {
     }
 
     /// Fills `values` from the index `first` on; returns whether all were there.
-    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<bool, FileError> {
+    fn bring(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<bool, FileError> {
         values.fill(f64::NAN);
         let layout = &self.values[channel];
         let size = layout.stored.size();
@@ -149,33 +149,14 @@ impl<S: Read + Seek> Mat5<S> {
 }
 
 impl<S: Read + Seek> Recording for Mat5<S> {
-    contents!();
+    contents!(self, self.source.path(), self);
 
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let Some(entry) = self.channels.get(channel) else {
-            let path = self.source.path();
-            return Err(refuse_number(path, channel, &self.channels));
-        };
-        let there = entry.count.saturating_sub(first).min(values.len() as u64) as usize;
-        if there == 0 {
-            return Ok(0);
-        }
-        if !self.fill(channel, first, &mut values[..there])? && !self.reported[channel] {
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        if !self.bring(channel, first, values)? && !self.reported[channel] {
             self.reported[channel] = true;
-            self.notes.push(Note::of(
-                &self.channels[channel].name,
-                "a part is damaged or cut off; its values are not-a-number",
-            ));
+            let name = &self.channels[channel].name;
+            self.notes.push(Note::of(name, DAMAGED_PART));
         }
-        Ok(there)
-    }
-
-    fn read_text(
-        &mut self,
-        channel: usize,
-        _first: u64,
-        _count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        Err(refuse_text(self.source.path(), channel, &self.channels))
+        Ok(values.len())
     }
 }

@@ -99,19 +99,12 @@ impl Tag {
     fn read(head: &[u8; 8], big_endian: bool) -> Option<Tag> {
         let word = |at: usize| number::bits(&head[at..at + 4], big_endian) as u32;
         let (first, second) = (word(0), word(4));
-        if first >> 16 != 0 {
-            let size = u64::from(first >> 16);
-            return (size <= 4).then_some(Tag {
-                kind: first & 0xffff,
-                size,
-                small: true,
-            });
-        }
-        Some(Tag {
-            kind: first,
-            size: u64::from(second),
-            small: false,
-        })
+        let (small, size) = (first >> 16 != 0, first >> 16);
+        let (kind, size) = match small {
+            true => (first & 0xffff, u64::from(size)),
+            false => (first, u64::from(second)),
+        };
+        (!small || size <= 4).then_some(Tag { kind, size, small })
     }
 }
 
@@ -125,6 +118,20 @@ struct Element {
     next: u64,
     /// The bytes themselves, where they stand beside the tag.
     small: Option<[u8; 4]>,
+}
+
+/// A text that ends before a zero.
+fn text_of(bytes: &[u8]) -> String {
+    let end = bytes.iter().position(|&byte| byte == 0);
+    String::from_utf8_lossy(&bytes[..end.unwrap_or(bytes.len())]).into_owned()
+}
+
+/// A name of its own, or else another.
+fn named(own: &[u8], other: &str) -> String {
+    match own {
+        [] => other.to_string(),
+        own => String::from_utf8_lossy(own).into_owned(),
+    }
 }
 
 /// A walk through one variable. Inside, `Ok(None)` says that the variable is damaged.
@@ -170,21 +177,16 @@ impl<S: Read + Seek> Walk<'_, S> {
             return Ok(None);
         }
         let tag = sound!(Tag::read(&head, self.big_endian));
-        if tag.small {
-            return Ok(Some(Element {
-                kind: tag.kind,
-                size: tag.size,
-                at: from + 4,
-                next: from + 8,
-                small: head.last_chunk().copied(),
-            }));
-        }
+        let (before, behind) = match tag.small {
+            true => (4, 0),
+            false => (8, tag.size.next_multiple_of(8)),
+        };
         Ok(Some(Element {
             kind: tag.kind,
             size: tag.size,
-            at: from + 8,
-            next: from + 8 + tag.size.next_multiple_of(8),
-            small: None,
+            at: from + before,
+            next: from + 8 + behind,
+            small: (head.last_chunk().copied()).filter(|_| tag.small),
         }))
     }
 
@@ -192,10 +194,8 @@ impl<S: Read + Seek> Walk<'_, S> {
     fn short(&mut self) -> Damage<(u32, Vec<u8>)> {
         let element = sound!(self.element()?);
         if let Some(bytes) = element.small {
-            return Ok(Some((
-                element.kind,
-                bytes[..element.size as usize].to_vec(),
-            )));
+            let own = bytes[..element.size as usize].to_vec();
+            return Ok(Some((element.kind, own)));
         }
         if element.size > LONGEST {
             return Ok(None);
@@ -211,10 +211,8 @@ impl<S: Read + Seek> Walk<'_, S> {
 
     /// Whole numbers of four bytes.
     fn words(&self, bytes: &[u8]) -> Vec<u32> {
-        bytes
-            .chunks_exact(4)
-            .map(|bytes| Stored::U32.number(bytes, self.big_endian) as u32)
-            .collect()
+        let word = |bytes| Stored::U32.number(bytes, self.big_endian) as u32;
+        bytes.chunks_exact(4).map(word).collect()
     }
 
     /// An array of `size` bytes, of which the next is the first; `name` is used where it has none of its own.
@@ -231,25 +229,14 @@ impl<S: Read + Seek> Walk<'_, S> {
         if class == 17 {
             // An opaque object has names instead of sizes.
             let (_, own) = sound!(self.short()?);
-            let own = String::from_utf8_lossy(&own).into_owned();
-            let name = if own.is_empty() {
-                name.to_string()
-            } else {
-                own
-            };
+            let name = named(&own, name);
             self.found.note(&name, "holds an object; it is left out");
             return self.leave(end);
         }
         let (_, sizes) = sound!(self.short()?);
         let sizes: Vec<u64> = self.words(&sizes).into_iter().map(u64::from).collect();
         let (_, own) = sound!(self.short()?);
-        let own: Vec<u8> = own.into_iter().take_while(|&byte| byte != 0).collect();
-        let own = String::from_utf8_lossy(&own).into_owned();
-        let name = if own.is_empty() {
-            name.to_string()
-        } else {
-            own
-        };
+        let name = named(text_of(&own).as_bytes(), name);
         let count = sizes.iter().try_fold(1u64, |n, &size| n.checked_mul(size));
         let count = sound!(count);
         if self.found.channels.len() + self.found.properties.len() > MOST_CHANNELS {
@@ -323,13 +310,7 @@ impl<S: Read + Seek> Walk<'_, S> {
         if length == 0 {
             return Ok(names.is_empty().then_some(()));
         }
-        let names: Vec<String> = names
-            .chunks(length)
-            .map(|name| {
-                let name: Vec<u8> = name.iter().copied().take_while(|&b| b != 0).collect();
-                String::from_utf8_lossy(&name).into_owned()
-            })
-            .collect();
+        let names: Vec<String> = names.chunks(length).map(text_of).collect();
         if names.is_empty() {
             return Ok(Some(()));
         }
@@ -422,10 +403,9 @@ impl<S: Read + Seek> Walk<'_, S> {
             None => {}
         }
         let number = stored.number(&bytes[..size], self.big_endian);
-        let value = if logical {
-            Value::Flag(number != 0.0)
-        } else {
-            Value::Number(number)
+        let value = match logical {
+            true => Value::Flag(number != 0.0),
+            false => Value::Number(number),
         };
         self.found.properties.push(Property {
             name: name.to_string(),
@@ -473,9 +453,6 @@ impl Found {
     }
 
     pub(super) fn note(&mut self, name: &str, text: impl Into<String>) {
-        self.notes.push(match name {
-            "" => Note::of_file(text),
-            name => Note::of(name, text),
-        });
+        self.notes.push(Note::of(name, text));
     }
 }

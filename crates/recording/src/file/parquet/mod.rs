@@ -29,7 +29,6 @@ use ::parquet::file::serialized_reader::SerializedPageReader;
 use bytes::Bytes;
 
 use super::clock;
-use super::request::{refuse_number, refuse_text};
 use super::source::Source;
 use crate::{Channel, Content, FileError, Instant, Note, Property, Recording, Value};
 use columns::{Cursor, Kind};
@@ -459,20 +458,15 @@ impl About {
 }
 
 impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
-    contents!();
+    contents!(self, &self.path, self);
 
     fn contradicts_checksum(&self, channel: usize) -> bool {
         self.damage.get(channel) == Some(&Damage::Contradicted)
     }
 
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let entry = self.channels.get(channel);
-        let Some(entry) = entry.filter(|entry| entry.content != Content::Text) else {
-            return Err(refuse_number(&self.path, channel, &self.channels));
-        };
-        let there = entry.count.saturating_sub(first).min(values.len() as u64) as usize;
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let there = values.len();
         let Column { kind, origin, .. } = self.columns[channel];
-        let values = &mut values[..there];
         values.fill(f64::NAN);
         let mut done = 0;
         while done < there {
@@ -499,22 +493,17 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
         Ok(there)
     }
 
-    fn read_text(
+    fn texts(
         &mut self,
         channel: usize,
         first: u64,
         count: usize,
     ) -> Result<Vec<String>, FileError> {
-        let entry = self.channels.get(channel);
-        let Some(entry) = entry.filter(|entry| entry.content == Content::Text) else {
-            return Err(refuse_text(&self.path, channel, &self.channels));
-        };
-        let there = entry.count.saturating_sub(first).min(count as u64) as usize;
         let mut texts: Vec<String> = Vec::new();
-        while texts.len() < there {
+        while texts.len() < count {
             let (group, row) = self.group_of(first + texts.len() as u64);
             let left = self.starts[group + 1] - self.starts[group] - row;
-            let here = left.min((there - texts.len()) as u64) as usize;
+            let here = left.min((count - texts.len()) as u64) as usize;
             let mut cursor = self.cursor(channel, group, row);
             let read = match &mut cursor {
                 Some(cursor) => guarded(|| match cursor.go_to(row)? {

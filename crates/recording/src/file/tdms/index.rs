@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::layout::{Layout, Piece};
 use super::meta::{Cursor, Placement, RawIndex, names};
+use crate::file::keep_note;
 use crate::file::source::Source;
 use crate::{Content, FileError, Note, Property, Value};
 
@@ -24,9 +25,6 @@ const NEW_LIST: u32 = 1 << 2;
 const RAW_DATA: u32 = 1 << 3;
 const INTERLEAVED: u32 = 1 << 5;
 const BIG_ENDIAN: u32 = 1 << 6;
-
-/// Most notes that are kept: a broken file would else fill the memory with them.
-const NOTES: usize = 100;
 
 /// Fewest segments from one milestone to the next.
 const MILESTONE: usize = 64;
@@ -49,10 +47,8 @@ pub struct Object {
 impl Object {
     /// The value of a property.
     pub fn property(&self, name: &str) -> Option<&Value> {
-        self.properties
-            .iter()
-            .find(|property| property.name == name)
-            .map(|property| &property.value)
+        let found = self.properties.iter().find(|own| own.name == name);
+        found.map(|property| &property.value)
     }
 }
 
@@ -95,27 +91,22 @@ impl Index {
 
     /// What chunks of all layouts hold of an object.
     pub fn pieces(&self, object: u32) -> impl Iterator<Item = &Piece> {
-        self.layouts
-            .iter()
-            .filter_map(move |layout| layout.piece(object))
+        let layouts = self.layouts.iter();
+        layouts.filter_map(move |layout| layout.piece(object))
     }
 
     /// Values of an object in a block.
     pub fn count_in(&self, block: &Block, object: u32) -> u64 {
-        self.layout(block).map_or(0, |layout| {
-            layout
-                .piece(object)
-                .map_or(0, |piece| count_of(layout, piece, block))
-        })
+        let of = |layout: &Arc<Layout>| Some(count_of(layout, layout.piece(object)?, block));
+        self.layout(block).and_then(of).unwrap_or(0)
     }
 
     /// The last milestone before or at the value `first` of an object: a block, and the index of its first value.
     pub fn milestone(&self, object: u32, first: u64) -> (usize, u64) {
         let before =
             |milestone: &Milestone| milestone.counts.get(object as usize).copied().unwrap_or(0);
-        let behind = self
-            .milestones
-            .partition_point(|milestone| before(milestone) <= first);
+        let is_before = |milestone: &Milestone| before(milestone) <= first;
+        let behind = self.milestones.partition_point(is_before);
         match behind.checked_sub(1).and_then(|at| self.milestones.get(at)) {
             Some(milestone) => (milestone.block, before(milestone)),
             None => (0, 0),
@@ -124,16 +115,8 @@ impl Index {
 
     /// Keeps a note unless there are many.
     pub fn note(&mut self, channel: Option<String>, text: impl Into<String>) {
-        let note = Note {
-            channel,
-            text: text.into(),
-        };
-        if self.notes.len() < NOTES && !self.notes.contains(&note) {
-            self.notes.push(note);
-        } else if self.notes.len() == NOTES && !self.notes.contains(&note) {
-            self.notes
-                .push(Note::of_file("more was found that is not listed"));
-        }
+        let text = text.into();
+        keep_note(&mut self.notes, Note { channel, text });
     }
 
     /// Reads the index of a file; an error where its first bytes are no TDMS.
@@ -195,20 +178,15 @@ impl Scan {
         let there = source.read_at(at, &mut head)?;
         if !head.starts_with(b"TDSm") {
             if at == 0 {
-                return Err(source.error(
-                    0,
-                    "is no TDMS: the first letters are not TDSm",
-                    "a TDMS file",
-                ));
+                let found = "is no TDMS: the first letters are not TDSm";
+                return Err(source.error(0, found, "a TDMS file"));
             }
             self.index.note(None, format!("at byte {at} a segment should begin but does not: what follows ({} bytes) is not read", length - at));
             return Ok(None);
         }
         if there < head.len() {
-            self.index.note(
-                None,
-                format!("the file ends in the head of a segment (byte {at})"),
-            );
+            let text = format!("the file ends in the head of a segment (byte {at})");
+            self.index.note(None, text);
             return Ok(None);
         }
         let flags = u32::from_le_bytes([head[4], head[5], head[6], head[7]]);
@@ -219,11 +197,8 @@ impl Scan {
             _ => return Ok(None),
         };
         let body = at + LEAD_IN;
-        let stated = if size == UNFINISHED {
-            None
-        } else {
-            body.checked_add(size)
-        };
+        let stated = Some(size).filter(|&size| size != UNFINISHED);
+        let stated = stated.and_then(|size| body.checked_add(size));
         let end = match stated {
             Some(end) if end <= length => end,
             Some(end) => {
@@ -232,42 +207,30 @@ impl Scan {
                 length
             }
             None => {
-                self.index.note(
-                    None,
-                    format!(
-                        "the last segment (byte {at}) was never completed: what is there is read"
-                    ),
-                );
+                let text = "was never completed: what is there is read";
+                self.index
+                    .note(None, format!("the last segment (byte {at}) {text}"));
                 length
             }
         };
         let raw_at = body.checked_add(raw_size).filter(|&raw_at| raw_at <= end);
         let Some(raw_at) = raw_at else {
-            self.index.note(
-                None,
-                format!(
-                    "the meta data of the last segment (byte {at}) are cut off: it is not read"
-                ),
-            );
+            let text = "are cut off: it is not read";
+            let text = format!("the meta data of the last segment (byte {at}) {text}");
+            self.index.note(None, text);
             return Ok(None);
         };
         if flags & META_DATA != 0 {
             let meta = source.bytes(body, raw_at - body)?;
             if let Err(wrong) = self.meta_data(&meta, flags) {
-                self.index.note(
-                    None,
-                    format!("segment at byte {at}: {wrong}; it and what follows is not read"),
-                );
+                let text =
+                    format!("segment at byte {at}: {wrong}; it and what follows is not read");
+                self.index.note(None, text);
                 return Ok(None);
             }
         }
         if flags & RAW_DATA != 0 && end > raw_at {
-            self.raw_data(
-                flags,
-                raw_at,
-                end - raw_at,
-                size != UNFINISHED && stated == Some(end),
-            );
+            self.raw_data(flags, raw_at, end - raw_at, stated == Some(end));
         }
         Ok(Some(end))
     }
@@ -379,31 +342,24 @@ impl Scan {
             layout: number,
         };
         if complete && !bytes.is_multiple_of(layout.bytes) {
-            let text = format!(
-                "the raw data at byte {at} end in the middle of a chunk: what is there is read"
-            );
+            let text = "end in the middle of a chunk: what is there is read";
+            let text = format!("the raw data at byte {at} {text}");
             self.index.note(None, text);
         }
         let spacing = MILESTONE.max(self.index.objects.len());
         if self.since_milestone >= spacing {
-            let counts = self
-                .index
-                .objects
-                .iter()
-                .map(|object| object.count)
-                .collect();
+            let counts = self.index.objects.iter().map(|object| object.count);
             self.index.milestones.push(Milestone {
                 block: self.index.blocks.len(),
-                counts,
+                counts: counts.collect(),
             });
             self.since_milestone = 0;
         }
         self.since_milestone += 1;
         for piece in &layout.pieces {
             if let Some(object) = self.index.objects.get_mut(piece.object as usize) {
-                object.count = object
-                    .count
-                    .saturating_add(count_of(&layout, piece, &block));
+                let here = count_of(&layout, piece, &block);
+                object.count = object.count.saturating_add(here);
             }
         }
         self.index.blocks.push(block);
@@ -412,31 +368,21 @@ impl Scan {
     /// The number of the layout of the present list; none where its values cannot be placed.
     fn lay_out(&mut self, flags: u32) -> Option<u32> {
         let states = &self.states;
-        let objects: Vec<(u32, &RawIndex)> = self
-            .list
-            .iter()
-            .filter_map(|&object| Some((object, states.get(object as usize)?.raw.as_ref()?)))
-            .collect();
+        let raw = |object: u32| Some((object, states.get(object as usize)?.raw.as_ref()?));
+        let objects = self.list.iter().filter_map(|&object| raw(object));
+        let objects: Vec<(u32, &RawIndex)> = objects.collect();
         let mut complaints = Vec::new();
         let mut complain = |object, text| complaints.push((object, text));
-        let layout = Layout::of(
-            &objects,
-            flags & INTERLEAVED != 0,
-            flags & BIG_ENDIAN != 0,
-            &mut complain,
-        );
+        let [interleaved, big] = [INTERLEAVED, BIG_ENDIAN].map(|bit| flags & bit != 0);
+        let layout = Layout::of(&objects, interleaved, big, &mut complain);
         let layout = layout.map(|mut layout| {
-            layout
-                .pieces
-                .retain(|piece| self.keeps_content(piece, &mut complaints));
+            let keeps = |piece: &Piece| self.keeps_content(piece, &mut complaints);
+            layout.pieces.retain(keeps);
             layout
         });
         for (object, text) in complaints {
-            let name = self
-                .index
-                .objects
-                .get(object as usize)
-                .map(|object| object.names.join("/"));
+            let object = self.index.objects.get(object as usize);
+            let name = object.map(|object| object.names.join("/"));
             self.index.note(name, text);
         }
         let layout = Arc::new(layout.filter(|layout| !layout.pieces.is_empty())?);
@@ -463,10 +409,8 @@ impl Scan {
         });
         let keeps = content == kind.content() && object.complex == kind.is_complex();
         if !keeps {
-            complaints.push((
-                piece.object,
-                "changes what its values are: those of the new kind are left out".to_owned(),
-            ));
+            let text = "changes what its values are: those of the new kind are left out";
+            complaints.push((piece.object, text.to_owned()));
         }
         keeps
     }

@@ -34,7 +34,7 @@ use super::source::{Source, WINDOW};
 use crate::{Channel, Clock, Content, FileError, Note, Property, Recording, Value};
 use index::{Block, Index, Object};
 use kind::{Kind, Stamp, decode, stamp};
-use layout::{Layout, PLAIN, Part};
+use layout::{Layout, PLAIN, Part, Piece};
 use scale::Scaling;
 
 /// Most values that are brought at once.
@@ -97,12 +97,13 @@ impl<S: Read + Seek> Tdms<S> {
             let object = &self.index.objects[number];
             match object.names.as_slice() {
                 [] => self.properties.extend(object.properties.iter().cloned()),
-                [group] => self
-                    .properties
-                    .extend(object.properties.iter().map(|p| Property {
-                        name: format!("{group}/{}", p.name),
-                        value: p.value.clone(),
-                    })),
+                [group] => {
+                    let named = object.properties.iter().map(|own| Property {
+                        name: format!("{group}/{}", own.name),
+                        value: own.value.clone(),
+                    });
+                    self.properties.extend(named);
+                }
                 _ => self.list_channel(number as u32)?,
             }
         }
@@ -116,28 +117,25 @@ impl<S: Read + Seek> Tdms<S> {
         let mut times = HashMap::new();
         for (place, (channel, origin)) in self.channels.iter().zip(&self.origins).enumerate() {
             let names = &self.index.objects[origin.object as usize].names;
-            let called = names.last().is_some_and(|name| {
-                ["time", "t"]
-                    .iter()
-                    .any(|time| name.eq_ignore_ascii_case(time))
-            });
-            let number = channel.content == Content::Number && called && channel.unit == "s";
-            if let Some(group) = names
-                .first()
-                .filter(|_| number || channel.content == Content::Time)
-            {
+            let is_time = |name: &String| ["time", "t"].contains(&&*name.to_ascii_lowercase());
+            let called = names.last().is_some_and(is_time) && channel.unit == "s";
+            let holds = match channel.content {
+                Content::Number => called,
+                content => content == Content::Time,
+            };
+            if let Some(group) = names.first().filter(|_| holds) {
                 times.entry((group.clone(), channel.count)).or_insert(place);
             }
         }
         for (place, (channel, origin)) in self.channels.iter_mut().zip(&self.origins).enumerate() {
             let names = &self.index.objects[origin.object as usize].names;
-            let time = names
-                .first()
-                .and_then(|group| times.get(&(group.clone(), channel.count)));
-            if let Some(&time) =
-                time.filter(|&&time| time != place && channel.clock == Clock::Unknown)
-            {
-                channel.clock = Clock::Channel(time);
+            let group = names.first();
+            let time = group.and_then(|group| times.get(&(group.clone(), channel.count)));
+            match time {
+                Some(&time) if time != place && channel.clock == Clock::Unknown => {
+                    channel.clock = Clock::Channel(time);
+                }
+                _ => {}
             }
         }
     }
@@ -161,12 +159,9 @@ impl<S: Read + Seek> Tdms<S> {
             }
         };
         let coded = |part: &Part| part.scale != PLAIN && !matches!(part.kind, Kind::Bit(_));
-        if scaling.is_none()
-            && self
-                .index
-                .pieces(number)
-                .any(|piece| piece.parts.iter().any(coded))
-        {
+        let holds_codes = |piece: &Piece| piece.parts.iter().any(coded);
+        let is_coded = self.index.pieces(number).any(holds_codes);
+        if scaling.is_none() && is_coded {
             channel.unit.clear();
             let text = "its values are the codes of the device, without a unit: the file states no scaling that is applied";
             self.index.note(Some(name.clone()), text);
@@ -227,33 +222,21 @@ impl<S: Read + Seek> Tdms<S> {
             return Ok(None);
         }
         let has_scales = |object: &&Object| object.property("NI_Number_Of_Scales").is_some();
-        let group = || {
-            objects
-                .iter()
-                .filter(|o| o.names.len() == 1 && o.names.first() == channel.names.first())
-                .find(has_scales)
+        let above = |names: &[String]| {
+            let mut own = objects.iter().filter(|object| object.names == names);
+            own.find(has_scales)
         };
-        let file = || {
-            objects
-                .iter()
-                .filter(|o| o.names.is_empty())
-                .find(has_scales)
-        };
-        let Some(object) = Some(channel)
-            .filter(has_scales)
-            .or_else(group)
-            .or_else(file)
-        else {
+        let group = || above(channel.names.get(..1).unwrap_or_default());
+        let own = Some(channel).filter(has_scales);
+        let Some(object) = own.or_else(group).or_else(|| above(&[])) else {
             return Ok(None);
         };
         let Some(scaling) = Scaling::of(&|name| object.property(name))? else {
             return Ok(None);
         };
         for piece in self.index.pieces(number) {
-            if let Some(scale) = scaling
-                .needs()
-                .find(|&scale| part_of(&piece.parts, scale).is_none())
-            {
+            let lacks = |scale: &u32| part_of(&piece.parts, *scale).is_none();
+            if let Some(scale) = scaling.needs().find(lacks) {
                 return Err(format!("scale {scale} has no raw values"));
             }
         }
@@ -263,31 +246,16 @@ impl<S: Read + Seek> Tdms<S> {
     /// The first time stamp of an object.
     fn first_stamp(&mut self, object: u32) -> Result<Option<Stamp>, FileError> {
         for block in &self.index.blocks {
-            let Some(layout) = self
-                .index
-                .layout(block)
-                .filter(|_| self.index.count_in(block, object) > 0)
-            else {
-                continue;
-            };
-            let Some(part) = layout.piece(object).and_then(|piece| piece.parts.first()) else {
-                continue;
-            };
-            let bytes = self
-                .source
-                .window(block.at.saturating_add(part.offset), 16)?;
-            return Ok(Some(stamp(bytes, layout.big)));
+            let layout = self.index.layout(block);
+            let layout = layout.filter(|_| self.index.count_in(block, object) > 0);
+            let part = layout.and_then(|layout| layout.piece(object)?.parts.first());
+            if let (Some(layout), Some(part)) = (layout, part) {
+                let at = block.at.saturating_add(part.offset);
+                let bytes = self.source.window(at, 16)?;
+                return Ok(Some(stamp(bytes, layout.big)));
+            }
         }
         Ok(None)
-    }
-
-    /// An error at a channel.
-    fn error(&self, channel: usize, found: &str, needed: &str) -> FileError {
-        let place = match self.channels.get(channel) {
-            Some(known) => format!("channel '{}'", known.name),
-            None => format!("channel {channel}"),
-        };
-        FileError::new(self.source.path(), place, found, needed)
     }
 
     /// Calls `visit` for each run of values of a channel that lie in one chunk, from the value `first` on for `count`.
@@ -303,10 +271,9 @@ impl<S: Read + Seek> Tdms<S> {
         };
         let object = origin.object;
         let milestone = self.index.milestone(object, first);
-        let (mut number, mut start) = if origin.last.1 <= first {
-            milestone.max(origin.last)
-        } else {
-            milestone
+        let (mut number, mut start) = match origin.last.1 <= first {
+            true => milestone.max(origin.last),
+            false => milestone,
         };
         let mut done = 0;
         while done < count {
@@ -402,25 +369,22 @@ impl<S: Read + Seek> Tdms<S> {
             Ok(number::bits(bytes, run.layout.big))
         };
         let mut ends = Vec::new();
-        let mut begin = if run.index == 0 {
-            0
-        } else {
-            place(places - 4)?
+        let mut begin = match run.index {
+            0 => 0,
+            _ => place(places - 4)?,
         };
         for i in 0..run.count {
             ends.push(place(places + 4 * i)?);
         }
         for end in ends {
             if end < begin || end > room {
+                let count = texts.len();
                 return Err(format!(
-                    "text {} reaches from byte {begin} to {end} of {room}",
-                    texts.len()
+                    "text {count} reaches from byte {begin} to {end} of {room}"
                 ));
             }
-            let bytes = self
-                .source
-                .bytes(letters + begin, end - begin)
-                .map_err(|e| e.to_string())?;
+            let bytes = self.source.bytes(letters + begin, end - begin);
+            let bytes = bytes.map_err(|e| e.to_string())?;
             texts.push(String::from_utf8_lossy(&bytes).into_owned());
             begin = end;
         }
@@ -465,10 +429,8 @@ impl Run {
         let most = (WINDOW - size) / stride + 1;
         let mut index = self.index + skip;
         for some in values.chunks_mut(most) {
-            let bytes = source.window(
-                start + index * part.stride,
-                (some.len() - 1) * stride + size,
-            )?;
+            let count = (some.len() - 1) * stride + size;
+            let bytes = source.window(start + index * part.stride, count)?;
             decode(part.kind, self.layout.big, bytes, stride, origin, some);
             index += some.len() as u64;
         }
@@ -488,14 +450,10 @@ fn describe(object: &Object) -> (Channel, Option<String>) {
     };
     let mut channel = Channel::new(object.names.join("/"), object.count);
     channel.content = object.content.unwrap_or(Content::Number);
-    channel.unit = text("unit_string")
-        .or_else(|| text("NI_UnitDescription"))
-        .unwrap_or_default()
-        .trim()
-        .to_owned();
-    channel.description = text("description")
-        .or_else(|| text("Description"))
-        .unwrap_or_default();
+    let either = |first: &str, second: &str| text(first).or_else(|| text(second));
+    let unit = either("unit_string", "NI_UnitDescription");
+    channel.unit = unit.unwrap_or_default().trim().to_owned();
+    channel.description = either("description", "Description").unwrap_or_default();
     // All zero is what an unset start looks like: the beginning of 1904.
     let unset = meta::instant((0, 0));
     channel.start = match object.property("wf_start_time") {
@@ -505,15 +463,13 @@ fn describe(object: &Object) -> (Channel, Option<String>) {
     let mut wrong = None;
     match number("wf_increment") {
         Some(interval) if interval > 0.0 && interval.is_finite() => {
-            let first = number("wf_start_offset")
-                .filter(|offset| offset.is_finite())
-                .unwrap_or(0.0);
+            let first = number("wf_start_offset").filter(|offset| offset.is_finite());
+            let first = first.unwrap_or(0.0);
             channel.clock = Clock::Uniform { first, interval };
         }
         Some(interval) if interval != 0.0 => {
-            wrong = Some(format!(
-                "its interval (wf_increment) is {interval}: its clock is unknown"
-            ))
+            let text = "its clock is unknown";
+            wrong = Some(format!("its interval (wf_increment) is {interval}: {text}"));
         }
         _ => {}
     }
@@ -523,15 +479,17 @@ fn describe(object: &Object) -> (Channel, Option<String>) {
         "wf_increment",
         "wf_start_offset",
     ];
-    let rest = object
-        .properties
-        .iter()
-        .filter(|p| !shown.contains(&p.name.as_str()));
+    let rest = object.properties.iter();
+    let rest = rest.filter(|own| !shown.contains(&own.name.as_str()));
     channel.properties = rest.cloned().collect();
     (channel, wrong)
 }
 
 impl<S: Read + Seek> Recording for Tdms<S> {
+    fn path(&self) -> &Path {
+        self.source.path()
+    }
+
     fn channels(&self) -> &[Channel] {
         &self.channels
     }
@@ -544,16 +502,9 @@ impl<S: Read + Seek> Recording for Tdms<S> {
         &self.properties
     }
 
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let Some(known) = self.channels.get(channel) else {
-            return Err(self.error(channel, "is not in the file", ""));
-        };
-        if known.content == Content::Text {
-            return Err(self.error(channel, "holds texts", "numbers are needed"));
-        }
-        let count = known.count.saturating_sub(first).min(values.len() as u64);
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let mut done = 0;
-        self.runs(channel, first, count, |file, run| {
+        self.runs(channel, first, values.len() as u64, |file, run| {
             let end = done + run.count as usize;
             file.bring(channel, &run, &mut values[done..end])?;
             done = end;
@@ -562,24 +513,20 @@ impl<S: Read + Seek> Recording for Tdms<S> {
         Ok(done)
     }
 
-    fn read_text(
+    fn texts(
         &mut self,
         channel: usize,
         first: u64,
         count: usize,
     ) -> Result<Vec<String>, FileError> {
-        let Some(known) = self.channels.get(channel) else {
-            return Err(self.error(channel, "is not in the file", ""));
-        };
-        if known.content != Content::Text {
-            return Err(self.error(channel, "holds no texts", "read it as numbers"));
-        }
-        let count = known.count.saturating_sub(first).min(count as u64);
         let mut texts = Vec::new();
-        self.runs(channel, first, count, |file, run| {
-            let object = file.origins.get(channel).map_or(0, |origin| origin.object);
+        self.runs(channel, first, count as u64, |file, run| {
+            let object = file.origins[channel].object;
             let brought = file.bring_texts(object, &run, &mut texts);
-            brought.map_err(|why| file.error(channel, &why, "the file is damaged there"))
+            brought.map_err(|why| FileError {
+                needed: "the file is damaged there".to_string(),
+                ..file.refusal(channel, &why)
+            })
         })?;
         Ok(texts)
     }

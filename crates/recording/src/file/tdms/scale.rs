@@ -33,10 +33,12 @@ enum Law {
         outputs: Vec<f64>,
         input: usize,
     },
-    /// Left + right.
-    Add { left: usize, right: usize },
-    /// Right − left.
-    Subtract { left: usize, right: usize },
+    /// Right + factor × left.
+    Sum {
+        left: usize,
+        right: usize,
+        factor: f64,
+    },
 }
 
 /// The scales of a channel, each after those it takes.
@@ -119,9 +121,8 @@ impl Scaling {
             if !(0.0..=f64::from(MOST_NUMBERS)).contains(&count) {
                 return Err(format!("scale {scale} ({kind}) has {count} {name}"));
             }
-            (0..count as u32)
-                .map(|i| need(&format!("{name}[{i}]")))
-                .collect()
+            let all = 0..count as u32;
+            all.map(|i| need(&format!("{name}[{i}]"))).collect()
         };
         let mut input = |name: &str| -> Result<usize, String> {
             // A scale takes lower numbers only, so that none takes itself.
@@ -156,13 +157,10 @@ impl Scaling {
                     input: input("Input_Source")?,
                 }
             }
-            "Add" => Law::Add {
+            "Add" | "Subtract" => Law::Sum {
                 left: input("Left_Operand_Input_Source")?,
                 right: input("Right_Operand_Input_Source")?,
-            },
-            "Subtract" => Law::Subtract {
-                left: input("Left_Operand_Input_Source")?,
-                right: input("Right_Operand_Input_Source")?,
+                factor: if kind == "Add" { 1.0 } else { -1.0 },
             },
             _ => return Err(format!("scale {scale} is of the kind {kind}")),
         })
@@ -170,12 +168,9 @@ impl Scaling {
 
     /// The raw values that are needed, by the number of their scaler.
     pub fn needs(&self) -> impl Iterator<Item = u32> {
-        self.laws.iter().filter_map(|law| {
-            if let Law::Raw(scale) = law {
-                Some(*scale)
-            } else {
-                None
-            }
+        self.laws.iter().filter_map(|law| match law {
+            Law::Raw(scale) => Some(*scale),
+            _ => None,
         })
     }
 
@@ -199,22 +194,19 @@ impl Scaling {
                     coefficients,
                     input: from,
                 } => {
-                    out.extend(
-                        input(from)
-                            .map(|x| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)),
-                    );
+                    let sum = |x| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c);
+                    out.extend(input(from).map(sum));
                 }
                 Law::Table {
                     inputs,
                     outputs,
                     input: from,
                 } => out.extend(input(from).map(|x| held(inputs, outputs, x))),
-                Law::Add { left, right } => {
-                    out.extend(input(left).zip(input(right)).map(|(l, r)| l + r))
-                }
-                Law::Subtract { left, right } => {
-                    out.extend(input(left).zip(input(right)).map(|(l, r)| r - l))
-                }
+                Law::Sum {
+                    left,
+                    right,
+                    factor,
+                } => out.extend(input(left).zip(input(right)).map(|(l, r)| r + factor * l)),
             }
         }
         if let Some(last) = self.values.last() {

@@ -39,20 +39,12 @@ impl TdmsWriter {
         for channel in channels {
             let place = format!("channel '{}'", channel.name);
             if channel.content == Content::Text {
-                return Err(FileError::new(
-                    path,
-                    place,
-                    "holds texts",
-                    "only numbers can be written to TDMS",
-                ));
+                let needed = "only numbers can be written to TDMS";
+                return Err(FileError::new(path, place, "holds texts", needed));
             }
             if !paths.insert(path_of(&channel.name)) {
-                return Err(FileError::new(
-                    path,
-                    place,
-                    "is there twice",
-                    "give each channel its own name",
-                ));
+                let needed = "give each channel its own name";
+                return Err(FileError::new(path, place, "is there twice", needed));
             }
         }
         let gathered = vec![Vec::new(); channels.len()];
@@ -146,12 +138,8 @@ impl Writer for TdmsWriter {
                 values.len(),
                 self.gathered.len()
             );
-            return Err(FileError::new(
-                self.draft.path(),
-                "",
-                found,
-                "one slice for each channel",
-            ));
+            let (path, needed) = (self.draft.path(), "one slice for each channel");
+            return Err(FileError::new(path, "", found, needed));
         }
         let longest = values.iter().map(|values| values.len()).max().unwrap_or(0);
         // Pieces, so that a long append does not double what is in memory.

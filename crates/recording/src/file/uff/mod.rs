@@ -21,7 +21,7 @@ use std::path::Path;
 
 use super::number;
 use super::source::{Source, WINDOW};
-use crate::{Channel, Clock, FileError, Note, Property, Recording, Value};
+use crate::{Channel, Clock, FileError, Property, Recording, Value};
 use header::{Names, date, si_unit};
 use scan::Contents;
 use set::{Axis, Body, Set};
@@ -84,11 +84,8 @@ impl<S: Read + Seek> Uff<S> {
         let mut source = Source::new(source, path)?;
         let head = source.bytes(0, source.length().min(super::source::HEAD as u64))?;
         if !is_uff(&head) {
-            return Err(source.error(
-                0,
-                "is no universal file: the first line is not -1",
-                "a file of universal sets",
-            ));
+            let found = "is no universal file: the first line is not -1";
+            return Err(source.error(0, found, "a file of universal sets"));
         }
         let contents = Contents::of(&mut source)?;
         let mut file = Uff {
@@ -98,8 +95,8 @@ impl<S: Read + Seek> Uff<S> {
             origins: Vec::new(),
         };
         if file.contents.sets.is_empty() {
-            file.contents
-                .note(None, "has no set 58: there are no values");
+            let text = "has no set 58: there are no values";
+            file.contents.note(None, text);
         }
         let mut names = Names::new();
         for set in 0..file.contents.sets.len() {
@@ -118,20 +115,15 @@ impl<S: Read + Seek> Uff<S> {
         let mut channel = Channel::new(name.clone(), set.count);
         let (unit, lost) = unit(&set.ordinate, self.contents.units);
         channel.unit = unit;
-        let remarks: Vec<&str> = set.remarks[1..]
-            .iter()
-            .map(String::as_str)
-            .filter(|r| !r.is_empty() && date(r).is_none())
-            .collect();
-        channel.description = remarks.join("; ");
-        channel.start = set.remarks[1..].iter().find_map(|remark| date(remark));
+        let remarks = || set.remarks[1..].iter().map(String::as_str);
+        let words = remarks().filter(|r| !r.is_empty() && date(r).is_none());
+        channel.description = words.collect::<Vec<_>>().join("; ");
+        channel.start = remarks().find_map(date);
         channel.properties = set.properties.clone();
         if !set.ordinate.label.is_empty() {
-            let value = Value::Text(set.ordinate.label.clone());
-            channel.properties.push(Property {
-                name: "quantity".to_owned(),
-                value,
-            });
+            let (name, label) = ("quantity".to_owned(), set.ordinate.label.clone());
+            let value = Value::Text(label);
+            channel.properties.push(Property { name, value });
         }
         let (complex, uneven, axis) = (set.complex, set.uneven, set.abscissa.clone());
         let even = seconds(&axis)
@@ -145,35 +137,27 @@ impl<S: Read + Seek> Uff<S> {
             Some((first, interval)) if interval > 0.0 => {
                 channel.clock = Clock::Uniform { first, interval }
             }
-            Some((_, interval)) => wrong.push(format!(
-                "its interval is {interval} s: its clock is unknown"
-            )),
+            Some((_, interval)) => {
+                wrong.push(format!(
+                    "its interval is {interval} s: its clock is unknown"
+                ));
+            }
             None => {
                 channel.clock = Clock::Channel(place);
                 let (unit, lost) = self::unit(&axis, self.contents.units);
                 wrong.extend(lost.map(|text| format!("abscissa: {text}")));
                 let field = if uneven { Field::Abscissa } else { Field::Even };
                 let name = names.give(&format!("{name} (abscissa)"));
-                abscissa = Some((
-                    Channel {
-                        unit,
-                        description: axis.label.clone(),
-                        ..Channel::new(name, channel.count)
-                    },
-                    field,
-                ));
+                let mut own = Channel::new(name, channel.count);
+                (own.unit, own.description) = (unit, axis.label.clone());
+                abscissa = Some((own, field));
             }
         }
         if complex {
-            let imaginary = Channel {
-                name: format!("{name} (imaginary)"),
-                ..channel.clone()
-            };
-            let real = Channel {
-                name: format!("{name} (real)"),
-                ..channel
-            };
-            self.push(real, number, Field::Real);
+            let mut imaginary = channel.clone();
+            imaginary.name = format!("{name} (imaginary)");
+            channel.name = format!("{name} (real)");
+            self.push(channel, number, Field::Real);
             self.push(imaginary, number, Field::Imaginary);
         } else {
             self.push(channel, number, Field::Real);
@@ -185,8 +169,8 @@ impl<S: Read + Seek> Uff<S> {
             self.contents.note(Some(name.clone()), text);
         }
         if has_start {
-            self.contents
-                .note(None, "its dates have no time zone: they are taken as UTC");
+            let text = "its dates have no time zone: they are taken as UTC";
+            self.contents.note(None, text);
         }
     }
 
@@ -205,18 +189,16 @@ fn unit(axis: &Axis, system: Option<u32>) -> (String, Option<String>) {
     let known = si_unit(axis.quantity);
     match (axis.unit.is_empty(), known, system) {
         (false, _, _) => (axis.unit.clone(), None),
-        (true, Some(unit), Some(1)) => (
-            unit.to_owned(),
-            Some(format!(
-                "its unit is not stated: {unit} by its quantity, as the file is in SI"
-            )),
-        ),
-        (true, Some(unit), _) => (
-            String::new(),
-            Some(format!(
-                "its unit is lost: the file states its quantity only, whose unit in SI is {unit}"
-            )),
-        ),
+        (true, Some(unit), Some(1)) => {
+            let why = "by its quantity, as the file is in SI";
+            let text = format!("its unit is not stated: {unit} {why}");
+            (unit.to_owned(), Some(text))
+        }
+        (true, Some(unit), _) => {
+            let why = "the file states its quantity only, whose unit in SI is";
+            let text = format!("its unit is lost: {why} {unit}");
+            (String::new(), Some(text))
+        }
         (true, None, _) => (String::new(), None),
     }
 }
@@ -303,35 +285,11 @@ impl Set {
 }
 
 impl<S: Read + Seek> Recording for Uff<S> {
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
+    contents!(self, self.source.path(), self.contents);
 
-    fn notes(&self) -> &[Note] {
-        &self.contents.notes
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.contents.properties
-    }
-
-    fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
-        let Some((origin, set)) = self.origins.get_mut(channel).and_then(|origin| {
-            let set = self.contents.sets.get(origin.set)?;
-            Some((origin, set))
-        }) else {
-            return Err(FileError::new(
-                self.source.path(),
-                format!("channel {channel}"),
-                "is not in the file",
-                "",
-            ));
-        };
-        let count = set.count.saturating_sub(first).min(values.len() as u64) as usize;
-        let values = &mut values[..count];
-        if count == 0 {
-            return Ok(0);
-        }
+    fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let origin = &mut self.origins[channel];
+        let set = &self.contents.sets[origin.set];
         match &set.body {
             _ if origin.field == Field::Even => {
                 for (i, value) in values.iter_mut().enumerate() {
@@ -341,15 +299,11 @@ impl<S: Read + Seek> Recording for Uff<S> {
             Body::Text { places } => {
                 let wanted = first * set.fields() + set.place(origin.field);
                 let behind = places.partition_point(|place| place.0 <= wanted);
-                let place = behind
-                    .checked_sub(1)
-                    .and_then(|at| places.get(at))
-                    .copied()
-                    .unwrap_or((0, 0));
-                let start = if origin.last.0 <= wanted {
-                    place.max(origin.last)
-                } else {
-                    place
+                let place = behind.checked_sub(1).and_then(|at| places.get(at));
+                let place = place.copied().unwrap_or((0, 0));
+                let start = match origin.last.0 <= wanted {
+                    true => place.max(origin.last),
+                    false => place,
                 };
                 origin.last = numbers(&mut self.source, start, wanted, set.fields(), values)?;
             }
@@ -366,31 +320,10 @@ impl<S: Read + Seek> Recording for Uff<S> {
                     Field::Real => (*abscissa, *value),
                     Field::Imaginary => (abscissa + value, *value),
                 };
-                bytes(
-                    &mut self.source,
-                    at + first * row + offset,
-                    row,
-                    size,
-                    *big,
-                    values,
-                )?;
+                let from = at + first * row + offset;
+                bytes(&mut self.source, from, row, size, *big, values)?;
             }
         }
-        Ok(count)
-    }
-
-    fn read_text(&mut self, channel: usize, _: u64, _: usize) -> Result<Vec<String>, FileError> {
-        let place = self
-            .channels
-            .get(channel)
-            .map_or(format!("channel {channel}"), |c| {
-                format!("channel '{}'", c.name)
-            });
-        Err(FileError::new(
-            self.source.path(),
-            place,
-            "holds no texts",
-            "read it as numbers",
-        ))
+        Ok(values.len())
     }
 }

@@ -6,6 +6,7 @@ use std::io::{Read, Seek};
 use super::header::{Header, header, said};
 use super::set::{Body, Set};
 use super::text::{Numbers, columns, decoded, is_mark, is_plain, line, value};
+use crate::file::keep_note;
 use crate::file::source::{Source, WINDOW};
 use crate::{FileError, Note, Property, Value};
 
@@ -15,8 +16,16 @@ const HEADER: usize = 11;
 /// Values from one kept place of a text to the next.
 pub const PLACES: u64 = 4096;
 
-/// Most notes that are kept.
-const NOTES: usize = 100;
+/// What the lines of the set 151 are.
+const HEAD: [&str; 7] = [
+    "model",
+    "description",
+    "program",
+    "created",
+    "saved",
+    "written by",
+    "written",
+];
 
 /// What a file holds.
 #[derive(Debug, Default)]
@@ -34,13 +43,8 @@ pub struct Contents {
 impl Contents {
     /// Keeps a note unless there are many.
     pub fn note(&mut self, channel: Option<String>, text: impl Into<String>) {
-        let note = Note {
-            channel,
-            text: text.into(),
-        };
-        if self.notes.len() < NOTES && !self.notes.contains(&note) {
-            self.notes.push(note);
-        }
+        let text = text.into();
+        keep_note(&mut self.notes, Note { channel, text });
     }
 
     /// Finds the sets of a file.
@@ -95,22 +99,11 @@ impl Contents {
             if is_mark(text) {
                 break;
             }
-            if number < 7 && kind == "151" {
+            if number < HEAD.len() && kind == "151" {
                 let text = said(&decoded(text).0);
-                let names = [
-                    "model",
-                    "description",
-                    "program",
-                    "created",
-                    "saved",
-                    "written by",
-                    "written",
-                ];
                 if !text.is_empty() {
-                    self.properties.push(Property {
-                        name: names[number].to_owned(),
-                        value: Value::Text(text),
-                    });
+                    let (name, value) = (HEAD[number].to_owned(), Value::Text(text));
+                    self.properties.push(Property { name, value });
                 }
             }
             if number == 0 && kind == "164" {
@@ -128,14 +121,8 @@ impl Contents {
         start: u64,
         binary: Option<&str>,
     ) -> Result<u64, FileError> {
-        let words: Vec<u64> = binary
-            .map(|b| {
-                b.split_whitespace()
-                    .skip(1)
-                    .filter_map(|word| word.parse().ok())
-                    .collect()
-            })
-            .unwrap_or_default();
+        let words = binary.unwrap_or_default().split_whitespace().skip(1);
+        let words: Vec<u64> = words.filter_map(|word| word.parse().ok()).collect();
         let word = |number: usize| words.get(number).copied();
         // A vendor may add lines to the header; the number of its lines shows it.
         let count = word(2)
@@ -211,10 +198,9 @@ impl Contents {
                 break;
             }
             if text.len() == WINDOW {
-                self.note(
-                    header.set.name(),
-                    format!("a line of more than {WINDOW} bytes: a number may be cut in two"),
-                );
+                let text =
+                    format!("a line of more than {WINDOW} bytes: a number may be cut in two");
+                self.note(header.set.name(), text);
             }
             let before = numbers;
             let mut bad = 0;
@@ -248,26 +234,18 @@ impl Contents {
     /// Number of values where `stated` are stated and `there` are there.
     fn counted(&mut self, name: Option<String>, stated: u64, there: u64) -> u64 {
         if stated == 0 && there > 0 {
-            self.note(
-                name,
-                format!(
-                    "its header states no number of values: the {there} that are there are read"
-                ),
-            );
+            let text = "its header states no number of values";
+            self.note(name, format!("{text}: the {there} that are there are read"));
             return there;
         }
-        if stated > there {
-            self.note(
-                name,
-                format!("its header states {stated} values, {there} are there"),
-            );
-        } else if stated < there {
-            self.note(
-                name,
-                format!(
-                    "its header states {stated} values, {there} are there: the last are left out"
-                ),
-            );
+        if stated != there {
+            let rest = if stated < there {
+                ": the last are left out"
+            } else {
+                ""
+            };
+            let text = format!("its header states {stated} values, {there} are there{rest}");
+            self.note(name, text);
         }
         stated.min(there)
     }
@@ -283,11 +261,8 @@ impl Contents {
     ) -> Result<u64, FileError> {
         let name = header.set.name();
         let left = source.length().saturating_sub(at);
-        let value: u64 = if matches!(header.ordinate, 4 | 6) {
-            8
-        } else {
-            4
-        };
+        let is_double = matches!(header.ordinate, 4 | 6);
+        let value: u64 = if is_double { 8 } else { 4 };
         let parts = 1 + u64::from(header.set.complex);
         // The abscissa is of single precision by the description; some write it as wide as the values.
         let widths: &[u64] = match (header.set.uneven, value) {
@@ -309,26 +284,19 @@ impl Contents {
                 break;
             }
         }
-        if let Some(&wide) = widths
-            .iter()
-            .find(|&&width| Some(size(width)) == bytes.or(stated))
-        {
+        let fits = |width: &&u64| Some(size(**width)) == bytes.or(stated);
+        if let Some(&wide) = widths.iter().find(fits) {
             abscissa = wide;
         }
         if bytes.is_none() {
-            let missing = if size(abscissa) > left {
-                "the file was cut off"
-            } else {
-                "its length is not where the next set begins"
+            let missing = match size(abscissa) > left {
+                true => "the file was cut off",
+                false => "its length is not where the next set begins",
             };
             self.note(name.clone(), format!("its set is not closed: {missing}"));
         }
-        let bytes = bytes.unwrap_or_else(|| {
-            stated
-                .filter(|&bytes| bytes > 0)
-                .unwrap_or(size(abscissa))
-                .min(left)
-        });
+        let stated = stated.filter(|&bytes| bytes > 0);
+        let bytes = bytes.unwrap_or_else(|| stated.unwrap_or(size(abscissa)).min(left));
         header.set.count = self.counted(name, header.count, bytes / row(abscissa));
         header.set.body = Body::Binary {
             at,
