@@ -218,13 +218,15 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         w.seen.take(&w.state, &w.probe);
         w.last_logarithm = with_lane(w.last_logarithm, lane, saved.last_logarithm);
         self.method.restore(lane, &saved.method);
-        self.gather();
+        self.gather(true);
     }
 
-    /// The batch and the modes of what stands on the lanes.
-    fn gather(&mut self) {
+    /// The modes of what stands on the lanes; the batch too, where other machines do.
+    fn gather(&mut self, machines: bool) {
         let lanes = &self.lanes;
-        self.batch = B::gather(&|lane| &*lanes[lane].machine);
+        if machines {
+            self.batch = B::gather(&|lane| &*lanes[lane].machine);
+        }
         self.mode = B::gather_mode(&|lane| lanes[lane].mode);
         self.work.time = R::from_lanes(|lane| lanes[lane].time);
     }
@@ -241,7 +243,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     }
     fn renew_fresh(&mut self) {
         if self.fresh != 0 {
-            self.gather();
+            self.gather(true);
             self.begin();
         }
     }
@@ -345,7 +347,8 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         let renewed = wanted != 0 && self.renew(observers, wanted);
         self.switch(observers);
         if renewed || self.fresh != 0 {
-            self.gather();
+            // what switches changes modes and states alone
+            self.gather(renewed);
             self.begin();
         }
     }

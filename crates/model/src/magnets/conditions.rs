@@ -14,6 +14,7 @@
 
 use ::levitation::{Condition, Levitation};
 use number::Real;
+use std::ops::Range;
 
 /// Something that happens to axes of magnets.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,9 +70,11 @@ const COMMAND: [&str; 2] = ["command share", "command added"];
 /// Channels of limits.
 const LIMITS: [&str; 2] = ["largest current", "slew"];
 
-/// Where the conditions stand among the states of the magnets.
-#[derive(Clone, Debug, PartialEq)]
+/// Where the conditions stand among the states of the magnets, behind those of the levitation.
+#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Conditions {
+    /// States of the current of each axis, or of its coils, once the power is lost: where a command is the current, one as it was then.
+    pub kept: Vec<Range<usize>>,
     /// First channel of each supply.
     supplies: Vec<usize>,
     /// The supply of each axis.
@@ -115,8 +118,9 @@ impl<R: Real> Supply<R> {
 }
 
 impl Conditions {
-    /// Of the axes of a levitation and all that may happen to them; channels count on from `first`.
-    pub fn of(levitation: &Levitation, changes: &[Change], first: usize) -> Self {
+    /// Of the axes of a levitation and all that may happen to them.
+    pub fn of(levitation: &Levitation, changes: &[Change]) -> Self {
+        let first = levitation.states();
         let axes = 0..levitation.actuators().len();
         let name = |axis: usize| levitation.actuators()[axis].axis.name.as_str();
         let touched = |axis: usize, of: &dyn Fn(&What) -> bool| {
@@ -133,6 +137,17 @@ impl Conditions {
             names.extend(channels.iter().map(|own| format!("{of}.{own}")));
             at
         };
+        let mut kept = Vec::new();
+        for axis in axes.clone() {
+            let own = levitation.current_states(axis);
+            kept.push(match own.is_empty() {
+                true => {
+                    let at = add(name(axis), &["current kept"]);
+                    at..at + 1
+                }
+                false => own,
+            });
+        }
         let mut leaders: Vec<usize> = Vec::new();
         let mut supply_of = Vec::new();
         for axis in axes.clone() {
@@ -156,6 +171,7 @@ impl Conditions {
             )
         };
         Conditions {
+            kept,
             differ: changes.iter().any(changed),
             supplies,
             supply_of,

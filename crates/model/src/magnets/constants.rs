@@ -4,7 +4,6 @@ use super::conditions::{Change, Conditions};
 use ::levitation::{Levitation, LinearControl};
 use number::Vec2;
 use physics::magnet::{Magnet, Timing};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The magnets of a rotor.
@@ -60,7 +59,8 @@ pub struct ControlConstants {
     /// States of the levitation at the start.
     pub start: Vec<f64>,
     /// What happens during the run; when, the schedule of the machine says.
-    pub changes: Vec<Change>,
+    pub changes: Arc<[Change]>,
+    pub(super) conditions: Arc<Conditions>,
 }
 
 /// What happens to magnets and controllers at an instant.
@@ -75,26 +75,20 @@ pub enum ControlEvent {
 }
 
 impl ControlConstants {
-    /// First channel behind the states of the levitation: currents that are none there, as they were when the power was lost.
-    pub(super) fn kept(&self) -> Vec<Range<usize>> {
-        let mut last = self.levitation.states();
-        let axes = 0..self.levitation.actuators().len();
-        axes.map(|axis| {
-            let own = self.levitation.current_states(axis);
-            match own.is_empty() {
-                true => {
-                    last += 1;
-                    last - 1..last
-                }
-                false => own,
-            }
-        })
-        .collect()
-    }
-    pub(super) fn conditions(&self) -> Conditions {
-        let last = self.kept().iter().map(|own| own.end).max().unwrap_or(0);
-        let first = last.max(self.levitation.states());
-        Conditions::of(&self.levitation, &self.changes, first)
+    /// A levitation at its nodes with its states at the start, and what happens to it.
+    pub fn new(
+        levitation: Levitation,
+        sensors: Vec<(Vec<f64>, Vec<Vec2<f64>>)>,
+        start: Vec<f64>,
+        changes: Vec<Change>,
+    ) -> Self {
+        ControlConstants {
+            conditions: Arc::new(Conditions::of(&levitation, &changes)),
+            levitation: Arc::new(levitation),
+            sensors,
+            start,
+            changes: changes.into(),
+        }
     }
     /// Samples of the controller between two instants of a run, with what they do; the sample of the start is taken already.
     pub fn samples(&self, from: f64, to: f64) -> Vec<(f64, ControlEvent)> {
@@ -122,23 +116,15 @@ impl ControlConstants {
     }
     /// The states at the start of a run.
     pub fn start(&self) -> Vec<f64> {
-        let conditions = self.conditions();
         let mut states = self.start.clone();
         states.resize(self.names().len(), 0.0);
-        conditions.start(&self.levitation, &mut states);
+        self.conditions.start(&self.levitation, &mut states);
         states
     }
-    /// Names of the states: those of the levitation, then currents that are none there, as they were when the power was lost, then
-    /// the conditions.
+    /// Names of the states: those of the levitation, then those of the conditions.
     fn names(&self) -> Vec<String> {
-        let mut names = self.levitation.names().to_vec();
-        for (k, actuator) in self.levitation.actuators().iter().enumerate() {
-            if self.levitation.current_states(k).is_empty() {
-                names.push(format!("{}.current kept", actuator.axis.name));
-            }
-        }
-        names.extend(self.conditions().names);
-        names
+        let own = self.levitation.names().iter();
+        own.chain(&self.conditions.names).cloned().collect()
     }
 }
 
@@ -205,7 +191,7 @@ impl MagnetsConstants {
         };
         let loop_of = |all: &Self| {
             let control = all.control();
-            control.map(|own| (own.levitation.clone(), own.conditions()))
+            control.map(|own| (own.levitation.clone(), own.conditions.clone()))
         };
         kinds(self) == kinds(other) && loop_of(self) == loop_of(other)
     }

@@ -150,7 +150,7 @@ impl Control<f64> {
             let offset = self.levitation.sensors()[*axis].offset;
             match change.what {
                 What::Lost { decay_rate } => {
-                    let kept = self.kept[*axis].clone();
+                    let kept = of.kept[*axis].clone();
                     if supply.on && self.levitation.current_states(*axis).is_empty() {
                         own[kept.start] = signals.currents[*axis];
                     }

@@ -28,7 +28,6 @@ use conditions::{Change, Conditions, Supply};
 use number::{Gather, Mask, Real, Vec2, Vectorized};
 use physics::magnet::Magnet;
 use smallvec::SmallVec;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// Magnets over `R`.
@@ -51,10 +50,8 @@ struct Axis<R> {
 struct Control<R> {
     levitation: Arc<Levitation>,
     sensors: Vec<(Node<R>, Vec<Vec2<R>>)>,
-    /// States of the currents of each axis once the power is lost.
-    kept: Vec<Range<usize>>,
-    conditions: Conditions,
-    changes: Vec<Change>,
+    conditions: Arc<Conditions>,
+    changes: Arc<[Change]>,
     /// Conditions of axes to which nothing has happened; empty where none ever differs.
     usual: Vec<Condition<R>>,
 }
@@ -117,7 +114,7 @@ impl<R: Real> Magnets<R> {
             control: of(0).control().map(|control| {
                 let own = |lane: usize| of(lane).control().expect("lanes share it");
                 let sensors = control.sensors.iter().enumerate();
-                let conditions = control.conditions();
+                let conditions = control.conditions.clone();
                 let changes = control.changes.clone();
                 let actuators = control.levitation.actuators().iter();
                 let usual = match conditions.differ {
@@ -136,7 +133,6 @@ impl<R: Real> Magnets<R> {
                             (node, (0..directions.len()).map(along).collect())
                         })
                         .collect(),
-                    kept: control.kept(),
                     conditions,
                     changes,
                     usual,
@@ -215,7 +211,7 @@ impl<R: Real> Magnets<R> {
         for (_, axes) in &self.list {
             for axis in axes {
                 let supply = &now.supplies[of.supply_of(out.len())];
-                let kept = &states[control.kept[out.len()].clone()];
+                let kept = &states[of.kept[out.len()].clone()];
                 let coils = match *kept {
                     [near, far] => [near * supply.left, far * supply.left],
                     _ => axis.law.coils(kept[0] * supply.left, supply.share),
@@ -259,7 +255,7 @@ impl<R: Real> Magnets<R> {
                     *kept = R::select(supply.on, own, *kept);
                 }
                 // what is left of a current does not change in its state
-                for at in control.kept[index].clone() {
+                for at in of.kept[index].clone() {
                     if let Some(rate) = own.get_mut(at) {
                         *rate = R::select(supply.on, *rate, R::zero());
                     }

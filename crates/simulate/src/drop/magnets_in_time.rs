@@ -11,7 +11,6 @@ use model::system::machine::{AtSpeed, Event};
 use number::Vec2;
 use problem::{Code, Problem};
 use scenario::{Happens, When, problem_at};
-use std::sync::Arc;
 
 /// Magnets that hold a rotor.
 pub(super) struct OnMagnets {
@@ -103,12 +102,9 @@ pub(super) fn built(
     let happening: Vec<(When, Change)> = of_magnets_alone
         .map(|own| (own.when, change(&own.what, axes)))
         .collect();
-    let control = ControlConstants {
-        start: sampled(levitation, &sensors, position, held.states.clone()),
-        levitation: Arc::new(levitation.clone()),
-        sensors,
-        changes: happening.iter().map(|(_, change)| change.clone()).collect(),
-    };
+    let start = sampled(levitation, &sensors, position, held.states.clone());
+    let changes = happening.iter().map(|(_, change)| change.clone()).collect();
+    let control = ControlConstants::new(levitation.clone(), sensors, start, changes);
     settles(&control)?;
     let (mut known, mut at_speeds) = (Vec::new(), Vec::<AtSpeed>::new());
     for (index, (when, _)) in happening.iter().enumerate() {

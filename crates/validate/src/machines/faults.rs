@@ -26,7 +26,6 @@ use rotor::{Analysis, Unbalance};
 use serde_json::Value;
 use solve::{Settings, Stop};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Free modes up to this are kept, rad/s.
@@ -186,12 +185,9 @@ impl<'a> Run<'a> {
                 changes.push((0.0, Change { what, axes: all() }));
             }
         }
-        let control = ControlConstants {
-            levitation: Arc::new(self.levitation.clone()),
-            sensors: magnets.iter().map(sensor).collect::<Result<_, String>>()?,
-            start: states,
-            changes: changes.iter().map(|(_, change)| change.clone()).collect(),
-        };
+        let sensors = magnets.iter().map(sensor).collect::<Result<_, String>>()?;
+        let own = changes.iter().map(|(_, change)| change.clone()).collect();
+        let control = ControlConstants::new(self.levitation.clone(), sensors, states, own);
         let end = number(self.given, "t_end")?;
         let event = |(k, (time, _)): (usize, &(f64, Change))| {
             (*time, Event::Control(ControlEvent::Change(k)))
