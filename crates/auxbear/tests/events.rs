@@ -2,7 +2,7 @@
 
 use crate::machine::STIFF;
 use crate::outcomes::number;
-use auxbear::outcome::Outcome;
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
@@ -133,6 +133,22 @@ fn a_force_from_outside_accelerates_the_rotor() {
     assert!(refused("times = [\"0\", \"1\"]").contains("unit"));
 }
 
+/// One axis lost at the start leaves the others their power; a re-levitation of a rotor that has its power is none.
+#[test]
+fn what_happens_at_the_start_and_what_cannot_happen_does_not_comfort() {
+    let lost = "[[event]]\nname = \"lost\"\ndo = \"axis lost\"\nat = \"0 s\"\nmagnet = \"drive_end\"\naxis = 1\n";
+    let run = ran(&with_events(AXIS, lost), &["run.duration=15 ms"]);
+    assert!(number(&run, "drive_end.contact_count") > 0.0);
+    assert_eq!(number(&run, "other_end.contact_count"), 0.0);
+    assert_eq!(number(&run, "release_time"), 0.0);
+    let kept = "[[event]]\ndo = \"power lost\"\nbelow_speed = \"1000 rpm\"\n[[event]]\ndo = \"re-levitate\"\nat = \"5 ms\"\nbias_time = \"1 ms\"\nhold = \"1 ms\"\n";
+    let run = ran(&with_events(AXIS, kept), &["run.duration=15 ms"]);
+    let held = run.quantity("relevitation_held").expect("a result");
+    assert!(matches!(held.value, Value::None { .. }), "{held:?}");
+    assert!(codes(&run).contains(&"AB2083"));
+    assert_eq!(number(&run, "drive_end.contact_count"), 0.0);
+}
+
 #[test]
 fn events_that_cannot_be_are_refused_where_they_stand() {
     let event = |lines: &str| with_events(AXIS, &format!("[[event]]\n{lines}\n"));
@@ -203,6 +219,20 @@ fn events_that_cannot_be_are_refused_where_they_stand() {
     assert!(
         both.contains("levitation.power_lost_at") && both.contains("one of the two"),
         "{both}"
+    );
+    let long = parsed(AGAIN, &["event.again.hold=1 s"]).unwrap_err();
+    assert!(
+        long.contains("event.again.hold") && long.contains("run.duration"),
+        "{long}"
+    );
+    let direct = AGAIN.replace(
+        "amplifier_bandwidth = \"2 kHz\"\nslew_rate = \"3000 A/s\"\n",
+        "",
+    );
+    let useless = parsed(&direct, &[]).unwrap_err();
+    assert!(
+        useless.contains("AB0110") && useless.contains("amplifier_bandwidth"),
+        "{useless}"
     );
     let unknown = parsed(AXIS, &["event.nothing.at=1 ms"]).unwrap_err();
     assert!(unknown.contains("axis_lost"), "{unknown}");

@@ -37,7 +37,7 @@ impl<E: Copy> Schedule<E> {
         schedule
     }
     /// What holds from the start.
-    pub fn at_the_start(&self) -> impl Iterator<Item = E> + '_ {
+    pub fn at_the_start(&self) -> impl Iterator<Item = E> + Clone + '_ {
         self.at_the_start.iter().copied()
     }
     /// Instants to land on, ascending, s.

@@ -125,6 +125,9 @@ impl Magnets<f64> {
             }
             ControlEvent::Release if powered => levitation.release(&mut own[..levitation.states()]),
             ControlEvent::Sample | ControlEvent::Release => {}
+            // a rotor that the magnets hold is not levitated again
+            ControlEvent::Change(change)
+                if powered && matches!(control.changes[change].what, What::Levitated { .. }) => {}
             ControlEvent::Change(change) => {
                 control.change(&control.changes[change], time, (&now, &signals), own);
             }

@@ -7,8 +7,10 @@ use crate::rotor::levitation::Magnets;
 use crate::rotor::tables::Part;
 use crate::run::Until;
 use crate::values::Values;
+use physics::magnet::{Amplifier, Magnet};
 use problem::words::Words;
 use problem::{Code, Result, did_you_mean, words};
+use units::number_text;
 
 words! {
     /// What happens, as a word.
@@ -195,6 +197,21 @@ pub fn events(parts: &[Part], magnets: Option<&Magnets>, values: &Values) -> Res
         });
     }
     relevitated(&parts, &events, magnets)?;
+    let end = values.number("run.duration").unwrap_or(f64::INFINITY);
+    for (part, event) in parts.iter().zip(&events) {
+        if let (Happens::Relevitate(own), When::At(time)) = (&event.what, event.when)
+            && time < end
+            && own.hold >= end - time
+        {
+            let found = format!(
+                "{} s, and the run ends {} s after it",
+                number_text(own.hold),
+                number_text(end - time)
+            );
+            let allowed = "less than what is left of run.duration is needed";
+            return part.refuse(Code::OutOfRange, "hold", found, allowed);
+        }
+    }
     Ok(events)
 }
 
@@ -255,6 +272,22 @@ fn happens(part: &Part, magnets: Option<&Magnets>, values: &Values) -> Result<Ha
         Happening::AmplifierLimit => {
             let [largest_current, slew] =
                 ["largest_current", "slew_rate"].map(|key| part.number(key));
+            for axis in &axes {
+                let magnet = &magnets.magnets[axis / 2];
+                let own = matches!(magnet.amplifier, Amplifier::Current { .. });
+                let pair = matches!(magnet.axes[axis % 2].law, Magnet::Pair(_));
+                let useless = match (slew, largest_current) {
+                    (Some(_), _) if !own => "slew_rate",
+                    (_, Some(_)) if pair && !own => "largest_current",
+                    _ => continue,
+                };
+                let found = format!(
+                    "the limit of coils that magnet {} does not follow one by one",
+                    quoted(&magnet.name)
+                );
+                let allowed = "levitation.magnet.amplifier_bandwidth is needed beside it: a current amplifier of each coil";
+                return part.refuse(Code::UnusedKey, useless, found, allowed);
+            }
             if largest_current.or(slew).is_none() {
                 let found = "an amplifier limit without a limit";
                 let allowed = "largest_current or slew_rate is needed";
@@ -356,7 +389,10 @@ fn when(part: &Part, all: &[&Part], values: &Values, steps: usize) -> Result<Whe
 fn of_key(part: &Part, named: &str, all: &[&Part], values: &Values) -> Result<When> {
     let lost = values.number(LOST_AT).unwrap_or_default();
     let start = values.number("rotor.brake_start");
+    // with events of magnets the key has no default, and the brake of its key follows what they say
+    let of_magnets = all.iter().any(|part| part.word("do") != Some("brake"));
     match (named, start) {
+        _ if of_magnets && !values.is_own(LOST_AT) => {}
         (POWER_LOST, _) => return Ok(When::At(lost)),
         (BRAKE, Some(start)) => return Ok(When::At(lost + start)),
         _ => {}
@@ -405,7 +441,7 @@ fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
         }
         if let Some(other) = events[..k]
             .iter()
-            .find(|other| other.when == event.when && other.what.conflicts(&event.what))
+            .find(|other| same_instant(other.when, event.when) && other.what.conflicts(&event.what))
         {
             let found = format!(
                 "what contradicts the event {} at the same instant",
@@ -437,6 +473,14 @@ fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Whether two events come at one instant but for rounding.
+fn same_instant(a: When, b: When) -> bool {
+    match (a, b) {
+        (When::At(a), When::At(b)) => (a - b).abs() <= 1e-12 * a.abs().max(b.abs()),
+        (a, b) => a == b,
+    }
 }
 
 fn line(line: Option<usize>) -> String {

@@ -401,6 +401,15 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
         let rows = times.iter().zip(list.iter().cycle());
         Ok(rows.map(|(time, force)| [*time, *force]).collect())
     };
+    if part.series("x").or(part.series("y")).is_none() {
+        let allowed = "x or y is needed";
+        return part.refuse(
+            Code::MissingKey,
+            "x",
+            "a force without a direction",
+            allowed,
+        );
+    }
     Ok(Force {
         at,
         over_time: [along("x")?, along("y")?],

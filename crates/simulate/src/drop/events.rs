@@ -17,23 +17,19 @@ fn events(given: &Shaft) -> impl Iterator<Item = &Event> {
     given.events.iter().filter(|event| !event.by_key)
 }
 
-/// A rotor that is levitated again, the last time: how, and when.
-fn relevitation(drop: &Drop) -> Option<(Relevitation, When)> {
+/// How and when a rotor is levitated again, each time.
+fn relevitations(drop: &Drop) -> impl DoubleEndedIterator<Item = (Relevitation, When)> + '_ {
     let again = |event: &Event| match event.what {
         Happens::Relevitate(own) => Some((own, event.when)),
         _ => None,
     };
-    drop.shaft
-        .as_ref()?
-        .events
-        .iter()
-        .filter_map(again)
-        .next_back()
+    let shaft = drop.shaft.iter();
+    shaft.flat_map(|own| &own.events).filter_map(again)
 }
 
 /// Share of the clearance within which a rotor that is levitated again must stay.
 pub(super) fn within(drop: &Drop) -> Option<f64> {
-    relevitation(drop).map(|(own, _)| own.within)
+    relevitations(drop).map(|(own, _)| own.within).next_back()
 }
 
 /// How quickly the rotor leaves the middle after each event that cuts loops: a cut axis keeps k_s, a lost one has neither k_i nor k_s.
@@ -100,10 +96,17 @@ struct Again {
 
 impl Again {
     fn of(context: &Context) -> Option<Self> {
-        let (own, when) = relevitation(context.setup.drop())?;
         let record = &context.finished.record;
-        let time = time_of(when, context.setup, record)?;
         let end = context.finished.ending.time;
+        // the last of those that happened to a rotor without power
+        let happened = relevitations(context.setup.drop()).filter_map(|(own, when)| {
+            let time = time_of(when, context.setup, record).filter(|time| *time <= end)?;
+            record
+                .lost
+                .is_some_and(|(lost, _)| lost < time)
+                .then_some((own, time))
+        });
+        let (own, time) = happened.max_by(|a, b| a.1.total_cmp(&b.1))?;
         let after = |last: Option<f64>| last.filter(|last| *last >= time);
         let all = record.within.iter().flat_map(|(_, outside)| outside);
         let outside = all.filter_map(|last| after(*last)).reduce(f64::max);
@@ -131,7 +134,10 @@ pub(super) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
         return;
     };
     for event in events(given) {
-        let time = run.map(|run| time_of(event.when, setup, &run.finished.record));
+        let time = run.map(|run| {
+            let time = time_of(event.when, setup, &run.finished.record);
+            time.filter(|time| *time <= run.finished.ending.time)
+        });
         let growths = setup.built.shaft.iter().flat_map(|own| &own.growth);
         let growth = growths
             .into_iter()
@@ -143,12 +149,12 @@ pub(super) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
             happened(list, &cuts, happened_at.as_ref())
         });
     }
-    if relevitation(setup.drop()).is_some() {
+    if relevitations(setup.drop()).next().is_some() {
         again(list, &(), run.map(Again::of).as_ref());
     }
 }
 
-const NEVER: &str = "the rotor did not come to its speed";
+const NEVER: &str = "it did not happen in this run";
 
 results! {
     /// Of an event.
@@ -166,7 +172,7 @@ results! {
             run.as_ref().map(|own| f64::from(u8::from(own.held))).ok_or_else(|| NEVER.to_string())
         };
         "relevitation_duration": number "s", OUTSIDE, "from the re-levitation until the rotor stayed in the middle of its bearings" in relevitation "in the middle after" => {
-            run.as_ref().and_then(|own| Some(own.outside? - own.time)).ok_or_else(|| "it was never outside after it".to_string())
+            run.as_ref().filter(|own| own.held).and_then(|own| Some(own.outside? - own.time)).ok_or_else(|| "it was not held, or never outside after it".to_string())
         };
         "relevitation_last_contact": number "s", CONTACT, "end of the last contact after the re-levitation" in relevitation "last contact at" => {
             run.as_ref().and_then(|own| own.contact).ok_or_else(|| "no contact after it".to_string())
@@ -183,7 +189,14 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     let mut list = Vec::new();
     for event in events(given) {
         let time = time_of(event.when, context.setup, &context.finished.record);
+        let again = matches!(event.what, Happens::Relevitate(_));
+        let lost = context.finished.record.lost;
         let why = match (time, event.when) {
+            (Some(time), _)
+                if time <= end && again && lost.is_none_or(|(lost, _)| lost >= time) =>
+            {
+                "the magnets have not lost their power before it".to_string()
+            }
             (Some(time), _) if time <= end => continue,
             (None, When::Speed { speed, .. }) => {
                 format!("the rotor does not come to {speed:.1} rad/s")
@@ -219,11 +232,11 @@ pub(super) fn not_held(context: &Context) -> Option<(f64, Warning)> {
     let first = limited.min_by(|a, b| a.1.total_cmp(&b.1));
     let first = match first {
         Some((axis, since, long)) => format!(
-            "{} was at its limit first, at {since:.4} s, for {:.1} ms in all",
+            "{} was at its largest current first, at {since:.4} s, for {:.1} ms in all",
             value_of(given, axis, "current"),
             1e3 * long
         ),
-        None => "no coil was at its limit".to_string(),
+        None => "no coil was at its largest current".to_string(),
     };
     let warning = ShaftWarning::NotHeldAgain {
         time: own.time,

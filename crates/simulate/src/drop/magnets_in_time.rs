@@ -83,7 +83,7 @@ pub(super) fn built(
         magnets: all().map(magnet).collect(),
         supply,
     };
-    if let Some(decay_time) = lost_at_once(shaft) {
+    if let Some(decay_time) = lost_at_once(shaft, levitation.actuators().len()) {
         // without decay the magnets are gone
         let decay_rate = 1.0 / decay_time;
         let supply = SupplyConstants::Lost {
@@ -147,17 +147,17 @@ pub(super) fn at_speed(list: &mut Vec<AtSpeed>, (speed, rising): (f64, bool), th
 }
 
 /// Time in which the currents of all magnets decay, s, where they have no power from the start on and nothing happens to them later.
-fn lost_at_once(shaft: &Shaft) -> Option<f64> {
+fn lost_at_once(shaft: &Shaft, count: usize) -> Option<f64> {
     let mut events = shaft.events.iter().filter(|own| own.what.axes().is_some());
     match (events.next(), events.next()) {
         (
             Some(scenario::Event {
                 when: When::At(time),
-                what: Happens::Lost { decay_time, .. },
+                what: Happens::Lost { decay_time, axes },
                 ..
             }),
             None,
-        ) if *time <= 0.0 => Some(*decay_time),
+        ) if *time <= 0.0 && axes.len() == count => Some(*decay_time),
         _ => None,
     }
 }

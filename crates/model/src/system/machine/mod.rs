@@ -280,25 +280,27 @@ impl RotorMachine {
             own.currents_in(time, &motion, states)
         })
     }
-    /// Whether magnets with controllers have no power from the start on.
-    pub fn starts_without_power(&self) -> bool {
+    /// Whether an axis of magnets with controllers has no power from the start on, and whether none has.
+    pub fn starts_without_power(&self) -> [bool; 2] {
         let Some(control) = self
             .constants
             .magnets
             .as_ref()
             .and_then(|own| own.control())
         else {
-            return false;
+            return [false; 2];
         };
         let axes = control.levitation.actuators().len();
         let lost = |event| match event {
             Event::Control(ControlEvent::Change(change)) => {
                 let change = &control.changes[change];
-                matches!(change.what, What::Lost { .. }) && change.axes.len() == axes
+                matches!(change.what, What::Lost { .. }).then_some(change.axes.len() == axes)
             }
-            _ => false,
+            _ => None,
         };
-        self.constants.schedule.at_the_start().any(lost)
+        let mut all = self.constants.schedule.at_the_start().filter_map(lost);
+        let any = all.clone().next().is_some();
+        [any, all.any(|whole| whole)]
     }
     /// Whether any magnet with a controller has power, and whether all have.
     pub fn powered(&self, state: &[f64]) -> [bool; 2] {

@@ -110,7 +110,8 @@ impl Record {
     ) -> Self {
         let keep_rows = interval.is_some();
         let bearings = 0..machine.constants.bearings.len();
-        let at_once = (machine.starts_without_power()).then_some((0.0, machine.constants.speed));
+        let at_once = |lost: bool| lost.then_some((0.0, machine.constants.speed));
+        let [released, lost] = machine.starts_without_power().map(at_once);
         Record {
             bearings: bearings
                 .map(|k| BearingRecord::new(machine, k, keep_rows))
@@ -128,8 +129,8 @@ impl Record {
             },
             rows: Rows::new(machine, end, interval.unwrap_or(f64::INFINITY), keep_rows),
             next_look: 0.0,
-            released: at_once,
-            lost: at_once,
+            released,
+            lost,
             powered: 0.0,
             reached: [f64::INFINITY; MOST_SPEEDS],
             within: None,
