@@ -360,6 +360,24 @@ impl<R: Real> AuxiliaryBearing<R> {
         (self.bearing).react_under(motion, held_load, state, rate, detail)
     }
 
+    /// Adds an acceleration of all bodies alike, m/s², to the rates of balls, cage and housing, after these are written; those
+    /// of the races see it as gravity. Returns the power of all of them, W, and the moment about the origin on balls and cage, N m.
+    #[inline(always)]
+    pub fn shake(
+        &self,
+        at: &BearingAt,
+        motion: &Motion<R>,
+        by: Vec2<R>,
+        state: &[R],
+        rate: &mut [R],
+    ) -> (R, R) {
+        let own = (self.bearing).shake(by, &state[at.own()], &mut rate[at.own()]);
+        let housing = (self.mount).shake(by, &state[at.of_mount()], &mut rate[at.of_mount()]);
+        let races = motion.inner.velocity * self.inner_race.mass
+            + motion.outer.velocity * self.outer_weighing_mass;
+        (by.dot(own.momentum + housing + races), own.moment.cross(by))
+    }
+
     /// What the mount does at a motion of the outer race; writes the rates of its own states.
     #[inline(always)]
     pub fn mount(

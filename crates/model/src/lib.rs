@@ -11,6 +11,7 @@
 #![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod auxiliary_bearing;
+pub mod base;
 pub mod bearing;
 pub mod bearing_heat;
 pub mod body;

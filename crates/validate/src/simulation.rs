@@ -249,6 +249,7 @@ pub(super) fn constants(
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        base: None,
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],

@@ -21,6 +21,7 @@ use super::land::{Land, LandRace};
 use super::planar_constants::PlanarConstants;
 use super::pocket::PocketShape;
 use super::reaction::{BearingEnergy, BearingReaction};
+use crate::base::Masses;
 use crate::motion::{Body, Motion};
 use number::{Gather, Real, Vec2, Vectorized};
 
@@ -186,6 +187,15 @@ impl<R: Real> FreeCage<R> {
         rate[CAGE_PLACE + 2] = acceleration.x;
         rate[CAGE_PLACE + 3] = acceleration.y;
         reaction.external_moment += cage.position.cross(self.gravity) * self.mass;
+    }
+
+    /// Adds an acceleration of all bodies alike, m/s², to the rate of its motion; returns its mass with place and velocity.
+    #[inline(always)]
+    pub(super) fn shake(&self, by: Vec2<R>, state: &[R], rate: &mut [R]) -> Masses<R> {
+        let cage = cage_body(state);
+        rate[CAGE_PLACE + 2] += by.x;
+        rate[CAGE_PLACE + 3] += by.y;
+        Masses::of(self.mass, cage.position, cage.velocity)
     }
 
     /// Rate of the angular momentum of the cage's centre about the origin, N m.

@@ -70,6 +70,12 @@ impl<R: Real> FullComplement<R> {
         spin[ball] += moment * self.inverse_inertia;
     }
 
+    /// Adds what turns all balls together, rad/s², to the rate of the cage's speed, which is the balls' mean.
+    #[inline(always)]
+    pub(super) fn shake(&self, turning: R, rate: &mut [R]) {
+        rate[1] += turning * self.share;
+    }
+
     /// Adds the contacts of neighbours to the rates and to the reaction; the cage's rates become the balls' means.
     #[inline(always)]
     fn act(

@@ -34,6 +34,7 @@ pub mod pocket;
 pub mod reaction;
 pub mod rolling;
 pub mod settle;
+mod shaken;
 pub mod steady_moment;
 pub mod tangents;
 

@@ -27,6 +27,7 @@ use super::planar_constants::{PlanarConstants, Separation};
 use super::reaction::{BearingHeat, BearingReaction};
 use super::steady_moment::{self, MomentPairs};
 use super::tangents::{BallTangents, ENTRIES, KnownRates, ROWS, TangentConstants};
+use crate::base::Masses;
 use crate::motion::{Motion, Wrench};
 use number::{Gather, Real, Vec2, Vectorized};
 use physics::traction::{Traction, TractionLaw};
@@ -298,6 +299,29 @@ impl<R: Real> Planar<R> {
     /// Number of balls.
     pub fn balls(&self) -> usize {
         self.row.balls
+    }
+    /// Its balls.
+    pub(super) fn row(&self) -> &BallRow<R> {
+        &self.row
+    }
+    /// Adds an acceleration of all bodies alike, m/s², to the rates of what keeps the balls apart, which turns all of them by so much,
+    /// rad/s²; returns the masses that are not those of balls.
+    #[inline(always)]
+    pub(super) fn shake_apart(
+        &self,
+        by: Vec2<R>,
+        turning: R,
+        state: &[R],
+        rate: &mut [R],
+    ) -> Masses<R> {
+        match &self.apart {
+            Apart::Centred => Masses::none(),
+            Apart::Free(cage) => cage.shake(by, state, rate),
+            Apart::Neighbours(row) => {
+                row.shake(turning, rate);
+                Masses::none()
+            }
+        }
     }
 
     /// Sum of the elastic loads of all balls at the inner race, N.

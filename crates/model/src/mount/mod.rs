@@ -340,6 +340,18 @@ impl<R: Real> WholeMount<R> {
         }
     }
 
+    /// Adds an acceleration of all bodies alike, m/s², to the rate of the housing's motion; returns its momentum, kg m/s.
+    #[inline(always)]
+    pub fn shake(&self, by: Vec2<R>, state: &[R], rate: &mut [R]) -> Vec2<R> {
+        let Some(housing) = &self.housing else {
+            return Vec2::zero();
+        };
+        let (_, at) = places(self.branches.len(), self.ring.is_some());
+        rate[at + 2] += by.x;
+        rate[at + 3] += by.y;
+        pair(state, at + 2) * housing.mass
+    }
+
     /// What its parts do at a motion of the outer race.
     pub fn parts(&self, (position, velocity): (Vec2<R>, Vec2<R>), state: &[R]) -> PartsAt<R> {
         let (ring_at, housing_at) = places(self.branches.len(), self.ring.is_some());

@@ -230,6 +230,13 @@ impl<R: Real> Rotor<R> {
         (spin_rate, Torques { driving, drag })
     }
 
+    /// Momentum of the mass centres, kg m/s.
+    #[inline(always)]
+    pub fn momentum(&self, motion: &RotorMotion<R>) -> Vec2<R> {
+        let [x, y] = products(&self.weight, motion.velocity);
+        Vec2::new(x, y)
+    }
+
     /// Moment of gravity about the origin, N m.
     #[inline(always)]
     pub fn weight_moment(&self, motion: &RotorMotion<R>, gravity: Vec2<R>) -> R {

@@ -2,16 +2,18 @@
 
 use crate::machines::bent::bent;
 use crate::machines::{Blind, by, settings, vec2};
+use model::base::{BaseConstants, HalfSine};
 use model::magnets::MagnetsConstants;
 use model::mount::{FrictionRing, HardStop, Housing, MaxwellBranch, MountParts, SqueezeFilm};
 use model::rotor::TorqueTables;
+use model::schedule::Schedule;
 use model::seal::SealConstants;
 use model::system::machine::simulate::Steps;
-use model::system::machine::{MachineConstants, RotorMachine};
+use model::system::machine::{Event, MachineConstants, RotorMachine};
 use model::table::Table;
 use solve::Stop;
 
-/// A drop with everything that a rotor may have, gyroscopic moments, both dampings, drive, drag, magnets that fade, a seal, gravity, and
+/// A drop with everything that a rotor may have, gyroscopic moments, both dampings, drive, drag, magnets that fade, a seal, gravity, a base that moves, and
 /// with a mount of every part.
 fn loaded() -> (MachineConstants, Vec<f64>) {
     let (mut constants, start) = bent(3e4);
@@ -36,6 +38,16 @@ fn loaded() -> (MachineConstants, Vec<f64>) {
             (1500.0, [1e5, 2e5, -2e5, 1e5], [300.0, 0.0, 0.0, 300.0]),
         ],
     }];
+    let base = BaseConstants {
+        record: [3.0, -5.0].map(|a| table(vec![(0.0, 0.0), (0.005, a), (0.01, 0.0)])),
+        shocks: vec![HalfSine {
+            start: 0.002,
+            duration: 0.011,
+            acceleration: vec2(4.0, 12.0),
+        }],
+    };
+    constants.schedule = Schedule::of(base.knots().map(|time| (time, Event::Knot)));
+    constants.base = Some(base);
     constants.bearings[1].mount_parts = MountParts {
         branches: vec![MaxwellBranch {
             stiffness: 8e6,

@@ -289,6 +289,7 @@ pub fn reference() -> MachineConstants {
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        base: None,
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],

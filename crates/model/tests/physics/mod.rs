@@ -2,6 +2,7 @@
 
 mod allocation;
 mod balances;
+mod base;
 mod bushing;
 mod drops;
 mod dynamic_stiffness;

@@ -252,6 +252,7 @@ fn constants(
         },
         seals: Vec::new(),
         forces: Vec::new(),
+        base: None,
         bearings,
         gravity,
         speed: drop.rotor.speed,

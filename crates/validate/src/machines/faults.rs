@@ -12,6 +12,7 @@ use crate::report::{Row, Tolerance};
 use crate::simulation::falling_machine;
 use levitation::response::{equilibrium, start};
 use levitation::{C64, ClosedLoop, Levitation, Plant, weight};
+use model::base::{BaseConstants, HalfSine};
 use model::magnets::conditions::{Change, What};
 use model::magnets::{
     AxisConstants, ControlConstants, ControlEvent, MagnetConstants, MagnetsConstants,
@@ -20,6 +21,7 @@ use model::magnets::{
 use model::schedule::Schedule;
 use model::system::machine::simulate::{Runs, Steps, simulate};
 use model::system::machine::{Event, RotorMachine};
+use model::table::Table;
 use nalgebra::{DMatrix, DVector};
 use number::Vec2;
 use rotor::{Analysis, Unbalance};
@@ -39,15 +41,27 @@ pub(super) fn rows(file: &Value, path: &Path) -> Result<Vec<Row>, Refusal> {
     let mut worst = Worst::default();
     for case in list(file, "cases")? {
         let name = case["inputs"]["name"].as_str().unwrap_or("unnamed");
-        if !case["inputs"]["base_shock"].is_null() {
-            let why = "motion of the ground is not modelled";
-            worst.add(Row::not_run(why).of(format!("{name}: all"), ""));
-            continue;
-        }
         let run = Run::of(&case["inputs"], path)?;
         run.compare(name, case, &mut worst)?;
     }
     Ok(worst.into_rows())
+}
+
+/// The motion of the base of a run.
+fn base(shock: &Value) -> Result<Option<BaseConstants>, String> {
+    if shock.is_null() {
+        return Ok(None);
+    }
+    let [x, y] = numbers(shock, "acceleration")?;
+    let half_sine = HalfSine {
+        start: number(shock, "t")?,
+        duration: number(shock, "duration_s")?,
+        acceleration: Vec2::new(x, y),
+    };
+    Ok(Some(BaseConstants {
+        record: [0, 1].map(|_| Table::constant(0.0)),
+        shocks: vec![half_sine],
+    }))
 }
 
 /// Coordinates, their rates and the states of the levitation.
@@ -197,14 +211,11 @@ impl<'a> Run<'a> {
         let times = list(self.given, "times")?.iter().filter_map(Value::as_f64);
         let knots = times.map(|time| (time, Event::Knot));
         let mut constants = falling_machine(1.0, 1e7, 5e-3, 0.0)?.constants;
-        constants.schedule = Schedule::of(
-            changes
-                .iter()
-                .enumerate()
-                .map(event)
-                .chain(samples)
-                .chain(knots),
-        );
+        constants.base = base(&self.given["base_shock"])?;
+        let shaken = constants.base.iter().flat_map(BaseConstants::knots);
+        let knots = knots.chain(shaken.map(|time| (time, Event::Knot)));
+        let events = changes.iter().enumerate().map(event);
+        constants.schedule = Schedule::of(events.chain(samples).chain(knots));
         constants.magnets = Some(MagnetsConstants {
             magnets: magnets.iter().map(magnet).collect::<Result<_, String>>()?,
             supply: SupplyConstants::Control(control),
@@ -392,6 +403,11 @@ impl<'a> Run<'a> {
                 channel(ledger.magnets, false),
             ),
             (
+                "work of the base",
+                "base",
+                channel(ledger.base, false) - self.base_on_unbalance(&machine, end),
+            ),
+            (
                 "heat of damping",
                 "heat_damping",
                 channel(ledger.damping, true),
@@ -416,6 +432,27 @@ impl<'a> Run<'a> {
         ));
         self.verdict(name, results, &watch, end, worst)?;
         self.eigenvalues(name, case, worst)
+    }
+
+    /// Work of the base on the unbalances, J, as their masses go round the axis: the file counts the rotor as if all its mass lay on
+    /// its axis.
+    fn base_on_unbalance(&self, machine: &RotorMachine, end: f64) -> f64 {
+        const PIECES: usize = 20_000;
+        let Some(base) = &machine.constants.base else {
+            return 0.0;
+        };
+        let length = end / PIECES as f64;
+        let power = |piece: usize| {
+            let time = (piece as f64 + 0.5) * length;
+            let planes = self.shaft.rotor.unbalance.iter().map(|plane| {
+                let (sine, cosine) = (self.speed * time + plane.phase).sin_cos();
+                Vec2::new(-sine, cosine) * (plane.amount * self.speed)
+            });
+            -base
+                .acceleration(time)
+                .dot(planes.fold(Vec2::zero(), |sum, own| sum + own))
+        };
+        (0..PIECES).map(power).sum::<f64>() * length
     }
 
     fn verdict(

@@ -267,6 +267,7 @@ pub(super) fn machine(
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        base: None,
         bearings: bearings.collect::<Result<_, _>>()?,
         gravity,
         speed,

@@ -1,6 +1,7 @@
 //! Constants of a machine.
 
 use crate::auxiliary_bearing::AuxiliaryBearingConstants;
+use crate::base::BaseConstants;
 use crate::force::ForceConstants;
 use crate::levitation::Levitation;
 use crate::magnets::{ControlEvent, MagnetsConstants};
@@ -23,6 +24,8 @@ pub struct MachineConstants {
     pub seals: Vec<SealConstants>,
     /// Forces from outside over time.
     pub forces: Vec<ForceConstants>,
+    /// How the base moves, where it does.
+    pub base: Option<BaseConstants>,
     /// The auxiliary bearings, one at least.
     pub bearings: Vec<AuxiliaryBearingConstants>,
     /// Gravity, m/s².
@@ -56,7 +59,7 @@ pub struct AtSpeed {
 pub enum Event {
     /// The brake of the rotor acts with this share of its torque.
     Brake(f64),
-    /// A row of a table over time, of the rotor's torque, or of load or drive of a rig: a step ends there.
+    /// A point of something over time, of a torque, a force, the base, or of load or drive of a rig: a step ends there.
     Knot,
     /// Something happens to the controllers of the magnets.
     Control(ControlEvent),
@@ -87,6 +90,8 @@ impl MachineConstants {
             Some("a machine has a bearing")
         } else if self.bearings.len() > 1 && self.bearings.iter().any(|part| on_rig(&part)) {
             Some("a rig has one bearing")
+        } else if self.base.is_some() && self.bearings.iter().any(|part| on_rig(&part)) {
+            Some("the base of a rig stands still")
         } else if rows.any(|row| row.len() != count || still(row)) {
             Some("a node has an entry for each coordinate, and moves with one of them")
         } else if self.at_speeds.len() > MOST_SPEEDS {

@@ -48,6 +48,8 @@ pub struct RotorLedger {
     pub seals: Option<usize>,
     /// Work of forces from outside.
     pub forces: Option<usize>,
+    /// Work of the motion of the base.
+    pub base: Option<usize>,
     /// Heat of the damping of seals.
     pub seal_damping: Option<usize>,
 }
@@ -113,6 +115,7 @@ impl Layout {
             magnets: None,
             seals: None,
             forces: None,
+            base: None,
             seal_damping: heat(!constants.seals.is_empty(), "seal_damping"),
         };
         let sources = rotor_sources(fixture, clutch);
@@ -125,6 +128,9 @@ impl Layout {
         }
         if !constants.forces.is_empty() {
             of_rotor.forces = Some(channels.sources_of("", ["forces"]));
+        }
+        if constants.base.is_some() {
+            of_rotor.base = Some(channels.sources_of("", ["base"]));
         }
         let measured = fixture.map_or(0, |_| MEASURED);
         let mut probes = parts.len() * probe::COUNT + measured;
@@ -264,7 +270,10 @@ impl Layout {
         for heat in heats.into_iter().flatten() {
             scale[self.heat(heat)] = energy;
         }
-        for source in [own.magnets, own.seals, own.forces].into_iter().flatten() {
+        for source in [own.magnets, own.seals, own.forces, own.base]
+            .into_iter()
+            .flatten()
+        {
             scale[self.source(source)] = energy;
         }
         scale[self.angular_impulse()] = impulse;

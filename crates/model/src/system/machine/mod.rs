@@ -40,6 +40,7 @@ pub mod tangents;
 pub mod travel;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
+use crate::base::Base;
 use crate::force::{Force, ForceConstants};
 use crate::levitation::Levitation;
 use crate::magnets::conditions::What;
@@ -63,6 +64,8 @@ pub struct Mode<R> {
     pub brake: R,
     /// Radial load on a rig, N.
     pub load: Piece<R>,
+    /// Recorded acceleration of the base along x and y, m/s².
+    pub base: [Piece<R>; 2],
     /// Torque, N m, or speed, rad/s, that is given on a rig; zero where neither is.
     pub drive: Piece<R>,
     /// Motor and clutch of a rig.
@@ -122,6 +125,7 @@ pub struct Machines<R: Real> {
     magnets: Option<Magnets<R>>,
     seals: Vec<(Node<R>, Seal<R>)>,
     forces: Vec<Force<R>>,
+    base: Option<Base<R>>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
     /// The rotor's node in each.
@@ -163,7 +167,7 @@ impl RotorMachine {
             constants,
         }
     }
-    /// Whether lanes may hold both: the same states, magnets, seals, switches and drives; a clutch and a housing stand alone.
+    /// Whether lanes may hold both: the same states, magnets, seals, shocks, switches and drives; a clutch and a housing stand alone.
     pub fn shares_lanes(&self, other: &Self) -> bool {
         let (a, b) = (&self.constants, &other.constants);
         let rows = |own: &MachineConstants| -> Vec<usize> {
@@ -172,6 +176,7 @@ impl RotorMachine {
         let forces = |own: &MachineConstants| -> Vec<[usize; 2]> {
             own.forces.iter().map(ForceConstants::rows).collect()
         };
+        let shocks = |own: &MachineConstants| own.base.as_ref().map(|base| base.shocks.len());
         let drive = |machine: &Self| {
             let fixture = machine.fixture();
             fixture.map(|own| std::mem::discriminant(&own.drive))
@@ -190,6 +195,7 @@ impl RotorMachine {
             && magnets
             && rows(a) == rows(b)
             && forces(a) == forces(b)
+            && shocks(a) == shocks(b)
             && a.rotor.spin_held == b.rotor.spin_held
             && drive(self) == drive(other)
             && held(a) == held(b)
@@ -211,6 +217,7 @@ impl RotorMachine {
     /// What an event does to mode and state.
     fn happen(&self, event: Event, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
         mode.happen(event);
+        mode.base = self.base_at(time);
         if let (Event::Control(event), Some(magnets)) = (event, &self.one.magnets) {
             let at = (self.layout.rotor, self.layout.magnets.clone());
             magnets.happen(event, time, at, state);
@@ -229,11 +236,17 @@ impl RotorMachine {
         Mode {
             levitation: f64::from(u8::from(self.levitated)),
             brake: 0.0,
+            base: self.base_at(time),
             load,
             drive,
             clutch: ClutchMode::idle(),
             reached: [Reached::NEVER; MOST_SPEEDS],
         }
+    }
+    /// The record of the base from an instant to its next point.
+    fn base_at(&self, time: f64) -> [Piece<f64>; 2] {
+        let base = self.constants.base.as_ref();
+        base.map_or([Piece::NONE; 2], |base| base.pieces(time))
     }
     /// What a rotor with a size of spin, rad/s, lacks of the nearest speed at which something happens; infinite where all is reached.
     fn left(&self, mode: &Mode<f64>, spin: f64) -> f64 {
@@ -381,6 +394,12 @@ impl<R: Real> Machines<R> {
             seals: (0..constants(0).seals.len()).map(seal).collect(),
             forces: (0..constants(0).forces.len()).map(force).collect(),
             nodes: bearings.clone().map(node).collect(),
+            base: constants(0).base.is_some().then(|| {
+                Base::gather(&|lane| {
+                    let own = constants(lane).base.as_ref();
+                    own.expect("lanes share the motion of the base")
+                })
+            }),
             gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
             bearings: bearings
                 .map(|k| AuxiliaryBearing::gather(&|lane| &constants(lane).bearings[k]))
@@ -527,6 +546,7 @@ impl<R: Real> Batch<R> for Machines<R> {
         Mode {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
             brake: R::from_lanes(|lane| modes(lane).brake),
+            base: [0, 1].map(|axis| Piece::from_lanes(&|lane| modes(lane).base[axis])),
             load: Piece::from_lanes(&|lane| modes(lane).load),
             drive: Piece::from_lanes(&|lane| modes(lane).drive),
             clutch: modes(0).clutch,

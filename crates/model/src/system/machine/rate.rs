@@ -136,11 +136,13 @@ impl<R: Real> Machines<R> {
             Some(acting) => acting.motor - acting.belt,
         };
 
-        // rotor
+        // rotor: an accelerated base adds to gravity
+        let shaken = (self.base.as_ref()).map(|base| base.added(&mode.base, time));
+        let gravity = shaken.map_or(self.gravity, |by| self.gravity + by);
         let [x, y, acceleration_x, acceleration_y] = blocks(rate, count);
         let (spin_rate, torques) = self.rotor.accelerate(
             &rotor,
-            self.gravity,
+            gravity,
             (moment, from_outside),
             &shaft,
             [acceleration_x, acceleration_y],
@@ -172,8 +174,10 @@ impl<R: Real> Machines<R> {
             rate[layout.source(source)] = pushing;
         }
 
+        let mut shaking = shaken.map_or(zero, |by| by.dot(self.rotor.momentum(&rotor)));
+
         // auxiliary bearings: what they say of angular momentum is about their datum
-        let mut impulse = self.rotor.weight_moment(&rotor, self.gravity);
+        let mut impulse = self.rotor.weight_moment(&rotor, gravity);
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
             let motion = at.motion(state);
             let held_load = acting.map_or(zero, |acting| acting.held_load);
@@ -196,7 +200,7 @@ impl<R: Real> Machines<R> {
             let external = part.accelerate(
                 at,
                 (&there, acceleration),
-                self.gravity,
+                gravity,
                 &motion,
                 (&reaction, &mount),
                 Outlet {
@@ -207,6 +211,11 @@ impl<R: Real> Machines<R> {
                     probe: &mut *probe,
                 },
             );
+            if let Some(by) = shaken {
+                let (power, moment) = part.shake(at, &motion, by, state, rate);
+                shaking += power * part.planes;
+                impulse += moment * part.planes;
+            }
             for moment in external.weights {
                 impulse += moment * part.planes;
             }
@@ -218,6 +227,9 @@ impl<R: Real> Machines<R> {
                 impulse += moment * part.planes;
             }
             impulse += node.datum.cross(there.contact.on_journal.force) * part.planes;
+        }
+        if let Some(source) = of_rotor.base {
+            rate[layout.source(source)] = shaking;
         }
         rate[layout.angular_impulse()] = impulse + (pulled + shaft.external - torques.drag);
     }

@@ -88,6 +88,20 @@ impl RotorMachine {
         state
     }
 
+    /// Moves the rotor of a start state as a whole: by a displacement, m, and with a velocity, m/s.
+    pub fn displace(&self, state: &mut [f64], displacement: Vec2<f64>, velocity: Vec2<f64>) {
+        let at = self.layout().rotor;
+        for (k, own) in self.constants.rotor.coordinates.iter().enumerate() {
+            let share = own.weight / own.mass;
+            for (block, by) in [displacement.x, displacement.y, velocity.x, velocity.y]
+                .into_iter()
+                .enumerate()
+            {
+                state[at.block(block).start + k] += by * share;
+            }
+        }
+    }
+
     /// Moves a start state: the rotor as a whole by `rotor` (m), each ball along its orbit by its `ball_angle` (rad), a function of
     /// bearing and ball. Balls without states of their own stay.
     pub fn perturb(
@@ -96,12 +110,7 @@ impl RotorMachine {
         rotor: Vec2<f64>,
         ball_angle: &dyn Fn(usize, usize) -> f64,
     ) {
-        let at = self.layout().rotor;
-        for (k, own) in self.constants.rotor.coordinates.iter().enumerate() {
-            let share = own.weight / own.mass;
-            state[at.block(0).start + k] += rotor.x * share;
-            state[at.block(1).start + k] += rotor.y * share;
-        }
+        self.displace(state, rotor, Vec2::zero());
         let parts = self.layout().bearings.iter().zip(&self.constants.bearings);
         for (k, (at, part)) in parts.enumerate() {
             if let BearingConstants::Planar(bearing) = &part.bearing {

@@ -109,6 +109,7 @@ impl RigConstants {
             magnets: None,
             seals: Vec::new(),
             forces: Vec::new(),
+            base: None,
             gravity,
             speed,
             unbalance_angle: 0.0,
