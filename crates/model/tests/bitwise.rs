@@ -5,10 +5,12 @@ use crate::machines::bent::bent;
 use crate::machines::{
     inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass, vec2,
 };
+use model::base::{BaseConstants, HalfSine};
 use model::bearing::{BearingConstants, SharedMoment, SteadyMoment};
-use model::rotor::TorqueTables;
+use model::rotor::{TorqueTables, Unbalance};
+use model::schedule::Schedule;
 use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
-use model::system::machine::{MachineConstants, RotorMachine};
+use model::system::machine::{Event, MachineConstants, RotorMachine};
 use model::table::Table;
 use number::Level;
 use physics::palmgren::Palmgren;
@@ -186,6 +188,7 @@ fn a_rotor_that_bends_has_the_same_bits() {
                 part.datum = vec2(1e-6 * x, -2e-6 * x);
                 part.contact.friction *= 1.0 + 0.1 * x;
             }
+            shake_and_unbalance(&mut constants, x);
             RotorMachine::new(constants)
         })
         .collect();
@@ -195,6 +198,33 @@ fn a_rotor_that_bends_has_the_same_bits() {
         "{coordinates}"
     );
     same_bits(&machines, 0.01);
+}
+
+/// A base that moves, and an unbalance that comes, at instants that differ from lane to lane.
+fn shake_and_unbalance(constants: &mut MachineConstants, x: f64) {
+    let knots = (0..5).map(|k| {
+        (
+            1e-3 * f64::from(k) * (1.0 + 0.1 * x),
+            10.0 * x - f64::from(k),
+        )
+    });
+    let base = BaseConstants {
+        record: [Table::through(knots.collect()).unwrap(), Table::constant(x)],
+        shocks: vec![HalfSine {
+            start: 1e-3 * x,
+            duration: 2e-3,
+            acceleration: vec2(5.0, 50.0 + x),
+        }],
+    };
+    constants.unbalances = vec![Unbalance {
+        node: constants.bearings[0].node.clone(),
+        product: 2e-4,
+        phase: x,
+    }];
+    let comes = (4e-3 + 4e-4 * x, Event::Unbalance(0));
+    let knots = base.knots().map(|time| (time, Event::Knot));
+    constants.schedule = Schedule::of(knots.chain([comes]));
+    constants.base = Some(base);
 }
 
 #[test]

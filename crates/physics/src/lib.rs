@@ -74,6 +74,7 @@ pub mod palmgren;
 pub mod palmgren_factors;
 mod power;
 pub mod rainflow;
+pub mod response_spectrum;
 pub mod ring;
 pub mod rolling;
 pub mod severity;

@@ -7,6 +7,7 @@
 
 #[cfg(feature = "files")]
 pub mod file;
+pub mod unit;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -104,6 +105,17 @@ impl Channel {
             properties: Vec::new(),
         }
     }
+}
+
+/// Opens a measurement file, recognised by its content.
+#[cfg(feature = "files")]
+pub use file::open;
+
+/// Opens no file: formats are read by the feature `files`.
+#[cfg(not(feature = "files"))]
+pub fn open(path: &Path) -> Result<Box<dyn Recording>, FileError> {
+    let needed = "a build with the feature files is needed";
+    Err(FileError::new(path, "", "a file", needed))
 }
 
 /// Something a reader found wrong with a file, or repaired, or left out.

@@ -55,8 +55,9 @@ pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;
 pub use drop::{
-    AuxiliaryBearing, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
-    Levitation, Mount, Relevitation, Repeat, RigidBody, Rotor, Shaft, Spin, When,
+    AuxiliaryBearing, Base, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
+    Levitation, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor, STANDARD_GRAVITY, Shaft,
+    Shock, Spectrum, Spin, When,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};

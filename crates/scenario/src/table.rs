@@ -20,6 +20,7 @@ pub const FORMAT: &str = "auxbear.scenario/1";
 pub fn sections() -> impl Iterator<Item = &'static Section> {
     crate::drop::keys::SECTIONS
         .iter()
+        .chain(crate::drop::base::SECTIONS)
         .chain(crate::spin_up::keys::SECTIONS)
         .chain(crate::torque::keys::SECTIONS)
         .chain(crate::signals::keys::SECTIONS)
@@ -44,6 +45,7 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(crate::drop::keys::KEYS)
         .chain(crate::drop::keys_surface::KEYS)
         .chain(crate::drop::keys_mount::KEYS)
+        .chain(crate::drop::base::KEYS)
         .chain(crate::rotor::keys::KEYS)
         .chain(crate::spin_up::keys::KEYS)
         .chain(crate::torque::keys::KEYS)
@@ -149,7 +151,8 @@ pub fn starts_with(key: &Key, system: SystemName) -> bool {
 pub fn names_files(key: &Key) -> bool {
     let all = crate::signals::keys::FILES
         .iter()
-        .chain(crate::identify::keys::FILES);
+        .chain(crate::identify::keys::FILES)
+        .chain(&[crate::drop::base::FILE]);
     all.into_iter().any(|path| *path == key.path)
 }
 

@@ -52,6 +52,8 @@ pub struct Finished {
     pub(crate) begun: (Content, Flows),
     /// What was watched and kept.
     pub record: Record,
+    /// The machine as it was at the end, where it was another one at the start.
+    now: Option<Box<RotorMachine>>,
     /// What has followed its temperatures.
     pub(crate) warmed: Option<Box<Warmed>>,
     /// How it ended.
@@ -61,10 +63,7 @@ pub struct Finished {
 impl Finished {
     /// The machine as it is at the end.
     pub(crate) fn at_end(&self) -> &RotorMachine {
-        let warmed = self.warmed.as_deref();
-        warmed.map_or(&*self.machine, |warmed| {
-            warmed.renewals.machine(&self.machine)
-        })
+        self.now.as_deref().unwrap_or(&self.machine)
     }
     /// Temperatures of a bearing, where they were followed.
     pub(crate) fn followed<'a>(
@@ -186,6 +185,9 @@ struct Report<'a> {
 struct Watched<'a> {
     record: Record,
     following: Option<&'a Following>,
+    /// The machine as it is now, where it was another one at the start.
+    now: Option<Box<RotorMachine>>,
+    unbalances: u16,
     warmed: Option<Box<Warmed>>,
     /// Until when temperatures were known when they were last looked at, s.
     looked: f64,
@@ -206,6 +208,8 @@ impl<'a> Watched<'a> {
                 false => record,
             },
             following: member.following.as_deref(),
+            now: None,
+            unbalances: 0,
             warmed: (member.following.is_some()).then(Box::default),
             looked: 0.0,
             report,
@@ -219,8 +223,7 @@ impl<'a> Watched<'a> {
         }
         let mut record = self.record;
         let machine = member.machine.clone();
-        let warmed = self.warmed.as_deref();
-        let at_end = warmed.map_or(&*machine, |warmed| warmed.renewals.machine(&machine));
+        let at_end = self.now.as_deref().unwrap_or(&machine);
         record.finish(at_end, ending.time, &ending.state);
         let start = member.start.clone();
         Finished {
@@ -228,6 +231,7 @@ impl<'a> Watched<'a> {
             machine,
             start,
             record,
+            now: self.now,
             warmed: self.warmed,
             ending,
         }
@@ -271,7 +275,9 @@ impl Observer<RotorMachine> for Watched<'_> {
     ) -> Option<Box<RotorMachine>> {
         let (following, warmed) = (self.following?, self.warmed.as_mut()?);
         let now = |k| now(&self.record, machine, k);
-        following.renewed(warmed, machine, (time, state), &now)
+        let new = following.renewed(warmed, machine, (time, state), &now)?;
+        self.now = Some(new.clone());
+        Some(new)
     }
     fn switched(
         &mut self,
@@ -280,6 +286,10 @@ impl Observer<RotorMachine> for Watched<'_> {
         time: f64,
         state: &[f64],
     ) -> Flow {
+        if mode.unbalances != self.unbalances {
+            self.unbalances = mode.unbalances;
+            self.now = Some(Box::new(machine.clone()));
+        }
         self.record.switched(machine, mode, time, state)
     }
 }

@@ -137,7 +137,7 @@ pub(crate) struct Warmed {
     /// What the air clearance of each has gained, m.
     air: Vec<f64>,
     /// Its machines.
-    pub renewals: Renewals<RotorMachine>,
+    pub renewals: Renewals,
     /// Why it went on without following, and from when on.
     broken: Option<(f64, String)>,
 }
@@ -246,9 +246,9 @@ impl Following {
             warmed.broken = Some((time, why.to_string()));
             return None;
         }
-        let new = Box::new(RotorMachine::new(constants));
+        let new = Box::new(machine.renewed(constants));
         let done = new.content(state).energy() - machine.content(state).energy();
-        warmed.renewals.renew(new.clone(), time, done);
+        warmed.renewals.book(time, done);
         Some(new)
     }
 }

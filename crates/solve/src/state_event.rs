@@ -47,7 +47,10 @@ pub(crate) fn find_event<M: Machine>(step: &mut Step<M>, retake: &mut Option<Ret
         }
         let theta = watch::root(step, (0.0, at_start), (1.0, value), |step, theta| {
             let time = step.time(theta);
-            machine.guard(mode, time, step.evaluate(theta))
+            {
+                let (state, probe) = step.evaluate(theta);
+                machine.guard(mode, time, (state, probe))
+            }
         });
         let instant = step.time(theta);
         if theta < AT_THE_START || instant <= start || instant >= end {

@@ -131,7 +131,7 @@ impl<M: Machine> Step<'_, M> {
         &self.scratch.state[..channels]
     }
     /// State and probes at a fraction of the step.
-    pub fn evaluate(&mut self, theta: f64) -> (&[f64], &[f64]) {
+    pub fn evaluate(&mut self, theta: f64) -> (&mut [f64], &[f64]) {
         self.fill(theta, self.scratch.state.len());
         let time = self.time(theta);
         let scratch = &mut *self.scratch;
@@ -142,7 +142,7 @@ impl<M: Machine> Step<'_, M> {
             &mut scratch.rate,
             &mut scratch.probe,
         );
-        (&scratch.state, &scratch.probe)
+        (&mut scratch.state, &scratch.probe)
     }
     /// One probe at a fraction of the step.
     pub fn probe(&mut self, theta: f64, index: usize) -> f64 {

@@ -345,10 +345,10 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         });
         work.time = R::from_lanes(|i| lanes[i].time);
         let renewed = wanted != 0 && self.renew(observers, wanted);
-        self.switch(observers);
+        let changed = self.switch(observers);
         if renewed || self.fresh != 0 {
-            // what switches changes modes and states alone
-            self.gather(renewed);
+            // what switches mostly changes modes and states alone
+            self.gather(renewed || changed);
             self.begin();
         }
     }
@@ -371,8 +371,9 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         renewed
     }
 
-    /// What switches at the ends of steps: state events, then landings.
-    fn switch<O: Observer<B::Machine>>(&mut self, observers: &mut [O]) {
+    /// What switches at the ends of steps: state events, then landings. Whether another machine goes on.
+    fn switch<O: Observer<B::Machine>>(&mut self, observers: &mut [O]) -> bool {
+        let mut changed = false;
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             let crossed = std::mem::take(&mut lane.crossed);
             let stood = lane.told && lane.pause.is_some();
@@ -393,6 +394,10 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
                 lane.mode = mode;
                 lane.next_landing += 1;
             }
+            if let Some(new) = lane.machine.changed(&lane.mode) {
+                lane.machine = Held::Own(new.into());
+                changed = true;
+            }
             let flow =
                 observers[lane.observer].switched(&lane.machine, &lane.mode, lane.time, state);
             if let Flow::Halt(why) = flow {
@@ -404,6 +409,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             lane.jumped(&mut self.work, index);
             self.fresh |= 1 << index;
         }
+        changed
     }
 }
 

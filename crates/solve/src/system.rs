@@ -51,6 +51,13 @@ pub trait Machine: Sync {
     }
     /// What jumps of the mode and of the state at the landing of that index.
     fn transition(&self, landing: usize, mode: &mut Self::Mode, state: &mut [f64]);
+    /// Another machine that goes on in this mode after a landing: one of the same channels, probes and landings.
+    fn changed(&self, _mode: &Self::Mode) -> Option<Box<Self>>
+    where
+        Self: Sized,
+    {
+        None
+    }
     /// Positive while the mode holds: where it falls to zero, a step ends and a state event happens. `at` are the channels of the
     /// state, the watched ones at least, and the watched probes.
     fn guard(&self, _mode: &Self::Mode, _time: f64, _at: (&[f64], &[f64])) -> f64 {

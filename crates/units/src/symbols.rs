@@ -68,6 +68,7 @@ pub(crate) const SYMBOLS: &[Symbol] = &[
     decimal("kg", Dimension::MASS, 0),
     decimal("g", Dimension::MASS, -3),
     decimal("mg", Dimension::MASS, -6),
+    ratio("gn", Dimension::ACCELERATION, -5, 980_665.0, 1.0),
     ratio("lbm", Dimension::MASS, -8, 45_359_237.0, 1.0),
     decimal("s", Dimension::TIME, 0),
     decimal("ms", Dimension::TIME, -3),

@@ -250,6 +250,7 @@ pub(super) fn constants(
         seals: Vec::new(),
         forces: Vec::new(),
         base: None,
+        unbalances: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],

@@ -2,10 +2,10 @@
 
 use crate::signals::asked::{Asked, median, sampled};
 use crate::signals::found::Found;
-use crate::signals::unit::unit_in_si;
 use identify::steady_curve::SteadyCurve;
 use outcome::list::results;
 use outcome::list::{List, origins};
+use recording::unit::unit_in_si;
 
 /// Names the results; what was not asked for has none.
 pub(crate) fn name(list: &mut List, asked: &Asked, found: Option<&Found>) {

@@ -2,7 +2,6 @@
 
 use crate::signals::asked::{Asked, Signal};
 use crate::signals::found::Found;
-use crate::signals::unit::unit_in_si;
 use crate::signals::{cage, shaft};
 use measure::cage_speed::CageSpeed;
 use measure::order::Order;
@@ -10,6 +9,7 @@ use measure::speed::Motion;
 use measure::torque_sensor::Torque;
 use outcome::Column;
 use outcome::columns::{Columns, columns};
+use recording::unit::unit_in_si;
 use scenario::{PickupKind, SpeedSignal};
 use statistics::interpolation;
 

@@ -24,7 +24,6 @@ mod spectrum;
 pub(crate) mod steady;
 mod temperature;
 pub(crate) mod torque;
-mod unit;
 mod vibration;
 pub mod warning_table;
 

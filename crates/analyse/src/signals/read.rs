@@ -7,9 +7,9 @@ mod timing;
 pub use stamps::Stamps;
 use timing::Timing;
 
-use crate::signals::unit::{no_signal, si_factor, speed_factor, unit_of};
 use measure::converter::Converter;
 use problem::{Code, Problem, Result, did_you_mean};
+use recording::unit::{no_signal, si_factor, speed_factor, unit_of};
 use recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use scenario::{Signals, problem_at};
 use std::path::Path;
@@ -91,24 +91,10 @@ pub struct Source<'a> {
     evened: Vec<String>,
 }
 
-#[cfg(feature = "files")]
-use recording::file::open;
-
-/// Opens no file.
-#[cfg(not(feature = "files"))]
-fn open(path: &Path) -> Result<Box<dyn Recording>, FileError> {
-    Err(FileError::new(
-        path,
-        "",
-        "a file",
-        "a build with the feature files is needed",
-    ))
-}
-
 impl<'a> Source<'a> {
     /// Opens a file; `key` names it in the scenario.
     pub fn open(path: &Path, key: &'static str, signals: &'a Signals) -> Result<Source<'a>> {
-        let recording = open(path).map_err(|error| of_file(&error, key))?;
+        let recording = recording::open(path).map_err(|error| of_file(&error, key))?;
         let name = short(path);
         Ok(Source {
             recording,

@@ -3,9 +3,9 @@
 use crate::signals::read::Series;
 use crate::signals::shaft;
 use crate::signals::spectrum::{FEWEST_COLUMNS, LONGEST};
-use crate::signals::unit::unit_in_si;
 use measure::order::{Orders, orders};
 use measure::spectrum::{AngularSettings, order_spectrogram, spectrogram};
+use recording::unit::unit_in_si;
 use scenario::VibrationSignal;
 
 /// Columns of a picture, at most.

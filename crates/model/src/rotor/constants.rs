@@ -105,18 +105,19 @@ impl RotorConstants {
             ..Self::point(1.0, 1.0, 0.0)
         }
     }
-    /// Adds unbalances to a rotor without any, whose polar inertia is that of the whole rotor about its axis, these masses in it.
+    /// Adds unbalances to a rotor; the polar inertia of one without any is that of the whole rotor about its axis, these masses in it.
     ///
     /// Formula: N = M⁻¹ Σ u e^{jδ} φ,  I_G = I_p - NᴴMN
     #[must_use]
     pub fn with_unbalance(mut self, planes: &[Unbalance]) -> Self {
+        let about_centre = |own: &Coordinate| own.mass * own.unbalance.length_squared();
+        self.polar_inertia += self.coordinates.iter().map(about_centre).sum::<f64>();
         for plane in planes {
             let (sine, cosine) = plane.phase.sin_cos();
             for (own, shape) in self.coordinates.iter_mut().zip(&plane.node) {
                 own.unbalance += Vec2::new(cosine, sine) * (plane.product * shape / own.mass);
             }
         }
-        let about_centre = |own: &Coordinate| own.mass * own.unbalance.length_squared();
         self.polar_inertia -= self.coordinates.iter().map(about_centre).sum::<f64>();
         self
     }

@@ -240,11 +240,11 @@ impl Rows {
         ];
         self.values.extend_from_slice(&extra);
     }
-    /// Takes the rows that fall into a step; `content` gives energies and momentum of a state.
+    /// Takes the rows that fall into a step; `content` gives energies and momentum of a state, and puts it as the rows have it.
     pub fn sample<M: Machine>(
         &mut self,
         step: &mut Step<M>,
-        content: impl Fn(&M, &[f64]) -> Content,
+        content: impl Fn(&M, &mut [f64]) -> Content,
     ) {
         if !self.keep {
             return;

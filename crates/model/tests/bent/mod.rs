@@ -4,4 +4,5 @@ mod ledger;
 mod mirror;
 mod one_node;
 mod traps;
+mod unbalances;
 mod whirl;

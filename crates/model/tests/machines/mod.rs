@@ -290,6 +290,7 @@ pub fn reference() -> MachineConstants {
         seals: Vec::new(),
         forces: Vec::new(),
         base: None,
+        unbalances: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {
             name: String::new(),
             node: vec![1.0],

@@ -2,6 +2,7 @@
 
 use crate::drop::kinds::SpinKind;
 use crate::key::quoted;
+use crate::rotor::FlexibleRotor;
 use crate::rotor::keys::EVENT;
 use crate::rotor::levitation::Magnets;
 use crate::rotor::tables::Part;
@@ -35,6 +36,8 @@ words! {
         Relevitate = "re-levitate",
         /// The rotor is braked.
         Brake = "brake",
+        /// An unbalance comes, as where a blade is lost.
+        Unbalance = "unbalance",
     }
 }
 
@@ -98,6 +101,15 @@ pub enum Happens {
     Relevitate(Relevitation),
     /// A torque of this size brakes the rotor, N m.
     Brake(f64),
+    /// An unbalance comes.
+    Unbalance {
+        /// The place of its plane among those of the rotor.
+        plane: usize,
+        /// Mass times distance from the axis, kg m.
+        amount: f64,
+        /// Angle on the rotor, rad.
+        phase: f64,
+    },
 }
 
 /// How a rotor is levitated again.
@@ -119,6 +131,9 @@ const POWER_LOST: &str = "power_lost";
 const BRAKE: &str = "brake";
 const LOST_AT: &str = "levitation.power_lost_at";
 
+/// Most unbalances that come.
+const MOST_UNBALANCES: usize = 16;
+
 /// Most different speeds that events wait for.
 const MOST_SPEEDS: usize = 4;
 
@@ -132,7 +147,7 @@ impl Happens {
             | Happens::SensorOffset(axes, _)
             | Happens::ControllerFrozen(axes) => Some(axes),
             Happens::Relevitate(_) => Some(&[]),
-            Happens::Brake(_) => None,
+            Happens::Brake(_) | Happens::Unbalance { .. } => None,
         }
     }
     /// Whether both change the same thing.
@@ -144,11 +159,15 @@ impl Happens {
             Happens::ControllerFrozen(_) => 3,
             Happens::AmplifierLimit { .. } => 4,
             Happens::Brake(_) => 5,
+            Happens::Unbalance { .. } => 6,
         };
         let all = |of: &Happens| matches!(of, Happens::Relevitate(_) | Happens::Brake(_));
         let shared = |a: &[usize], b: &[usize]| a.iter().any(|axis| b.contains(axis));
         let axes = |of: &Happens| of.axes().unwrap_or_default().to_vec();
-        kind(self) == kind(other) && (all(self) || all(other) || shared(&axes(self), &axes(other)))
+        let add_up = matches!(self, Happens::Unbalance { .. });
+        kind(self) == kind(other)
+            && !add_up
+            && (all(self) || all(other) || shared(&axes(self), &axes(other)))
     }
 }
 
@@ -164,11 +183,13 @@ fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]
         Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
         Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
         Happening::Brake => (&["torque"], &[]),
+        Happening::Unbalance => (&["plane", "amount"], &["phase"]),
     }
 }
 
 /// All events of a machine; the loss of power that the file gives by its key, or by its default, is one of them.
-pub fn events(parts: &[Part], magnets: Option<&Magnets>, values: &Values) -> Result<Vec<Event>> {
+pub fn events(parts: &[Part], rotor: &FlexibleRotor, values: &Values) -> Result<Vec<Event>> {
+    let magnets = rotor.levitation.as_ref();
     let parts: Vec<&Part> = parts
         .iter()
         .filter(|part| part.kind.word == EVENT)
@@ -178,7 +199,7 @@ pub fn events(parts: &[Part], magnets: Option<&Magnets>, values: &Values) -> Res
         events.push(Event {
             name: part.label.clone(),
             when: when(part, &parts, values, 0)?,
-            what: happens(part, magnets, values)?,
+            what: happens(part, rotor, values)?,
             by_key: false,
         });
     }
@@ -216,7 +237,7 @@ pub fn events(parts: &[Part], magnets: Option<&Magnets>, values: &Values) -> Res
 }
 
 /// What happens.
-fn happens(part: &Part, magnets: Option<&Magnets>, values: &Values) -> Result<Happens> {
+fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happens> {
     let word = part.word("do").unwrap_or_default();
     let Some(what) = Happening::of_word(word) else {
         unreachable!("a key of words has one of them");
@@ -250,7 +271,10 @@ fn happens(part: &Part, magnets: Option<&Magnets>, values: &Values) -> Result<Ha
     if what == Happening::Brake {
         return Ok(Happens::Brake(part.needed("torque")));
     }
-    let Some(magnets) = magnets else {
+    if what == Happening::Unbalance {
+        return unbalance(part, rotor);
+    }
+    let Some(magnets) = &rotor.levitation else {
         let found = format!("do = {} without magnets", quoted(word));
         let allowed = "[[levitation.magnet]] with sensor and controller is needed";
         return part.refuse(Code::LevitationParts, "do", found, allowed);
@@ -305,7 +329,32 @@ fn happens(part: &Part, magnets: Option<&Magnets>, values: &Values) -> Result<Ha
             within: part.number("within").unwrap_or(0.5),
             hold: part.number("hold").unwrap_or(0.1),
         }),
-        Happening::Brake => unreachable!("a brake is of no magnet"),
+        Happening::Brake | Happening::Unbalance => unreachable!("it is of no magnet"),
+    })
+}
+
+/// An unbalance that comes.
+fn unbalance(part: &Part, rotor: &FlexibleRotor) -> Result<Happens> {
+    let named = part.text("plane").unwrap_or_default();
+    let names = || rotor.unbalance.iter().map(|plane| plane.name.as_str());
+    let Some(plane) = names().position(|name| name == named) else {
+        let allowed = match names().collect::<Vec<_>>().join(", ").as_str() {
+            "" => "a [[rotor.unbalance]] is needed where it comes, of any amount".to_string(),
+            names => format!("one of the planes of [[rotor.unbalance]] is needed: {names}"),
+        };
+        let problem = part.problem(Code::NoSuchNode, "plane", quoted(named), allowed);
+        return Err(problem.with_hint(did_you_mean(named, names())));
+    };
+    if part.number("at") == Some(0.0) {
+        let found = "an unbalance that comes at the start";
+        let allowed =
+            "a later instant is needed: what is there from the start is a [[rotor.unbalance]]";
+        return part.refuse(Code::OutOfRange, "at", found, allowed);
+    }
+    Ok(Happens::Unbalance {
+        plane,
+        amount: part.needed("amount"),
+        phase: part.number("phase").unwrap_or(0.0),
     })
 }
 
@@ -449,6 +498,19 @@ fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
             );
             let allowed = "another instant, or one of the two, is needed";
             return part.refuse(Code::Conflict, "do", found, allowed);
+        }
+        let unbalances = |list: &[Event]| {
+            let own = |event: &&Event| matches!(event.what, Happens::Unbalance { .. });
+            list.iter().filter(own).count()
+        };
+        if unbalances(&events[..=k]) > MOST_UNBALANCES {
+            let found = "a seventeenth unbalance that comes";
+            return part.refuse(
+                Code::OutOfRange,
+                "do",
+                found,
+                "at most sixteen are possible",
+            );
         }
         if let When::Speed {
             speed: own, rising, ..

@@ -39,6 +39,12 @@ const TURNS: Condition = Condition {
     reason: "a spin that is held feels no other torque",
 };
 
+const fn start(path: &'static str, kind: Kind, example: &'static str, doc: &'static str) -> Key {
+    Key::new(path, kind, example, doc)
+        .optional("its steady motion")
+        .only(FALLING)
+}
+
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
     Key::new("rotor.mass", Kind::Quantity("kg"), "8 kg", "Mass of the whole rotor.").positive().only(RIGID),
@@ -51,6 +57,10 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("rotor.unbalance_angle", Kind::Quantity("rad"), "30 deg", "Direction of the unbalance at the release, from x.")
         .default("0 rad", "the unbalance points along x at the release").only(FALLING),
     Key::new("rotor.speed", Kind::Quantity("rad/s"), "12000 rpm", "Spin of the rotor, at the release or as rated; the sign is the direction, counter-clockwise positive."),
+    start("rotor.start_x", Kind::Quantity("m"), "0.1 mm", "Displacement of the whole rotor along x at the start, from its steady motion: of one that starts where nothing holds it."),
+    start("rotor.start_y", Kind::Quantity("m"), "-0.1 mm", "The same along y."),
+    start("rotor.start_speed_x", Kind::Quantity("m/s"), "20 mm/s", "Velocity of the whole rotor along x at the start, besides that of its steady motion: a blow."),
+    start("rotor.start_speed_y", Kind::Quantity("m/s"), "20 mm/s", "The same along y."),
     Key::new("rotor.spin", Kind::Word(SpinKind::WORDS), "free", "What happens to the spin after the release: free, braked by a torque, or held at its speed by a drive.")
         .default("free", "neither drive nor brake acts after the release").only(FALLING),
     Key::new("rotor.brake_torque", Kind::Quantity("N m"), "2 N m", "Size of the braking torque; it acts against the spin until the rotor stands.")

@@ -1,5 +1,6 @@
 //! A drop as typed values in SI: what a simulation is built from.
 
+pub mod base;
 pub mod checks;
 pub mod event;
 pub mod keys;
@@ -17,6 +18,7 @@ use crate::heat::{Network, RotorBodies, Warm};
 use crate::run::{Run, Until};
 use crate::section::Section;
 use crate::values::Values;
+pub use base::{Base, RecordFile, Shock, Spectrum};
 pub use event::{Event, Happens, Relevitation, When};
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
@@ -34,6 +36,8 @@ pub struct Drop {
     pub body: Body,
     /// Weight.
     pub gravity: Gravity,
+    /// Motion of the base.
+    pub base: Option<Base>,
     /// The magnetic bearing before the release.
     pub levitation: Levitation,
     /// The auxiliary bearings.
@@ -90,6 +94,10 @@ pub struct Rotor {
     pub unbalance_angle: f64,
     /// Spin at the release, rad/s, counter-clockwise positive.
     pub speed: f64,
+    /// Displacement of the whole rotor at the start from its steady motion, m.
+    pub start_displacement: [f64; 2],
+    /// Its velocity besides that of the steady motion, m/s.
+    pub start_velocity: [f64; 2],
     /// What happens to the spin after the release.
     pub spin: Spin,
     /// Torque of a drive or a load over the size of the speed, rows of rad/s and N m; empty where there is none.
@@ -128,7 +136,7 @@ pub struct Gravity {
 }
 
 /// Standard gravity, m/s².
-const STANDARD_GRAVITY: f64 = 9.80665;
+pub const STANDARD_GRAVITY: f64 = 9.80665;
 /// Gravity at the place on Earth where it is weakest, m/s² (Huascarán, 9.764).
 const WEAKEST_GRAVITY: f64 = 9.76;
 
@@ -291,6 +299,7 @@ impl Drop {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),
             },
+            base: Base::of(values)?,
             levitation: Levitation {
                 stiffness: levitation("stiffness"),
                 damping: levitation("damping"),
@@ -343,9 +352,12 @@ fn body(rotor: &Section<'_>) -> RigidBody {
 }
 
 fn rotor(rotor: &Section<'_>, bends: bool) -> Rotor {
+    let start = |keys: [&str; 2]| keys.map(|key| rotor.maybe(key).unwrap_or_default());
     Rotor {
         unbalance_angle: rotor.number("unbalance_angle"),
         speed: rotor.number("speed"),
+        start_displacement: start(["start_x", "start_y"]),
+        start_velocity: start(["start_speed_x", "start_speed_y"]),
         spin: spin(rotor),
         torque_over_speed: rotor.rows("torque_over_speed").unwrap_or_default(),
         torque_share_over_time: rotor.rows("torque_share_over_time").unwrap_or_default(),

@@ -103,7 +103,7 @@ impl Shaft {
                 "run.until = \"duration\" is needed: the coast-down knows no forces from outside";
             return part.refuse(Code::Conflict, "", found, allowed);
         }
-        let events = event::events(&parts, rotor.levitation.as_ref(), values)?;
+        let events = event::events(&parts, &rotor, values)?;
         let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         let place = |own: &Values| {
             Ok(BearingPlace {

@@ -373,6 +373,9 @@ const EVENT_KEYS: &[Key] = &[
     Key::new("event.within", Kind::Coefficient, "0.5", "Of a re-levitation: share of the radial air clearance within which the rotor must stay.").within(Range::FromTo(0.0, 1.0)).optional("0.5: half of it"),
     Key::new("event.hold", Kind::Quantity("s"), "0.1 s", "Of a re-levitation: how long before the end of the run the rotor must have stayed within it without contact, to count as held.").positive().optional("0.1 s"),
     Key::new("event.torque", Kind::Quantity("N m"), "2 N m", "Of a brake: size of the torque from then on; it acts against the spin until the rotor stands.").not_negative().optional("needed with do = \"brake\""),
+    Key::new("event.plane", Kind::Text, "wheel", "Of an unbalance: name of the [[rotor.unbalance]] in whose plane it comes.").optional("needed with do = \"unbalance\""),
+    Key::new("event.amount", Kind::Quantity("kg m"), "200 g mm", "Of an unbalance that comes: mass times distance from the axis; of a lost blade, whose own mass is not taken from the rotor.").positive().optional("needed with do = \"unbalance\""),
+    Key::new("event.phase", Kind::Quantity("rad"), "180 deg", "Of an unbalance that comes: angle on the rotor; of a lost blade opposite to where it was.").optional("0: along the mark that angles count from"),
 ];
 
 /// The kind of part at a path: `rotor.section`.

@@ -225,35 +225,20 @@ impl FollowedBearing {
     }
 }
 
-/// A machine that goes on with other constants: as it is now, and the work that was done on its balls by that.
-#[derive(Clone, Debug)]
-pub(crate) struct Renewals<M> {
-    machine: Option<Box<M>>,
+/// Work that was done on loaded balls by rings that closed on them, as the constants of a machine changed.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Renewals {
     /// Instants, s, and the work until then, J.
     work: Vec<(f64, f64)>,
 }
 
-impl<M> Default for Renewals<M> {
-    fn default() -> Self {
-        Renewals {
-            machine: None,
-            work: Vec::new(),
-        }
-    }
-}
-
-impl<M> Renewals<M> {
-    /// From a time on, s, it is another machine; rings that have closed on loaded balls did this work, J.
-    pub fn renew(&mut self, machine: Box<M>, time: f64, work: f64) {
+impl Renewals {
+    /// At a time, s, rings have closed on loaded balls and done this work, J.
+    pub fn book(&mut self, time: f64, work: f64) {
         let before = self.work.last().map_or(0.0, |(_, work)| *work);
         if work != 0.0 {
             self.work.push((time, before + work));
         }
-        self.machine = Some(machine);
-    }
-    /// As it is now, where it was another one at the start.
-    pub fn machine<'a>(&'a self, at_start: &'a M) -> &'a M {
-        self.machine.as_deref().unwrap_or(at_start)
     }
     /// Work of rings that close on loaded balls until an instant, J.
     pub fn work_until(&self, time: f64) -> f64 {

@@ -4,12 +4,14 @@ use crate::bearing;
 use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::drop::Drop;
+use crate::drop::base;
 use crate::drop::layers;
 use crate::drop::magnets_in_time::InTime;
 use crate::drop::mount;
 use crate::drop::shaft::{self, BuiltShaft};
 use crate::drop::torque;
 use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
+use model::base::BaseConstants;
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
@@ -75,11 +77,13 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
         bearings.push(built);
     }
     let in_time = shaft.as_ref().map(|built| built.in_time.clone());
-    let mut constants = constants(&drop, parts, in_time.unwrap_or_default());
+    let base = base::base(&drop)?;
+    let mut constants = constants(&drop, parts, in_time.unwrap_or_default(), base);
     if let Some(built) = &shaft {
         constants.rotor = built.rotor.clone();
         constants.seals = built.seals.clone();
         constants.forces = built.forces.clone();
+        constants.unbalances = built.unbalances.clone();
     }
     Ok(Built {
         drop,
@@ -218,6 +222,7 @@ fn constants(
     drop: &Drop,
     bearings: Vec<AuxiliaryBearingConstants>,
     in_time: InTime,
+    base: Option<BaseConstants>,
 ) -> MachineConstants {
     let gravity = gravity(drop);
     let mass = drop.body.mass;
@@ -231,7 +236,9 @@ fn constants(
     let pushed = drop.shaft.iter().flat_map(|shaft| &shaft.model.forces);
     let rows = pushed.flat_map(|own| own.over_time.iter().flatten());
     let knots = rows.map(|[time, _]| (*time, Event::Knot));
-    let known = known.into_iter().chain(knots).collect();
+    let shaken = base.iter().flat_map(BaseConstants::knots);
+    let shaken = shaken.map(|time| (time, Event::Knot));
+    let known = known.into_iter().chain(knots).chain(shaken).collect();
     let mut constants = MachineConstants {
         rotor: RotorConstants {
             torque: torque.clone(),
@@ -252,7 +259,8 @@ fn constants(
         },
         seals: Vec::new(),
         forces: Vec::new(),
-        base: None,
+        base,
+        unbalances: Vec::new(),
         bearings,
         gravity,
         speed: drop.rotor.speed,

@@ -54,6 +54,12 @@ fn of_rotor(setup: Setup, run: &BearingRun) -> Vec<Column> {
     }
     let spin = setup.machine.layout().rotor.spin();
     columns! { table.columns, |row| "rotor.speed": "rad/s", "spin of the rotor" => row.state[spin]; }
+    if let Some(base) = &setup.machine.constants.base {
+        columns! { table.columns, |row|
+            "base.acceleration_x": "m/s^2", "acceleration of the base along x; displacements are relative to the base" => base.acceleration(row.time).x;
+            "base.acceleration_y": "m/s^2", "acceleration of the base along y" => base.acceleration(row.time).y;
+        }
+    }
     table.columns.list
 }
 

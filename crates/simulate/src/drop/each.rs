@@ -10,6 +10,7 @@ use crate::ensemble::{self, Member, Plan};
 use crate::following::Following;
 use crate::stepping::Stepping;
 use model::system::machine::RotorMachine;
+use number::Vec2;
 use outcome::options::Options;
 use outcome::{Outcome, host};
 use problem::Problem;
@@ -42,10 +43,17 @@ impl<'a> One<'a> {
     /// A drop of its scenario; its history is not kept.
     pub(crate) fn of(scenario: &'a Scenario, built: Arc<Built>) -> Self {
         let machine = RotorMachine::new(built.constants.clone());
-        let start = match &built.shaft {
+        let mut start = match &built.shaft {
             Some(shaft) => machine.start_with(&shaft.position, &shaft.velocity),
             None => machine.start(),
         };
+        let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
+        let given = &built.drop.rotor;
+        machine.displace(
+            &mut start,
+            vector(given.start_displacement),
+            vector(given.start_velocity),
+        );
         let of_kind = (scenario.resolved.values.iter()).filter(|value| value.is_of_kind());
         let kind: Kind = of_kind
             .map(|value| (value.shown(), value.text.clone()))

@@ -109,14 +109,7 @@ pub(super) fn built(
     let (mut known, mut at_speeds) = (Vec::new(), Vec::<AtSpeed>::new());
     for (index, (when, _)) in happening.iter().enumerate() {
         let event = Event::Control(ControlEvent::Change(index));
-        match *when {
-            When::At(time) => known.push((time, event)),
-            When::Speed {
-                speed,
-                rising,
-                delay,
-            } => at_speed(&mut at_speeds, (speed, rising), (delay, event)),
-        }
+        happens(*when, event, &mut known, &mut at_speeds);
     }
     for [from, to] in powered(&happening, axes, end) {
         few_samples(to - from, levitation.timing())?;
@@ -130,8 +123,25 @@ pub(super) fn built(
     })
 }
 
+/// Adds an event to those of known instants or to what follows a speed.
+pub(super) fn happens(
+    when: When,
+    event: Event,
+    known: &mut Vec<(f64, Event)>,
+    at_speeds: &mut Vec<AtSpeed>,
+) {
+    match when {
+        When::At(time) => known.push((time, event)),
+        When::Speed {
+            speed,
+            rising,
+            delay,
+        } => at_speed(at_speeds, (speed, rising), (delay, event)),
+    }
+}
+
 /// Adds what follows a speed.
-pub(super) fn at_speed(list: &mut Vec<AtSpeed>, (speed, rising): (f64, bool), then: (f64, Event)) {
+fn at_speed(list: &mut Vec<AtSpeed>, (speed, rising): (f64, bool), then: (f64, Event)) {
     let same = |own: &&mut AtSpeed| own.speed == speed && own.rising == rising;
     match list.iter_mut().find(same) {
         Some(own) => {
@@ -190,7 +200,7 @@ fn change(what: &Happens, count: usize) -> Change {
             bias_rate: rate(own.bias_time),
             reference_rate: rate(own.reference_time),
         },
-        Happens::Brake(_) => unreachable!("a brake is of no magnet"),
+        Happens::Brake(_) | Happens::Unbalance { .. } => unreachable!("it is of no magnet"),
     };
     Change { what, axes }
 }

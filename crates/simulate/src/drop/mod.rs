@@ -1,5 +1,6 @@
 //! Runs a drop and names what came out.
 
+mod base;
 mod body;
 pub mod build;
 pub(crate) mod columns;
@@ -20,6 +21,7 @@ pub mod shaft;
 pub mod shaft_results;
 pub(crate) mod surfaces;
 mod torque;
+mod unbalances;
 pub mod warning_table;
 pub(crate) mod warnings;
 

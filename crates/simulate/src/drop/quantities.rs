@@ -8,7 +8,7 @@ use crate::bearing::severity::{
 };
 use crate::bearing::warm::{self, RINGS};
 use crate::drop::context::{Context, Setup, touched};
-use crate::drop::{events, magnets, mount_results, shaft_results, surfaces};
+use crate::drop::{base, events, magnets, mount_results, shaft_results, surfaces};
 use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
@@ -217,6 +217,9 @@ results! {
     fn release(setup: &Setup, run: &Context) {
         "release_time": number "s", RELEASE, "instant of the release" in instants "release" => run.release_time().ok_or_else(magnets::kept);
         "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop().gravity.acceleration);
+        "base_largest_acceleration": number "m/s^2", BASE, "largest acceleration of the base" when setup.machine.constants.base.is_some() => {
+            base::largest(&run.setup.machine.constants, run.finished.ending.time)
+        };
     }
     fn energies(setup: &Setup, run: &Context) {
         "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
@@ -291,6 +294,9 @@ pub(crate) fn residuals(context: &Context) -> (Result<f64, String>, Result<f64, 
 }
 
 origins! {
+    BASE: law "largest |b̈(t)| within the run, at its points and a thousand instants of each half-sine",
+        source "the file; crates/model/src/base.rs",
+        valid "a base that translates in the plane of the bearings: it neither rocks nor turns";
     TURNS: law "∫|ω_i| dt/2π",
         source "definition",
         valid "from the start of the run to the end of what is computed ball by ball";

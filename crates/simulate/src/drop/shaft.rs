@@ -2,7 +2,7 @@
 
 use crate::bearing::loss::table;
 use crate::drop::magnets_in_time::{self, InTime, OnMagnets};
-use crate::drop::{Drop, Shaft, events, torque};
+use crate::drop::{Drop, Shaft, events, torque, unbalances};
 use crate::levitated;
 use crate::rotor::RotorModel;
 use catalogue::geometry::millimetres;
@@ -38,6 +38,8 @@ pub struct BuiltShaft {
     pub seals: Vec<SealConstants>,
     /// Forces from outside.
     pub forces: Vec<ForceConstants>,
+    /// Unbalances that come on the way.
+    pub unbalances: Vec<Unbalance>,
     /// Where its coordinates are at the release, m √kg.
     pub position: Vec<Vec2<f64>>,
     /// Their rates, m √kg/s.
@@ -117,10 +119,11 @@ pub(crate) fn build(
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
     let at = |node: usize| row(&within.basis, node);
     let end = drop.run.duration;
-    let in_time = match on_magnets {
+    let mut in_time = match on_magnets {
         Some(own) => magnets_in_time::built(shaft, end, &at, &position, &own)?,
         None => InTime::default(),
     };
+    let unbalances = unbalances::built(shaft, &at, &mut in_time);
     let seals = staying(&shaft.model, &within.basis, &still, &carried);
     let forces =
         (shaft.model.forces.iter().zip(&shaft.model.pushed)).map(|(own, node)| ForceConstants {
@@ -143,6 +146,7 @@ pub(crate) fn build(
         in_time,
         seals,
         forces,
+        unbalances,
         position,
         velocity,
         held,

@@ -2,7 +2,7 @@
 
 use crate::bearing::loss::table;
 use crate::drop::Drop;
-use crate::drop::magnets_in_time::at_speed;
+use crate::drop::magnets_in_time::happens;
 use model::rotor::TorqueTables;
 use model::schedule::Schedule;
 use model::system::machine::{AtSpeed, Event};
@@ -46,14 +46,7 @@ pub(super) fn brakes(drop: &Drop, at_speeds: &mut Vec<AtSpeed>) -> (f64, Vec<(f6
     let mut known = Vec::new();
     for (when, torque) in all {
         let event = Event::Brake(if largest > 0.0 { torque / largest } else { 0.0 });
-        match when {
-            When::At(time) => known.push((time, event)),
-            When::Speed {
-                speed,
-                rising,
-                delay,
-            } => at_speed(at_speeds, (speed, rising), (delay, event)),
-        }
+        happens(when, event, &mut known, at_speeds);
     }
     (largest, known)
 }

@@ -268,6 +268,7 @@ pub(super) fn machine(
         seals: Vec::new(),
         forces: Vec::new(),
         base: None,
+        unbalances: Vec::new(),
         bearings: bearings.collect::<Result<_, _>>()?,
         gravity,
         speed,

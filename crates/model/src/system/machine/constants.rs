@@ -5,7 +5,7 @@ use crate::base::BaseConstants;
 use crate::force::ForceConstants;
 use crate::levitation::Levitation;
 use crate::magnets::{ControlEvent, MagnetsConstants};
-use crate::rotor::RotorConstants;
+use crate::rotor::{RotorConstants, Unbalance};
 use crate::schedule::Schedule;
 use crate::seal::SealConstants;
 use crate::system::rig::refusal::{self, Refusal};
@@ -28,6 +28,8 @@ pub struct MachineConstants {
     pub base: Option<BaseConstants>,
     /// The auxiliary bearings, one at least.
     pub bearings: Vec<AuxiliaryBearingConstants>,
+    /// Unbalances that come on the way, as where a blade is lost; [`MOST_UNBALANCES`] at most.
+    pub unbalances: Vec<Unbalance>,
     /// Gravity, m/s².
     pub gravity: Vec2<f64>,
     /// Spin of the rotor at release, rad/s; on a rig the speed that counts as reached, of either sign.
@@ -42,6 +44,9 @@ pub struct MachineConstants {
 
 /// Most speeds at which something happens.
 pub const MOST_SPEEDS: usize = 4;
+
+/// Most unbalances that come on the way.
+pub const MOST_UNBALANCES: usize = 16;
 
 /// What happens where the rotor reaches a speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +66,8 @@ pub enum Event {
     Brake(f64),
     /// A point of something over time, of a torque, a force, the base, or of load or drive of a rig: a step ends there.
     Knot,
+    /// The unbalance of that place among those that come on the way is there.
+    Unbalance(usize),
     /// Something happens to the controllers of the magnets.
     Control(ControlEvent),
 }
@@ -83,6 +90,7 @@ impl MachineConstants {
         let rows = in_machine.map(|part| &part.node);
         let rows = rows.chain(self.magnets.iter().flat_map(MagnetsConstants::nodes));
         let rows = rows.chain(self.forces.iter().map(|force| &force.node));
+        let rows = rows.chain(self.unbalances.iter().map(|plane| &plane.node));
         let mut rows = rows.chain(self.seals.iter().map(|seal| &seal.node));
         let count = self.rotor.coordinates.len();
         let still = |row: &[f64]| row.iter().all(|shape| *shape == 0.0);
@@ -96,6 +104,8 @@ impl MachineConstants {
             Some("a node has an entry for each coordinate, and moves with one of them")
         } else if self.at_speeds.len() > MOST_SPEEDS {
             Some("a machine waits for four speeds at most")
+        } else if self.unbalances.len() > MOST_UNBALANCES {
+            Some("at most sixteen unbalances come on the way")
         } else {
             self.rotor.fault()
         }

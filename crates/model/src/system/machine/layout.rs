@@ -48,6 +48,8 @@ pub struct RotorLedger {
     pub seals: Option<usize>,
     /// Work of forces from outside.
     pub forces: Option<usize>,
+    /// What unbalances that come on the way bring and take.
+    pub unbalance: Option<usize>,
     /// Work of the motion of the base.
     pub base: Option<usize>,
     /// Heat of the damping of seals.
@@ -116,6 +118,7 @@ impl Layout {
             seals: None,
             forces: None,
             base: None,
+            unbalance: None,
             seal_damping: heat(!constants.seals.is_empty(), "seal_damping"),
         };
         let sources = rotor_sources(fixture, clutch);
@@ -131,6 +134,9 @@ impl Layout {
         }
         if constants.base.is_some() {
             of_rotor.base = Some(channels.sources_of("", ["base"]));
+        }
+        if !constants.unbalances.is_empty() {
+            of_rotor.unbalance = Some(channels.sources_of("", ["unbalance"]));
         }
         let measured = fixture.map_or(0, |_| MEASURED);
         let mut probes = parts.len() * probe::COUNT + measured;
@@ -270,10 +276,8 @@ impl Layout {
         for heat in heats.into_iter().flatten() {
             scale[self.heat(heat)] = energy;
         }
-        for source in [own.magnets, own.seals, own.forces, own.base]
-            .into_iter()
-            .flatten()
-        {
+        let sources = [own.magnets, own.seals, own.forces, own.base, own.unbalance];
+        for source in sources.into_iter().flatten() {
             scale[self.source(source)] = energy;
         }
         scale[self.angular_impulse()] = impulse;

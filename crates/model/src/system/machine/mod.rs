@@ -17,6 +17,7 @@
 //! | [`tangents`] | what is stiff, for linearly implicit steps |
 //! | [`rotor_rows`] | the rotor in these |
 //! | [`record`] | what is watched and kept of a run |
+//! | [`unbalances`] | those that come on the way |
 //! | [`simulate`] | a run, alone or in lanes |
 //!
 //! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
@@ -38,6 +39,7 @@ pub mod simulate;
 pub mod start;
 pub mod tangents;
 pub mod travel;
+pub mod unbalances;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
 use crate::base::Base;
@@ -50,7 +52,7 @@ use crate::seal::Seal;
 use crate::system::rig::{Clutch, ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
 use crate::table::Piece;
 use ::levitation::OfAxes;
-pub use constants::{AtSpeed, Event, MOST_SPEEDS, MachineConstants};
+pub use constants::{AtSpeed, Event, MOST_SPEEDS, MOST_UNBALANCES, MachineConstants};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
 use solve::{Batch, Machine};
@@ -70,6 +72,8 @@ pub struct Mode<R> {
     pub drive: Piece<R>,
     /// Motor and clutch of a rig.
     pub clutch: ClutchMode,
+    /// Which of the unbalances that come on the way are there, bit by bit.
+    pub unbalances: u16,
     /// What the rotor has reached of the speeds at which something happens.
     pub reached: [Reached; MOST_SPEEDS],
 }
@@ -98,6 +102,7 @@ impl Mode<f64> {
     fn happen(&mut self, event: Event) {
         match event {
             Event::Brake(share) => self.brake = share,
+            Event::Unbalance(plane) => self.unbalances |= 1 << plane,
             Event::Knot | Event::Control(_) => {}
         }
     }
@@ -114,6 +119,10 @@ pub struct RotorMachine {
     places: Vec<Node<f64>>,
     error_scale: Vec<f64>,
     levitated: bool,
+    /// Which of the unbalances that come on the way are there.
+    unbalances: u16,
+    /// What they have added to N at φ = 0, of each coordinate, m.
+    added: Vec<Vec2<f64>>,
 }
 
 /// The system over `R`.
@@ -164,6 +173,8 @@ impl RotorMachine {
             error_scale: layout.error_scale(&constants),
             layout,
             levitated,
+            unbalances: 0,
+            added: vec![Vec2::zero(); constants.rotor.coordinates.len()],
             constants,
         }
     }
@@ -216,8 +227,12 @@ impl RotorMachine {
     }
     /// What an event does to mode and state.
     fn happen(&self, event: Event, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
+        let before = mode.unbalances;
         mode.happen(event);
         mode.base = self.base_at(time);
+        if mode.unbalances != before {
+            self.unbalance([before, mode.unbalances], state);
+        }
         if let (Event::Control(event), Some(magnets)) = (event, &self.one.magnets) {
             let at = (self.layout.rotor, self.layout.magnets.clone());
             magnets.happen(event, time, at, state);
@@ -240,6 +255,7 @@ impl RotorMachine {
             load,
             drive,
             clutch: ClutchMode::idle(),
+            unbalances: 0,
             reached: [Reached::NEVER; MOST_SPEEDS],
         }
     }
@@ -488,6 +504,9 @@ impl Machine for RotorMachine {
         };
         self.happen(event, time, mode, state);
     }
+    fn changed(&self, mode: &Mode<f64>) -> Option<Box<Self>> {
+        (mode.unbalances != self.unbalances).then(|| Box::new(self.unbalanced(mode.unbalances)))
+    }
     fn guard(&self, mode: &Mode<f64>, _time: f64, at: (&[f64], &[f64])) -> f64 {
         if self.constants.at_speeds.is_empty() {
             return self.reserve(mode, at);
@@ -550,6 +569,7 @@ impl<R: Real> Batch<R> for Machines<R> {
             load: Piece::from_lanes(&|lane| modes(lane).load),
             drive: Piece::from_lanes(&|lane| modes(lane).drive),
             clutch: modes(0).clutch,
+            unbalances: modes(0).unbalances,
             reached: modes(0).reached,
         }
     }

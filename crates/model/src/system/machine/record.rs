@@ -5,6 +5,7 @@
 
 pub use super::bearing_record::{BearingRecord, Contact};
 use super::{MOST_SPEEDS, Mode, RotorMachine};
+use crate::system::energy::Content;
 use crate::system::rig::Tap;
 use crate::system::rig::record::RigRecord;
 use crate::system::sampling::{Peak, Row, Rows};
@@ -186,11 +187,13 @@ impl Record {
                 bearing.look(machine, time, state);
             }
         }
+        let mut state = state.to_vec();
+        let content = machine.row(&mut state);
         self.rows.finish(&Row {
             time,
-            state,
+            state: &state,
             probe: &probe,
-            content: machine.content(state),
+            content,
         });
     }
 
@@ -273,7 +276,7 @@ impl Observer<RotorMachine> for Record {
         if let Some(rig) = &mut self.rig {
             rig.step(step);
             self.bearings[0].on_rig(step);
-            self.rows.sample(step, RotorMachine::content);
+            self.rows.sample(step, RotorMachine::row);
             return Flow::Continue;
         }
         for bearing in &mut self.bearings {
@@ -292,7 +295,7 @@ impl Observer<RotorMachine> for Record {
         if at_pole(step) {
             return Flow::Halt(AT_POLE);
         }
-        self.rows.sample(step, RotorMachine::content);
+        self.rows.sample(step, RotorMachine::row);
         if self.halts_when_rolling {
             let mut rolling = self
                 .bearings
@@ -340,6 +343,12 @@ impl Observer<RotorMachine> for Record {
 }
 
 impl RotorMachine {
+    /// Energies and momentum of a state, which is put as the machine of the start has it.
+    fn row(&self, state: &mut [f64]) -> Content {
+        let content = self.content(state);
+        self.as_begun(state);
+        content
+    }
     /// Cage speed of a bearing at a state, rad/s.
     pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {
         let at = &self.layout().bearings[bearing];

@@ -110,6 +110,7 @@ impl RigConstants {
             seals: Vec::new(),
             forces: Vec::new(),
             base: None,
+            unbalances: Vec::new(),
             gravity,
             speed,
             unbalance_angle: 0.0,

@@ -1,0 +1,35 @@
+//! Unbalances that come during a run, as where a blade is lost.
+
+use crate::drop::Shaft;
+use crate::drop::magnets_in_time::{InTime, happens};
+use model::rotor::Unbalance;
+use model::system::machine::Event;
+use scenario::Happens;
+
+/// The unbalances that come, with their events; `row` gives the row of a node.
+pub(super) fn built(
+    shaft: &Shaft,
+    row: &dyn Fn(usize) -> Vec<f64>,
+    in_time: &mut InTime,
+) -> Vec<Unbalance> {
+    let mut list = Vec::new();
+    for event in &shaft.events {
+        if let Happens::Unbalance {
+            plane,
+            amount,
+            phase,
+        } = event.what
+        {
+            let InTime {
+                known, at_speeds, ..
+            } = in_time;
+            happens(event.when, Event::Unbalance(list.len()), known, at_speeds);
+            list.push(Unbalance {
+                node: row(shaft.model.rotor.unbalance[plane].node),
+                product: amount,
+                phase,
+            });
+        }
+    }
+    list
+}
