@@ -99,6 +99,26 @@ fn the_same_event_by_instant_and_by_key_is_the_same_run() {
     }
 }
 
+/// A drive that comes on and goes off again turns a rotor that touches nothing by T t/I.
+#[test]
+fn a_drive_comes_on_and_goes_off() {
+    let event = |at: &str, torque: &str| {
+        format!("[[event]]\ndo = \"drive\"\nat = \"{at}\"\ntorque = \"{torque}\"\n")
+    };
+    let events = event("1 ms", "2 N m") + &event("3 ms", "0 N m");
+    let sets = ["run.duration=4 ms", "contact.radial_air_clearance=5 mm"];
+    let run = ran(&format!("{STIFF}\n{events}"), &sets);
+    let faster = number(&run, "rotor_final_speed") - 300.0 * std::f64::consts::PI;
+    let expected = 2.0 * 2e-3 / number(&run, "rotor_polar_inertia");
+    assert!(
+        (faster / expected - 1.0).abs() < 1e-6,
+        "{faster} {expected}"
+    );
+    assert!(number(&run, "energy_residual").abs() < 1e-6);
+    let held = parsed(&format!("{STIFF}\n{events}"), &["rotor.spin=held"]);
+    assert!(held.unwrap_err().contains("held"));
+}
+
 /// A constant force moves the mass centre of a free rotor by F t²/(2m), its work is in the ledger, and a force that is none changes no bit.
 #[test]
 fn a_force_from_outside_accelerates_the_rotor() {

@@ -1,6 +1,7 @@
 //! All tests of the crate but those that count memory, in one binary.
 
 mod accuracy;
+mod base;
 mod cage_forces;
 mod catalogue;
 mod catalogue_file;

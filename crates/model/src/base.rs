@@ -8,7 +8,7 @@
 //! All coordinates are relative to the base, which carries magnets, sensors, seals, mounts and their stops. It translates in the
 //! plane of the bearings. Its points and both ends of a half-sine are landed. Does not model: a base that rocks or turns.
 //!
-//! Source: derived; book/src/theory/rotor.md, motion of the base.
+//! Source: derived; book/src/theory/drop.md, motion of the base.
 
 use crate::table::{Piece, Table};
 use number::{Gather, Real, Vec2, constants};

@@ -67,11 +67,11 @@ const MACHINE: &[Absent] = &[
         instead: "[[event]] with do, at, and the magnet and axis that it happens to",
     },
     Absent {
-        paths: "base foundation seismic shock rotor.impulse rotor.initial_displacement rotor.initial_velocity rotor.lost_mass \
+        paths: "foundation seismic shock earthquake rotor.impulse rotor.initial_displacement rotor.initial_velocity rotor.lost_mass \
                 rotor.blade_loss *.lost_at",
-        what: "motion of the base, starts of one's own, and masses that are lost on the way are not described",
+        what: "motion of the base, starts and lost blades have keys of their own",
         point: 2,
-        instead: "A force over time is [[rotor.force]], an unbalance that is there from the start [[rotor.unbalance]]",
+        instead: "Base: [base]; starts: rotor.start_x, start_speed_x; a lost blade: [[event]] with do = \"unbalance\"; a force over time: [[rotor.force]]",
     },
     Absent {
         paths: "*.tilt *.misalignment",
@@ -246,7 +246,7 @@ mod tests {
         for (path, words) in [
             ("levitation.relevitation", "comes back"),
             ("levitation.sensor.1.noise", "noise"),
-            ("base.acceleration", "motion of the base"),
+            ("seismic.acceleration", "motion of the base"),
             ("contact.tilt", "landing sleeve"),
             ("bearing.arrangement", "one node"),
         ] {

@@ -135,6 +135,14 @@ function currentFigure(run) {
   return figure("Control currents", "Of each axis of the magnets, without bias; after the loss of power what is left of them.", timePlot({ series, label: "current [A]", marks, ticks: [run], height: 240 }));
 }
 
+// Acceleration of the base over time.
+function baseFigure(run) {
+  const names = [...run.columns.keys()].filter((name) => /^base\.acceleration_[xy]$/.test(name));
+  if (!names.length) return null;
+  const series = names.map((name, place) => ({ label: `${name.slice(-1)} [m/s²]`, time: run.time, values: columnOf(run, name), colour: AXIS_COLOURS[2 * place], width: 1 }));
+  return figure("Acceleration of the base", "At the rows of the history; displacements are relative to the base.", timePlot({ series, label: "acceleration [m/s²]", ticks: [run], height: 200 }));
+}
+
 function machineSection(runs) {
   const machines = machinesOf(runs);
   const of = (machine) => (machines.length > 1 ? `${machine[0].name}: ` : "");
@@ -144,6 +152,7 @@ function machineSection(runs) {
     machines.map((machine) => [
       figure(`${of(machine)}Rotor to scale`, DRAWN, rotorPicture(machine[0], [], machine.map((run) => run.summary.name || ""))),
       columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets.", shapeFigure(machine)) : null,
+      baseFigure(machine[0]),
       currentFigure(machine[0]),
       tableOf(machine[0], "shape")("displacement").length ? figure(`${of(machine)}Largest displacement along the shaft`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
     ]),

@@ -11,6 +11,7 @@ use crate::values::Values;
 use physics::magnet::{Amplifier, Magnet};
 use problem::words::Words;
 use problem::{Code, Result, did_you_mean, words};
+use std::collections::BTreeSet;
 use units::number_text;
 
 words! {
@@ -36,6 +37,8 @@ words! {
         Relevitate = "re-levitate",
         /// The rotor is braked.
         Brake = "brake",
+        /// The drive has another torque.
+        Drive = "drive",
         /// An unbalance comes, as where a blade is lost.
         Unbalance = "unbalance",
     }
@@ -101,6 +104,8 @@ pub enum Happens {
     Relevitate(Relevitation),
     /// A torque of this size brakes the rotor, N m.
     Brake(f64),
+    /// The drive has this torque, N m, in the place of `rotor.drive_torque`.
+    Drive(f64),
     /// An unbalance comes.
     Unbalance {
         /// The place of its plane among those of the rotor.
@@ -147,7 +152,7 @@ impl Happens {
             | Happens::SensorOffset(axes, _)
             | Happens::ControllerFrozen(axes) => Some(axes),
             Happens::Relevitate(_) => Some(&[]),
-            Happens::Brake(_) | Happens::Unbalance { .. } => None,
+            Happens::Brake(_) | Happens::Drive(_) | Happens::Unbalance { .. } => None,
         }
     }
     /// Whether both change the same thing.
@@ -160,8 +165,14 @@ impl Happens {
             Happens::AmplifierLimit { .. } => 4,
             Happens::Brake(_) => 5,
             Happens::Unbalance { .. } => 6,
+            Happens::Drive(_) => 7,
         };
-        let all = |of: &Happens| matches!(of, Happens::Relevitate(_) | Happens::Brake(_));
+        let all = |of: &Happens| {
+            matches!(
+                of,
+                Happens::Relevitate(_) | Happens::Brake(_) | Happens::Drive(_)
+            )
+        };
         let shared = |a: &[usize], b: &[usize]| a.iter().any(|axis| b.contains(axis));
         let axes = |of: &Happens| of.axes().unwrap_or_default().to_vec();
         let add_up = matches!(self, Happens::Unbalance { .. });
@@ -182,7 +193,7 @@ fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]
         Happening::SensorOffset => (&["offset"], AXIS),
         Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
         Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
-        Happening::Brake => (&["torque"], &[]),
+        Happening::Brake | Happening::Drive => (&["torque"], &[]),
         Happening::Unbalance => (&["plane", "amount"], &["phase"]),
     }
 }
@@ -268,11 +279,12 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         let allowed = format!("do = {} takes no {key}", quoted(word));
         return part.refuse(Code::UnusedKey, key, found, allowed);
     }
-    if what == Happening::Brake {
-        return Ok(Happens::Brake(part.needed("torque")));
-    }
-    if what == Happening::Unbalance {
-        return unbalance(part, rotor);
+    let torque = || part.needed("torque");
+    match what {
+        Happening::Brake => return Ok(Happens::Brake(torque())),
+        Happening::Drive => return Ok(Happens::Drive(torque())),
+        Happening::Unbalance => return unbalance(part, rotor),
+        _ => {}
     }
     let Some(magnets) = &rotor.levitation else {
         let found = format!("do = {} without magnets", quoted(word));
@@ -329,7 +341,9 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
             within: part.number("within").unwrap_or(0.5),
             hold: part.number("hold").unwrap_or(0.1),
         }),
-        Happening::Brake | Happening::Unbalance => unreachable!("it is of no magnet"),
+        Happening::Brake | Happening::Drive | Happening::Unbalance => {
+            unreachable!("it is of no magnet")
+        }
     })
 }
 
@@ -439,7 +453,11 @@ fn of_key(part: &Part, named: &str, all: &[&Part], values: &Values) -> Result<Wh
     let lost = values.number(LOST_AT).unwrap_or_default();
     let start = values.number("rotor.brake_start");
     // with events of magnets the key has no default, and the brake of its key follows what they say
-    let of_magnets = all.iter().any(|part| part.word("do") != Some("brake"));
+    let of_magnets = all.iter().any(|part| {
+        let own = part.word("do").and_then(Happening::of_word);
+        use Happening::{Brake, Drive, Unbalance};
+        !matches!(own, Some(Brake | Drive | Unbalance))
+    });
     match (named, start) {
         _ if of_magnets && !values.is_own(LOST_AT) => {}
         (POWER_LOST, _) => return Ok(When::At(lost)),
@@ -471,8 +489,9 @@ fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
     let mut speeds = Vec::new();
     for (k, (part, event)) in parts.iter().zip(events).enumerate() {
         let brakes = matches!(event.what, Happens::Brake(_));
-        if brakes && values.chosen("rotor.spin") == Some(SpinKind::Held) {
-            let found = "a brake beside rotor.spin = \"held\"";
+        let turns = brakes || matches!(event.what, Happens::Drive(_));
+        if turns && values.chosen("rotor.spin") == Some(SpinKind::Held) {
+            let found = "a brake or a drive beside rotor.spin = \"held\"";
             let allowed = "a rotor whose spin is not held is needed";
             return part.refuse(Code::Conflict, "do", found, allowed);
         }
@@ -552,16 +571,19 @@ fn line(line: Option<usize>) -> String {
 /// Refuses a re-levitation of a rotor that was not lost before, or whose hold is longer than the run.
 fn relevitated(parts: &[&Part], events: &[Event], magnets: Option<&Magnets>) -> Result<()> {
     let axes = magnets.map_or(0, |own| 2 * own.magnets.len());
+    // by one event or by several
     let lost_before = |event: &Event| {
-        events.iter().any(|other| {
-            let lost =
-                matches!(&other.what, Happens::Lost { axes: lost, .. } if lost.len() == axes);
-            let before = match (other.when, event.when) {
+        let before = events
+            .iter()
+            .filter(|other| match (other.when, event.when) {
                 (When::At(lost), When::At(again)) => lost < again,
                 _ => true,
-            };
-            lost && before
-        })
+            });
+        let lost = before.filter_map(|other| match &other.what {
+            Happens::Lost { axes, .. } => Some(axes),
+            _ => None,
+        });
+        lost.flatten().collect::<BTreeSet<_>>().len() == axes
     };
     for (part, event) in parts.iter().zip(events) {
         let again = matches!(event.what, Happens::Relevitate(_));

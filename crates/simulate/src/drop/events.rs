@@ -11,6 +11,7 @@ use model::system::machine::record::Record;
 use outcome::Warning;
 use outcome::list::{List, origins, results};
 use scenario::{Event, Happens, Relevitation, When};
+use std::collections::BTreeSet;
 
 /// The events of a machine besides a loss of power that its keys give.
 fn events(given: &Shaft) -> impl Iterator<Item = &Event> {
@@ -207,11 +208,13 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
         let name = event.name.clone();
         list.push(ShaftWarning::EventNever { name, why }.into());
     }
-    let lost = given.events.iter().any(|event| match &event.what {
-        Happens::Lost { axes, .. } => axes.len() == context.setup.machine.axes().count(),
-        _ => false,
+    let lost = (given.events.iter()).filter_map(|event| match &event.what {
+        Happens::Lost { axes, .. } => Some(axes),
+        _ => None,
     });
-    if context.setup.controlled().is_some() && !lost {
+    let lost = lost.flatten().collect::<BTreeSet<_>>().len();
+    let all = context.setup.machine.axes().count();
+    if context.setup.controlled().is_some() && lost < all {
         list.push(ShaftWarning::NoLossOfPower.into());
     }
     list
@@ -227,8 +230,10 @@ pub(super) fn not_held(context: &Context) -> Option<(f64, Warning)> {
         .fold(own.time, f64::max);
     let given = context.setup.controlled()?;
     let limits = context.finished.record.currents.iter().enumerate();
-    let limited =
-        limits.filter_map(|(axis, peak)| Some((axis, peak.limited.first?, peak.limited.duration)));
+    let limited = limits.filter_map(|(axis, peak)| {
+        let since = peak.limited_since;
+        Some((axis, since.first?, since.duration))
+    });
     let first = limited.min_by(|a, b| a.1.total_cmp(&b.1));
     let first = match first {
         Some((axis, since, long)) => format!(

@@ -200,7 +200,9 @@ fn change(what: &Happens, count: usize) -> Change {
             bias_rate: rate(own.bias_time),
             reference_rate: rate(own.reference_time),
         },
-        Happens::Brake(_) | Happens::Unbalance { .. } => unreachable!("it is of no magnet"),
+        Happens::Brake(_) | Happens::Drive(_) | Happens::Unbalance { .. } => {
+            unreachable!("it is of no magnet")
+        }
     };
     Change { what, axes }
 }

@@ -1,4 +1,4 @@
-//! Unbalances that come during a run, as where a blade is lost.
+//! Unbalances that come during a run, as where a blade is lost, and drives that change.
 
 use crate::drop::Shaft;
 use crate::drop::magnets_in_time::{InTime, happens};
@@ -13,16 +13,20 @@ pub(super) fn built(
     in_time: &mut InTime,
 ) -> Vec<Unbalance> {
     let mut list = Vec::new();
+    let InTime {
+        known, at_speeds, ..
+    } = in_time;
     for event in &shaft.events {
+        if let Happens::Drive(torque) = event.what {
+            let more = torque - shaft.drive_torque;
+            happens(event.when, Event::Drive(more), known, at_speeds);
+        }
         if let Happens::Unbalance {
             plane,
             amount,
             phase,
         } = event.what
         {
-            let InTime {
-                known, at_speeds, ..
-            } = in_time;
             happens(event.when, Event::Unbalance(list.len()), known, at_speeds);
             list.push(Unbalance {
                 node: row(shaft.model.rotor.unbalance[plane].node),

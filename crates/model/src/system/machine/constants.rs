@@ -64,6 +64,8 @@ pub struct AtSpeed {
 pub enum Event {
     /// The brake of the rotor acts with this share of its torque.
     Brake(f64),
+    /// The drive of the rotor has so much more torque than at the start, N m.
+    Drive(f64),
     /// A point of something over time, of a torque, a force, the base, or of load or drive of a rig: a step ends there.
     Knot,
     /// The unbalance of that place among those that come on the way is there.

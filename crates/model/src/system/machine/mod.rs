@@ -64,6 +64,8 @@ pub struct Mode<R> {
     pub levitation: R,
     /// Brake of the rotor: share of its torque.
     pub brake: R,
+    /// What the drive of the rotor has more than at the start, N m.
+    pub driving: R,
     /// Radial load on a rig, N.
     pub load: Piece<R>,
     /// Recorded acceleration of the base along x and y, m/s².
@@ -102,6 +104,7 @@ impl Mode<f64> {
     fn happen(&mut self, event: Event) {
         match event {
             Event::Brake(share) => self.brake = share,
+            Event::Drive(torque) => self.driving = torque,
             Event::Unbalance(plane) => self.unbalances |= 1 << plane,
             Event::Knot | Event::Control(_) => {}
         }
@@ -251,6 +254,7 @@ impl RotorMachine {
         Mode {
             levitation: f64::from(u8::from(self.levitated)),
             brake: 0.0,
+            driving: 0.0,
             base: self.base_at(time),
             load,
             drive,
@@ -565,6 +569,7 @@ impl<R: Real> Batch<R> for Machines<R> {
         Mode {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
             brake: R::from_lanes(|lane| modes(lane).brake),
+            driving: R::from_lanes(|lane| modes(lane).driving),
             base: [0, 1].map(|axis| Piece::from_lanes(&|lane| modes(lane).base[axis])),
             load: Piece::from_lanes(&|lane| modes(lane).load),
             drive: Piece::from_lanes(&|lane| modes(lane).drive),

@@ -132,7 +132,7 @@ impl<R: Real> Machines<R> {
             zero
         };
         let from_outside = match acting {
-            None => brake + self.rotor.torque_by_tables(time, rotor.spin),
+            None => brake + mode.driving + self.rotor.torque_by_tables(time, rotor.spin),
             Some(acting) => acting.motor - acting.belt,
         };
 

@@ -51,6 +51,8 @@ pub struct CurrentPeak {
     pub coil: Peak,
     /// When it was at its limit.
     pub limited: AtLimit,
+    /// The same since no magnet had power for the last time.
+    pub limited_since: AtLimit,
 }
 
 /// When something was at its limit, seen at the ends of steps.
@@ -63,6 +65,10 @@ pub struct AtLimit {
 }
 
 impl AtLimit {
+    const NEVER: AtLimit = AtLimit {
+        duration: 0.0,
+        first: None,
+    };
     /// A step at its limit.
     fn add(&mut self, time: f64, length: f64) {
         self.duration += length;
@@ -85,10 +91,8 @@ impl CurrentPeak {
     const NONE: CurrentPeak = CurrentPeak {
         largest: Peak::NONE,
         coil: Peak::NONE,
-        limited: AtLimit {
-            duration: 0.0,
-            first: None,
-        },
+        limited: AtLimit::NEVER,
+        limited_since: AtLimit::NEVER,
     };
 }
 
@@ -215,8 +219,11 @@ impl Record {
             own.largest.raise(current.abs(), time);
             let coil = coils[0].max(coils[1]);
             own.coil.raise(coil, time);
-            if powered && coil >= AT_LIMIT * limit {
+            if !powered {
+                own.limited_since = AtLimit::NEVER;
+            } else if coil >= AT_LIMIT * limit {
                 own.limited.add(time, length);
+                own.limited_since.add(time, length);
             }
         }
         if let Some((share, outside)) = &mut self.within {
