@@ -121,6 +121,34 @@ fn a_drive_comes_on_and_goes_off() {
     assert!(held.unwrap_err().contains("held"));
 }
 
+/// Noise moves a rotor that would stand still, by values of its seed, and a sampled controller sees one a sample.
+#[test]
+fn a_sensor_with_noise_moves_the_rotor() {
+    let noise = |more: &str| {
+        let own = "[[event]]\ndo = \"sensor noise\"\nat = \"1 ms\"\nmagnet = \"drive_end\"\ndeviation = \"1 um\"\n";
+        with_events(AXIS, &format!("{own}{more}\n"))
+    };
+    let sets = ["run.duration=10 ms", "rotor.unbalance.wheel.amount=0 g mm"];
+    let scatter = |text: &str| {
+        let run = ran(text, &sets);
+        assert!(codes(&run).contains(&"AB2084"), "{:?}", codes(&run));
+        let values = &run.column("drive_end.rotor.x").expect("a column").values;
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let squares = values.iter().map(|value| (value - mean).powi(2));
+        (squares.sum::<f64>() / values.len() as f64).sqrt()
+    };
+    let quick = scatter(&noise("period = \"50 us\"\nseed = 3"));
+    // far less than the noise, which the rotor follows slowly; and no less than a hundredth
+    assert!((1e-8..1e-6).contains(&quick), "{quick}");
+    let again = scatter(&noise("period = \"50 us\"\nseed = 3"));
+    assert_eq!(quick.to_bits(), again.to_bits());
+    let other = scatter(&noise("period = \"50 us\"\nseed = 4"));
+    assert_ne!(quick.to_bits(), other.to_bits());
+    let refused = |text: &str| parsed(text, &[]).unwrap_err();
+    assert!(refused(&noise("")).contains("period is needed"));
+    assert!(refused(&noise("period = \"1 ns\"")).contains("values in the run"));
+}
+
 /// A constant force moves the mass centre of a free rotor by F t²/(2m), its work is in the ledger, and a force that is none changes no bit.
 #[test]
 fn a_force_from_outside_accelerates_the_rotor() {

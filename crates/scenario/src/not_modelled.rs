@@ -54,9 +54,9 @@ pub fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
 const MACHINE: &[Absent] = &[
     Absent {
         paths: "levitation.noise *.noise",
-        what: "sensors are without noise",
+        what: "noise of sensors is an event",
         point: 2,
-        instead: "An offset is levitation.sensor.offset_1, or [[event]] with do = \"sensor offset\" from an instant on",
+        instead: "[[event]] with do = \"sensor noise\"; an offset is levitation.sensor.offset_1",
     },
     Absent {
         paths: "relevitation drop.relevitate drop.relevitation levitation.recovery levitation.relevitation levitation.on_at \

@@ -1,17 +1,15 @@
 //! What happens to a machine, and when: `[[event]]`.
 
-use crate::drop::kinds::SpinKind;
+use crate::drop::event_checks::{check, relevitated};
 use crate::key::quoted;
 use crate::rotor::FlexibleRotor;
 use crate::rotor::keys::EVENT;
 use crate::rotor::levitation::Magnets;
 use crate::rotor::tables::Part;
-use crate::run::Until;
 use crate::values::Values;
-use physics::magnet::{Amplifier, Magnet};
+use physics::magnet::{Amplifier, Magnet, Timing};
 use problem::words::Words;
 use problem::{Code, Result, did_you_mean, words};
-use std::collections::BTreeSet;
 use units::number_text;
 
 words! {
@@ -29,6 +27,8 @@ words! {
         SensorDead = "sensor dead",
         /// A sensor shows more.
         SensorOffset = "sensor offset",
+        /// A sensor shows random values besides.
+        SensorNoise = "sensor noise",
         /// A command keeps its value.
         ControllerFrozen = "controller frozen",
         /// The limits of an amplifier change.
@@ -89,6 +89,17 @@ pub enum Happens {
     SensorDead(Vec<usize>),
     /// Sensors show so much more, m.
     SensorOffset(Vec<usize>, f64),
+    /// Sensors show normal values besides, each for a while.
+    SensorNoise {
+        /// The axes.
+        axes: Vec<usize>,
+        /// Standard deviation, m.
+        deviation: f64,
+        /// Time from a value to the next, s.
+        period: f64,
+        /// Seed of the values.
+        seed: u64,
+    },
     /// Commands keep their value.
     ControllerFrozen(Vec<usize>),
     /// Limits of amplifiers, where they change.
@@ -134,19 +145,18 @@ pub struct Relevitation {
 const POWER_LOST: &str = "power_lost";
 /// Name of the event of `rotor.brake_start`.
 const BRAKE: &str = "brake";
-const LOST_AT: &str = "levitation.power_lost_at";
+pub(super) const LOST_AT: &str = "levitation.power_lost_at";
 
-/// Most unbalances that come.
-const MOST_UNBALANCES: usize = 16;
-
-/// Most different speeds that events wait for.
-const MOST_SPEEDS: usize = 4;
+/// Most values that a sensor with noise shows in a run.
+const MOST_VALUES: f64 = 2e5;
 
 impl Happens {
     /// The axes of the magnets that it is of; none of what is not of magnets.
     pub fn axes(&self) -> Option<&[usize]> {
         match self {
-            Happens::Lost { axes, .. } | Happens::AmplifierLimit { axes, .. } => Some(axes),
+            Happens::Lost { axes, .. }
+            | Happens::SensorNoise { axes, .. }
+            | Happens::AmplifierLimit { axes, .. } => Some(axes),
             Happens::SensorStuck(axes)
             | Happens::SensorDead(axes)
             | Happens::SensorOffset(axes, _)
@@ -156,7 +166,7 @@ impl Happens {
         }
     }
     /// Whether both change the same thing.
-    fn conflicts(&self, other: &Happens) -> bool {
+    pub(super) fn conflicts(&self, other: &Happens) -> bool {
         let kind = |of: &Happens| match of {
             Happens::Lost { .. } | Happens::Relevitate(_) => 0,
             Happens::SensorStuck(_) | Happens::SensorDead(_) => 1,
@@ -166,6 +176,7 @@ impl Happens {
             Happens::Brake(_) => 5,
             Happens::Unbalance { .. } => 6,
             Happens::Drive(_) => 7,
+            Happens::SensorNoise { .. } => 8,
         };
         let all = |of: &Happens| {
             matches!(
@@ -191,6 +202,7 @@ fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]
         Happening::AxisLost => (AXIS, &["decay_time"]),
         Happening::SensorStuck | Happening::SensorDead | Happening::ControllerFrozen => (&[], AXIS),
         Happening::SensorOffset => (&["offset"], AXIS),
+        Happening::SensorNoise => (&["deviation"], &["magnet", "axis", "period", "seed"]),
         Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
         Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
         Happening::Brake | Happening::Drive => (&["torque"], &[]),
@@ -304,6 +316,30 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         Happening::SensorStuck => Happens::SensorStuck(axes),
         Happening::SensorDead => Happens::SensorDead(axes),
         Happening::SensorOffset => Happens::SensorOffset(axes, part.needed("offset")),
+        Happening::SensorNoise => {
+            // a sampled controller sees one value a sample
+            let sampled = match magnets.timing {
+                Timing::Sampled { period, .. } => Some(period),
+                Timing::Continuous { .. } => None,
+            };
+            let Some(period) = part.number("period").or(sampled) else {
+                let found = "noise without it, and controllers that take no samples";
+                return part.refuse(Code::MissingKey, "period", found, "period is needed");
+            };
+            let values = values.number("run.duration").unwrap_or_default() / period;
+            if values > MOST_VALUES {
+                let found = format!("{} s, {values:.0} values in the run", number_text(period));
+                let allowed =
+                    format!("a period is needed of which a run has at most {MOST_VALUES:.0}");
+                return part.refuse(Code::OutOfRange, "period", found, allowed);
+            }
+            Happens::SensorNoise {
+                axes,
+                deviation: part.needed("deviation"),
+                period,
+                seed: part.count("seed").unwrap_or(1) as u64,
+            }
+        }
         Happening::ControllerFrozen => Happens::ControllerFrozen(axes),
         Happening::AmplifierLimit => {
             let [largest_current, slew] =
@@ -473,125 +509,4 @@ fn of_key(part: &Part, named: &str, all: &[&Part], values: &Values) -> Result<Wh
     let allowed = format!("the name of another event is needed: {}", names.join(", "));
     let problem = part.problem(Code::UnknownWord, "after", quoted(named), allowed);
     Err(problem.with_hint(did_you_mean(named, names)))
-}
-
-/// Refuses events that contradict each other or what keys say, and those that no run of the file has.
-fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
-    let Some(first) = parts.first() else {
-        return Ok(());
-    };
-    if values.chosen("run.until") == Some(Until::Standstill) {
-        let found = "an event beside run.until = \"standstill\"";
-        let allowed = "run.until = \"duration\" is needed: the coast-down knows no events";
-        return first.refuse(Code::Conflict, "", found, allowed);
-    }
-    let speed = values.number("rotor.speed").unwrap_or_default().abs();
-    let mut speeds = Vec::new();
-    for (k, (part, event)) in parts.iter().zip(events).enumerate() {
-        let brakes = matches!(event.what, Happens::Brake(_));
-        let turns = brakes || matches!(event.what, Happens::Drive(_));
-        if turns && values.chosen("rotor.spin") == Some(SpinKind::Held) {
-            let found = "a brake or a drive beside rotor.spin = \"held\"";
-            let allowed = "a rotor whose spin is not held is needed";
-            return part.refuse(Code::Conflict, "do", found, allowed);
-        }
-        if brakes && values.is_own("rotor.brake_torque") {
-            let place = values.place("rotor.brake_torque").line();
-            let found = format!("a brake beside rotor.brake_torque{}", line(place));
-            return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
-        }
-        if let (Happens::Lost { .. }, Some("power lost")) = (&event.what, part.word("do"))
-            && values.is_own(LOST_AT)
-        {
-            let place = values.place(LOST_AT).line();
-            let found = format!("a loss of all power beside {LOST_AT}{}", line(place));
-            return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
-        }
-        if let Some(other) = events[..k]
-            .iter()
-            .find(|other| same_instant(other.when, event.when) && other.what.conflicts(&event.what))
-        {
-            let found = format!(
-                "what contradicts the event {} at the same instant",
-                quoted(&other.name)
-            );
-            let allowed = "another instant, or one of the two, is needed";
-            return part.refuse(Code::Conflict, "do", found, allowed);
-        }
-        let unbalances = |list: &[Event]| {
-            let own = |event: &&Event| matches!(event.what, Happens::Unbalance { .. });
-            list.iter().filter(own).count()
-        };
-        if unbalances(&events[..=k]) > MOST_UNBALANCES {
-            let found = "a seventeenth unbalance that comes";
-            return part.refuse(
-                Code::OutOfRange,
-                "do",
-                found,
-                "at most sixteen are possible",
-            );
-        }
-        if let When::Speed {
-            speed: own, rising, ..
-        } = event.when
-        {
-            let there = if rising { speed >= own } else { speed <= own };
-            let key = ["below_speed", "above_speed"][usize::from(rising)];
-            if there && part.known.contains_key(key) {
-                let side = ["below", "above"][usize::from(rising)];
-                let found = format!("a rotor that is {side} it from the start on");
-                let allowed =
-                    "a speed that the rotor comes to during the run is needed, or at = \"0 s\"";
-                return part.refuse(Code::OutOfRange, key, found, allowed);
-            }
-            if !speeds.contains(&(own, rising)) {
-                speeds.push((own, rising));
-            }
-            if speeds.len() > MOST_SPEEDS {
-                let found = "a fifth speed that events wait for";
-                return part.refuse(Code::OutOfRange, key, found, "at most four are possible");
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Whether two events come at one instant but for rounding.
-fn same_instant(a: When, b: When) -> bool {
-    match (a, b) {
-        (When::At(a), When::At(b)) => (a - b).abs() <= 1e-12 * a.abs().max(b.abs()),
-        (a, b) => a == b,
-    }
-}
-
-fn line(line: Option<usize>) -> String {
-    line.map_or(String::new(), |line| format!(" in line {line}"))
-}
-
-/// Refuses a re-levitation of a rotor that was not lost before, or whose hold is longer than the run.
-fn relevitated(parts: &[&Part], events: &[Event], magnets: Option<&Magnets>) -> Result<()> {
-    let axes = magnets.map_or(0, |own| 2 * own.magnets.len());
-    // by one event or by several
-    let lost_before = |event: &Event| {
-        let before = events
-            .iter()
-            .filter(|other| match (other.when, event.when) {
-                (When::At(lost), When::At(again)) => lost < again,
-                _ => true,
-            });
-        let lost = before.filter_map(|other| match &other.what {
-            Happens::Lost { axes, .. } => Some(axes),
-            _ => None,
-        });
-        lost.flatten().collect::<BTreeSet<_>>().len() == axes
-    };
-    for (part, event) in parts.iter().zip(events) {
-        let again = matches!(event.what, Happens::Relevitate(_));
-        if again && !lost_before(event) {
-            let found = "a re-levitation before the loss of all power";
-            let allowed = "an event with do = \"power lost\" before it, or levitation.power_lost_at, is needed";
-            return part.refuse(Code::Conflict, "do", found, allowed);
-        }
-    }
-    Ok(())
 }

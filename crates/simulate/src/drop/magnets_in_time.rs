@@ -11,6 +11,8 @@ use model::system::machine::{AtSpeed, Event};
 use number::Vec2;
 use problem::{Code, Problem};
 use scenario::{Happens, When, problem_at};
+use statistics::normal::quantile;
+use statistics::random::uniform;
 
 /// Magnets that hold a rotor.
 pub(super) struct OnMagnets {
@@ -100,7 +102,7 @@ pub(super) fn built(
     let axes = levitation.actuators().len();
     let of_magnets_alone = shaft.events.iter().filter(|own| own.what.axes().is_some());
     let happening: Vec<(When, Change)> = of_magnets_alone
-        .map(|own| (own.when, change(&own.what, axes)))
+        .flat_map(|own| changes(own, axes, end))
         .collect();
     let start = sampled(levitation, &sensors, position, held.states.clone());
     let changes = happening.iter().map(|(_, change)| change.clone()).collect();
@@ -145,8 +147,8 @@ fn at_speed(list: &mut Vec<AtSpeed>, (speed, rising): (f64, bool), then: (f64, E
     let same = |own: &&mut AtSpeed| own.speed == speed && own.rising == rising;
     match list.iter_mut().find(same) {
         Some(own) => {
-            own.then.push(then);
-            own.then.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let at = own.then.partition_point(|other| other.0 <= then.0);
+            own.then.insert(at, then);
         }
         None => list.push(AtSpeed {
             speed,
@@ -170,6 +172,43 @@ fn lost_at_once(shaft: &Shaft, count: usize) -> Option<f64> {
         ) if *time <= 0.0 && axes.len() == count => Some(*decay_time),
         _ => None,
     }
+}
+
+/// What an event changes, and when: noise changes again and again.
+fn changes(event: &scenario::Event, count: usize, end: f64) -> Vec<(When, Change)> {
+    let Happens::SensorNoise {
+        axes,
+        deviation,
+        period,
+        seed,
+    } = &event.what
+    else {
+        return vec![(event.when, change(&event.what, count))];
+    };
+    let values = (end / period).ceil() as u64;
+    let each = (0..=values).flat_map(|k| {
+        let later = k as f64 * period;
+        let when = match event.when {
+            When::At(time) => When::At(time + later),
+            When::Speed {
+                speed,
+                rising,
+                delay,
+            } => When::Speed {
+                speed,
+                rising,
+                delay: delay + later,
+            },
+        };
+        axes.iter().map(move |axis| {
+            let value = deviation * quantile(uniform(*seed, *axis as u64, k));
+            let axes = vec![*axis];
+            let what = What::Noise(value);
+            (when, Change { what, axes })
+        })
+    });
+    each.filter(|(when, _)| !matches!(when, When::At(time) if *time > end))
+        .collect()
 }
 
 /// A change of the model.
@@ -200,6 +239,7 @@ fn change(what: &Happens, count: usize) -> Change {
             bias_rate: rate(own.bias_time),
             reference_rate: rate(own.reference_time),
         },
+        Happens::SensorNoise { .. } => unreachable!("it changes again and again"),
         Happens::Brake(_) | Happens::Drive(_) | Happens::Unbalance { .. } => {
             unreachable!("it is of no magnet")
         }
