@@ -102,11 +102,6 @@ impl StateSpace {
         })
     }
 
-    /// 1/(1 + s/ω).
-    pub fn low_pass(name: &str, corner: f64) -> Result<Self, Refused> {
-        Self::rational(name, &[corner], &[1.0, corner])
-    }
-
     /// Delay T as a quotient, (T²s²/12 - Ts/2 + 1)/(T²s²/12 + Ts/2 + 1): gain 1 at every frequency, phase -ωT to 1 % up to ωT = 2.6.
     pub fn pade(name: &str, delay: f64) -> Result<Self, Refused> {
         let (first, zeroth) = (6.0 / delay, 12.0 / (delay * delay));

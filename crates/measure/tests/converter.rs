@@ -31,8 +31,6 @@ fn rounding_noise_is_as_stated() {
     let found = (squares / 20_000.0_f64).sqrt();
     // 20 000 values: 0.3 % of a uniform error's rms; three deviations.
     assert!((found / c.rounding_noise() - 1.0).abs() < 0.01);
-    assert!((c.interval() - 1.0 / 7000.0).abs() < 1e-18);
-    assert!(Converter { bits: 0, ..c }.check().is_err() && c.check().is_ok());
 }
 
 #[test]

@@ -167,17 +167,6 @@ impl MomentCurve<f64> {
         })
     }
 
-    /// Whether the curve was measured at a speed of this size.
-    ///
-    /// - `speed`: Ω, rad/s, either sign
-    ///
-    /// Source: the points.
-    /// Valid: any speed.
-    pub fn covers(&self, speed: f64) -> bool {
-        let (first, last) = self.range();
-        (first..=last).contains(&speed.abs())
-    }
-
     /// Least and largest speed measured, rad/s.
     ///
     /// Source: the points.
@@ -377,8 +366,6 @@ mod tests {
         let curve = curve();
         assert_eq!(curve.moment(5e3), curve.moment(400.0));
         assert!((curve.moment(1.5) - 0.020).abs() < 1e-14);
-        assert!(!curve.covers(1.0) && !curve.covers(401.0) && !curve.covers(f64::NAN));
-        assert!(curve.covers(2.0) && curve.covers(-400.0));
         assert_eq!(curve.range(), (2.0, 400.0));
     }
     #[test]

@@ -58,21 +58,6 @@ pub enum SkfOil {
     Transmission,
 }
 
-/// Contact seals on both sides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SkfSeal {
-    /// RSL of deep groove bearings.
-    Rsl,
-    /// RZ of deep groove bearings.
-    Rz,
-    /// RSH of deep groove bearings.
-    Rsh,
-    /// RS1 of deep groove bearings.
-    Rs1,
-    /// RS1 of angular contact ball bearings.
-    Rs1AngularContact,
-}
-
 /// A bearing as the model needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkfBearing<'a> {
@@ -103,7 +88,7 @@ pub struct SkfLubricant {
     pub oil: SkfOil,
     /// V_M, read from diagram 2 of the source; 0 without an oil bath.
     pub drag_variable: f64,
-    /// Moment of the seals, N m, such as [`seal_moment`]; 0 without.
+    /// Moment of the seals, N m; 0 without. Of contact seals table 4, p. 96, of the source has it.
     pub seal_moment: f64,
 }
 
@@ -131,13 +116,6 @@ pub enum SkfRefusal {
     NoStaticLoadRating,
     /// V_M without an oil bath.
     DragWithoutBath,
-    /// No row of the seal table for this outer diameter.
-    SealNotInTable {
-        /// The seal.
-        seal: SkfSeal,
-        /// The outer diameter, m.
-        outer_diameter: f64,
-    },
     /// A number outside what is possible.
     OutOfRange {
         /// What it is.
@@ -194,14 +172,6 @@ impl fmt::Display for SkfRefusal {
             SkfRefusal::DragWithoutBath => write!(
                 out,
                 "SKF model: a drag variable V_M belongs to an oil bath or jet, not to grease or oil and air"
-            ),
-            SkfRefusal::SealNotInTable {
-                seal,
-                outer_diameter,
-            } => write!(
-                out,
-                "SKF model: no seal moment for {seal:?} at an outer diameter of {} mm",
-                outer_diameter * 1e3
             ),
             SkfRefusal::OutOfRange { what, value } => {
                 write!(out, "SKF model: {what} {value} (SI) is not possible")
@@ -448,50 +418,6 @@ impl SkfOil {
             SkfOil::Transmission => 0.1,
         }
     }
-}
-
-/// Moment of the contact seals on both sides of a bearing, N m.
-///
-/// Formula: M_seal = K_S1 d_s^β + K_S2 [N mm; d_s mm]
-///
-/// - `seal`: kind of seal
-/// - `outer_diameter`: D of the bearing, m
-/// - `counterface_diameter`: d_s where the lip runs, m
-///
-/// Source: SKF General Catalogue (edition 6000), p. 90 and table 4, p. 96. With one seal half of it, except RSL.
-/// Valid: the rows of table 4 for ball bearings; else a [`SkfRefusal`].
-pub fn seal_moment(
-    seal: SkfSeal,
-    outer_diameter: f64,
-    counterface_diameter: f64,
-) -> Result<f64, SkfRefusal> {
-    positive("outer diameter", outer_diameter)?;
-    positive("seal counterface diameter", counterface_diameter)?;
-    positive(
-        "outer diameter less seal counterface diameter",
-        outer_diameter - counterface_diameter,
-    )?;
-    let outer_mm = 1e3 * outer_diameter;
-    let up_to = |limit: f64| outer_mm <= limit;
-    let (exponent, slope, constant) = match seal {
-        SkfSeal::Rsl if up_to(25.0) => (0.0, 0.0, 0.0),
-        SkfSeal::Rsl if up_to(52.0) => (2.25, 0.0018, 0.0),
-        SkfSeal::Rz if up_to(175.0) => (0.0, 0.0, 0.0),
-        SkfSeal::Rsh if up_to(52.0) => (2.25, 0.028, 2.0),
-        SkfSeal::Rs1 if up_to(62.0) => (2.25, 0.023, 2.0),
-        SkfSeal::Rs1 if up_to(80.0) => (2.25, 0.018, 20.0),
-        SkfSeal::Rs1 if up_to(100.0) => (2.25, 0.018, 15.0),
-        SkfSeal::Rs1 => (2.25, 0.018, 0.0),
-        SkfSeal::Rs1AngularContact if outer_mm > 30.0 && up_to(120.0) => (2.0, 0.014, 10.0),
-        _ => {
-            return Err(SkfRefusal::SealNotInTable {
-                seal,
-                outer_diameter,
-            });
-        }
-    };
-    let counterface_mm = 1e3 * counterface_diameter;
-    Ok(1e-3 * (slope * counterface_mm.powf(exponent) + constant))
 }
 
 fn positive(what: &'static str, value: f64) -> Result<(), SkfRefusal> {
