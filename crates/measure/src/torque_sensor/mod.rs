@@ -26,7 +26,7 @@ mod swing;
 pub use design::{Design, DesignError, design_error};
 pub use input::{Clipped, Inversion};
 pub use inversion::{Torque, invert};
-pub use response::{Excitation, FreeResponse, identify_free_response};
+pub use response::{FreeResponse, identify_free_response};
 
 use statistics::uncertain::Uncertain;
 
