@@ -1,12 +1,8 @@
 //! What a converter does to signals: steps, limits, drop-outs.
 
-/// A converter that takes its channels in turn.
+/// A converter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Converter {
-    /// Conversions a second of all channels together, 1/s.
-    pub rate: f64,
-    /// Number of channels that take turns.
-    pub channels: usize,
     /// Lowest value it can give, in the unit of the channel.
     pub lowest: f64,
     /// Highest value it can give.

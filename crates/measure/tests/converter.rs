@@ -4,11 +4,9 @@ use crate::synthetic::rig::Random;
 use measure::converter::{Converter, Fault, Interval, faults};
 use std::f64::consts::TAU;
 
-/// 14 bits, 42 000 conversions a second over 6 channels.
+/// 14 bits.
 fn converter() -> Converter {
     Converter {
-        rate: 42_000.0,
-        channels: 6,
         lowest: -10.0,
         highest: 10.0,
         bits: 14,

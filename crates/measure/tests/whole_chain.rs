@@ -36,8 +36,6 @@ fn timed<T>(name: &str, sum: &mut f64, step: impl FnOnce() -> T) -> T {
 #[test]
 fn ten_seconds_are_quick() {
     let converter = Converter {
-        rate: 42_000.0,
-        channels: 6,
         lowest: -100.0,
         highest: 100.0,
         bits: 14,
@@ -221,8 +219,6 @@ fn nonsense_is_survived() {
         answers += usize::from(order_spectrogram(&a, x, y, &shaft, &settings).is_ok());
         answers += usize::from(orders(&a, x, y, &shaft, &[1.0, number(r)], z).is_ok());
         let converter = Converter {
-            rate: x,
-            channels: length,
             lowest: y,
             highest: z,
             bits: length as u32,

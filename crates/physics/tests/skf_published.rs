@@ -1,7 +1,7 @@
 //! The SKF model against the worked example of its source, an independent script, and the printed tables.
 
 use physics::skf::{SkfContacts, SkfIntermediates, SkfMoment};
-use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfRefusal, SkfSupply, SkfType};
+use physics::skf_constants::{SkfBearing, SkfLubricant, SkfOil, SkfSupply, SkfType};
 use std::f64::consts::PI;
 
 const MM2_S: f64 = 1e-6;
