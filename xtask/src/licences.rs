@@ -57,95 +57,45 @@ fn fault(package: &Value, allowed: &[String]) -> Option<String> {
     let Some(expression) = package["license"].as_str() else {
         return Some(format!("{name}: names no licence"));
     };
-    match is_allowed(expression, allowed) {
-        Ok(true) => None,
-        Ok(false) => Some(format!("{name}: {expression} is not allowed")),
-        Err(error) => Some(format!("{name}: {expression}: {error}")),
-    }
+    (!is_allowed(expression, allowed)).then(|| format!("{name}: {expression} is not allowed"))
 }
 
 /// Whether an SPDX expression can be met with allowed licences alone.
 ///
-/// `AND` binds closer than `OR`; the older `MIT/Apache-2.0` reads as `OR`; `X WITH Y` must be allowed as a whole.
-fn is_allowed(expression: &str, allowed: &[String]) -> Result<bool, String> {
-    let spaced = expression
-        .replace('/', " OR ")
-        .replace('(', " ( ")
-        .replace(')', " ) ");
-    let mut words = Words {
-        rest: spaced.split_whitespace().collect(),
-        allowed,
+/// `AND` binds closer than `OR`; the older `MIT/Apache-2.0` reads as `OR`; `X WITH Y` must be allowed as a whole. What is no expression
+/// is no licence that is allowed.
+fn is_allowed(expression: &str, allowed: &[String]) -> bool {
+    let plain = |text: &str| {
+        let one = |licence: &str| {
+            let licence = licence.trim();
+            licence == MET || allowed.iter().any(|known| known == licence)
+        };
+        text.split(" OR ").any(|part| part.split(" AND ").all(one))
     };
-    let verdict = words.any()?;
-    match words.rest.first() {
-        None => Ok(verdict),
-        Some(word) => Err(format!("`{word}` is not expected there")),
+    let mut text = expression.replace('/', " OR ");
+    // the innermost brackets first
+    while let Some(close) = text.find(')') {
+        let Some(open) = text[..close].rfind('(') else {
+            return false;
+        };
+        let verdict = if plain(&text[open + 1..close]) {
+            MET
+        } else {
+            ""
+        };
+        text.replace_range(open..=close, verdict);
     }
+    plain(&text)
 }
 
-/// What is left of an expression while it is read.
-struct Words<'a> {
-    rest: Vec<&'a str>,
-    allowed: &'a [String],
-}
-
-impl<'a> Words<'a> {
-    fn take(&mut self, word: &str) -> bool {
-        let is_next = self.rest.first() == Some(&word);
-        if is_next {
-            self.rest.remove(0);
-        }
-        is_next
-    }
-
-    fn next(&mut self) -> Result<&'a str, String> {
-        if self.rest.is_empty() {
-            return Err("ends too early".to_owned());
-        }
-        Ok(self.rest.remove(0))
-    }
-
-    fn any(&mut self) -> Result<bool, String> {
-        let mut verdict = self.all()?;
-        while self.take("OR") {
-            verdict |= self.all()?;
-        }
-        Ok(verdict)
-    }
-
-    fn all(&mut self) -> Result<bool, String> {
-        let mut verdict = self.one()?;
-        while self.take("AND") {
-            verdict &= self.one()?;
-        }
-        Ok(verdict)
-    }
-
-    fn one(&mut self) -> Result<bool, String> {
-        if self.take("(") {
-            let verdict = self.any()?;
-            return if self.take(")") {
-                Ok(verdict)
-            } else {
-                Err("a parenthesis stays open".to_owned())
-            };
-        }
-        let mut licence = self.next()?.to_owned();
-        if ["OR", "AND", "WITH", ")"].contains(&licence.as_str()) {
-            return Err(format!("`{licence}` is not expected there"));
-        }
-        if self.take("WITH") {
-            licence = format!("{licence} WITH {}", self.next()?);
-        }
-        Ok(self.allowed.contains(&licence))
-    }
-}
+/// Stands for brackets whose content is met.
+const MET: &str = "+";
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn verdict(expression: &str) -> Result<bool, String> {
+    fn verdict(expression: &str) -> bool {
         is_allowed(
             expression,
             &["MIT".to_owned(), "Apache-2.0".to_owned(), "Zlib".to_owned()],
@@ -163,7 +113,7 @@ mod tests {
             "GPL-3.0-only AND Zlib OR MIT",
             "Apache-2.0 WITH LLVM-exception OR Apache-2.0",
         ] {
-            assert_eq!(verdict(good), Ok(true), "{good}");
+            assert!(verdict(good), "{good}");
         }
         for bad in [
             "MPL-2.0",
@@ -173,16 +123,16 @@ mod tests {
             "GPL-3.0-only AND (Zlib OR MIT)",
             "Apache-2.0 WITH LLVM-exception",
         ] {
-            assert_eq!(verdict(bad), Ok(false), "{bad}");
+            assert!(!verdict(bad), "{bad}");
         }
     }
 
     #[test]
-    fn what_is_no_expression_is_an_error() {
+    fn what_is_no_expression_is_not_allowed() {
         for broken in [
             "", "MIT OR", "(MIT", "MIT)", "MIT Zlib", "OR MIT", "MIT WITH",
         ] {
-            assert!(verdict(broken).is_err(), "{broken}");
+            assert!(!verdict(broken), "{broken}");
         }
     }
 

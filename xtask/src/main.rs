@@ -16,7 +16,6 @@ mod pages;
 mod python;
 mod repository;
 mod result_names;
-mod rust_text;
 mod scenarios;
 mod shipped;
 mod snapshots;

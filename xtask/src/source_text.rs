@@ -3,7 +3,6 @@
 //! What is looked for is put together from pieces, so that this file does not find itself.
 
 use crate::repository::{Outcome, Repository, is_vendored};
-use crate::rust_text::is_word;
 
 const LONGEST: usize = 600;
 const SOURCE_ENDINGS: [&str; 5] = [".rs", ".js", ".ts", ".css", ".py"];
@@ -124,6 +123,11 @@ fn has_mark(line: &str, mark: &str) -> bool {
         let goes_on = is_whole_word && after.is_some_and(is_word);
         !before.is_some_and(is_word) && !goes_on
     })
+}
+
+/// Whether a character can stand inside a Rust name.
+pub fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
 /// Whether an absolute path begins so, rather than going on from a name, a `..` or a host.

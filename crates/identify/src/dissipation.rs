@@ -36,8 +36,6 @@ use statistics::uncertain::Uncertain;
 pub struct Dissipation {
     /// From when to when, s.
     pub window: (f64, f64),
-    /// Speed at the end Ω0, rad/s.
-    pub final_speed: f64,
     /// ∫t_O Ω dt, J.
     pub outer_moment_work: Uncertain,
     /// (21) as printed, J: for comparison.
@@ -53,8 +51,6 @@ pub struct Dissipation {
     pub without_cage: Uncertain,
     /// The loss with the cage signal, J, where there is one over the whole window.
     pub exact: Option<Uncertain>,
-    /// ∫Ω dL from the cage signal, J.
-    pub path_term: Option<Uncertain>,
     /// What the printed form is wrong by: printed minus exact, or minus the loss without a cage signal, J.
     pub printed_error: Uncertain,
     /// Probability that the printed form is too large.
@@ -220,7 +216,7 @@ pub fn dissipation(
     let largest = shifted(high, 1.0, largest_deviation);
     let without_cage = anywhere(least, largest);
     let mut notes = Vec::new();
-    let by_cage = match with_cage(test, &part, set, set_deviation, window, work) {
+    let exact = match with_cage(test, &part, set, set_deviation, window, work) {
         Ok(found) => Some(found),
         Err(why) => {
             notes.push(format!(
@@ -229,12 +225,10 @@ pub fn dissipation(
             None
         }
     };
-    let (path_term, exact) = by_cage.unzip();
     let best: Uncertain = exact.unwrap_or(without_cage);
     let (printed_error, printed_too_large) = error_of_printed(printed, best, work, set.ball_ratio);
     Ok(Dissipation {
         window: (part.time[0], part.time[last]),
-        final_speed,
         outer_moment_work: work,
         printed,
         corrected,
@@ -242,7 +236,6 @@ pub fn dissipation(
         largest,
         without_cage,
         exact,
-        path_term,
         printed_error,
         printed_too_large,
         notes,
@@ -306,7 +299,7 @@ pub fn outer_moment_work(test: &Measurement) -> Uncertain {
     Uncertain::new(work, deviation)
 }
 
-/// Path term and exact loss from the cage speed.
+/// Exact loss from the cage speed.
 fn with_cage(
     test: &Measurement,
     part: &Measurement,
@@ -314,7 +307,7 @@ fn with_cage(
     set_deviation: &SetDeviation,
     window: (f64, f64),
     work: Uncertain,
-) -> Result<(Uncertain, Uncertain), String> {
+) -> Result<Uncertain, String> {
     let cage = test
         .cage
         .as_ref()
@@ -371,7 +364,6 @@ fn with_cage(
         (path, kinetic(last.0, last.1) - kinetic(first.0, first.1))
     };
     let (outside, inside) = (sums(true), sums(false));
-    let path = 0.5 * (outside.0 + inside.0);
     let exact = |of: (f64, f64)| spin_up_loss(work.value, 0.0, of.0, of.1);
     let value = 0.5 * (exact(outside) + exact(inside));
     let last = times[times.len() - 1];
@@ -396,19 +388,10 @@ fn with_cage(
             .hypot(set_deviation.cage_mass * set.cage_mass / total * inertial)
             .hypot(2.0 * set_deviation.inner_track_radius * inertial)
     };
-    let path_deviation = by_cage(last.0).hypot(0.5 * (outside.0 - inside.0));
     let deviation = work
         .deviation
         .hypot(by_cage(last.0 - last.1))
         .hypot(0.5 * (exact(outside) - exact(inside)))
         .hypot(masses);
-    let masses_of_path = if value == work.value {
-        0.0
-    } else {
-        masses * (path / (value - work.value)).abs()
-    };
-    Ok((
-        Uncertain::new(path, path_deviation.hypot(masses_of_path)),
-        Uncertain::new(value, deviation),
-    ))
+    Ok(Uncertain::new(value, deviation))
 }

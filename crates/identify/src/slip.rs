@@ -44,8 +44,6 @@ pub struct SlipPoint {
 pub struct CageSlip {
     /// Slip at the times of the cage signal at which the shaft turns.
     pub points: Vec<SlipPoint>,
-    /// The limit, 1.
-    pub limit: f64,
     /// Largest probability of |S| above the limit at any one time after the engagement at which the signal shows it: its band is
     /// narrower than the limit, or S is far from 0. At least as probable it is that the cage slipped in this test; none where the
     /// signal never shows it.
@@ -110,7 +108,6 @@ pub fn cage_slip(test: &Measurement, set: &RollingSet<f64>) -> Result<CageSlip, 
     let seen = after.iter().filter(shown).map(|p| p.slipping);
     let slipped = seen.reduce(f64::max);
     Ok(CageSlip {
-        limit: LIMIT,
         slipped,
         established: established(&after),
         points,

@@ -55,8 +55,6 @@ fn torque(interval: f64) -> Torque {
         disturbance_power: 0.0,
         zero: Uncertain::new(0.0, 3e-3),
         noise: 0.4e-3,
-        calming: 1.0,
-        log_likelihood: 0.0,
         shown_frequency: None,
         notes: Vec::new(),
         time,

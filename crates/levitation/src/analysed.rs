@@ -136,19 +136,6 @@ impl Levitation {
         slopes.collect()
     }
 
-    /// Gain at rest of the controller from signals to commands, row by magnet axis; `None` with an integrator.
-    #[must_use]
-    pub fn static_gain(&self) -> Option<nalgebra::DMatrix<f64>> {
-        let mut out = nalgebra::DMatrix::zeros(self.actuators.len(), self.sensors.len());
-        for block in &self.blocks {
-            let gain = block.filter.static_gain()?;
-            let size = gain.shape();
-            out.view_mut((block.outputs.start, block.inputs.start), size)
-                .copy_from(&gain);
-        }
-        Some(out)
-    }
-
     /// Static stiffness of every magnet axis with a channel of its own, k_i C(0) - k_s in N/m; infinite with an integrator.
     ///
     /// It is that of the bearing where sensor and magnet stand at one node. Empty where one filter serves all axes.

@@ -16,11 +16,12 @@ pub(crate) fn all(
     let axes = sensors.iter().map(|sensor| &sensor.axis);
     for axis in axes.chain(actuators.iter().map(|actuator| &actuator.axis)) {
         if axis.node >= nodes {
-            return Err(Refused::Node {
-                axis: axis.name.clone(),
-                node: axis.node,
-                nodes,
-            });
+            return Err(Refused::Node(format!(
+                "{} at node {}; the rotor has nodes 0 to {}",
+                axis.name,
+                axis.node,
+                nodes.saturating_sub(1)
+            )));
         }
     }
     let needed = (sensors.len(), actuators.len());
@@ -37,7 +38,10 @@ pub(crate) fn all(
         Control::Matrix(filter) => (filter.inputs(), filter.outputs()),
     };
     if found != needed {
-        return Err(Refused::ControllerSize { found, needed });
+        return Err(Refused::Sizes(format!(
+            "a controller from {} signals to {} commands; {} sensor axes and {} magnet axes are there",
+            found.0, found.1, needed.0, needed.1
+        )));
     }
     times(timing)?;
     for sensor in sensors {
@@ -49,12 +53,9 @@ pub(crate) fn all(
 }
 
 fn times(timing: Timing) -> Result<(), Refused> {
-    let refused = |what, value, allowed| {
-        Err(Refused::Time {
-            what,
-            value,
-            allowed,
-        })
+    let refused = |what: &str, value: f64, allowed: &str| {
+        let text = format!("{what} {value} s; allowed is {allowed}");
+        Err(Refused::Time(text))
     };
     match timing {
         Timing::Continuous { delay } if !(delay >= 0.0 && delay.is_finite()) => {
@@ -92,11 +93,10 @@ fn magnet(actuator: &Actuator) -> Result<(), Refused> {
             positive(axis, "bias current, A", pair.bias_minus)?;
             positive(axis, "gap, m", pair.gap)?;
             if bias > pair.largest_current {
-                return Err(Refused::Bias {
-                    axis: axis.name.clone(),
-                    bias,
-                    largest: pair.largest_current,
-                });
+                return Err(Refused::Value(format!(
+                    "{}: a bias of {bias} A above the largest current of a coil, {} A",
+                    axis.name, pair.largest_current
+                )));
             }
         }
     }
@@ -127,11 +127,8 @@ fn positive(axis: &Axis, what: &'static str, value: f64) -> Result<(), Refused> 
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    Err(Refused::NotPositive {
-        axis: axis.name.clone(),
-        what,
-        value,
-    })
+    let text = format!("{}: {what} {value}; it must be above 0", axis.name);
+    Err(Refused::Value(text))
 }
 
 /// Whether sensors and magnets come in pairs at right angles that differ in nothing else, each sensor along its magnet.

@@ -29,7 +29,7 @@ fn schur<T: ComplexField<RealField = f64>>(
     mut matrix: DMatrix<T>,
 ) -> Result<(Schur<T, nalgebra::Dyn>, f64), Refused> {
     if matrix.iter().any(|value| !value.is_finite()) {
-        return Err(Refused::NotFinite);
+        return Err(Refused::not_finite());
     }
     balance(&mut matrix);
     let steps = STEPS_PER_VALUE * matrix.nrows();

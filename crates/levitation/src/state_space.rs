@@ -29,18 +29,16 @@ impl StateSpace {
             && c.ncols() == states
             && d.shape() == (c.nrows(), b.ncols());
         if !fits {
-            return Err(Refused::MatrixSizes {
-                a: a.shape(),
-                b: b.shape(),
-                c: c.shape(),
-                d: d.shape(),
-            });
+            let [a, b, c, d] = [&a, &b, &c, &d].map(|m| format!("{} × {}", m.nrows(), m.ncols()));
+            return Err(Refused::Sizes(format!(
+                "matrices that do not fit: A {a}, B {b}, C {c}, D {d}; n states, m inputs and p outputs need A n × n, B n × m, C p × n, D p × m"
+            )));
         }
         if [&a, &b, &c, &d]
             .iter()
             .any(|m| m.iter().any(|value| !value.is_finite()))
         {
-            return Err(Refused::NotFinite);
+            return Err(Refused::not_finite());
         }
         let names = (1..=states).map(|index| format!("{name} {index}"));
         Ok(Self {
@@ -64,13 +62,14 @@ impl StateSpace {
     pub fn rational(name: &str, num: &[f64], den: &[f64]) -> Result<Self, Refused> {
         let (num, den) = (without_leading_zeros(num), without_leading_zeros(den));
         if num.iter().chain(den).any(|value| !value.is_finite()) {
-            return Err(Refused::NotFinite);
+            return Err(Refused::not_finite());
         }
         if den.is_empty() || den.len() > 3 || num.len() > den.len() {
-            return Err(Refused::Filter {
-                num: num.len(),
-                den: den.len(),
-            });
+            return Err(Refused::Filter(format!(
+                "{} coefficients over {}; a filter has 1 to 3 below and at most as many above, the highest power first",
+                num.len(),
+                den.len()
+            )));
         }
         let order = den.len() - 1;
         let lead = den[0];
@@ -102,11 +101,6 @@ impl StateSpace {
         })
     }
 
-    /// 1/(1 + s/ω).
-    pub fn low_pass(name: &str, corner: f64) -> Result<Self, Refused> {
-        Self::rational(name, &[corner], &[1.0, corner])
-    }
-
     /// Delay T as a quotient, (T²s²/12 - Ts/2 + 1)/(T²s²/12 + Ts/2 + 1): gain 1 at every frequency, phase -ωT to 1 % up to ωT = 2.6.
     pub fn pade(name: &str, delay: f64) -> Result<Self, Refused> {
         let (first, zeroth) = (6.0 / delay, 12.0 / (delay * delay));
@@ -116,10 +110,12 @@ impl StateSpace {
     /// K_p + K_i/s + K_d s/(1 + T_d s); without K_i no state for it, which would add a zero of its own.
     pub fn pid(kp: f64, ki: f64, kd: f64, td: f64) -> Result<Self, Refused> {
         if kd != 0.0 && !(td > 0.0 && td.is_finite()) {
-            return Err(Refused::DerivativeCorner(td));
+            return Err(Refused::Filter(format!(
+                "a derivative with the time constant {td} s; it must be above 0, or noise would be amplified without bound"
+            )));
         }
         if [kp, ki, kd].iter().any(|value| !value.is_finite()) {
-            return Err(Refused::NotFinite);
+            return Err(Refused::not_finite());
         }
         let mut out = Self::gain(kp);
         if ki != 0.0 {

@@ -1,12 +1,8 @@
 //! What a converter does to signals: steps, limits, drop-outs.
 
-/// A converter that takes its channels in turn.
+/// A converter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Converter {
-    /// Conversions a second of all channels together, 1/s.
-    pub rate: f64,
-    /// Number of channels that take turns.
-    pub channels: usize,
     /// Lowest value it can give, in the unit of the channel.
     pub lowest: f64,
     /// Highest value it can give.
@@ -16,27 +12,6 @@ pub struct Converter {
 }
 
 impl Converter {
-    /// Says what is wrong with the description, if anything is.
-    pub fn check(&self) -> Result<(), String> {
-        if !(self.rate > 0.0 && self.rate.is_finite()) {
-            return Err("the rate of the converter must be positive and finite".into());
-        }
-        if self.channels == 0 || !(1..=64).contains(&self.bits) {
-            return Err("a converter needs at least one channel and 1 to 64 bits".into());
-        }
-        if !(self.lowest < self.highest && (self.highest - self.lowest).is_finite()) {
-            return Err(
-                "the range of the converter must run from a lower to a higher value".into(),
-            );
-        }
-        Ok(())
-    }
-
-    /// Interval between two values of a channel, s.
-    pub fn interval(&self) -> f64 {
-        self.channels as f64 / self.rate
-    }
-
     /// Smallest difference of two values.
     ///
     /// Formula: range/2^bits

@@ -4,11 +4,9 @@ use crate::synthetic::rig::Random;
 use measure::converter::{Converter, Fault, Interval, faults};
 use std::f64::consts::TAU;
 
-/// 14 bits, 42 000 conversions a second over 6 channels.
+/// 14 bits.
 fn converter() -> Converter {
     Converter {
-        rate: 42_000.0,
-        channels: 6,
         lowest: -10.0,
         highest: 10.0,
         bits: 14,
@@ -31,8 +29,6 @@ fn rounding_noise_is_as_stated() {
     let found = (squares / 20_000.0_f64).sqrt();
     // 20 000 values: 0.3 % of a uniform error's rms; three deviations.
     assert!((found / c.rounding_noise() - 1.0).abs() < 0.01);
-    assert!((c.interval() - 1.0 / 7000.0).abs() < 1e-18);
-    assert!(Converter { bits: 0, ..c }.check().is_err() && c.check().is_ok());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Frequency and damping of a sensor from a tap or a step, against synthetic truth.
 
 use crate::synthetic::rig::Random;
-use measure::torque_sensor::{Excitation, identify_free_response};
+use measure::torque_sensor::identify_free_response;
 use std::f64::consts::TAU;
 
 const INTERVAL: f64 = 0.002;
@@ -81,12 +81,6 @@ fn a_tap_or_a_step_shows_frequency_and_damping() {
                 "{} of {arm} Hz, {event:?}",
                 f.value
             );
-            match (event, found.excitation) {
-                (Event::Tap, Excitation::Tap) => {}
-                (Event::Load, Excitation::Step(by)) => assert!((by - 40.0).abs() < 3.0, "{by}"),
-                (Event::Unload, Excitation::Step(by)) => assert!((by + 40.0).abs() < 3.0, "{by}"),
-                (event, read) => panic!("{event:?} is read as {read:?}"),
-            }
         }
         let share = inside.map(|n| f64::from(n as u32) / f64::from(count));
         println!(

@@ -107,8 +107,7 @@ fn the_rest_holds_no_order() {
     // The other line leaks into the nodes by its share of their bandwidth: 0.2 of a value over 2 Hz in 2100 Hz.
     assert!(worst < 0.01, "{worst}");
     let amplitude = found.orders[0].amplitude();
-    let phase = found.orders[0].phase();
-    assert!((amplitude[50] - 3.0).abs() < 0.01 && phase[50].abs() < 0.01);
+    assert!((amplitude[50] - 3.0).abs() < 0.01 && found.orders[0].sine[50].abs() < 0.03);
 }
 
 #[test]

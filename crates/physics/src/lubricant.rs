@@ -320,103 +320,6 @@ pub fn film_coefficient(equation: &ModulusEquation<f64>, temperature: f64) -> f6
     3.0 / (step * sum)
 }
 
-/// An oil whose film thickness is known, and not its traction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmOil {
-    /// What it is.
-    pub name: &'static str,
-    /// Density at 25 °C, kg/m³.
-    pub density: f64,
-    /// Dynamic viscosity at 30, 60 and 100 °C, Pa s.
-    pub viscosity: [f64; 3],
-    /// Pressure-viscosity coefficient at 30, 60 and 100 °C, 1/Pa.
-    pub pressure_coefficient: [f64; 3],
-}
-
-/// Highly refined mineral oils.
-///
-/// Source: The Tribology Handbook, 62.x, table 25 (courtesy Institution of Mechanical Engineers); the same oils, with
-/// coefficients within 8 %, in G. W. Stachowiak, A. W. Batchelor, Engineering Tribology, table 2.3.
-pub const FILM_OILS: [FilmOil; 5] = [
-    film_oil(
-        "spindle oil, naphthenic",
-        862.0,
-        [18.6, 6.3, 2.4],
-        [21.0, 16.0, 13.0],
-    ),
-    film_oil(
-        "light machine oil, naphthenic",
-        880.0,
-        [45.0, 12.0, 3.9],
-        [26.0, 20.0, 16.0],
-    ),
-    film_oil(
-        "heavy machine oil, naphthenic",
-        897.0,
-        [171.0, 31.0, 7.5],
-        [28.0, 23.0, 18.0],
-    ),
-    film_oil(
-        "heavy machine oil, paraffinic",
-        875.0,
-        [153.0, 34.0, 9.1],
-        [24.0, 21.0, 16.0],
-    ),
-    film_oil(
-        "cylinder oil, paraffinic",
-        891.0,
-        [810.0, 135.0, 27.0],
-        [34.0, 28.0, 22.0],
-    ),
-];
-
-const fn film_oil(
-    name: &'static str,
-    density: f64,
-    viscosity_mpa_s: [f64; 3],
-    coefficient_per_gpa: [f64; 3],
-) -> FilmOil {
-    let [cold, warm, hot] = viscosity_mpa_s;
-    let [first, second, third] = coefficient_per_gpa;
-    FilmOil {
-        name,
-        density,
-        viscosity: [cold * 1e-3, warm * 1e-3, hot * 1e-3],
-        pressure_coefficient: [first * 1e-9, second * 1e-9, third * 1e-9],
-    }
-}
-
-impl FilmOil {
-    /// Viscosity in Pa s and pressure-viscosity coefficient in 1/Pa at a temperature.
-    ///
-    /// Formula: ln η = a + b/(T + c) through the three points; α straight between them
-    ///
-    /// - `temperature`: T, K
-    ///
-    /// Source: H. Vogel 1921 (from memory); the table.
-    /// Valid: 30 to 100 °C; outside an error.
-    pub fn at(&self, temperature: f64) -> Result<(f64, f64), LubricantError> {
-        let points = [30.0, 60.0, 100.0].map(|celsius| ICE_POINT + celsius);
-        let [cold, warm, hot] = points;
-        if !(cold..=hot).contains(&temperature) {
-            return Err(LubricantError::Temperature {
-                temperature,
-                range: (cold, hot),
-            });
-        }
-        let [first, second, third] = self.viscosity.map(f64::ln);
-        // (y₁ - y₂)/(y₂ - y₃) = (T₂ - T₁)(T₃ + c)/((T₃ - T₂)(T₁ + c)), so c from one linear equation
-        let ratio = (first - second) / (second - third) * (hot - warm) / (warm - cold);
-        let offset = (hot - ratio * cold) / (ratio - 1.0);
-        let slope = (first - third) / (1.0 / (cold + offset) - 1.0 / (hot + offset));
-        let logarithm = first + slope * (1.0 / (temperature + offset) - 1.0 / (cold + offset));
-        let from = usize::from(temperature > warm);
-        let share = (temperature - points[from]) / (points[from + 1] - points[from]);
-        let [low, high] = [from, from + 1].map(|i| self.pressure_coefficient[i]);
-        Ok((logarithm.exp(), low + share * (high - low)))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -511,27 +414,6 @@ mod tests {
                     oil.name
                 );
             }
-        }
-    }
-    #[test]
-    fn film_oils_go_through_their_table() {
-        for oil in FILM_OILS {
-            for (i, temperature) in [30.0, 60.0, 100.0].into_iter().enumerate() {
-                let (viscosity, coefficient) = oil.at(celsius(temperature)).unwrap();
-                assert!(
-                    (viscosity / oil.viscosity[i] - 1.0).abs() < 1e-9,
-                    "{}",
-                    oil.name
-                );
-                assert!((coefficient / oil.pressure_coefficient[i] - 1.0).abs() < 1e-9);
-            }
-            let between = [30.0, 45.0, 60.0, 80.0, 100.0].map(|t| oil.at(celsius(t)).unwrap());
-            assert!(
-                between
-                    .windows(2)
-                    .all(|pair| pair[1].0 < pair[0].0 && pair[1].1 < pair[0].1)
-            );
-            assert!(oil.at(celsius(20.0)).is_err() && oil.at(celsius(101.0)).is_err());
         }
     }
 }

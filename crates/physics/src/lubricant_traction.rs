@@ -126,22 +126,6 @@ impl Asperities {
     }
 }
 
-/// Share of the load that asperities carry.
-///
-/// Formula: ξ = e^(-B Λ_c^C), Λ_c = h_c/σ_q
-///
-/// - `central_ratio`: Λ_c, central thickness over combined roughness, as the source fits it; not the λ of the trade
-/// - `factor`, `exponent`: B, C of the surfaces
-///
-/// Source: R. S. Zhou, M. R. Hoeprich, J. Tribol. 113 (1991) 590, printed by P. Wingertszahn et al., Lubricants 11 (2023) 369,
-/// equation 29.
-/// Valid: Λ_c ≥ 0; 1 without a film.
-#[inline(always)]
-pub fn asperity_share<R: Real>(central_ratio: R, factor: R, exponent: R) -> R {
-    let tiny = R::splat(1e-300);
-    (-(factor * central_ratio.max(tiny).powf(exponent))).exp()
-}
-
 /// Everything a traction law of one contact is built from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LubricatedContact {
@@ -374,7 +358,7 @@ impl<R: Real> LubricantTraction<R> {
     ///
     /// Source: film friction, 2Λ/α, film and flash temperature: A. Arana, J. Larrañaga, I. Ulacia, Proc. IMechE J 233 (2019)
     /// 303, equations 7, 13, 26 to 28 after K. L. Johnson, J. L. Tevaarwerk 1977 and S. Bair, W. O. Winer 1979; share of
-    /// asperities: [`asperity_share`]; creep: K. L. Johnson, Contact Mechanics, 1985, section 8.3 (from memory).
+    /// asperities: R. S. Zhou, M. R. Hoeprich, J. Tribol. 113 (1991) 590 (ξ = e^(-B Λ_c^C)); creep: K. L. Johnson, Contact Mechanics, 1985, section 8.3 (from memory).
     /// Valid: the source reports 0.005 (read from a poor print) from traction coefficients measured on three oils at 1 GPa,
     /// 60 °C, 2 to 16 m/s, slip up to 40 %; there with min in place of C, without creep, and iterated to 1 K.
     #[inline(always)]
@@ -418,31 +402,6 @@ impl<R: Real> LubricantTraction<R> {
         let rough = (R::one() - at.share) * film + at.share * boundary;
         let over_creep = rough * at.pressure * at.entrainment * self.creep;
         rough / (R::one() + over_creep.square()).sqrt()
-    }
-
-    /// A bound of |∂μ/∂u| over all slips, s/m; times Q it bounds the friction rate ∂F/∂u in N s/m.
-    ///
-    /// Formula: min(2.2 [s_f + ξ_2 μ_b/u_b], 1.16 s_e)
-    ///
-    /// s_f is the film's part of [`LubricantTraction::slope_at_rest`]; it and the share ξ_2 are taken with the film at
-    /// slide-to-roll 2, where it is thinnest, the slope of creep s_e with the pressure at rest, where it is least.
-    ///
-    /// - `load`: Q, N
-    /// - `entrainment`: v, m/s
-    ///
-    /// Source: without creep |∂μ_r/∂u| ≤ 2.2 μ_r/u: 1 from shear, 0.83 from the film that thins with |u|^0.83, the rest
-    /// from the load share that follows it; with creep the factor is max (2.2 t + t³)/(1 + t²)^(3/2) = 1.15.
-    /// Valid: asperity shares with C_ξ up to 1.2; argued, and held on random states by a test; up to 160 times too high where a
-    /// film is mixed at slide-to-roll 2 only.
-    #[inline(always)]
-    pub fn steepest_slope(&self, load: R, entrainment: R) -> R {
-        let slow = entrainment.abs().max(R::splat(SLOWEST));
-        let at = self.conditions(slow + slow, load, entrainment);
-        let (film, boundary) = self.initial_slopes(&at);
-        // the pressure is least at rest, where the film is thickest and the oil beside the contact carries most
-        let rest = self.conditions(R::zero(), load, entrainment);
-        let creep = (rest.pressure * rest.entrainment * self.creep).recip();
-        (R::splat(2.2) * (film + at.share * boundary)).min(R::splat(1.16) * creep)
     }
 
     #[inline(always)]

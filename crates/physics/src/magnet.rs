@@ -69,19 +69,6 @@ impl<R: Real> Gather<R> for Magnet<f64> {
     }
 }
 
-/// Force constant of a magnet from its shape, N m²/A².
-///
-/// Formula: k = μ₀N²A cos α/4
-///
-/// - `turns` N of one magnet, both poles together; `pole_area` A of one pole, m²; `half_pole_angle` α, rad
-///
-/// Source: G. Schweitzer, E. Maslen, Magnetic Bearings, 2009, chapter 4 (from memory).
-/// Valid: no saturation, no stray flux, iron of infinite permeability.
-pub fn force_constant(turns: f64, pole_area: f64, half_pole_angle: f64) -> f64 {
-    const MU_0: f64 = 4.0e-7 * std::f64::consts::PI;
-    MU_0 * turns * turns * pole_area * half_pole_angle.cos() / 4.0
-}
-
 impl<R: Real> OpposedPair<R> {
     /// The pair that has given stiffnesses about its centre: i₀ = g₀k_s/k_i, k = k_i g₀²/(4i₀).
     ///
@@ -468,8 +455,5 @@ mod tests {
         let most = PAIR.force_constant * (4.0 / PAIR.gap).powi(2);
         assert!(same(magnet.force(2.0, 0.0, 1.0), most, 1e-14));
         assert!(same(magnet.force(50.0, 0.0, 1.0), most, 1e-14));
-        // 100 turns, 1 cm², 22.5 degrees
-        let k = force_constant(100.0, 1e-4, 22.5_f64.to_radians());
-        assert!(same(k, 2.9025e-7, 1e-4));
     }
 }

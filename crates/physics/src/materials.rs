@@ -16,20 +16,11 @@ pub struct Material {
 /// Bearing steel, the default for rings and steel balls: E 206 GPa, ν 0.3, 7850 kg/m³.
 ///
 /// Source: the values of the reference cases (`hertz.json`, and the ball mass of `drop_base.json`); makers print
-/// E 206 to 210 GPa and 7800 to 7850 kg/m³ for 100Cr6, see [`BEARING_STEEL_SNFA`].
+/// E 206 to 210 GPa and 7800 to 7850 kg/m³ for 100Cr6 (SNFA precision bearing catalogue, p. 109: 210 GPa, 7800 kg/m³).
 pub const BEARING_STEEL: Material = Material {
     density: 7850.0,
     young_modulus: 206e9,
     poisson_ratio: 0.3,
-};
-
-/// 100Cr6 bearing steel as one maker prints it: E 210 GPa, ν 0.30, 7800 kg/m³.
-///
-/// Source: SNFA precision bearing catalogue, p. 109, table silicon nitride / bearing steel.
-pub const BEARING_STEEL_SNFA: Material = Material {
-    density: 7800.0,
-    young_modulus: 210e9,
-    poisson_ratio: 0.30,
 };
 
 /// Specific heat of bearing steel, J/(kg K).

@@ -8,13 +8,12 @@
 //!     └──────────────── |Ω|
 //! ```
 //! The curve is odd in speed and has a continuous slope between its first and last point. At its ends it goes on
-//! constant: a slope is never extrapolated. [`MomentCurve::covers`] says whether a speed lies inside.
+//! constant: a slope is never extrapolated. [`MomentCurve::range`] are the speeds between which it was measured.
 //!
 //! Not modelled: load and temperature; the curve holds for those it was measured at.
 
 use crate::palmgren::fading;
 use number::{Gather, Real};
-use std::fmt;
 
 /// Most points of a curve: each costs a comparison in every evaluation.
 pub const MOST_POINTS: usize = 200;
@@ -44,78 +43,6 @@ pub struct MomentCurve<R> {
     last: R,
 }
 
-/// Why points make no curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CurveError {
-    /// Fewer than two points.
-    TooFewPoints {
-        /// How many there are.
-        found: usize,
-    },
-    /// More points than [`MOST_POINTS`].
-    TooManyPoints {
-        /// How many there are.
-        found: usize,
-    },
-    /// A speed or moment that is not finite.
-    NotFinite {
-        /// Its point, from 0.
-        point: usize,
-    },
-    /// A speed below zero: the curve is given for one direction and holds for both.
-    NegativeSpeed {
-        /// Its point, from 0.
-        point: usize,
-        /// The speed, rad/s.
-        speed: f64,
-    },
-    /// A speed not above the one before it.
-    NotRising {
-        /// Its point, from 0.
-        point: usize,
-        /// The speed, rad/s.
-        speed: f64,
-    },
-    /// A negative moment: it would drive the bearing and create energy.
-    NegativeMoment {
-        /// Its point, from 0.
-        point: usize,
-        /// The moment, N m.
-        moment: f64,
-    },
-}
-
-impl fmt::Display for CurveError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            CurveError::TooFewPoints { found } => {
-                write!(out, "{found} points; a curve needs at least two")
-            }
-            CurveError::TooManyPoints { found } => {
-                write!(out, "{found} points; at most {MOST_POINTS} are possible")
-            }
-            CurveError::NotFinite { point } => write!(out, "point {}: not finite", point + 1),
-            CurveError::NegativeSpeed { point, speed } => write!(
-                out,
-                "point {}: speed {speed} rad/s; the curve is given for speeds from 0 and holds for both directions",
-                point + 1
-            ),
-            CurveError::NotRising { point, speed } => write!(
-                out,
-                "point {}: speed {speed} rad/s is not above the one before it",
-                point + 1
-            ),
-            CurveError::NegativeMoment { point, moment } => write!(
-                out,
-                "point {}: moment {moment} N m at a positive speed would create energy",
-                point + 1
-            ),
-        }
-    }
-}
-
-impl std::error::Error for CurveError {}
-
 impl MomentCurve<f64> {
     /// Multiplies the moment.
     pub(crate) fn scale(&mut self, factor: f64) {
@@ -140,7 +67,7 @@ impl MomentCurve<f64> {
     ///
     /// Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300 (from memory).
     /// Valid: 2 to [`MOST_POINTS`] points; monotone between two points, so never negative.
-    pub fn through(points: &[(f64, f64)]) -> Result<Self, CurveError> {
+    pub fn through(points: &[(f64, f64)]) -> Result<Self, String> {
         validate(points)?;
         let width: Vec<f64> = points.windows(2).map(|p| p[1].0 - p[0].0).collect();
         let secant: Vec<f64> = points
@@ -159,23 +86,12 @@ impl MomentCurve<f64> {
             .collect();
         let steep = pieces.iter().position(|piece| !piece.third.is_finite());
         if let Some(point) = steep {
-            return Err(CurveError::NotFinite { point });
+            return Err(not_finite(point));
         }
         Ok(MomentCurve {
             pieces,
             last: points[points.len() - 1].0,
         })
-    }
-
-    /// Whether the curve was measured at a speed of this size.
-    ///
-    /// - `speed`: Ω, rad/s, either sign
-    ///
-    /// Source: the points.
-    /// Valid: any speed.
-    pub fn covers(&self, speed: f64) -> bool {
-        let (first, last) = self.range();
-        (first..=last).contains(&speed.abs())
     }
 
     /// Least and largest speed measured, rad/s.
@@ -237,27 +153,42 @@ impl<R: Real> Gather<R> for MomentCurve<f64> {
     }
 }
 
-fn validate(points: &[(f64, f64)]) -> Result<(), CurveError> {
+fn not_finite(point: usize) -> String {
+    format!("point {}: not finite", point + 1)
+}
+
+/// Why points make no curve.
+fn validate(points: &[(f64, f64)]) -> Result<(), String> {
     let found = points.len();
     if found < 2 {
-        return Err(CurveError::TooFewPoints { found });
+        return Err(format!("{found} points; a curve needs at least two"));
     }
     if found > MOST_POINTS {
-        return Err(CurveError::TooManyPoints { found });
+        return Err(format!(
+            "{found} points; at most {MOST_POINTS} are possible"
+        ));
     }
     let mut before = f64::NEG_INFINITY;
-    for (point, &(speed, moment)) in points.iter().enumerate() {
+    for (k, &(speed, moment)) in points.iter().enumerate() {
+        let point = k + 1;
         if !(speed.is_finite() && moment.is_finite()) {
-            return Err(CurveError::NotFinite { point });
+            return Err(not_finite(k));
         }
         if speed < 0.0 {
-            return Err(CurveError::NegativeSpeed { point, speed });
+            return Err(format!(
+                "point {point}: speed {speed} rad/s; the curve is given for speeds from 0 and holds for both directions"
+            ));
         }
         if speed <= before {
-            return Err(CurveError::NotRising { point, speed });
+            return Err(format!(
+                "point {point}: speed {speed} rad/s is not above the one before it"
+            ));
         }
+        // it would drive the bearing
         if moment < 0.0 {
-            return Err(CurveError::NegativeMoment { point, moment });
+            return Err(format!(
+                "point {point}: moment {moment} N m at a positive speed would create energy"
+            ));
         }
         before = speed;
     }
@@ -377,8 +308,6 @@ mod tests {
         let curve = curve();
         assert_eq!(curve.moment(5e3), curve.moment(400.0));
         assert!((curve.moment(1.5) - 0.020).abs() < 1e-14);
-        assert!(!curve.covers(1.0) && !curve.covers(401.0) && !curve.covers(f64::NAN));
-        assert!(curve.covers(2.0) && curve.covers(-400.0));
         assert_eq!(curve.range(), (2.0, 400.0));
     }
     #[test]

@@ -342,7 +342,7 @@ pub fn load_moment<R: Real>(friction_factor: R, load: R, pitch_diameter: R) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use number::{Dual, Gather, Level, Task};
+    use number::{Dual, Gather};
 
     const MM2_S: f64 = 1e-6;
 
@@ -454,34 +454,6 @@ mod tests {
         ));
         assert_eq!(bearing.load_moment(0.0), 0.0);
         assert_eq!(bearing.load_moment(-1.0), 0.0);
-    }
-    /// The moment of one bearing at as many speeds and loads as there are lanes, as bits.
-    struct SideBySide;
-    impl Task for SideBySide {
-        type Output = Vec<u64>;
-        #[inline(always)]
-        fn run<R: Real>(self) -> Vec<u64> {
-            let bearing = bearing();
-            let wide: Palmgren<R> = Gather::gather(&|_| &bearing);
-            let speed = R::from_lanes(|lane| SPEEDS[lane]);
-            let moment = wide.moment(speed, speed.abs() - R::splat(20.0));
-            (0..R::LANES)
-                .map(|lane| moment.lane(lane).to_bits())
-                .collect()
-        }
-    }
-    const SPEEDS: [f64; 8] = [-0.05, 400.0, 0.0, 3.0, -2e3, 19.0, 21.0, 1e-9];
-
-    #[test]
-    fn lanes_agree_with_the_scalar_bit_for_bit() {
-        let bearing = bearing();
-        let level = Level::detect();
-        let wide = level.run_many(SideBySide);
-        assert_eq!(wide.len(), level.lanes());
-        for (bits, speed) in wide.iter().zip(SPEEDS) {
-            let scalar = bearing.moment(speed, speed.abs() - 20.0);
-            assert_eq!(f64::from_bits(*bits), scalar);
-        }
     }
     #[test]
     fn duals_agree_with_differences() {

@@ -106,25 +106,6 @@ pub struct PalmgrenFactors {
     pub lubrication_stated: bool,
 }
 
-/// Why there are no factors.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FactorRefusal {
-    /// No table has the series.
-    UnknownSeries {
-        /// Type asked for.
-        kind: FactorType,
-        /// Series asked for.
-        series: String,
-    },
-    /// The row has a dash for the lubrication.
-    NotForThisLubrication {
-        /// The row.
-        row: FactorRow,
-        /// Lubrication asked for.
-        lubrication: Lubrication,
-    },
-}
-
 impl FactorSource {
     /// Work and page.
     ///
@@ -180,37 +161,6 @@ impl fmt::Display for FactorType {
         })
     }
 }
-
-impl fmt::Display for FactorRefusal {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FactorRefusal::UnknownSeries { kind, series } => {
-                let known: Vec<_> = FACTORS
-                    .iter()
-                    .filter(|row| row.kind == *kind)
-                    .map(|row| row.series)
-                    .collect();
-                write!(
-                    out,
-                    "no Palmgren factors for series \"{series}\" of a {kind}; known are {}",
-                    known.join(", ")
-                )
-            }
-            FactorRefusal::NotForThisLubrication { row, lubrication } => write!(
-                out,
-                "no f0 for series \"{}\" with {}: the table has a dash there ({})",
-                row.series,
-                match lubrication {
-                    Lubrication::GreaseOrOilMist => "grease or oil mist",
-                    Lubrication::OilBath => "an oil bath",
-                },
-                row.source.citation()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for FactorRefusal {}
 
 const fn schaeffler(
     kind: FactorType,
@@ -306,18 +256,20 @@ pub const FACTORS: [FactorRow; 35] = [
 /// - `lubrication`: chooses f0 where the source states it
 ///
 /// Source: [`FactorSource::citation`] of the result.
-/// Valid: the rows of [`FACTORS`]; else a [`FactorRefusal`].
+/// Valid: the rows of [`FACTORS`]; else an error that says why.
 pub fn palmgren_factors(
     kind: FactorType,
     series: &str,
     lubrication: Lubrication,
-) -> Result<PalmgrenFactors, FactorRefusal> {
+) -> Result<PalmgrenFactors, String> {
     let row = FACTORS
         .iter()
         .find(|row| row.kind == kind && row.series == series)
-        .ok_or_else(|| FactorRefusal::UnknownSeries {
-            kind,
-            series: series.to_string(),
+        .ok_or_else(|| {
+            let known = FACTORS.iter().filter(|row| row.kind == kind);
+            let known: Vec<_> = known.map(|row| row.series).collect();
+            let known = known.join(", ");
+            format!("no Palmgren factors for series \"{series}\" of a {kind}; known are {known}")
         })?;
     let (viscous_factor, lubrication_stated) = match (row.viscous_factor, lubrication) {
         (ViscousFactor::LubricationNotStated(f0), _) => (Some(f0), false),
@@ -329,9 +281,15 @@ pub fn palmgren_factors(
             Lubrication::GreaseOrOilMist,
         ) => (Some(grease_or_oil_mist), true),
     };
-    let viscous_factor = viscous_factor.ok_or(FactorRefusal::NotForThisLubrication {
-        row: *row,
-        lubrication,
+    let viscous_factor = viscous_factor.ok_or_else(|| {
+        let lubrication = match lubrication {
+            Lubrication::GreaseOrOilMist => "grease or oil mist",
+            Lubrication::OilBath => "an oil bath",
+        };
+        format!(
+            "no f0 for series \"{series}\" with {lubrication}: the table has a dash there ({})",
+            row.source.citation()
+        )
     })?;
     Ok(PalmgrenFactors {
         viscous_factor,

@@ -58,21 +58,6 @@ pub enum SkfOil {
     Transmission,
 }
 
-/// Contact seals on both sides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SkfSeal {
-    /// RSL of deep groove bearings.
-    Rsl,
-    /// RZ of deep groove bearings.
-    Rz,
-    /// RSH of deep groove bearings.
-    Rsh,
-    /// RS1 of deep groove bearings.
-    Rs1,
-    /// RS1 of angular contact ball bearings.
-    Rs1AngularContact,
-}
-
 /// A bearing as the model needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SkfBearing<'a> {
@@ -103,48 +88,8 @@ pub struct SkfLubricant {
     pub oil: SkfOil,
     /// V_M, read from diagram 2 of the source; 0 without an oil bath.
     pub drag_variable: f64,
-    /// Moment of the seals, N m, such as [`seal_moment`]; 0 without.
+    /// Moment of the seals, N m; 0 without. Of contact seals table 4, p. 96, of the source has it.
     pub seal_moment: f64,
-}
-
-/// Why the model has no constants for a bearing.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SkfRefusal {
-    /// A type whose load formula or constants are not part of this program.
-    TypeWithoutConstants {
-        /// The type.
-        kind: SkfType,
-    },
-    /// A series that the table does not have.
-    UnknownSeries {
-        /// The type.
-        kind: SkfType,
-        /// The series asked for.
-        series: String,
-    },
-    /// Ceramic balls in a type for which the source gives no factor.
-    CeramicBalls {
-        /// The type.
-        kind: SkfType,
-    },
-    /// A deep groove bearing without C0: its contact angle under axial load is unknown.
-    NoStaticLoadRating,
-    /// V_M without an oil bath.
-    DragWithoutBath,
-    /// No row of the seal table for this outer diameter.
-    SealNotInTable {
-        /// The seal.
-        seal: SkfSeal,
-        /// The outer diameter, m.
-        outer_diameter: f64,
-    },
-    /// A number outside what is possible.
-    OutOfRange {
-        /// What it is.
-        what: &'static str,
-        /// The number, SI.
-        value: f64,
-    },
 }
 
 impl fmt::Display for SkfType {
@@ -161,56 +106,6 @@ impl fmt::Display for SkfType {
         })
     }
 }
-
-impl fmt::Display for SkfRefusal {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SkfRefusal::TypeWithoutConstants { kind } => write!(
-                out,
-                "SKF model: no checked load formula and constants for a {kind} here; known are deep groove, angular \
-                 contact, four-point contact and spherical roller bearings"
-            ),
-            SkfRefusal::UnknownSeries { kind, series } => {
-                write!(
-                    out,
-                    "SKF model: no constants for series \"{series}\" of a {kind}; known are "
-                )?;
-                let known = match kind {
-                    SkfType::SphericalRoller => SPHERICAL_ROLLER.map(|row| row.0).join(", "),
-                    _ => DEEP_GROOVE.map(|row| row.0.join(", ")).join(", "),
-                };
-                out.write_str(&known)
-            }
-            SkfRefusal::CeramicBalls { kind } => write!(
-                out,
-                "SKF model: no factor for ceramic balls in a {kind}; the source has one for angular contact ball \
-                 bearings only"
-            ),
-            SkfRefusal::NoStaticLoadRating => write!(
-                out,
-                "SKF model: a deep groove bearing needs its static load rating C0: the contact angle under axial load \
-                 depends on it"
-            ),
-            SkfRefusal::DragWithoutBath => write!(
-                out,
-                "SKF model: a drag variable V_M belongs to an oil bath or jet, not to grease or oil and air"
-            ),
-            SkfRefusal::SealNotInTable {
-                seal,
-                outer_diameter,
-            } => write!(
-                out,
-                "SKF model: no seal moment for {seal:?} at an outer diameter of {} mm",
-                outer_diameter * 1e3
-            ),
-            SkfRefusal::OutOfRange { what, value } => {
-                write!(out, "SKF model: {what} {value} (SI) is not possible")
-            }
-        }
-    }
-}
-
-impl std::error::Error for SkfRefusal {}
 
 /// Series; R1, R2, S1, S2: table 3a, p. 93.
 #[rustfmt::skip]
@@ -267,8 +162,8 @@ impl SkfBearing<'_> {
     /// - `lubricant`: viscosity, supply, kind of oil, drag, seals
     ///
     /// Source: SKF General Catalogue (edition 6000), tables 3, 3a, 3e, 5 and pp. 97-102.
-    /// Valid: the types and series of this module's page; else a [`SkfRefusal`] says why.
-    pub fn moment(&self, lubricant: &SkfLubricant) -> Result<SkfMoment<f64>, SkfRefusal> {
+    /// Valid: the types and series of this module's page; else an error says why.
+    pub fn moment(&self, lubricant: &SkfLubricant) -> Result<SkfMoment<f64>, String> {
         let contacts = self.contacts()?;
         let geometry = self.geometry_factor()?;
         positive("bore", self.bore)?;
@@ -294,11 +189,17 @@ impl SkfBearing<'_> {
     }
 
     /// The load factors of the type and series.
-    fn contacts(&self) -> Result<SkfContacts<f64>, SkfRefusal> {
+    fn contacts(&self) -> Result<SkfContacts<f64>, String> {
         let kind = self.kind;
-        let unknown = || SkfRefusal::UnknownSeries {
-            kind,
-            series: self.series.to_string(),
+        let unknown = || {
+            let known = match kind {
+                SkfType::SphericalRoller => SPHERICAL_ROLLER.map(|row| row.0).join(", "),
+                _ => DEEP_GROOVE.map(|row| row.0.join(", ")).join(", "),
+            };
+            let series = self.series;
+            format!(
+                "SKF model: no constants for series \"{series}\" of a {kind}; known are {known}"
+            )
         };
         if self.ceramic_balls
             && !matches!(
@@ -306,13 +207,15 @@ impl SkfBearing<'_> {
                 SkfType::AngularContactSingleRow | SkfType::AngularContactDoubleRow
             )
         {
-            return Err(SkfRefusal::CeramicBalls { kind });
+            return Err(format!(
+                "SKF model: no factor for ceramic balls in a {kind}; the source has one for angular contact ball bearings only"
+            ));
         }
         match kind {
             SkfType::DeepGroove => {
                 let static_load_rating = self
                     .static_load_rating
-                    .ok_or(SkfRefusal::NoStaticLoadRating)?;
+                    .ok_or("SKF model: a deep groove bearing needs its static load rating C0: the contact angle under axial load depends on it")?;
                 positive("static load rating", static_load_rating)?;
                 let row = DEEP_GROOVE
                     .iter()
@@ -347,7 +250,7 @@ impl SkfBearing<'_> {
                     s4,
                 }))
             }
-            _ => Err(SkfRefusal::TypeWithoutConstants { kind }),
+            _ => Err(without_constants(kind)),
         }
     }
 
@@ -368,25 +271,27 @@ impl SkfBearing<'_> {
     }
 
     /// K_z: table 5, p. 98.
-    fn geometry_factor(&self) -> Result<f64, SkfRefusal> {
+    fn geometry_factor(&self) -> Result<f64, String> {
         match self.kind {
             SkfType::DeepGroove | SkfType::AngularContactDoubleRow | SkfType::FourPointContact => {
                 Ok(3.1)
             }
             SkfType::AngularContactSingleRow => Ok(4.4),
             SkfType::SphericalRoller => Ok(5.5),
-            kind => Err(SkfRefusal::TypeWithoutConstants { kind }),
+            kind => Err(without_constants(kind)),
         }
     }
 
     /// M_drag/n², N mm/rpm²: V_M K_ball d_m⁵ or 10 V_M K_roll B d_m⁴, p. 99.
-    fn drag(&self, lubricant: &SkfLubricant, geometry: f64) -> Result<f64, SkfRefusal> {
+    fn drag(&self, lubricant: &SkfLubricant, geometry: f64) -> Result<f64, String> {
         let variable = lubricant.drag_variable;
         if variable == 0.0 {
             return Ok(0.0);
         }
         if lubricant.supply == SkfSupply::GreaseOrOilAir {
-            return Err(SkfRefusal::DragWithoutBath);
+            return Err(
+                "SKF model: a drag variable V_M belongs to an oil bath or jet, not to grease or oil and air".to_string(),
+            );
         }
         let factor = geometry * (self.bore + self.outer_diameter)
             / (self.outer_diameter - self.bore)
@@ -450,62 +355,24 @@ impl SkfOil {
     }
 }
 
-/// Moment of the contact seals on both sides of a bearing, N m.
-///
-/// Formula: M_seal = K_S1 d_s^β + K_S2 [N mm; d_s mm]
-///
-/// - `seal`: kind of seal
-/// - `outer_diameter`: D of the bearing, m
-/// - `counterface_diameter`: d_s where the lip runs, m
-///
-/// Source: SKF General Catalogue (edition 6000), p. 90 and table 4, p. 96. With one seal half of it, except RSL.
-/// Valid: the rows of table 4 for ball bearings; else a [`SkfRefusal`].
-pub fn seal_moment(
-    seal: SkfSeal,
-    outer_diameter: f64,
-    counterface_diameter: f64,
-) -> Result<f64, SkfRefusal> {
-    positive("outer diameter", outer_diameter)?;
-    positive("seal counterface diameter", counterface_diameter)?;
-    positive(
-        "outer diameter less seal counterface diameter",
-        outer_diameter - counterface_diameter,
-    )?;
-    let outer_mm = 1e3 * outer_diameter;
-    let up_to = |limit: f64| outer_mm <= limit;
-    let (exponent, slope, constant) = match seal {
-        SkfSeal::Rsl if up_to(25.0) => (0.0, 0.0, 0.0),
-        SkfSeal::Rsl if up_to(52.0) => (2.25, 0.0018, 0.0),
-        SkfSeal::Rz if up_to(175.0) => (0.0, 0.0, 0.0),
-        SkfSeal::Rsh if up_to(52.0) => (2.25, 0.028, 2.0),
-        SkfSeal::Rs1 if up_to(62.0) => (2.25, 0.023, 2.0),
-        SkfSeal::Rs1 if up_to(80.0) => (2.25, 0.018, 20.0),
-        SkfSeal::Rs1 if up_to(100.0) => (2.25, 0.018, 15.0),
-        SkfSeal::Rs1 => (2.25, 0.018, 0.0),
-        SkfSeal::Rs1AngularContact if outer_mm > 30.0 && up_to(120.0) => (2.0, 0.014, 10.0),
-        _ => {
-            return Err(SkfRefusal::SealNotInTable {
-                seal,
-                outer_diameter,
-            });
-        }
-    };
-    let counterface_mm = 1e3 * counterface_diameter;
-    Ok(1e-3 * (slope * counterface_mm.powf(exponent) + constant))
+fn without_constants(kind: SkfType) -> String {
+    format!(
+        "SKF model: no checked load formula and constants for a {kind} here; known are deep groove, angular contact, \
+         four-point contact and spherical roller bearings"
+    )
 }
 
-fn positive(what: &'static str, value: f64) -> Result<(), SkfRefusal> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(SkfRefusal::OutOfRange { what, value })
-    }
+fn positive(what: &str, value: f64) -> Result<(), String> {
+    possible(what, value, value > 0.0)
 }
 
-fn not_negative(what: &'static str, value: f64) -> Result<(), SkfRefusal> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(SkfRefusal::OutOfRange { what, value })
+fn not_negative(what: &str, value: f64) -> Result<(), String> {
+    possible(what, value, value >= 0.0)
+}
+
+fn possible(what: &str, value: f64, is_possible: bool) -> Result<(), String> {
+    match is_possible && value.is_finite() {
+        true => Ok(()),
+        false => Err(format!("SKF model: {what} {value} (SI) is not possible")),
     }
 }

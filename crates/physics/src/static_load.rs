@@ -2,7 +2,6 @@
 
 use crate::palmgren_factors::FactorType;
 use number::Real;
-use std::fmt;
 
 /// Y0 of single row angular contact bearings over the contact angle in degrees, with X0 = 0.5. Pairs, double row and
 /// four-point bearings have twice of it and X0 = 1.
@@ -18,37 +17,6 @@ const ANGULAR_CONTACT: [(f64, f64); 7] = [
 /// X0 and Y0 of single row deep groove bearings.
 const DEEP_GROOVE: (f64, f64) = (0.6, 0.5);
 
-/// Why there are no factors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoStaticFactors {
-    /// A contact angle that a deep groove bearing does not have, degrees.
-    DeepGrooveAngle(f64),
-    /// A contact angle outside the table of angular contact bearings, degrees.
-    AngularContactAngle(f64),
-    /// A type whose factors depend on the contact angle, which is not known.
-    NoAngle(FactorType),
-}
-
-impl fmt::Display for NoStaticFactors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoStaticFactors::DeepGrooveAngle(degrees) => write!(
-                f,
-                "a deep groove bearing has no contact angle of {degrees} degrees: 5 to 45 are possible"
-            ),
-            NoStaticFactors::AngularContactAngle(degrees) => write!(
-                f,
-                "ISO 76 has factors for contact angles of 15 to 45 degrees, not for {degrees}"
-            ),
-            NoStaticFactors::NoAngle(kind) => {
-                write!(f, "no contact angle under axial load is given for a {kind}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoStaticFactors {}
-
 /// Factors X0 and Y0 of the static equivalent load.
 ///
 /// Formula: P0 = X0 F_r + Y0 F_a; between the rows of the table Y0 is interpolated in the angle.
@@ -63,25 +31,30 @@ impl std::error::Error for NoStaticFactors {}
 pub fn static_load_factors(
     kind: FactorType,
     contact_angle: Option<f64>,
-) -> Result<(f64, f64), NoStaticFactors> {
+) -> Result<(f64, f64), String> {
     // without the rounding of radians, so that 15 degrees are in the table
     let degrees = contact_angle.map(|angle| (angle.to_degrees() * 1e9).round() * 1e-9);
     let rows = match (kind, degrees) {
         (FactorType::DeepGroove, Some(degrees)) if !(5.0..=45.0).contains(&degrees) => {
-            return Err(NoStaticFactors::DeepGrooveAngle(degrees));
+            return Err(format!(
+                "a deep groove bearing has no contact angle of {degrees} degrees: 5 to 45 are possible"
+            ));
         }
         (FactorType::DeepGroove, _) => return Ok(DEEP_GROOVE),
         (FactorType::AngularContact, _) => 1.0,
         (FactorType::AngularContactDoubleRow | FactorType::FourPointContact, _) => 2.0,
     };
-    let degrees = degrees.ok_or(NoStaticFactors::NoAngle(kind))?;
+    let degrees = degrees
+        .ok_or_else(|| format!("no contact angle under axial load is given for a {kind}"))?;
     let mut windows = ANGULAR_CONTACT.windows(2);
     let (low, high) = windows
         .find_map(|row| match row {
             [low, high] if (low.0..=high.0).contains(&degrees) => Some((*low, *high)),
             _ => None,
         })
-        .ok_or(NoStaticFactors::AngularContactAngle(degrees))?;
+        .ok_or_else(|| {
+            format!("ISO 76 has factors for contact angles of 15 to 45 degrees, not for {degrees}")
+        })?;
     let share = (degrees - low.0) / (high.0 - low.0);
     Ok((0.5 * rows, rows * (low.1 + (high.1 - low.1) * share)))
 }
@@ -107,7 +80,7 @@ pub fn equivalent_static_load<R: Real>(factors: [R; 2], radial_load: R, axial_lo
 mod tests {
     use super::*;
 
-    fn at(kind: FactorType, degrees: f64) -> Result<(f64, f64), NoStaticFactors> {
+    fn at(kind: FactorType, degrees: f64) -> Result<(f64, f64), String> {
         static_load_factors(kind, Some(degrees.to_radians()))
     }
 

@@ -26,7 +26,7 @@ macro_rules! curve {
         impl<R: Real> TractionLaw<R> for $Curve<R> {
             #[inline(always)]
             fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
-                self.coefficients(inner.slip, outer.slip)
+                (self.coefficient(inner.slip), self.coefficient(outer.slip))
             }
         }
     )*};
@@ -36,7 +36,9 @@ curve!(FourParameterTraction, DryTraction);
 impl<R: Real> TractionLaw<R> for TanhTraction<R> {
     #[inline(always)]
     fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
-        self.coefficients(inner.slip, outer.slip)
+        let k = self.inverse_reference_speed;
+        let (inner, outer) = (inner.slip * k).tanh_pair(outer.slip * k);
+        (self.maximum * inner, self.maximum * outer)
     }
     /// μ_max/u0 (1 - tanh²).
     #[inline(always)]
@@ -55,11 +57,6 @@ impl<R: Real> TractionLaw<R> for TanhTraction<R> {
 pub trait SlipLaw<R: Real> {
     /// Traction coefficient μ at slip speed u, m/s. Odd in u.
     fn coefficient(&self, slip: R) -> R;
-    /// The coefficients at two slips, where a law can share work between them.
-    #[inline(always)]
-    fn coefficients(&self, first: R, second: R) -> (R, R) {
-        (self.coefficient(first), self.coefficient(second))
-    }
 }
 
 constants! {
@@ -77,12 +74,6 @@ impl<R: Real> SlipLaw<R> for TanhTraction<R> {
     #[inline(always)]
     fn coefficient(&self, slip: R) -> R {
         self.maximum * (slip * self.inverse_reference_speed).tanh()
-    }
-    #[inline(always)]
-    fn coefficients(&self, first: R, second: R) -> (R, R) {
-        let (first, second) =
-            (first * self.inverse_reference_speed).tanh_pair(second * self.inverse_reference_speed);
-        (self.maximum * first, self.maximum * second)
     }
 }
 

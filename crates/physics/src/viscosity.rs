@@ -18,7 +18,6 @@
 //! Not modelled: pressure, shear thinning, pour point and cracking, the thickener of a grease (ν is that of its base oil).
 
 use number::Real;
-use std::fmt;
 
 /// 0 °C, K.
 pub const ICE_POINT: f64 = 273.15;
@@ -82,95 +81,6 @@ pub struct Viscosity {
     ends: (f64, f64),
 }
 
-/// Why a viscosity is not known.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ViscosityError {
-    /// A point that is not finite, below 0 K, or outside 0.21 to 2e7 mm²/s.
-    Point {
-        /// Temperature, K.
-        temperature: f64,
-        /// Viscosity, m²/s.
-        viscosity: f64,
-    },
-    /// Two points less than 10 K apart.
-    TooClose {
-        /// Their distance, K.
-        distance: f64,
-    },
-    /// Viscosity that does not fall with temperature.
-    Rising,
-    /// A number that is no grade of ISO 3448.
-    NoGrade {
-        /// The number.
-        grade: u32,
-    },
-    /// A temperature too far from a single point.
-    NoSlope {
-        /// Temperature asked for, K.
-        temperature: f64,
-        /// That of the point, K.
-        point: f64,
-    },
-    /// A temperature at which the line is outside 0.21 to 2e7 mm²/s, or an oil is none.
-    OutsideLaw {
-        /// Temperature asked for, K.
-        temperature: f64,
-        /// Least temperature of the law, K.
-        least: f64,
-        /// Largest temperature of the law, K.
-        largest: f64,
-    },
-}
-
-impl fmt::Display for ViscosityError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let celsius = |kelvin: f64| kelvin - ICE_POINT;
-        match *self {
-            ViscosityError::Point {
-                temperature,
-                viscosity,
-            } => write!(
-                out,
-                "{} mm²/s at {:.2} °C: a viscosity from 0.21 to 2e7 mm²/s at a temperature above 0 K is needed",
-                viscosity * 1e6,
-                celsius(temperature)
-            ),
-            ViscosityError::TooClose { distance } => write!(
-                out,
-                "two viscosities {distance:.1} K apart: at least 10 K are needed to determine their slope"
-            ),
-            ViscosityError::Rising => {
-                write!(out, "the viscosity of an oil falls with temperature")
-            }
-            ViscosityError::NoGrade { grade } => write!(
-                out,
-                "ISO VG {grade}: the grades are {}",
-                ISO_GRADES.map(|(grade, _)| grade.to_string()).join(", ")
-            ),
-            ViscosityError::NoSlope { temperature, point } => write!(
-                out,
-                "{:.1} °C, and the one viscosity given, at {:.1} °C, says nothing of its slope: a second one at another temperature is needed",
-                celsius(temperature),
-                celsius(point)
-            ),
-            ViscosityError::OutsideLaw {
-                temperature,
-                least,
-                largest,
-            } => write!(
-                out,
-                "{:.1} °C, where this oil has no viscosity: its line of ASTM D341 goes from {:.1} °C, 2e7 mm²/s, to {:.1} °C, 0.21 mm²/s or \
-                 where oils crack",
-                celsius(temperature),
-                celsius(least),
-                celsius(largest)
-            ),
-        }
-    }
-}
-
-impl std::error::Error for ViscosityError {}
-
 /// Grades of ISO 3448 and their viscosity at 40 °C, mm²/s; an oil of the grade lies within 10 %.
 ///
 /// Source: ISO 3448 as tabled in an oil maker's data (idoc.tips, "Viscosity") up to 1500; grades from 22 also in the Timken
@@ -206,12 +116,15 @@ pub const ISO_GRADES: [(u32, f64); 20] = [
 ///
 /// Source: ISO 3448, as [`ISO_GRADES`].
 /// Valid: an oil of the grade may deviate by 10 %.
-pub fn iso_grade_viscosity(grade: u32) -> Result<f64, ViscosityError> {
+pub fn iso_grade_viscosity(grade: u32) -> Result<f64, String> {
     ISO_GRADES
         .iter()
         .find(|row| row.0 == grade)
         .map(|row| row.1 * 1e-6)
-        .ok_or(ViscosityError::NoGrade { grade })
+        .ok_or_else(|| {
+            let grades = ISO_GRADES.map(|(grade, _)| grade.to_string()).join(", ");
+            format!("ISO VG {grade}: the grades are {grades}")
+        })
 }
 
 impl Viscosity {
@@ -223,7 +136,7 @@ impl Viscosity {
     ///
     /// Source: ASTM D341, Ubbelohde and Walther (from memory).
     /// Valid: points at least 10 K apart; sure half their span, at most 30 K, beyond them.
-    pub fn through(one: (f64, f64), other: (f64, f64)) -> Result<Self, ViscosityError> {
+    pub fn through(one: (f64, f64), other: (f64, f64)) -> Result<Self, String> {
         let (cold, warm) = if one.0 <= other.0 {
             (one, other)
         } else {
@@ -232,10 +145,12 @@ impl Viscosity {
         let (y_cold, y_warm) = (of_point(cold)?, of_point(warm)?);
         let span = warm.0 - cold.0;
         if span < 10.0 {
-            return Err(ViscosityError::TooClose { distance: span });
+            return Err(format!(
+                "two viscosities {span:.1} K apart: at least 10 K are needed to determine their slope"
+            ));
         }
         if warm.1 >= cold.1 {
-            return Err(ViscosityError::Rising);
+            return Err("the viscosity of an oil falls with temperature".to_string());
         }
         let b = (y_cold - y_warm) / (warm.0 / cold.0).log10();
         let a = y_cold + b * cold.0.log10();
@@ -261,7 +176,7 @@ impl Viscosity {
     ///
     /// Source: [`iso_grade_viscosity`], [`Viscosity::through`].
     /// Valid: as both; the grade leaves 10 % open.
-    pub fn of_grade(grade: u32, second: (f64, f64)) -> Result<Self, ViscosityError> {
+    pub fn of_grade(grade: u32, second: (f64, f64)) -> Result<Self, String> {
         Viscosity::through((ICE_POINT + 40.0, iso_grade_viscosity(grade)?), second)
     }
 
@@ -271,7 +186,7 @@ impl Viscosity {
     ///
     /// Source: the point.
     /// Valid: within 1 K of it: oils change by 4 to 6 % per K at 40 °C.
-    pub fn single(point: (f64, f64)) -> Result<Self, ViscosityError> {
+    pub fn single(point: (f64, f64)) -> Result<Self, String> {
         let near = (point.0 - SINGLE_REACH, point.0 + SINGLE_REACH);
         Ok(Viscosity {
             a: of_point(point)?,
@@ -304,19 +219,23 @@ impl Viscosity {
     ///
     /// Source: ASTM D341, Ubbelohde and Walther (from memory).
     /// Valid: [`Viscosity::ends`], outside an error; beyond [`Viscosity::sure`] drawn on.
-    pub fn at(&self, temperature: f64) -> Result<f64, ViscosityError> {
+    pub fn at(&self, temperature: f64) -> Result<f64, String> {
         let (least, largest) = self.ends;
+        let celsius = |kelvin: f64| kelvin - ICE_POINT;
         match (least..=largest).contains(&temperature) {
             true => Ok(self.held(temperature)),
-            false if self.b == 0.0 => Err(ViscosityError::NoSlope {
-                temperature,
-                point: self.points[0].0,
-            }),
-            false => Err(ViscosityError::OutsideLaw {
-                temperature,
-                least,
-                largest,
-            }),
+            false if self.b == 0.0 => Err(format!(
+                "{:.1} °C, and the one viscosity given, at {:.1} °C, says nothing of its slope: a second one at another temperature is needed",
+                celsius(temperature),
+                celsius(self.points[0].0)
+            )),
+            false => Err(format!(
+                "{:.1} °C, where this oil has no viscosity: its line of ASTM D341 goes from {:.1} °C, 2e7 mm²/s, to {:.1} °C, 0.21 mm²/s or \
+                 where oils crack",
+                celsius(temperature),
+                celsius(least),
+                celsius(largest)
+            )),
         }
     }
 
@@ -377,17 +296,18 @@ impl Viscosity {
 }
 
 /// lg lg Z of a point.
-fn of_point((temperature, viscosity): (f64, f64)) -> Result<f64, ViscosityError> {
+fn of_point((temperature, viscosity): (f64, f64)) -> Result<f64, String> {
     let (least, most) = RANGE;
     let possible =
         temperature.is_finite() && temperature > 0.0 && (least..=most).contains(&(viscosity * 1e6));
     if possible {
         Ok(ordinate(viscosity * 1e6))
     } else {
-        Err(ViscosityError::Point {
-            temperature,
-            viscosity,
-        })
+        Err(format!(
+            "{} mm²/s at {:.2} °C: a viscosity from 0.21 to 2e7 mm²/s at a temperature above 0 K is needed",
+            viscosity * 1e6,
+            temperature - ICE_POINT
+        ))
     }
 }
 
@@ -494,7 +414,11 @@ mod tests {
         assert!((thin_oil.at(thin_oil.ends().1).unwrap() / 0.21e-6 - 1.0).abs() < 1e-9);
         for temperature in [coldest - 0.1, hottest + 0.1, f64::NAN] {
             let refused = oil.at(temperature);
-            assert!(matches!(refused, Err(ViscosityError::OutsideLaw { .. })));
+            assert!(
+                refused
+                    .unwrap_err()
+                    .contains("where this oil has no viscosity")
+            );
         }
         assert!((oil.held(hottest + 100.0) / oil.held(hottest) - 1.0).abs() < 1e-12);
         let message = oil.at(hottest + 1.0).unwrap_err().to_string();

@@ -5,7 +5,7 @@ use physics::film::EntrainedContact;
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::lubricant::{FVA_3, LUBRICANTS, Lubricant};
 use physics::lubricant_traction::{
-    Asperities, LubricantTraction, LubricatedContact, STEEL_SURFACE, asperity_share,
+    Asperities, LubricantTraction, LubricatedContact, STEEL_SURFACE,
 };
 use physics::materials::{BEARING_STEEL, contact_modulus};
 use proptest::prelude::*;
@@ -150,10 +150,6 @@ fn without_a_film_boundary_friction_remains() {
         let boundary = 0.12 * (slip / 0.01_f64).tanh();
         assert!((state.coefficient / boundary - 1.0).abs() < 1e-3, "{slip}");
     }
-    assert_eq!(asperity_share(0.0, 2.1, 0.85), 1.0);
-    assert!(asperity_share(1e3, 2.1, 0.85) < 1e-300);
-    // by hand: e^(-2.1)
-    assert!((asperity_share(1.0, 2.1, 0.85) - 0.122_456_428_252_981_9).abs() < 1e-12);
 }
 
 #[test]
@@ -212,14 +208,13 @@ fn creep_of_the_bodies_limits_the_slope() {
 
 #[test]
 fn the_slope_at_rest_is_nearly_the_steepest() {
-    let (mut loosest, mut highest) = (1.0_f64, 0.0_f64);
+    let mut highest = 0.0_f64;
     for oil in &LUBRICANTS {
         for roughness in [0.02e-6, 0.1e-6, 0.5e-6] {
             let law = law(oil, roughness);
             let dual: LubricantTraction<Dual<1>> = Gather::gather(&|_| &law);
             for load in [1.0, 20.0, 100.0, 400.0] {
                 for entrainment in [0.0, 0.1, 1.0, 10.0, 30.0] {
-                    let bound = law.steepest_slope(load, entrainment);
                     let steepest = (0..240)
                         .map(|i| {
                             let slip = Dual::variable(1e-9 * 10_f64.powf(f64::from(i) * 0.05), 0);
@@ -228,20 +223,14 @@ fn the_slope_at_rest_is_nearly_the_steepest() {
                                 .abs()
                         })
                         .fold(0.0, f64::max);
-                    assert!(
-                        steepest <= bound,
-                        "{} {load} {entrainment}: {steepest} {bound}",
-                        oil.name
-                    );
-                    loosest = loosest.max(bound / steepest);
                     let over = steepest / law.slope_at_rest(load, entrainment);
                     highest = highest.max(over);
                 }
             }
         }
     }
-    // what the documentation of the two slopes claims
-    assert!(highest < 1.2 && loosest < 160.0, "{highest} {loosest}");
+    // what the documentation of the slope at rest claims
+    assert!(highest < 1.2, "{highest}");
 }
 
 #[test]
@@ -330,16 +319,13 @@ proptest! {
         }
     }
     #[test]
-    fn the_bound_of_the_slope_holds((slip, load, entrainment) in anything(), oil in 0..3_usize) {
+    fn the_slope_at_rest_is_that_of_the_dual((_, load, entrainment) in anything(), oil in 0..3_usize) {
         let law = law(&LUBRICANTS[oil], 0.1e-6);
         let dual: LubricantTraction<Dual<1>> = Gather::gather(&|_| &law);
         let slope = |slip: f64| {
             dual.coefficient(Dual::variable(slip, 0), Dual::splat(load), Dual::splat(entrainment)).partial[0]
         };
-        let bound = law.steepest_slope(load, entrainment);
-        prop_assert!(slope(slip).abs() <= bound, "{} {}", slope(slip), bound);
         let rest = law.slope_at_rest(load, entrainment);
-        prop_assert!(rest <= bound, "{} {}", rest, bound);
         // the dual at rest: the closed form, to rounding of the two routes
         prop_assert!((slope(0.0) / rest - 1.0).abs() < 1e-9, "{} {}", slope(0.0), rest);
     }

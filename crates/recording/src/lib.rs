@@ -44,30 +44,8 @@ pub enum Content {
     Number,
     /// Instants, for [`Recording::read`] as seconds after the channel's [`Channel::start`].
     Time,
-    /// Texts, for [`Recording::read_text`].
+    /// Texts, which are not read.
     Text,
-}
-
-/// What a file states beside the values: of itself or of a channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Property {
-    /// Name as in the file.
-    pub name: String,
-    /// What it is set to.
-    pub value: Value,
-}
-
-/// The value of a [`Property`].
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// A number, in the file's unit.
-    Number(f64),
-    /// Yes or no.
-    Flag(bool),
-    /// An instant.
-    Time(Instant),
-    /// A text.
-    Text(String),
 }
 
 /// One channel of a recording.
@@ -87,8 +65,6 @@ pub struct Channel {
     pub start: Option<Instant>,
     /// When the values were taken.
     pub clock: Clock,
-    /// Whatever else the file states of the channel, in the order of the file.
-    pub properties: Vec<Property>,
 }
 
 impl Channel {
@@ -102,7 +78,6 @@ impl Channel {
             count,
             start: None,
             clock: Clock::Unknown,
-            properties: Vec::new(),
         }
     }
 }
@@ -156,72 +131,35 @@ pub trait Recording {
         false
     }
 
-    /// Whatever else the file states of itself, in the order of the file.
-    fn properties(&self) -> &[Property] {
-        &[]
-    }
-
     /// The file, which errors name.
     fn path(&self) -> &Path;
 
     /// Fills `values`, which are not more than the channel of numbers has from the index `first` on; returns how many there were.
     fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError>;
 
-    /// `count` texts of a channel of such, which has them from the index `first` on: fewer where the file is damaged.
-    fn texts(
-        &mut self,
-        _channel: usize,
-        _first: u64,
-        _count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        Ok(Vec::new())
-    }
-
     /// Fills `values` with values of a channel from the index `first` on; a gap in the file is NaN.
     ///
     /// Returns how many there were: fewer than asked at the end of the channel only.
     /// A channel that the recording does not have, or one of text, is an error.
     fn read(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
+        let refused =
+            |place: String, found: String| Err(FileError::new(self.path(), place, found, ""));
         let count = match self.channels().get(channel) {
             Some(known) if known.content != Content::Text => known.count,
-            _ => return Err(self.refusal(channel, "holds texts, not numbers")),
+            Some(known) => {
+                let place = format!("channel {}", known.name);
+                return refused(place, "holds texts, not numbers".to_string());
+            }
+            None => {
+                let count = self.channels().len();
+                let found = format!("is not there; the file has {count} channels, counted from 0");
+                return refused(format!("channel {channel}"), found);
+            }
         };
         match count.saturating_sub(first).min(values.len() as u64) as usize {
             0 => Ok(0),
             there => self.fill(channel, first, &mut values[..there]),
         }
-    }
-
-    /// Up to `count` texts of a channel from the index `first` on: fewer at the end of the channel only.
-    ///
-    /// A channel that the recording does not have, or one of numbers, is an error.
-    fn read_text(
-        &mut self,
-        channel: usize,
-        first: u64,
-        count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        let known = match self.channels().get(channel) {
-            Some(known) if known.content == Content::Text => known.count,
-            _ => return Err(self.refusal(channel, "holds numbers, not texts")),
-        };
-        match known.saturating_sub(first).min(count as u64) as usize {
-            0 => Ok(Vec::new()),
-            there => self.texts(channel, first, there),
-        }
-    }
-
-    /// The error where a channel holds something else, or is not there.
-    fn refusal(&self, channel: usize, holds: &str) -> FileError {
-        let (place, found) = match self.channels().get(channel) {
-            Some(known) => (format!("channel {}", known.name), holds.to_string()),
-            None => {
-                let count = self.channels().len();
-                let found = format!("is not there; the file has {count} channels, counted from 0");
-                (format!("channel {channel}"), found)
-            }
-        };
-        FileError::new(self.path(), place, found, "")
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::tables::{all, bytes, channel, ramp, ramps, waves};
 use recording::file::hdf5::Hdf5;
-use recording::{Clock, Recording, Value};
+use recording::{Clock, Recording};
 use std::io::Cursor;
 
 fn open(name: &str) -> Hdf5<Cursor<Vec<u8>>> {
@@ -97,7 +97,7 @@ fn a_piece_in_the_middle_is_the_same_as_in_the_whole() {
 }
 
 #[test]
-fn units_clocks_and_properties_come_from_attributes() {
+fn units_and_clocks_come_from_attributes() {
     for name in ["old.h5", "new.h5"] {
         let file = open(name);
         let channels = file.channels();
@@ -117,17 +117,10 @@ fn units_clocks_and_properties_come_from_attributes() {
         let signal = &channels[channel(&file, "timed/signal")];
         assert_eq!(signal.clock, rate(0.00025));
         let time = &channels[channel(&file, "timed/time")];
-        assert_eq!(time.properties.len(), 21, "more than fit into the header");
-        let property = |name: &str| {
-            let found = file.properties().iter().find(|p| p.name == name);
-            found.map(|property| property.value.clone())
-        };
         assert_eq!(
-            property("operator"),
-            Some(Value::Text("nobody".to_string()))
+            time.unit, "ms",
+            "of more attributes than fit into the header"
         );
-        assert_eq!(property("load"), Some(Value::Number(12.5)));
-        assert_eq!(property("run/scalar"), Some(Value::Number(2.5)));
     }
 }
 
@@ -155,12 +148,6 @@ fn matlab_columns_are_channels() {
     assert_eq!(all(&mut file, "both[1]"), waves(300));
     assert_eq!(all(&mut file, "both[2]"), ramps(300));
     assert_eq!(all(&mut file, "run/speed"), waves(300));
-    let names: Vec<&str> = file.properties().iter().map(|p| &*p.name).collect();
-    assert_eq!(names, ["fs", "note"]);
-    assert_eq!(
-        file.properties()[1].value,
-        Value::Text("6008 µ".to_string())
-    );
     // MATLAB states no unit, so the times stay in the unit of their channel.
     let t = Clock::Channel(channel(&file, "t"));
     assert_eq!(file.channels()[channel(&file, "torque")].clock, t);

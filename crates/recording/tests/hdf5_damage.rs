@@ -14,10 +14,10 @@ fn notes(file: &impl Recording) -> Vec<String> {
     file.notes().iter().map(note).collect()
 }
 
-/// Channels and properties as they are described, with the bits of all values.
+/// Channels as they are described, with the bits of all values.
 fn content(file: &mut Hdf5<Cursor<Vec<u8>>>) -> (String, Vec<u64>) {
     let channels = file.channels().to_vec();
-    let described = format!("{channels:?} {:?}", file.properties());
+    let described = format!("{channels:?}");
     let mut bits = Vec::new();
     for (index, channel) in channels.iter().enumerate() {
         let mut values = vec![0.0; channel.count.min(20_000) as usize];

@@ -2,7 +2,7 @@
 
 use crate::tables::{all, bytes, channel, ramps, waves};
 use recording::file::mat5::Mat5;
-use recording::{Clock, Recording, Value};
+use recording::{Clock, Recording};
 use std::io::Cursor;
 
 fn open(name: &str) -> Mat5<Cursor<Vec<u8>>> {
@@ -29,21 +29,12 @@ fn packed_and_plain_files_give_the_same_values() {
 }
 
 #[test]
-fn numbers_and_texts_become_properties_and_a_vector_of_times_a_clock() {
+fn numbers_and_texts_are_no_channels_and_a_vector_of_times_is_a_clock() {
     for name in ["packed.mat", "plain.mat"] {
         let file = open(name);
-        let property = |name: &str| {
-            let found = file.properties().iter().find(|p| p.name == name);
-            found.map(|property| property.value.clone())
-        };
-        assert_eq!(property("fs"), Some(Value::Number(8.0)));
-        assert_eq!(property("note"), Some(Value::Text("6008 µ".to_string())));
-        assert_eq!(
-            property("run/inner/unit"),
-            Some(Value::Text("rad/s".to_string()))
-        );
-        assert_eq!(property("run/inner/count"), Some(Value::Number(3.0)));
-        assert_eq!(property("cell/2"), Some(Value::Text("text".to_string())));
+        for name in ["fs", "note", "run/inner/unit", "run/inner/count", "cell/2"] {
+            assert!(file.channels().iter().all(|own| own.name != name), "{name}");
+        }
         // The unit of t is not stated, so the times stay in the unit of their channel, and that is noted.
         let t = channel(&file, "t");
         assert_eq!(

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use recording::file::{self, Format, wav::Wav};
-use recording::{Clock, Recording, Value};
+use recording::{Clock, Recording};
 
 fn chunk(name: &[u8; 4], content: &[u8], big: bool) -> Vec<u8> {
     let length = content.len() as u32;
@@ -213,21 +213,9 @@ fn remarks() -> Vec<u8> {
 }
 
 #[test]
-fn odd_chunks_are_skipped_and_remarks_kept() {
+fn odd_chunks_and_remarks_are_skipped() {
     let mut file = open(&remarks());
     assert_eq!(all(&mut file, 0), [0.0, 0.5, -1.0]);
-    let kept: Vec<(&str, &Value)> = file
-        .properties()
-        .iter()
-        .map(|p| (p.name.as_str(), &p.value))
-        .collect();
-    assert_eq!(
-        kept,
-        [
-            ("INAM", &Value::Text("run 7".into())),
-            ("ICRD", &Value::Text("202".into()))
-        ]
-    );
 }
 
 #[test]

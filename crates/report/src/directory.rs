@@ -84,11 +84,6 @@ impl NewDirectory {
         })
     }
 
-    /// The directory as it will be called.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// The directory as it is called until it is finished.
     pub fn partial(&self) -> &Path {
         &self.partial

@@ -17,17 +17,15 @@ use super::page::PageRun;
 use super::table::{Cell, Table};
 #[cfg(feature = "xlsx")]
 use super::workbook;
+use indexmap::{IndexMap, IndexSet};
 use outcome::limits::{meant, stands_for};
 use problem::{Code, Problem, Result};
 use run::warnings::rank;
 use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use std::borrow::Cow;
-use std::fmt;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
 /// What other programs read.
@@ -83,7 +81,7 @@ pub fn export(
 
 /// Leaves results and columns that one of these names stands for; with columns the first one, over which they are.
 fn keep(directory: &Path, run: &mut PageRun, summary: &mut Summary, only: &[String]) -> Result<()> {
-    let results = summary.quantities.0.iter().map(|(name, _)| name.as_str());
+    let results = summary.quantities.keys().map(String::as_str);
     let columns = run.columns.iter().map(|column| column.name.as_str());
     let known: Vec<&str> = results.chain(columns).collect();
     let is_known = |only: &str| known.iter().any(|name| stands_for(only, name));
@@ -94,9 +92,9 @@ fn keep(directory: &Path, run: &mut PageRun, summary: &mut Summary, only: &[Stri
         return Err(problem.with_hint(meant(unknown, &known)));
     }
     let wanted = |name: &str| only.iter().any(|only| stands_for(only, name));
-    summary.quantities.0.retain(|(name, _)| wanted(name));
+    summary.quantities.retain(|name, _| wanted(name));
     for member in &mut summary.members {
-        member.0.retain(|(name, _)| wanted(name));
+        member.retain(|name, _| wanted(name));
     }
     let mut first = true;
     (run.columns).retain(|column| std::mem::take(&mut first) || wanted(&column.name));
@@ -120,7 +118,7 @@ struct Summary {
     #[serde(default)]
     stop: Value,
     #[serde(default)]
-    quantities: Ordered<Value>,
+    quantities: IndexMap<String, Value>,
     #[serde(default)]
     limits: Vec<Value>,
     #[serde(default)]
@@ -130,38 +128,9 @@ struct Summary {
     #[serde(default)]
     inputs: Vec<Value>,
     #[serde(default)]
-    members: Vec<Ordered<Option<f64>>>,
+    members: Vec<IndexMap<String, Option<f64>>>,
     #[serde(default)]
-    drawn: Vec<Ordered<String>>,
-}
-
-/// A JSON object in the order of its names.
-struct Ordered<T>(Vec<(String, T)>);
-
-impl<T> Default for Ordered<T> {
-    fn default() -> Self {
-        Ordered(Vec::new())
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Ordered<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct InOrder<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for InOrder<T> {
-            type Value = Ordered<T>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "an object")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Ordered<T>, A::Error> {
-                let mut list = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    list.push(entry);
-                }
-                Ok(Ordered(list))
-            }
-        }
-        deserializer.deserialize_map(InOrder(PhantomData))
-    }
+    drawn: Vec<IndexMap<String, String>>,
 }
 
 /// Name and unit of a column.
@@ -253,14 +222,14 @@ fn results(summary: &Summary) -> Table<'_> {
         ("q95", "95 %"),
         ("max", "largest"),
     ];
-    let repeated = (summary.quantities.0.iter()).any(|(_, of)| of.get("spread").is_some());
+    let repeated = (summary.quantities.values()).any(|of| of.get("spread").is_some());
     let spread = if repeated { &SPREAD[..] } else { &[] };
     let ends = ["why it has no value", "law", "source", "valid"];
     let mut heads = vec!["result", "value, SI", "unit"];
     heads.extend(spread.iter().map(|(_, head)| *head));
     heads.extend(ends);
     let mut rows = Vec::new();
-    for (name, of) in &summary.quantities.0 {
+    for (name, of) in &summary.quantities {
         let mut row = vec![Cell::text(name)];
         row.push(match of.get("value") {
             Some(Value::Array(list)) => {
@@ -287,7 +256,7 @@ fn unit_of(quantity: &Value) -> &str {
 
 fn lists(summary: &Summary) -> Table<'_> {
     let (mut heads, mut columns) = (Vec::new(), Vec::new());
-    for (name, of) in &summary.quantities.0 {
+    for (name, of) in &summary.quantities {
         if let Some(Value::Array(list)) = of.get("value") {
             heads.push(head(name, unit_of(of)));
             let values = list.iter().map(|value| value.as_f64().unwrap_or(f64::NAN));
@@ -298,36 +267,22 @@ fn lists(summary: &Summary) -> Table<'_> {
 }
 
 fn members(summary: &Summary) -> Table<'_> {
-    let mut results: Vec<&str> = Vec::new();
-    let mut draws: Vec<&str> = Vec::new();
-    for (name, _) in summary.members.iter().flat_map(|member| &member.0) {
-        if !results.contains(&name.as_str()) {
-            results.push(name);
-        }
-    }
-    for (path, _) in summary.drawn.iter().flat_map(|member| &member.0) {
-        if !draws.contains(&path.as_str()) {
-            draws.push(path);
-        }
-    }
-    let unit = |name: &str| {
-        let known = summary.quantities.0.iter().find(|(known, _)| known == name);
-        known.map_or("", |(_, quantity)| unit_of(quantity))
-    };
+    let results: IndexSet<&String> = summary.members.iter().flat_map(IndexMap::keys).collect();
+    let draws: IndexSet<&String> = summary.drawn.iter().flat_map(IndexMap::keys).collect();
+    let unit = |name: &str| summary.quantities.get(name).map_or("", unit_of);
     let mut heads = vec!["member".to_string()];
     heads.extend(results.iter().map(|name| head(name, unit(name))));
     heads.extend(draws.iter().map(|path| format!("drawn {path}")));
     let rows = summary.members.iter().enumerate().map(|(k, member)| {
         let mut row = vec![Cell::Number(k as f64)];
         row.extend(results.iter().map(|name| {
-            let found = member.0.iter().find(|(known, _)| known == name);
-            let value = found.and_then(|(_, value)| *value);
+            let value = member.get(*name).copied().flatten();
             value.map_or(Cell::Empty, Cell::number)
         }));
         row.extend(draws.iter().map(|path| {
-            let drawn = summary.drawn.get(k).map_or(&[][..], |drawn| &drawn.0);
-            let value = drawn.iter().find(|(known, _)| known == path);
-            value.map_or(Cell::Empty, |(_, text)| Cell::text(text))
+            let drawn = summary.drawn.get(k);
+            let text = drawn.and_then(|drawn| drawn.get(*path));
+            text.map_or(Cell::Empty, |text| Cell::text(text))
         }));
         row
     });

@@ -7,7 +7,6 @@ use outcome::{
     Work,
 };
 use scenario::{Provenance, ResolvedValue, Scenario};
-use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::io::{BufWriter, Write};
 
@@ -91,11 +90,7 @@ impl<T> Named<'_, T> {
 
 impl<T: Serialize> Serialize for Named<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (name, value) in &self.0 {
-            map.serialize_entry(name, value)?;
-        }
-        map.end()
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
     }
 }
 

@@ -25,14 +25,6 @@ impl Uncertain {
         }
     }
 
-    /// Product with an independent uncertain number, to first order.
-    pub fn times(self, other: Self) -> Self {
-        Self {
-            value: self.value * other.value,
-            deviation: (self.deviation * other.value).hypot(self.value * other.deviation),
-        }
-    }
-
     /// Difference from an independent uncertain number.
     pub fn minus(self, other: Self) -> Self {
         Self {

@@ -87,8 +87,6 @@ impl Dimension {
     pub const ACCELERATION: Dimension = Dimension::of([1, 0, -2, 0, 0]);
     /// Inverse speed, s/m: damping of a Hunt-Crossley contact.
     pub const INVERSE_SPEED: Dimension = Dimension::of([-1, 0, 1, 0, 0]);
-    /// Mass times length, kg m: unbalance.
-    pub const UNBALANCE: Dimension = Dimension::of([1, 1, 0, 0, 0]);
     /// Moment of inertia, kg m^2.
     pub const INERTIA: Dimension = Dimension::of([2, 1, 0, 0, 0]);
     /// Force, N.
@@ -140,11 +138,6 @@ impl Dimension {
     /// From exponents of length, mass, time, temperature, angle, electric current.
     pub const fn from_exponents(exponents: [Rational; 6]) -> Dimension {
         Dimension { exponents }
-    }
-
-    /// Exponents of length, mass, time, temperature, angle, electric current.
-    pub const fn exponents(self) -> [Rational; 6] {
-        self.exponents
     }
 
     /// The dimension of a contact stiffness in F = k dⁿ: force per length to the power n. `None` beyond 64 bits.

@@ -7,21 +7,12 @@ use std::fmt;
 pub enum ParseError {
     /// Nothing but white space.
     Empty,
-    /// No number at the start.
-    MissingNumber {
-        /// The whole text.
-        text: String,
-    },
-    /// The number is written as infinity or not-a-number.
-    NotFinite {
-        /// The whole text.
-        text: String,
-    },
-    /// A comma where a decimal point belongs.
-    DecimalComma {
-        /// The whole text.
-        text: String,
-    },
+    /// No number at the start of this text.
+    MissingNumber(String),
+    /// A text whose number is written as infinity or not-a-number.
+    NotFinite(String),
+    /// A text with a comma where a decimal point belongs.
+    DecimalComma(String),
     /// Digits in groups.
     GroupedDigits {
         /// The whole text.
@@ -29,11 +20,8 @@ pub enum ParseError {
         /// The same without marks between digits.
         joined: String,
     },
-    /// A number without a unit.
-    MissingUnit {
-        /// The number as written.
-        number: String,
-    },
+    /// A number without a unit, as written.
+    MissingUnit(String),
     /// A symbol that is no known unit.
     UnknownUnit {
         /// The symbol as written.
@@ -41,42 +29,27 @@ pub enum ParseError {
         /// The known unit that is nearest to it.
         nearest: Option<String>,
     },
-    /// A power that cannot be read.
-    BadExponent {
-        /// The unit up to the power.
-        text: String,
-    },
-    /// More than one factor after a division sign.
-    AmbiguousDivision {
-        /// The unit as written.
-        unit: String,
-    },
-    /// An absolute temperature inside a product.
-    TemperatureInProduct {
-        /// The unit as written.
-        unit: String,
-    },
-    /// Text that belongs to neither number nor unit.
-    TrailingText {
-        /// The rest that was not understood.
-        text: String,
-    },
-    /// The value in SI is beyond what a 64-bit float can hold.
-    OutOfRange {
-        /// The whole text.
-        text: String,
-    },
+    /// A unit up to a power that cannot be read.
+    BadExponent(String),
+    /// A unit with more than one factor after a division sign.
+    AmbiguousDivision(String),
+    /// A product with an absolute temperature inside.
+    TemperatureInProduct(String),
+    /// What belongs to neither number nor unit.
+    TrailingText(String),
+    /// A text whose value in SI is beyond what a 64-bit float can hold.
+    OutOfRange(String),
 }
 
 impl fmt::Display for ParseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ParseError::Empty => write!(f, "an empty text"),
-            ParseError::MissingNumber { text } => write!(f, "no number at the start of \"{text}\""),
-            ParseError::NotFinite { text } => {
+            ParseError::MissingNumber(text) => write!(f, "no number at the start of \"{text}\""),
+            ParseError::NotFinite(text) => {
                 write!(f, "\"{text}\", which is not a finite number")
             }
-            ParseError::DecimalComma { text } => {
+            ParseError::DecimalComma(text) => {
                 write!(
                     f,
                     "a comma in \"{text}\"; decimals are written with a point and thousands without a mark"
@@ -88,7 +61,7 @@ impl fmt::Display for ParseError {
                     "\"{text}\", whose digits stand in groups; they are written without blanks or marks between them"
                 )
             }
-            ParseError::MissingUnit { number } => write!(f, "the number {number} without a unit"),
+            ParseError::MissingUnit(number) => write!(f, "the number {number} without a unit"),
             ParseError::UnknownUnit {
                 unit,
                 nearest: Some(nearest),
@@ -102,28 +75,28 @@ impl fmt::Display for ParseError {
                 unit,
                 nearest: None,
             } => write!(f, "the unknown unit \"{unit}\""),
-            ParseError::BadExponent { text } => {
+            ParseError::BadExponent(text) => {
                 write!(
                     f,
                     "a power that cannot be read in \"{text}\"; powers are written m^2, m^1.5 or m^(10/9)"
                 )
             }
-            ParseError::AmbiguousDivision { unit } => {
+            ParseError::AmbiguousDivision(unit) => {
                 write!(
                     f,
                     "the unit \"{unit}\", which can be read in two ways; put what follows the one \"/\" in brackets, as in W/(m K)"
                 )
             }
-            ParseError::TemperatureInProduct { unit } => {
+            ParseError::TemperatureInProduct(unit) => {
                 write!(
                     f,
                     "degC inside the unit \"{unit}\"; in a product a temperature is in K"
                 )
             }
-            ParseError::TrailingText { text } => {
+            ParseError::TrailingText(text) => {
                 write!(f, "\"{text}\" after the quantity, which is not understood")
             }
-            ParseError::OutOfRange { text } => {
+            ParseError::OutOfRange(text) => {
                 write!(
                     f,
                     "\"{text}\", which is too large or too small to compute with"

@@ -41,20 +41,14 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, ParseError> {
     let number = split_number(whole)?;
     let rest = number.rest.trim_start();
     if rest.is_empty() {
-        return Err(ParseError::MissingUnit {
-            number: number.written.to_string(),
-        });
+        return Err(ParseError::MissingUnit(number.written.to_string()));
     }
     let is_number = rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-'));
     if is_number && rest != "1" && !rest.starts_with("1/") {
-        return Err(ParseError::TrailingText {
-            text: rest.to_string(),
-        });
+        return Err(ParseError::TrailingText(rest.to_string()));
     }
     let unit = Unit::parse(rest)?;
-    let out_of_range = || ParseError::OutOfRange {
-        text: whole.to_string(),
-    };
+    let out_of_range = || ParseError::OutOfRange(whole.to_string());
     let scaled: f64 = format!("{}e{}", number.digits, number.exponent + unit.scale().0)
         .parse()
         .map_err(|_| out_of_range())?;
@@ -122,9 +116,7 @@ pub(crate) fn split_number(whole: &str) -> Result<Number<'_>, ParseError> {
     let body = &whole[sign_length..];
     let lower = body.to_ascii_lowercase();
     if lower.starts_with("inf") || lower.starts_with("nan") {
-        return Err(ParseError::NotFinite {
-            text: whole.to_string(),
-        });
+        return Err(ParseError::NotFinite(whole.to_string()));
     }
     let bytes = body.as_bytes();
     let digits_from = |start: usize| {
@@ -140,14 +132,10 @@ pub(crate) fn split_number(whole: &str) -> Result<Number<'_>, ParseError> {
     }
     let has_digit = body[..end].bytes().any(|byte| byte.is_ascii_digit());
     if !has_digit {
-        return Err(ParseError::MissingNumber {
-            text: whole.to_string(),
-        });
+        return Err(ParseError::MissingNumber(whole.to_string()));
     }
     if bytes.get(end) == Some(&b',') {
-        return Err(ParseError::DecimalComma {
-            text: whole.to_string(),
-        });
+        return Err(ParseError::DecimalComma(whole.to_string()));
     }
     let digits = format!("{}{}", if negative { "-" } else { "" }, &body[..end]);
     let mut exponent = 0;

@@ -78,11 +78,6 @@ impl Rational {
         self.numerator as f64 / self.denominator as f64
     }
 
-    /// Whether the fraction is zero.
-    pub const fn is_zero(self) -> bool {
-        self.numerator == 0
-    }
-
     /// The sum; `None` beyond 64 bits.
     pub fn plus(self, other: Rational) -> Option<Rational> {
         let (a, b) = (i128::from(self.numerator), i128::from(self.denominator));

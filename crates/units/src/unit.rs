@@ -56,9 +56,10 @@ impl Unit {
             return Err(ParseError::Empty);
         }
         if text.len() > LONGEST {
-            return Err(ParseError::TrailingText {
-                text: format!("{}…", text.chars().take(20).collect::<String>()),
-            });
+            return Err(ParseError::TrailingText(format!(
+                "{}…",
+                text.chars().take(20).collect::<String>()
+            )));
         }
         if let Some(alone) = find(text).filter(|symbol| symbol.text.contains(['/', '-'])) {
             return Ok(Unit::of(alone));
@@ -171,9 +172,7 @@ impl<'a> Reader<'a> {
                     unit = self.product(unit, factor)?;
                 }
                 Some('(') => {
-                    return Err(ParseError::TrailingText {
-                        text: self.rest.to_string(),
-                    });
+                    return Err(ParseError::TrailingText(self.rest.to_string()));
                 }
                 Some(_) => return Err(self.trailing()),
             }
@@ -190,9 +189,7 @@ impl<'a> Reader<'a> {
                 .peek()
                 .is_some_and(|c| c == '/' || c == '(' || is_symbol(c));
             return Err(if continues {
-                ParseError::AmbiguousDivision {
-                    unit: self.whole.to_string(),
-                }
+                ParseError::AmbiguousDivision(self.whole.to_string())
             } else {
                 self.trailing()
             });
@@ -217,18 +214,14 @@ impl<'a> Reader<'a> {
                 self.skip_space();
                 let inner = self.unit()?;
                 if self.take() != Some(')') {
-                    return Err(ParseError::TrailingText {
-                        text: self.whole.to_string(),
-                    });
+                    return Err(ParseError::TrailingText(self.whole.to_string()));
                 }
                 inner
             }
             Some('1') => {
                 self.take();
                 if self.peek().is_some_and(|c| c.is_ascii_digit() || c == '.') {
-                    return Err(ParseError::TrailingText {
-                        text: format!("1{}", self.rest),
-                    });
+                    return Err(ParseError::TrailingText(format!("1{}", self.rest)));
                 }
                 Unit::ONE
             }
@@ -335,21 +328,15 @@ impl<'a> Reader<'a> {
         } else {
             self.rest
         };
-        ParseError::TrailingText {
-            text: text.to_string(),
-        }
+        ParseError::TrailingText(text.to_string())
     }
 
     fn bad_exponent(&self) -> ParseError {
-        ParseError::BadExponent {
-            text: self.whole.to_string(),
-        }
+        ParseError::BadExponent(self.whole.to_string())
     }
 
     fn temperature(&self) -> ParseError {
-        ParseError::TemperatureInProduct {
-            unit: self.whole.to_string(),
-        }
+        ParseError::TemperatureInProduct(self.whole.to_string())
     }
 }
 

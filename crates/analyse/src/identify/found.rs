@@ -10,7 +10,7 @@ use identify::coasting::Windage;
 use identify::data_checks::{CheckSettings, Doubt, doubts, reading};
 use identify::dissipation::{Dissipation, dissipation};
 use identify::explain::{
-    self, Candidate, Conclusion, PredictionErrors, Priors, Verdict, with_prediction_errors,
+    self, Candidate, Conclusion, PredictionErrors, Verdict, with_prediction_errors,
 };
 use identify::loss::{Loss, LossMap, LossSettings, Rolling, loss};
 use identify::moment::{Moment, moment, same_load};
@@ -491,18 +491,18 @@ fn explained(
         seed: how.seed,
         decision: how.decide_at,
         settling_time,
+        ..explain::Settings::default()
     };
     let errors = PredictionErrors {
         locking_window: how.locking_window,
         rolling_ratio_deviation: how.rolling_ratio_deviation,
     };
-    let priors = Priors::default();
     let curve = &moment.curve;
     let measurements: Vec<Measurement> = (tests.iter())
         .map(|test| with_prediction_errors(test, curve, set, &errors))
         .collect();
-    let verdict = explain::explain(&measurements, curve, set, &priors, &settings)
-        .map_err(|why| why.to_string());
+    let verdict =
+        explain::explain(&measurements, curve, set, &settings).map_err(|why| why.to_string());
     let next = match &verdict {
         Ok(verdict) if matches!(verdict.conclusion, explain::Conclusion::Supported(_)) => {
             Err("the tests at hand decide".to_string())
@@ -511,7 +511,7 @@ fn explained(
             "none of the explanations fits: what would decide between them is not what is asked"
                 .to_string(),
         ),
-        Ok(verdict) => explain::next_test(verdict, &measurements, curve, set, &priors, &settings)
+        Ok(verdict) => explain::next_test(verdict, &measurements, curve, set, &settings)
             .map(|mut candidates| {
                 let all_see_the_cage = measurements.iter().all(|test| test.cage.is_some());
                 candidates.retain(|candidate| {

@@ -73,8 +73,6 @@ mod tests {
 
     fn series(step_share: f64) -> Series {
         let converter = Converter {
-            rate: 1000.0,
-            channels: 1,
             lowest: -10.0,
             highest: 10.0,
             bits: 14,

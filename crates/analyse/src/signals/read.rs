@@ -326,7 +326,7 @@ impl<'a> Source<'a> {
             return Err(self.problem(Code::TooManyRows, key, found, needed));
         }
         let values = self.read(key, index, timing.begin, count as usize)?;
-        let converter = self.converter(&channel.name, interval);
+        let converter = self.converter(&channel.name);
         let series = Series {
             converter,
             name: channel.name,
@@ -348,15 +348,13 @@ impl<'a> Source<'a> {
     }
 
     /// The converter of a channel, where one is told.
-    fn converter(&self, name: &str, interval: f64) -> Option<Converter> {
+    fn converter(&self, name: &str) -> Option<Converter> {
         let told = self.signals.converter.as_ref()?;
         let meant = |known: &String| {
             let end = name.strip_suffix(known.as_str());
             end.is_some_and(|start| start.is_empty() || start.ends_with('/'))
         };
-        told.channels.iter().any(meant).then(|| Converter {
-            rate: 1.0 / interval,
-            channels: 1,
+        told.channels.iter().any(meant).then_some(Converter {
             lowest: told.lowest,
             highest: told.highest,
             bits: told.bits,

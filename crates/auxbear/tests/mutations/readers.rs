@@ -5,7 +5,7 @@ use crate::touch::touch;
 use crate::watch::{Watch, count};
 use crate::{files, repository};
 use recording::file::{csv, hdf5, mat5, parquet, tdms, uff, wav};
-use recording::{Channel, Clock, Content, FileError, Property, Recording, Value};
+use recording::{Channel, Clock, Content, FileError, Recording};
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
@@ -68,10 +68,6 @@ fn written(ending: &str) -> Vec<u8> {
     let channel = |name: &str, unit: &str| Channel {
         unit: unit.to_string(),
         clock: clock.clone(),
-        properties: vec![Property {
-            name: "gain".to_string(),
-            value: Value::Number(2.0),
-        }],
         ..Channel::new(name, 0)
     };
     let channels = [channel("rig/speed", "V"), channel("rig/torque", "N m")];

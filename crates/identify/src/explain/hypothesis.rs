@@ -5,7 +5,7 @@ use physics::lubricant_state::Grease;
 use physics::rolling::RollingSet;
 
 use super::explanation::Explanation;
-use super::prior::Priors;
+use super::prior::{Range, share_of};
 use super::record::{Past, Step, Trial};
 use super::settings::Settings;
 use super::slip::{Slip, load_moment_factor};
@@ -33,20 +33,19 @@ pub(crate) struct Bearing<'a> {
     /// The same up to the highest speed of the tests, quick to read.
     pub table: Table,
     pub set: &'a RollingSet<f64>,
-    /// Priors with what they take from the curve.
-    pub priors: Priors,
+    /// Viscous share of the curve at the highest speed.
+    pub share: Range,
     pub settings: &'a Settings,
     /// Whether a test follows another one after a rest: the recovery at rest is a parameter then.
     pub repeated: bool,
 }
 
 impl<'a> Bearing<'a> {
-    /// Curve and priors up to the highest speed of the tests, rad/s.
+    /// Curve and its viscous share up to the highest speed of the tests, rad/s.
     pub fn new(
         steady: &'a SteadyMoment,
         top_speed: f64,
         set: &'a RollingSet<f64>,
-        priors: &Priors,
         settings: &'a Settings,
         repeated: bool,
     ) -> Self {
@@ -55,7 +54,7 @@ impl<'a> Bearing<'a> {
             repeated,
             table: Continued(steady).table(top_speed),
             set,
-            priors: priors.resolved(steady, top_speed),
+            share: share_of(steady, top_speed),
             settings,
         }
     }
@@ -359,7 +358,7 @@ fn rolling_torque(test: &Trial, bearing: &Bearing, load_share: f64) -> impl Iter
     let share = if load_share < 1.0 {
         load_share
     } else {
-        1.0 - bearing.priors.share_range().share(0.0)
+        1.0 - bearing.share.share(0.0)
     };
     let extra = share * bearing.table.reference * (load_moment_factor(&test.past) - 1.0);
     (test.steps.iter())

@@ -27,7 +27,7 @@
 //! sensor more than what any inversion smooths.
 //!
 //! Assumed: all tests at one load, with the bearing rested before each but where [`Measurement::rest_before`] says otherwise: such a
-//! test begins with what is left of a whole test like it. Priors are those of [`Priors`]: an explanation
+//! test begins with what is left of a whole test like it. Ranges of parameters before the data stand in `parameter`: an explanation
 //! that needs a coincidence (traction and drag that agree to 0.4 % for seconds) is as improbable as the coincidence is.
 //!
 //! # How often it is right
@@ -76,7 +76,6 @@ use verdict::FormDraw;
 pub use explanation::Explanation;
 pub use next_test::{Candidate, Proposal, next_test};
 pub use prediction_errors::{PredictionErrors, with_prediction_errors};
-pub use prior::{Priors, Range};
 pub use settings::{LEAST_FIT, LEAST_SLIP, Settings};
 pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, TorqueMean, Verdict};
 
@@ -88,15 +87,14 @@ pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, TorqueMean, Ve
 /// - `set`: masses and radii of balls and cage
 ///
 /// # Errors
-/// A [`Refusal`] where tests, curve, priors or settings cannot be used.
+/// A [`Refusal`] where tests, curve or settings cannot be used.
 pub fn explain(
     tests: &[Measurement],
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
-    priors: &Priors,
     settings: &Settings,
 ) -> Result<Verdict, Refusal> {
-    let bearing = bearing(tests, steady, set, priors, settings)?;
+    let bearing = bearing(tests, steady, set, settings)?;
     let records: Vec<Trial> = (tests.iter())
         .map(|test| Trial::measured(test, &bearing.table, set.outer_inertia()))
         .collect();
@@ -182,29 +180,25 @@ fn conclude(verdict: &Verdict, settings: &Settings) -> Conclusion {
     Conclusion::Undecided(left.iter().map(|a| a.explanation).collect())
 }
 
-/// The bearing as the comparison and the ranking of tests see it, where tests, curve, priors and settings can be used.
+/// The bearing as the comparison and the ranking of tests see it, where tests, curve and settings can be used.
 fn bearing<'a>(
     tests: &[Measurement],
     steady: &'a SteadyMoment,
     set: &'a RollingSet<f64>,
-    priors: &Priors,
     settings: &'a Settings,
 ) -> Result<Bearing<'a>, Refusal> {
-    refuse(tests, steady, priors, settings)?;
+    refuse(tests, steady, settings)?;
     let top_speed = (tests.iter().flat_map(|test| &test.speed)).fold(0.0_f64, |a, b| a.max(*b));
     if top_speed <= 0.0 {
         return Err(Refusal::BadTest(tests[0].name.clone()));
     }
     let repeated = tests.iter().any(|test| test.rest_before.is_some());
-    Ok(Bearing::new(
-        steady, top_speed, set, priors, settings, repeated,
-    ))
+    Ok(Bearing::new(steady, top_speed, set, settings, repeated))
 }
 
 fn refuse(
     tests: &[Measurement],
     steady: &SteadyMoment,
-    priors: &Priors,
     settings: &Settings,
 ) -> Result<(), Refusal> {
     let first = tests.first().ok_or(Refusal::NoTests)?;
@@ -228,9 +222,6 @@ fn refuse(
             .all(|row| row.len() == size && row.iter().all(|c| c.is_finite()));
     if !curve {
         return Err(Refusal::BadCurve);
-    }
-    if let Some(name) = priors.fault() {
-        return Err(Refusal::BadPrior(name));
     }
     settings
         .fault()
@@ -279,7 +270,7 @@ fn assess(
     bearing: &Bearing,
     observed: &Observed,
 ) -> (Assessment, Option<(Hypothesis, Mode)>) {
-    let prior_probability = bearing.priors.probability(explanation);
+    let prior_probability = bearing.settings.probability(explanation);
     let mut assessment = Assessment {
         explanation,
         prior_probability,

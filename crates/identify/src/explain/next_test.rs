@@ -21,9 +21,10 @@ use crate::{Measurement, SteadyMoment};
 use super::hypothesis::{Bearing, Hypothesis, Prediction};
 use super::means::CageMean;
 use super::noise::Observed;
+use super::prior::{RECOVERY_TIME, Range};
 use super::record::{LeastWidth, Past, Trial};
 use super::steady::Table;
-use super::{Priors, Refusal, Settings, Verdict, bearing};
+use super::{Refusal, Settings, Verdict, bearing};
 
 /// A test that could be made next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,7 +131,7 @@ impl Proposal {
 /// Candidates for the next test, the most informative first.
 ///
 /// - `verdict`: of the tests made so far, with the same arguments
-/// - `tests`, `steady`, `set`, `priors`, `settings`: as for [`explain`](super::explain)
+/// - `tests`, `steady`, `set`, `settings`: as for [`explain`](super::explain)
 ///
 /// Where one explanation is certain nothing is left to learn: all informations are near 0.
 ///
@@ -141,10 +142,9 @@ pub fn next_test(
     tests: &[Measurement],
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
-    priors: &Priors,
     settings: &Settings,
 ) -> Result<Vec<Candidate>, Refusal> {
-    let bearing = bearing(tests, steady, set, priors, settings)?;
+    let bearing = bearing(tests, steady, set, settings)?;
     let table = &bearing.table;
     let rig = Rig::of(&tests[tests.len() - 1], table, set.outer_inertia());
     let mut candidates = Vec::new();
@@ -190,7 +190,7 @@ const CAGE_NOISE: f64 = 0.005;
 /// Deviation of a thermocouple's reading of a rise, K: assumed.
 const TEMPERATURE_NOISE: f64 = 0.1;
 /// Range of the heat capacity that outer race and housing bring into play within seconds, J/K: 0.1 to 1 kg of steel.
-const HEAT_CAPACITY: super::Range = super::Range::new(50.0, 500.0);
+const HEAT_CAPACITY: Range = Range::new(50.0, 500.0);
 
 impl Rig {
     fn of(test: &Measurement, table: &Table, inertia: f64) -> Self {
@@ -340,7 +340,7 @@ impl Planned<'_> {
         let values = form.values(coordinates, self.bearing);
         let recovery = match form.recovery(&values, self.bearing) {
             Some(time) => time,
-            None => self.bearing.priors.recovery_time.positive(random.normal()),
+            None => RECOVERY_TIME.positive(random.normal()),
         };
         let rest = match self.proposal {
             Proposal::RepeatAfterSeconds => 5.0,

@@ -1,5 +1,7 @@
 //! How explanations are compared. What is no setting is assumed; the tests state how often it leads to the right answer.
 
+use super::explanation::Explanation;
+
 /// What is asked of the comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -9,6 +11,8 @@ pub struct Settings {
     pub decision: f64,
     /// Time by which the reading settles after a stop, s: before, no mean at rest counts.
     pub settling_time: f64,
+    /// Prior weight of each explanation in the order of [`Explanation::ALL`]; only ratios matter. 0 rules one out.
+    pub odds: [f64; 7],
 }
 
 /// Least probability of an acceptable fit.
@@ -38,11 +42,17 @@ impl Default for Settings {
             seed: 1,
             decision: 0.95,
             settling_time: 0.1,
+            odds: [1.0; 7],
         }
     }
 }
 
 impl Settings {
+    /// Prior probability of an explanation.
+    pub(super) fn probability(&self, explanation: Explanation) -> f64 {
+        self.odds[explanation as usize] / self.odds.iter().sum::<f64>()
+    }
+
     /// Name of a value that has no meaning.
     pub(super) fn fault(&self) -> Option<&'static str> {
         if !(self.decision > 0.5 && self.decision < 1.0) {

@@ -136,8 +136,6 @@ pub enum Refusal {
     OtherLoad(String),
     /// The curve M(Ω) is empty, not rising in speed, not positive, or its covariance is none.
     BadCurve,
-    /// A prior range is not two rising positive numbers, or a share reaches 1.
-    BadPrior(&'static str),
     /// A setting is out of its range.
     BadSetting(&'static str),
 }
@@ -158,7 +156,6 @@ impl std::fmt::Display for Refusal {
                 f,
                 "the steady moment needs rising positive speeds, positive moments and a covariance of as many rows"
             ),
-            Self::BadPrior(name) => write!(f, "prior \"{name}\": its range or odds are none"),
             Self::BadSetting(name) => write!(f, "setting \"{name}\" is out of its range"),
         }
     }

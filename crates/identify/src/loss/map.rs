@@ -97,9 +97,7 @@ pub struct LossMap {
 pub struct MapPlace {
     /// F, N, along the rotation.
     pub friction: Uncertain,
-    /// Distance to the nearest datum, in parts of the range of speeds and of accelerations of the data.
-    pub nearest: f64,
-    /// Whether data are near: nearest below 0.25, and what these data leave of a prior as wide as M is less than a quarter of it,
+    /// Whether data are near: the nearest below 0.25 of the range of speeds and of accelerations of the data, and what these data leave of a prior as wide as M is less than a quarter of it,
     /// whatever F is.
     pub known: bool,
 }
@@ -246,7 +244,6 @@ impl LossMap {
             .fold(f64::INFINITY, f64::min);
         MapPlace {
             friction: Uncertain::new(value, variance.max(0.0).sqrt()),
-            nearest,
             known: nearest < NEAR && self.left(place) < LEFT * self.wide.constant,
         }
     }

@@ -80,8 +80,6 @@ pub struct LossPoint {
     pub state: State,
     /// t_O - M, N m.
     pub excess: Option<Uncertain>,
-    /// Slip of the cage, 1.
-    pub slip: Option<Uncertain>,
     /// Friction F, N, sum over the balls.
     pub friction: Option<Uncertain>,
 }
@@ -89,8 +87,6 @@ pub struct LossPoint {
 /// The friction of accelerated balls over a test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loss {
-    /// Name of the test.
-    pub name: String,
     /// One point a time of the test.
     pub points: Vec<LossPoint>,
     /// What is not trustworthy.
@@ -174,7 +170,6 @@ pub fn loss(
                 acceleration: test.acceleration[k],
                 state,
                 excess,
-                slip: slip.map(|slip| slip.slip),
                 friction,
             }
         })
@@ -190,11 +185,7 @@ pub fn loss(
             points.len()
         ));
     }
-    Ok(Loss {
-        name: test.name.clone(),
-        points,
-        notes,
-    })
+    Ok(Loss { points, notes })
 }
 
 /// Deviation of t_O - M by the scale of the sensor that measured both.

@@ -225,9 +225,7 @@ fn form_fit(
         log_evidence: log_sum_exp(&logs) - (logs.len() as f64).ln(),
         parameters,
         correlation,
-        viscosity: best.member.viscosity(),
         curve: mixed(&curves),
-        noise: best.posterior.noise,
         noise_correlation: best.posterior.correlation,
     })
 }

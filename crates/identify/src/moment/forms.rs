@@ -118,14 +118,6 @@ impl Member {
         }
     }
 
-    /// Viscosity of Palmgren's floor, m²/s.
-    pub(super) fn viscosity(&self) -> Option<f64> {
-        match self.shapes {
-            Shapes::Palmgren { viscosity, .. } => Some(viscosity),
-            _ => None,
-        }
-    }
-
     /// The shapes at speeds, a row for each.
     pub(super) fn rows(&self, speeds: &[f64]) -> DMatrix<f64> {
         let rows = speeds.iter().flat_map(|&speed| self.shapes.row(speed));

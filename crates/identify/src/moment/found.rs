@@ -29,12 +29,8 @@ pub struct FormFit {
     pub parameters: Vec<Parameter>,
     /// Their correlations, by rows.
     pub correlation: Vec<Vec<f64>>,
-    /// Viscosity of the floor that fits best, m²/s; given or chosen; of Palmgren's form alone.
-    pub viscosity: Option<f64>,
     /// The curve of this form.
     pub curve: SteadyMoment,
-    /// Deviation of one mean, N m.
-    pub noise: f64,
     /// Correlation of the errors of neighbouring means.
     pub noise_correlation: f64,
 }

@@ -103,8 +103,6 @@ pub(crate) struct Posterior {
     pub prior: DMatrix<f64>,
     /// Correlation of neighbouring residuals.
     pub correlation: f64,
-    /// Standard deviation of one mean.
-    pub noise: f64,
 }
 
 impl Posterior {
@@ -267,7 +265,6 @@ pub(crate) fn weighed(
         covariance,
         prior,
         correlation,
-        noise: over(&|point| point.noise),
     })
 }
 

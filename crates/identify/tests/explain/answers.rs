@@ -1,7 +1,7 @@
 //! Answers other than the right name: undecided with a next test, none of these, refusals; and the laboratory itself.
 
 use identify::explain::{
-    Conclusion, Explanation, Priors, Proposal, Refusal, Settings, Verdict, explain, next_test,
+    Conclusion, Explanation, Proposal, Refusal, Settings, Verdict, explain, next_test,
 };
 
 use super::bearing::{Bearing, Lubricant, MOMENT};
@@ -106,7 +106,6 @@ fn ask(campaign: &Campaign, verdict: &Verdict) -> Vec<identify::explain::Candida
         &campaign.tests,
         &campaign.steady,
         &campaign.set,
-        &Priors::default(),
         &Settings::default(),
     )
     .expect("a usable campaign")
@@ -174,36 +173,28 @@ fn a_transient_of_another_kind_is_none_of_these() {
 #[test]
 fn what_cannot_be_used_is_refused() {
     let good = cut(campaign(Explanation::Rolling, 4));
-    let ask = |change: &dyn Fn(&mut Campaign, &mut Priors, &mut Settings)| {
-        let (mut campaign, mut priors, mut settings) = (
+    let ask = |change: &dyn Fn(&mut Campaign, &mut Settings)| {
+        let (mut campaign, mut settings) = (
             Campaign {
                 truth: good.truth,
                 tests: good.tests.clone(),
                 steady: good.steady.clone(),
                 set: good.set,
             },
-            Priors::default(),
             Settings::default(),
         );
-        change(&mut campaign, &mut priors, &mut settings);
-        explain(
-            &campaign.tests,
-            &campaign.steady,
-            &campaign.set,
-            &priors,
-            &settings,
-        )
-        .map(|_| ())
+        change(&mut campaign, &mut settings);
+        explain(&campaign.tests, &campaign.steady, &campaign.set, &settings).map(|_| ())
     };
-    assert_eq!(ask(&|c, _, _| c.tests.clear()), Err(Refusal::NoTests));
+    assert_eq!(ask(&|c, _| c.tests.clear()), Err(Refusal::NoTests));
     let bad = Err(Refusal::BadTest(good.tests[0].name.clone()));
-    assert_eq!(ask(&|c, _, _| c.tests[0].torque[5] = f64::NAN), bad);
-    assert_eq!(ask(&|c, _, _| c.tests[0].time[5] = 0.0), bad);
-    assert_eq!(ask(&|c, _, _| c.tests[0].speed.truncate(7)), bad);
-    assert_eq!(ask(&|c, _, _| c.tests[0].speed.fill(0.0)), bad);
-    assert_eq!(ask(&|c, _, _| c.tests[0].torque_deviation[3] = 0.0), bad);
+    assert_eq!(ask(&|c, _| c.tests[0].torque[5] = f64::NAN), bad);
+    assert_eq!(ask(&|c, _| c.tests[0].time[5] = 0.0), bad);
+    assert_eq!(ask(&|c, _| c.tests[0].speed.truncate(7)), bad);
+    assert_eq!(ask(&|c, _| c.tests[0].speed.fill(0.0)), bad);
+    assert_eq!(ask(&|c, _| c.tests[0].torque_deviation[3] = 0.0), bad);
     assert!(matches!(
-        ask(&|c, _, _| {
+        ask(&|c, _| {
             let mut other = c.tests[0].clone();
             other.load *= 2.0;
             c.tests.push(other);
@@ -211,29 +202,21 @@ fn what_cannot_be_used_is_refused() {
         Err(Refusal::OtherLoad(_))
     ));
     assert_eq!(
-        ask(&|c, _, _| c.steady.moment[0] = -1.0),
+        ask(&|c, _| c.steady.moment[0] = -1.0),
         Err(Refusal::BadCurve)
     );
     assert_eq!(
-        ask(&|c, _, _| c.steady.covariance.truncate(3)),
+        ask(&|c, _| c.steady.covariance.truncate(3)),
         Err(Refusal::BadCurve)
     );
     assert_eq!(
-        ask(&|_, p, _| p.drift.low = 0.0),
-        Err(Refusal::BadPrior("drift"))
-    );
-    assert_eq!(
-        ask(&|_, p, _| p.odds = [0.0; 7]),
-        Err(Refusal::BadPrior("odds"))
-    );
-    assert_eq!(
-        ask(&|_, _, s| s.decision = 1.0),
+        ask(&|_, s| s.decision = 1.0),
         Err(Refusal::BadSetting("decision"))
     );
     for refusal in [
         Refusal::NoTests,
         Refusal::BadCurve,
-        Refusal::BadPrior("drift"),
+        Refusal::BadSetting("decision"),
     ] {
         assert!(refusal.to_string().len() > 15);
     }

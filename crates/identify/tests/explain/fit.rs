@@ -3,26 +3,20 @@
 //! Of seven campaigns, one of each truth, judged by the torque alone both slips lie below 0.05 (0.02 and 0.05): their reduced model has
 //! one load for all balls. With a signal of the cage, for which more is allowed than this laboratory needs, all lie above.
 
-use identify::explain::{Explanation, LEAST_FIT, Priors, Settings, explain};
+use identify::explain::{Explanation, LEAST_FIT, Settings, explain};
 
 use super::lab::Campaign;
 use super::{campaign, runs};
 
 /// Probability of the fit of the true explanation.
 fn fit(campaign: &Campaign, truth: Explanation) -> f64 {
-    let mut priors = Priors {
+    let mut settings = Settings {
         odds: [0.0; 7],
-        ..Priors::default()
+        ..Settings::default()
     };
-    priors.odds[truth as usize] = 1.0;
-    let verdict = explain(
-        &campaign.tests,
-        &campaign.steady,
-        &campaign.set,
-        &priors,
-        &Settings::default(),
-    )
-    .expect("a usable campaign");
+    settings.odds[truth as usize] = 1.0;
+    let verdict = explain(&campaign.tests, &campaign.steady, &campaign.set, &settings)
+        .expect("a usable campaign");
     verdict.of(truth).fit.map_or(0.0, |fit| fit.probability)
 }
 

@@ -12,7 +12,7 @@ mod bearing;
 mod fit;
 mod lab;
 
-use identify::explain::{Assessment, Conclusion, Explanation, Priors, Settings, Verdict, explain};
+use identify::explain::{Assessment, Conclusion, Explanation, Settings, Verdict, explain};
 use lab::{Campaign, Chance, ENGAGEMENT, Truth};
 
 fn campaign(explanation: Explanation, seed: u64) -> Campaign {
@@ -25,7 +25,6 @@ fn judge(campaign: &Campaign) -> Verdict {
         &campaign.tests,
         &campaign.steady,
         &campaign.set,
-        &Priors::default(),
         &Settings::default(),
     )
     .expect("a usable campaign")

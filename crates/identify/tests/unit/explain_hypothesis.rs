@@ -13,8 +13,8 @@ fn with_test(check: impl Fn(&Bearing, &Trial)) {
     };
     let speed =
         |t: f64| 150.0 * (t / 0.02).clamp(0.0, 1.0) * (1.0 - (t - 4.0) / 0.5).clamp(0.0, 1.0);
-    let (priors, settings) = (Priors::default(), Settings::default());
-    let bearing = Bearing::new(&steady, 150.0, &set, &priors, &settings, false);
+    let settings = Settings::default();
+    let bearing = Bearing::new(&steady, 150.0, &set, &settings, false);
     let test = Trial::planned(
         &speed,
         6.0,
@@ -87,7 +87,6 @@ fn a_test_after_a_rest_begins_with_what_is_left() {
     with_test(|bearing, test| {
         let bearing = Bearing {
             repeated: true,
-            priors: bearing.priors.clone(),
             table: bearing.table.clone(),
             ..*bearing
         };

@@ -15,7 +15,6 @@ fn made_up(excess: impl Fn(f64) -> f64) -> (Measurement, Loss) {
             acceleration: 0.0,
             state: State::Unknown,
             excess: (speed > 0.0).then(|| Uncertain::new(excess(time), 0.4e-3)),
-            slip: None,
             friction: None,
         })
         .collect();
@@ -39,7 +38,6 @@ fn made_up(excess: impl Fn(f64) -> f64) -> (Measurement, Loss) {
         time,
     };
     let loss = Loss {
-        name: "test".into(),
         points,
         notes: Vec::new(),
     };

@@ -18,8 +18,6 @@ fn torque(deviation: f64, rate_deviation: f64) -> Torque {
         disturbance_power: 0.0,
         zero: Uncertain::new(0.0, 3e-4),
         noise: 1e-3,
-        calming: 1.0,
-        log_likelihood: 0.0,
         shown_frequency: None,
         notes: Vec::new(),
         time,

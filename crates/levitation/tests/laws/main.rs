@@ -556,5 +556,5 @@ fn what_cannot_be_is_refused_with_its_place() {
     assert!(build(1, &sensors, channels(2), DELAYED, &odd).contains("must be above 0"));
     let (two, three) = (DMatrix::zeros(2, 2), DMatrix::zeros(3, 2));
     let wrong = StateSpace::new("k", two.clone(), two.clone(), two, three);
-    assert!(matches!(wrong, Err(Refused::MatrixSizes { .. })));
+    assert!(matches!(wrong, Err(Refused::Sizes(_))));
 }

@@ -42,15 +42,6 @@ impl Order {
             .map(|(a, b)| a.hypot(*b))
             .collect()
     }
-
-    /// Phases φ of A cos(kθ + φ), rad.
-    pub fn phase(&self) -> Vec<f64> {
-        self.cosine
-            .iter()
-            .zip(&self.sine)
-            .map(|(a, b)| (-b).atan2(*a))
-            .collect()
-    }
 }
 
 /// Orders in a signal and what is left without them.

@@ -21,8 +21,6 @@ pub struct AngularSettings {
 pub struct OrderSpectrogram {
     /// Time of the middle of each segment, s.
     pub time: Vec<f64>,
-    /// Mean speed in each segment, rad/s.
-    pub speed: Vec<f64>,
     /// Orders, cycles a turn.
     pub order: Vec<f64>,
     /// Amplitude that a sine at this order has in each segment, unit of the signal, peak.
@@ -118,13 +116,12 @@ pub fn order_spectrogram(
             0.4 / interval
         ));
     }
-    let (mut time, mut speed, mut amplitude) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut time, mut amplitude) = (Vec::new(), Vec::new());
     let mut lost = 0;
     let mut raw = Vec::new();
     let transform = transformed(&values, length, |start, one| {
         let (a, b) = (times[start], times[start + length - 1]);
         time.push(0.5 * (a + b));
-        speed.push(TAU * settings.turns as f64 / (b - a) * (1.0 - 1.0 / length as f64));
         raw.push(one);
     });
     let bandwidth = transform.squares / (transform.sum * transform.sum);
@@ -155,7 +152,6 @@ pub fn order_spectrogram(
     }
     Ok(OrderSpectrogram {
         time,
-        speed,
         order: order[..kept].to_vec(),
         amplitude,
         notes,

@@ -35,12 +35,6 @@ pub struct Spectrum {
     pub density: Vec<f64>,
     /// Amplitude that a sine at this frequency has, unit of the signal, peak.
     pub amplitude: Vec<f64>,
-    /// Width of a line for noise, Hz.
-    pub bandwidth: f64,
-    /// Number of independent segments that the averages are worth; a density has a relative deviation of one over its root.
-    pub averages: f64,
-    /// What is not trustworthy.
-    pub notes: Vec<String>,
 }
 
 /// Spectra over time.
@@ -52,10 +46,6 @@ pub struct Spectrogram {
     pub frequency: Vec<f64>,
     /// Density of each segment, square of the signal's unit over Hz; NaN where values are missing.
     pub density: Vec<Vec<f64>>,
-    /// Factor from the root of a density to the amplitude of a sine, √Hz.
-    pub to_amplitude: f64,
-    /// What is not trustworthy.
-    pub notes: Vec<String>,
 }
 
 /// Fourier transform of segments weighted by Hann's window.
@@ -169,35 +159,20 @@ fn lines(length: usize, interval: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Spectrum of a signal with values at equal `interval`, s, from segments of `length` values. Segments with missing values are left out and reported.
+/// Spectrum of a signal with values at equal `interval`, s, from segments of `length` values. Segments with missing values are left out.
 pub fn spectrum(signal: &[f64], interval: f64, length: usize) -> Result<Spectrum, String> {
     check(signal, interval, length)?;
     let mut density = vec![0.0; length / 2 + 1];
-    let (mut used, mut lost) = (0_usize, 0_usize);
-    let transform = transformed(signal, length, |_, one| match one {
-        Some(one) => {
-            used += 1;
-            for (sum, value) in density.iter_mut().zip(&one) {
-                *sum += value;
-            }
+    let mut used = 0_usize;
+    let transform = transformed(signal, length, |_, one| {
+        let Some(one) = one else { return };
+        used += 1;
+        for (sum, value) in density.iter_mut().zip(&one) {
+            *sum += value;
         }
-        None => lost += 1,
     });
     if used == 0 {
         return Err("every segment of the signal has missing values".into());
-    }
-    let mut notes = Vec::new();
-    if lost > 0 {
-        notes.push(format!(
-            "{lost} of {} segments have missing values and were left out",
-            lost + used
-        ));
-    }
-    let averages = worth(&transform.weights, hop(length), used);
-    if averages < 4.0 {
-        notes.push(format!(
-            "densities are averages of {averages:.1} segments only"
-        ));
     }
     let bandwidth = transform.squares / (transform.sum * transform.sum) / interval;
     for value in &mut density {
@@ -221,27 +196,7 @@ pub fn spectrum(signal: &[f64], interval: f64, length: usize) -> Result<Spectrum
         frequency: lines(length, interval),
         density,
         amplitude,
-        bandwidth,
-        averages,
-        notes,
     })
-}
-
-/// Number of independent segments that overlapping ones are worth (Welch).
-fn worth(weights: &[f64], hop: usize, count: usize) -> f64 {
-    let squares: f64 = weights.iter().map(|w| w * w).sum();
-    let mut sum = 1.0;
-    let mut lag = 1;
-    while lag * hop < weights.len() && lag < count {
-        let shared: f64 = weights
-            .iter()
-            .zip(&weights[lag * hop..])
-            .map(|(a, b)| a * b)
-            .sum();
-        sum += 2.0 * (1.0 - lag as f64 / count as f64) * (shared / squares).powi(2);
-        lag += 1;
-    }
-    count as f64 / sum
 }
 
 /// Spectra of a signal over time, values at equal `interval`, s, in segments of `length` values.
@@ -254,30 +209,19 @@ pub fn spectrogram(signal: &[f64], interval: f64, length: usize) -> Result<Spect
         );
     }
     let (mut time, mut density) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    let mut lost = 0;
-    let transform = transformed(signal, length, |start, one| {
+    transformed(signal, length, |start, one| {
         time.push((start as f64 + 0.5 * length as f64) * interval);
         density.push(match one {
             Some(mut one) => {
                 one.iter_mut().for_each(|v| *v *= interval);
                 one
             }
-            None => {
-                lost += 1;
-                vec![f64::NAN; length / 2 + 1]
-            }
+            None => vec![f64::NAN; length / 2 + 1],
         });
     });
-    let mut notes = Vec::new();
-    if lost > 0 {
-        notes.push(format!("{lost} of {count} segments have missing values"));
-    }
-    let bandwidth = transform.squares / (transform.sum * transform.sum) / interval;
     Ok(Spectrogram {
         time,
         frequency: lines(length, interval),
         density,
-        to_amplitude: (2.0 * bandwidth).sqrt(),
-        notes,
     })
 }

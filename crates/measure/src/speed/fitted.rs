@@ -3,7 +3,7 @@
 use super::fit::{self, Sight};
 use super::motion::Change;
 use super::node::moving;
-use super::plan::{Data, Knot, Knots, Noise, Plan};
+use super::plan::{Data, Knots, Noise, Plan};
 use super::smoothed::Speed;
 use super::smoothness::{self, Smoothness};
 use super::track::Track;
@@ -67,7 +67,6 @@ pub(super) fn fitted(
         eccentricity: 0.0,
         change: None,
         timing_factor: noise.timing,
-        angle_noise: noise.angle,
         notes,
     };
     if let Some(sight) = sight {
@@ -144,16 +143,12 @@ fn summary(data: &Data, sight: &Sight, plans: &[(Plan, f64)]) -> Change {
         _ => 0.0,
     } * moments(&|l| f64::from(u8::from(l.head.is_some()))).0;
     let engage_spread = engage_spread.hypot(hidden);
-    let jump = moments(&|l| f64::from(u8::from(l.start == Knot::Jump)))
-        .0
-        .clamp(0.0, 1.0);
     Change {
         engagement: (data.seconds(engage), engage_spread * data.unit),
         end: sight
             .ends
             .then_some((data.seconds(lock), lock_spread * data.unit)),
         from_rest: sight.rests,
-        jump,
         pulses: data
             .passages
             .iter()

@@ -36,8 +36,6 @@ pub struct Change {
     pub end: Option<(f64, f64)>,
     /// Whether the shaft rested before.
     pub from_rest: bool,
-    /// Probability that the acceleration jumps at the engagement, rather than its slope only.
-    pub jump: f64,
     /// Pulses between engagement and end.
     pub pulses: usize,
 }

@@ -33,8 +33,6 @@ pub struct Speed {
     pub change: Option<Change>,
     /// Factor on the stated uncertainty of the instants that the pulses themselves ask for.
     pub timing_factor: f64,
-    /// Standard deviation of the angle of a mark that does not depend on speed, rad.
-    pub angle_noise: f64,
     /// What was found, and what should not be trusted.
     pub notes: Vec<String>,
 }

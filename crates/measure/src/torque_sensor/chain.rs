@@ -93,7 +93,6 @@ impl Split {
 pub(super) struct Pass {
     pub(super) states: Vec<(Vector<STATES>, Vector<STATES>)>,
     pub(super) innovations: Vec<f64>,
-    pub(super) log_likelihood: f64,
 }
 
 impl<'a> Chain<'a> {
@@ -311,7 +310,6 @@ impl<'a> Chain<'a> {
         let filter = self.filtered(hyper, true);
         let scale = self.scale;
         let innovations = filter.innovations().to_vec();
-        let log_likelihood = filter.log_likelihood() - innovations.len() as f64 * scale.ln();
         let nodes = filter.smoother().nodes();
         let states = nodes
             .iter()
@@ -330,7 +328,6 @@ impl<'a> Chain<'a> {
         Pass {
             states,
             innovations,
-            log_likelihood,
         }
     }
 }
@@ -359,7 +356,6 @@ pub(super) fn mixed(likely: &Pass, others: &[(f64, Pass)]) -> Pass {
             .map(|(k, state)| mix(k, state))
             .collect(),
         innovations: likely.innovations.clone(),
-        log_likelihood: likely.log_likelihood,
     }
 }
 

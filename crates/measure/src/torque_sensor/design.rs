@@ -42,8 +42,6 @@ pub struct DesignError {
     pub raw: f64,
     /// Inverted reading minus torque, rms.
     pub inverted: f64,
-    /// Deviation that the inversion states, rms.
-    pub stated: f64,
 }
 
 /// Error of the torque over the frequency of the sensor, Hz, raw and inverted, by simulated tests with a linear sensor that is
@@ -114,7 +112,7 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
             design.disturbance * growth * between(design.angle).cos()
         });
         let (mut raw, mut readings) = (0.0, 0.0);
-        let (mut inverted, mut stated, mut judgements) = (0.0, 0.0, 0.0);
+        let (mut inverted, mut judgements) = (0.0, 0.0);
         for repetition in 0..design.repetitions.max(1) {
             let mut noise = Random::new(repetition as u64 + 1);
             let mut reading: Vec<f64> = (0..rest).map(|_| design.noise * noise.normal()).collect();
@@ -139,15 +137,12 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
                 raw += (reading[rest + k] - design.torque[k]).powi(2);
                 readings += 1.0;
             }
-            for ((&time, &torque), &deviation) in
-                found.time.iter().zip(&found.torque).zip(&found.deviation)
-            {
+            for (&time, &torque) in found.time.iter().zip(&found.torque) {
                 let place = (time - knot) / design.interval;
                 if place > 0.0 && place < (judged - 1) as f64 {
                     let (k, part) = (place as usize, place.fract());
                     let truth = design.torque[k] + part * (design.torque[k + 1] - design.torque[k]);
                     inverted += (torque - truth).powi(2);
-                    stated += deviation.powi(2);
                     judgements += 1.0;
                 }
             }
@@ -157,7 +152,6 @@ pub fn design_error(design: &Design, frequencies: &[f64]) -> Result<Vec<DesignEr
             frequency,
             raw: rms(raw, readings),
             inverted: rms(inverted, judgements),
-            stated: rms(stated, judgements),
         });
     }
     Ok(errors)

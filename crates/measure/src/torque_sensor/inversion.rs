@@ -50,10 +50,6 @@ pub struct Torque {
     pub zero: Uncertain,
     /// Noise of one reading, or of the mean of a block, rms.
     pub noise: f64,
-    /// Time constant with which the torque calms down after the engagement, s.
-    pub calming: f64,
-    /// Logarithm of the likelihood of the reading.
-    pub log_likelihood: f64,
     /// Frequency at which the reading rings after the engagement, Hz, where it is surely not that of the sensor as stated.
     pub shown_frequency: Option<f64>,
     /// What is not trustworthy.
@@ -359,8 +355,6 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         disturbance_power: power,
         zero,
         noise,
-        calming: hyper[3].exp(),
-        log_likelihood: likely.log_likelihood,
         shown_frequency,
         notes,
     })

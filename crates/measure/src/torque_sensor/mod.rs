@@ -26,7 +26,7 @@ mod swing;
 pub use design::{Design, DesignError, design_error};
 pub use input::{Clipped, Inversion};
 pub use inversion::{Torque, invert};
-pub use response::{Excitation, FreeResponse, identify_free_response};
+pub use response::{FreeResponse, identify_free_response};
 
 use statistics::uncertain::Uncertain;
 
@@ -37,22 +37,6 @@ pub struct Sensor {
     pub frequency: Uncertain,
     /// Damping ratio, 1; below 1 the sensor swings.
     pub damping_ratio: Uncertain,
-}
-
-impl Sensor {
-    /// Amplitude of the reading over the amplitude of a sinusoidal torque.
-    ///
-    /// Formula: 1/√((1 − r²)² + (2ζr)²), r = frequency/f
-    ///
-    /// Arguments: frequency of the torque in Hz.
-    ///
-    /// Source: textbook of linear vibration.
-    ///
-    /// Valid: small swings, steady state.
-    pub fn gain(&self, frequency: f64) -> f64 {
-        let ratio = frequency / self.frequency.value;
-        1.0 / (1.0 - ratio * ratio).hypot(2.0 * self.damping_ratio.value * ratio)
-    }
 }
 
 /// Natural frequency in rad/s and damping ratio as the models need them.
@@ -68,22 +52,5 @@ impl Sensor {
             omega: std::f64::consts::TAU * self.frequency.value,
             zeta: self.damping_ratio.value,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A slow torque is read as it is, one at the natural frequency 1/(2ζ) times, a fast one by (f/frequency)².
-    #[test]
-    fn the_gain_has_its_limits() {
-        let sensor = Sensor {
-            frequency: Uncertain::exact(30.0),
-            damping_ratio: Uncertain::exact(0.2),
-        };
-        assert!((sensor.gain(0.0) - 1.0).abs() < 1e-15);
-        assert!((sensor.gain(30.0) - 2.5).abs() < 1e-12);
-        assert!((sensor.gain(3000.0) * 1e4 - 1.0).abs() < 1e-3);
     }
 }

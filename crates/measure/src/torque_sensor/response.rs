@@ -21,32 +21,11 @@ use super::swing::{Data, Fit, damping_of};
 use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
-/// What set a sensor swinging.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Excitation {
-    /// A short force: the level is what it was.
-    Tap,
-    /// A load put on or taken off: the level has changed by this, unit of the reading.
-    Step(f64),
-    /// The record shows no rest before the swing.
-    Unknown,
-}
-
 /// Frequency and damping as a free response shows them.
 #[derive(Clone, Debug)]
 pub struct FreeResponse {
     /// The sensor.
     pub sensor: Sensor,
-    /// What set it swinging.
-    pub excitation: Excitation,
-    /// Reading after the swing has died, unit of the reading.
-    pub level: Uncertain,
-    /// Amplitude of the swing at the start of the fit.
-    pub amplitude: f64,
-    /// What the model leaves, rms.
-    pub residual: f64,
-    /// Index of the first value that was used.
-    pub start: usize,
     /// What is not trustworthy.
     pub notes: Vec<String>,
 }
@@ -126,11 +105,11 @@ pub fn identify_free_response(
         return Err("the interval of the tap's reading must be positive and finite".into());
     }
     let mut notes = Vec::new();
-    let rest = Rest::of(reading);
+    let rest = rest_end(reading);
     let mut found = match start {
         Some(start) => Found::of(reading, interval, start)?,
         None => {
-            let begin = begin(reading, rest.as_ref());
+            let begin = begin(reading, rest);
             let first = Found::of(reading, interval, begin)?;
             let next = (first.leaves_more())
                 .then(|| next_extreme(reading, begin))
@@ -163,11 +142,11 @@ pub fn identify_free_response(
             (found, end) = (shorter, until);
         }
     }
-    let early = rest.as_ref().filter(|_| start.is_none());
-    if let Some(rest) = early.filter(|rest| (rest.end as f64) + 3.0 * period < found.start as f64) {
+    let early = rest.filter(|_| start.is_none());
+    if let Some(rest) = early.filter(|&rest| rest as f64 + 3.0 * period < found.start as f64) {
         notes.push(format!(
             "the reading leaves its rest {:.3} s before the swing that is used: more than one tap or step, or a rest that drifts",
-            (found.start - rest.end) as f64 * interval
+            (found.start - rest) as f64 * interval
         ));
     }
     let raw = &reading[found.start..end];
@@ -189,11 +168,11 @@ pub fn identify_free_response(
     let (frequency, damping) = (found.point[0].exp(), damping_of(found.point[1]));
     let slope = damping * (1.0 - damping);
     let (amplitude, residual) = (found.amplitude(), found.left());
-    let level = Uncertain::new(found.fit.linear[0], covariance[2].sqrt());
+    let level = found.fit.linear[0];
     let bent = data.drift(frequency, damping);
     if start.is_none() {
         let highest = (clean.iter().filter(|v| v.is_finite()))
-            .fold(0.0_f64, |top, v| top.max((v - level.value).abs()));
+            .fold(0.0_f64, |top, v| top.max((v - level).abs()));
         let uneven = residual > LEFT * amplitude && residual > 2.0 * found.noise && bent.is_none();
         if uneven || amplitude > 3.0 * highest || damping > OVERDAMPED {
             return Err(format!(
@@ -209,11 +188,6 @@ pub fn identify_free_response(
             frequency: Uncertain::new(frequency, frequency * covariance[0].sqrt()),
             damping_ratio: Uncertain::new(damping, slope * covariance[1].sqrt()),
         },
-        excitation: rest.map_or(Excitation::Unknown, |rest| rest.changed(&level, amplitude)),
-        level,
-        amplitude,
-        residual,
-        start: found.start,
         notes,
     })
 }
@@ -294,54 +268,31 @@ fn take_lines_out(
     Ok(lines)
 }
 
-/// A rest at the begin of a record: where it ends, its level and that level's deviation.
-struct Rest {
-    end: usize,
-    level: Uncertain,
-}
-
-impl Rest {
-    /// None where the record does not begin with one that it leaves.
-    fn of(reading: &[f64]) -> Option<Rest> {
-        let first = reading.get(..(reading.len() / 50).max(16))?;
-        let seen: Vec<f64> = first.iter().copied().filter(|v| v.is_finite()).collect();
-        if seen.len() < 8 {
-            return None;
-        }
-        let count = seen.len() as f64;
-        let mean = seen.iter().sum::<f64>() / count;
-        let spread = (seen.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
-        let widest = seen
-            .iter()
-            .fold(0.0_f64, |top, v| top.max((v - mean).abs()));
-        let whole = (reading.iter().filter(|v| v.is_finite()))
-            .fold(0.0_f64, |top, v| top.max((v - mean).abs()));
-        // beyond the noise, what of it was seen, and a step of a coarse converter
-        let limit = (6.0 * spread).max(1.5 * widest).max(0.02 * whole);
-        let far = |k: usize| (reading[k] - mean).abs() > limit;
-        let end = (first.len()..reading.len().saturating_sub(1)).find(|&k| far(k) && far(k + 1))?;
-        // noise of such a short time is hardly ever white
-        Some(Rest {
-            end,
-            level: Uncertain::new(mean, 2.0 * spread / count.sqrt()),
-        })
+/// Where a rest at the begin of a record ends; none where the record does not begin with one that it leaves.
+fn rest_end(reading: &[f64]) -> Option<usize> {
+    let first = reading.get(..(reading.len() / 50).max(16))?;
+    let seen: Vec<f64> = first.iter().copied().filter(|v| v.is_finite()).collect();
+    if seen.len() < 8 {
+        return None;
     }
-
-    fn changed(&self, level: &Uncertain, amplitude: f64) -> Excitation {
-        let change = level.value - self.level.value;
-        let deviation = level.deviation.hypot(self.level.deviation);
-        if change.abs() > 5.0 * deviation && change.abs() > 0.2 * amplitude {
-            Excitation::Step(change)
-        } else {
-            Excitation::Tap
-        }
-    }
+    let count = seen.len() as f64;
+    let mean = seen.iter().sum::<f64>() / count;
+    let spread = (seen.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+    let widest = seen
+        .iter()
+        .fold(0.0_f64, |top, v| top.max((v - mean).abs()));
+    let whole = (reading.iter().filter(|v| v.is_finite()))
+        .fold(0.0_f64, |top, v| top.max((v - mean).abs()));
+    // beyond the noise, what of it was seen, and a step of a coarse converter
+    let limit = (6.0 * spread).max(1.5 * widest).max(0.02 * whole);
+    let far = |k: usize| (reading[k] - mean).abs() > limit;
+    (first.len()..reading.len().saturating_sub(1)).find(|&k| far(k) && far(k + 1))
 }
 
 /// Where a swing begins: the reading furthest from the level to which it comes, after the rest. After a step that is where the
 /// rest ends.
-fn begin(reading: &[f64], rest: Option<&Rest>) -> usize {
-    let after = rest.map_or(0, |rest| rest.end);
+fn begin(reading: &[f64], rest: Option<usize>) -> usize {
+    let after = rest.unwrap_or(0);
     let level = last_level(reading);
     furthest(reading, level, after..reading.len())
 }

@@ -3,7 +3,8 @@
 //! Formats without a clock of their own (text, MAT, HDF5, Parquet) have the times as a channel of values, or as a rate
 //! or an interval by a name that is usual in the field.
 
-use crate::{Channel, Clock, Content, Note, Property, Recording, Value};
+use super::{Property, Value};
+use crate::{Channel, Clock, Content, Note, Recording};
 
 /// Names of a channel of times, in lower case and without its unit.
 const TIME_NAMES: &str = "t, time, times, zeit, temps, tiempo, tempo, x_value, timestamp, timestamps, time stamp, elapsed, elapsed time, relative time, tijd";
@@ -207,12 +208,13 @@ fn stated_by<'a>(properties: &'a [Property], channel: &Channel) -> Option<(f64, 
 }
 
 /// Clocks for the channels of a file that have none: from a channel of times in the same group or one around it, or
-/// else from a property such as `fs`; with what is to be noted.
+/// else from one of the properties of the file such as `fs`; with what is to be noted.
 ///
 /// `rounding`: for each channel how its values are rounded, as a part of them, of instants in s; none for a channel whose values
 /// are not to be looked at.
 pub(crate) fn clocks(
     file: &mut dyn Recording,
+    properties: &[Property],
     rounding: &[Option<f64>],
 ) -> (Vec<(usize, Clock)>, Vec<Note>) {
     let (mut clocks, mut notes) = (Vec::new(), Vec::new());
@@ -254,7 +256,6 @@ pub(crate) fn clocks(
             }
         }
     }
-    let properties = file.properties();
     let mut origins: Vec<(&str, usize)> = Vec::new();
     let left = channels.iter().enumerate();
     for (index, channel) in left.filter(|(index, _)| open[*index]) {

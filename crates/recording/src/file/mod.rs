@@ -15,7 +15,7 @@
 //! | [`uff`] | the universal file format, sets 58 and 58b: reader |
 //! | [`wav`] | WAV: reader |
 
-/// What a reader says of its file: where it keeps the path, and what holds notes and properties.
+/// What a reader says of its file: where it keeps the path, and what holds notes.
 macro_rules! contents {
     ($self:ident, $path:expr, $of:expr) => {
         fn path(&$self) -> &std::path::Path {
@@ -23,9 +23,6 @@ macro_rules! contents {
         }
         fn channels(&$self) -> &[$crate::Channel] {
             &$self.channels
-        }
-        fn properties(&$self) -> &[$crate::Property] {
-            &$of.properties
         }
         fn notes(&$self) -> &[$crate::Note] {
             &$of.notes
@@ -52,6 +49,24 @@ const DAMAGED_PART: &str = "a part is damaged or cut off; its values are not-a-n
 
 /// Most notes of a file that are kept: a broken one would else fill the memory with them.
 const NOTES: usize = 100;
+
+/// What a file states beside the values, of itself or of a channel, that a clock, a unit or a scale may follow from.
+#[derive(Clone, Debug, PartialEq)]
+struct Property {
+    name: String,
+    value: Value,
+}
+
+/// The value of a [`Property`].
+#[derive(Clone, Debug, PartialEq)]
+enum Value {
+    /// A number, in the file's unit.
+    Number(f64),
+    /// An instant.
+    Time(Instant),
+    /// A text.
+    Text(String),
+}
 
 /// Keeps a note unless it is there, or there are many.
 fn keep_note(notes: &mut Vec<Note>, note: Note) {
@@ -83,7 +98,7 @@ use std::fmt;
 use std::fs::File;
 use std::path::Path;
 
-use crate::{Channel, FileError, Note, Recording};
+use crate::{Channel, FileError, Instant, Note, Recording};
 use problem::open_file;
 
 /// A format of measurement files.

@@ -4,8 +4,8 @@
 //! file = head, chunk, chunk, …        chunk = name (4 bytes), length (4 bytes), content, a byte to make it even
 //! ```
 //! The chunk `fmt ` states rate, channels and type, the chunk `data` holds the values, one of each channel after the other.
-//! Whole numbers are brought to the range −1 to below 1, as other programs do; 8 bits are unsigned. The start is not stated
-//! by the format, except in the `bext` chunk, whose date has no zone and is therefore left a text.
+//! Whole numbers are brought to the range −1 to below 1, as other programs do; 8 bits are unsigned. Start and remarks
+//! (chunks `LIST` and `bext`, whose date has no zone) are not read.
 //!
 //! Source: Microsoft and IBM, "Multimedia Programming Interface and Data Specifications 1.0" (1991); Microsoft,
 //! "Multiple channel audio data and WAVE files" (extensible format); EBU Tech 3306 (RF64) (all from memory).
@@ -13,9 +13,9 @@
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use super::number;
 use super::source::{Source, WINDOW};
-use crate::{Channel, Clock, FileError, Note, Property, Recording, Value};
+use super::{keep_note, number};
+use crate::{Channel, Clock, FileError, Note, Recording};
 
 /// Whether a file begins as WAV.
 pub fn is_wav(head: &[u8]) -> bool {
@@ -67,7 +67,6 @@ pub struct Wav<S> {
     at: u64,
     channels: Vec<Channel>,
     notes: Vec<Note>,
-    properties: Vec<Property>,
 }
 
 /// The chunks of a file as far as they matter.
@@ -79,13 +78,7 @@ struct Chunks {
     /// Length of the values in 8 bytes, where the 4 bytes do not hold it.
     long: Option<u64>,
     notes: Vec<Note>,
-    properties: Vec<Property>,
 }
-
-/// Most bytes of a chunk of remarks that are read.
-const REMARKS: u64 = 1 << 16;
-/// Most remarks that are kept.
-const MOST: usize = 100;
 
 impl<S: Read + Seek> Wav<S> {
     /// Reads the head of a file, which `path` names in messages.
@@ -132,7 +125,6 @@ impl<S: Read + Seek> Wav<S> {
             at,
             channels,
             notes,
-            properties: chunks.properties,
         })
     }
 }
@@ -178,8 +170,6 @@ impl Chunks {
                     chunks.data = Some((body, chunks.values(stated, there)))
                 }
                 b"data" => chunks.note("has a second chunk of values, which is left out"),
-                b"LIST" => chunks.remarks(&source.bytes(body, length.min(REMARKS))?, big),
-                b"bext" => chunks.broadcast(&source.bytes(body, length.min(602))?),
                 _ => {}
             }
             // Chunks begin at even places.
@@ -189,22 +179,7 @@ impl Chunks {
     }
 
     fn note(&mut self, text: impl Into<String>) {
-        let note = Note::of_file(text);
-        if self.notes.len() < MOST && !self.notes.contains(&note) {
-            self.notes.push(note);
-        }
-    }
-
-    fn put(&mut self, name: &str, text: &[u8]) {
-        let text = String::from_utf8_lossy(text.split(|b| *b == 0).next().unwrap_or(&[]))
-            .trim()
-            .to_owned();
-        if !text.is_empty() && self.properties.len() < MOST {
-            self.properties.push(Property {
-                name: name.to_owned(),
-                value: Value::Text(text),
-            });
-        }
+        keep_note(&mut self.notes, Note::of_file(text));
     }
 
     /// Bytes of values that can be read where `stated` are stated and `there` are there.
@@ -219,33 +194,6 @@ impl Chunks {
             ));
         }
         stated.min(there)
-    }
-
-    /// Keeps the remarks of a list: title, author, device, date and the like, by their four letters.
-    fn remarks(&mut self, bytes: &[u8], big: bool) {
-        let Some(mut rest) = bytes.strip_prefix(b"INFO") else {
-            return;
-        };
-        while let Some((head, body)) = rest.split_first_chunk::<8>() {
-            let (name, length) = head.split_at(4);
-            let length = number::bits(length, big) as usize;
-            let text = body.get(..length).unwrap_or(body);
-            self.put(&String::from_utf8_lossy(name), text);
-            rest = body.get(length.saturating_add(length % 2)..).unwrap_or(&[]);
-        }
-    }
-
-    /// Keeps the remarks of a broadcast: description, originator, its date and time.
-    fn broadcast(&mut self, bytes: &[u8]) {
-        let fields = [
-            ("description", 0..256),
-            ("originator", 256..288),
-            ("date", 320..330),
-            ("time", 330..338),
-        ];
-        for (name, range) in fields {
-            self.put(name, bytes.get(range).unwrap_or(&[]));
-        }
     }
 }
 

@@ -25,7 +25,6 @@ fn read_whatever(bytes: &[u8]) {
         let mut values = [0.0; 64];
         for first in [0, 1, count.saturating_sub(64), count] {
             let _ = file.read(channel, first, &mut values);
-            let _ = file.read_text(channel, first, 64);
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use recording::file;
-use recording::{Channel, Clock, Instant, Property, Recording, Value};
+use recording::{Channel, Clock, Instant, Recording};
 
 use super::bytes::{BIG, META, NEW, RAW, Raw, Set, meta, segment};
 use super::{all, open};
@@ -26,7 +26,6 @@ proptest! {
             description: "a remark".into(),
             start: Some(Instant { seconds: 1_700_000_000, fraction: 0.25 }),
             clock: Clock::Uniform { first: -1.0, interval },
-            properties: vec![Property { name: "bits".into(), value: Value::Number(24.0) }],
             ..Channel::new(name.clone(), 0)
         }).collect();
         let mut writer = file::create(&path, &channels).unwrap();
@@ -43,7 +42,6 @@ proptest! {
             let name = if written.name.contains('/') { written.name.clone() } else { format!("Untitled/{}", written.name) };
             prop_assert_eq!(&read.name, &name);
             prop_assert_eq!((&read.unit, &read.description, read.start, &read.clock), (&written.unit, &written.description, written.start, &written.clock));
-            prop_assert!(read.properties.contains(&written.properties[0]));
             let values: Vec<u64> = all(back.as_mut(), i).iter().map(|v| v.to_bits()).collect();
             prop_assert_eq!(&values, &expected);
         }

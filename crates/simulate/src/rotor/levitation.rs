@@ -96,14 +96,12 @@ fn matrices(given: &[Option<Vec<Vec<f64>>>; 4]) -> Result<StateSpace, Refused> {
 /// What the kernel refuses, as a message at a key.
 fn refused(key: &str, error: &Refused) -> Box<Problem> {
     let (code, allowed) = match error {
-        Refused::ControllerSize { .. } | Refused::MatrixSizes { .. } => (
+        Refused::Sizes(_) => (
             Code::ControllerSize,
             "two signals for each sensor and two commands for each magnet, in the order of the magnets, are needed",
         ),
-        Refused::Time { .. } => (Code::ControllerTime, "a time within its range is needed"),
-        Refused::NotPositive { .. } | Refused::Bias { .. } => {
-            (Code::MagnetValues, "another value is needed")
-        }
+        Refused::Time(_) => (Code::ControllerTime, "a time within its range is needed"),
+        Refused::Value(_) => (Code::MagnetValues, "another value is needed"),
         _ => (Code::ControllerFilter, "another filter is needed"),
     };
     problem_at(code, key, error.to_string(), allowed)

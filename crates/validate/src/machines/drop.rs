@@ -3,17 +3,16 @@
 
 use super::given::{Coordinates, index, machine};
 use super::json::{list, number, pairs};
+use super::run_to;
 use crate::compare::{Refusal, never};
 use crate::levitated;
 use crate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::NORMAL_FORCE;
 use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
-use model::system::machine::simulate::{Runs, Steps, simulate};
 use serde_json::Value;
-use solve::{Flow, Observer, Settings, Step, Stop};
+use solve::{Flow, Observer, Step};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// Free modes up to this are kept, rad/s.
 const CUT: f64 = 6e4;
@@ -157,27 +156,7 @@ fn run(file: &Value, machine: &RotorMachine, start: Vec<f64>) -> Result<Vec<Row>
         middle: 0.0,
         points: 0.0,
     };
-    let runs = Runs {
-        machines: &[machine],
-        starts: &[start],
-        settings: Settings {
-            start: 0.0,
-            end,
-            tolerance: TOLERANCE,
-            first_step: 1e-8,
-            largest_step: 1e-3,
-            step_limit: 100_000_000,
-        },
-        steps: Steps::Explicit,
-        interrupt: &AtomicBool::new(false),
-    };
-    let ending = simulate(runs, &mut [&mut watch]).remove(0);
-    if ending.stop != Stop::Finished {
-        return Err(format!(
-            "the run ended at {} s: {:?}",
-            ending.time, ending.stop
-        ));
-    }
+    let ending = run_to(end, machine, &start, (TOLERANCE, 1e-8), &mut watch)?;
     let state = &ending.state;
     let mut found: Vec<(String, &str, Option<f64>)> = Vec::new();
     let mut contacts = 0;

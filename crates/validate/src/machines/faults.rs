@@ -5,6 +5,7 @@ use super::faults_given::{changes, levitation};
 use super::faults_watch::Watch;
 use super::given::{Coordinates, index};
 use super::json::{list, number, numbers, pairs};
+use super::run_to;
 use super::run_up::idle;
 use crate::compare::{Refusal, Worst};
 use crate::levitated::machine::rotor_beside;
@@ -19,16 +20,13 @@ use model::magnets::{
     SupplyConstants,
 };
 use model::schedule::Schedule;
-use model::system::machine::simulate::{Runs, Steps, simulate};
 use model::system::machine::{Event, RotorMachine};
 use model::table::Table;
 use nalgebra::{DMatrix, DVector};
 use number::Vec2;
 use rotor::{Analysis, Unbalance};
 use serde_json::Value;
-use solve::{Settings, Stop};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// Free modes up to this are kept, rad/s.
 const CUT: f64 = 6e4;
@@ -284,24 +282,8 @@ impl<'a> Run<'a> {
         let mut watch = Watch::new(&machine, times.collect(), self.given)?;
         watch.look(&machine, 0.0, &start);
         let end = number(self.given, "t_end")?;
-        let runs = Runs {
-            machines: &[&machine],
-            starts: std::slice::from_ref(&start),
-            settings: Settings {
-                start: 0.0,
-                end,
-                tolerance: TOLERANCE,
-                first_step: 1e-8,
-                largest_step: 1e-3,
-                step_limit: 100_000_000,
-            },
-            steps: Steps::Explicit,
-            interrupt: &AtomicBool::new(false),
-        };
-        let ending = simulate(runs, &mut [&mut watch]).remove(0);
-        if ending.stop != Stop::Finished {
-            return Err(format!("{name} ended at {} s", ending.time));
-        }
+        let ending = run_to(end, &machine, &start, (TOLERANCE, 1e-8), &mut watch);
+        let ending = ending.map_err(|why| format!("{name}: {why}"))?;
         let tolerances = &case["tolerances"];
         let why = "tolerance of the file";
         let mut add = |what: &str, unit: &str, pair: [f64; 2], allowed: &Value| {
@@ -346,24 +328,14 @@ impl<'a> Run<'a> {
             );
         }
         for (k, ours) in watch.largest.iter().enumerate() {
-            let tolerance = &tolerances["peak_current_A"];
-            let tolerance = if tolerance.is_array() {
-                &tolerance[k]
-            } else {
-                tolerance
-            };
+            let tolerance = one_of(&tolerances["peak_current_A"], k);
             for pair in currents(&results["peak_current_A"][k], ours) {
                 add("largest currents", "A", pair, tolerance);
             }
         }
         for (k, ours) in watch.crossed.iter().enumerate() {
             let wanted = &results["first_crossing"][k];
-            let tolerance = &tolerances["first_crossing_s"];
-            let tolerance = if tolerance.is_array() {
-                &tolerance[k]
-            } else {
-                tolerance
-            };
+            let tolerance = one_of(&tolerances["first_crossing_s"], k);
             // what is never there must not be
             let never = |value: Option<f64>| value.unwrap_or(-1.0);
             let pair = [never(wanted.as_f64()), never(*ours)];
@@ -538,6 +510,11 @@ impl<'a> Run<'a> {
         }
         Ok(())
     }
+}
+
+/// A value for all, or that of one.
+fn one_of(tolerance: &Value, k: usize) -> &Value {
+    tolerance.get(k).unwrap_or(tolerance)
 }
 
 /// Of a linear magnet its control current, of a pair both coils: wanted and ours.

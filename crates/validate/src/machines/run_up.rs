@@ -5,21 +5,20 @@
 
 use super::given::{Coordinates, index, on_springs, rotor};
 use super::json::{list, number, numbers};
+use super::run_to;
 use crate::compare::{Refusal, Worst, told};
 use crate::report::{Row, Tolerance};
 use crate::simulation::falling_machine;
 use model::bearing::rolling::RollingBall;
 use model::bearing::{AccelerationLoss, BearingConstants, RollingConstants, SteadyMoment};
-use model::system::machine::simulate::{Runs, Steps, simulate};
 use model::system::machine::{MachineConstants, RotorMachine};
 use nalgebra::{DMatrix, SymmetricEigen};
 use number::Vec2;
 use physics::rolling::RollingSet;
 use rotor::{Analysis, Basis, Rotor};
 use serde_json::Value;
-use solve::{Flow, Observer, Settings, Step, Stop};
+use solve::{Flow, Observer, Step};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// Most coordinates that are kept.
 const MOST: usize = 11;
@@ -145,24 +144,8 @@ fn run_up(file: &Value, run: &Value, shaft: &Coordinates, worst: &mut Worst) -> 
         at: 0.0,
         spin_then: 0.0,
     };
-    let runs = Runs {
-        machines: &[&machine],
-        starts: &[start],
-        settings: Settings {
-            start: 0.0,
-            end: number(file, "T")?,
-            tolerance: TOLERANCE,
-            first_step: 1e-7,
-            largest_step: 1e-3,
-            step_limit: 100_000_000,
-        },
-        steps: Steps::Explicit,
-        interrupt: &AtomicBool::new(false),
-    };
-    let ending = simulate(runs, &mut [&mut watch]).remove(0);
-    if ending.stop != Stop::Finished {
-        return Err(format!("the run ended at {} s", ending.time));
-    }
+    let end = number(file, "T")?;
+    let ending = run_to(end, &machine, &start, (TOLERANCE, 1e-7), &mut watch)?;
     let layout = machine.layout();
     let why = "that of the file";
     let mut close = worst.under(Tolerance::Relative(1e-4), why);

@@ -14,7 +14,8 @@ impl<S: Read + Seek> Csv<S> {
             return;
         }
         let Some(time) = time else {
-            let (clocks, notes) = clock::clocks(self, &[]);
+            let properties = std::mem::take(&mut self.layout.properties);
+            let (clocks, notes) = clock::clocks(self, &properties, &[]);
             for (channel, clock) in clocks {
                 self.channels[channel].clock = clock;
             }

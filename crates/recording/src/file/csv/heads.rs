@@ -4,7 +4,7 @@ use super::cell::{self, Between, Cell, cells, row};
 use super::layout::{Column, Kind, Layout, properties, property};
 use super::lines::text;
 use crate::file::clock;
-use crate::{Property, Value};
+use crate::file::{Property, Value};
 
 /// The line behind a head of LabVIEW.
 const END: &[u8] = b"***End_of_Header***";

@@ -4,7 +4,7 @@ use super::cell::{self, Between, Cell, cells};
 use super::lines::text;
 use super::moment;
 use crate::file::clock;
-use crate::{Property, Value};
+use crate::file::{Property, Value};
 
 /// What the cells of a column hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -26,11 +26,11 @@ use std::path::Path;
 
 use super::clock::{self, Spacing};
 use super::source::Source;
-use crate::{Channel, Content, FileError, Instant, Note, Property, Recording};
+use crate::{Channel, Content, FileError, Instant, Note, Recording};
 use cell::{Cell, cells};
 use faults::{Faults, Lost, Rounding, count};
 use layout::{Kind, Layout};
-use lines::{Letters, Lines, text};
+use lines::{Letters, Lines};
 use moment::Moment;
 pub use write::CsvWriter;
 
@@ -90,7 +90,6 @@ pub struct Csv<S> {
     day: (f64, f64),
     /// Heads that stand between rows of values.
     heads: u64,
-    properties: Vec<Property>,
     notes: Vec<Note>,
     /// Values of blocks, row by row, the one used last at the end.
     kept: Vec<(usize, Vec<f64>)>,
@@ -161,7 +160,6 @@ impl<S: Read + Seek> Csv<S> {
             time: None,
             day: NO_DAY,
             heads: 0,
-            properties: layout.properties.clone(),
             notes: Vec::new(),
             kept: Vec::new(),
             layout,
@@ -468,34 +466,5 @@ impl<S: Read + Seek> Recording for Csv<S> {
             }
         }
         Ok(done)
-    }
-
-    fn texts(
-        &mut self,
-        channel: usize,
-        first: u64,
-        count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        let mut found = Vec::new();
-        let block = self.blocks[(first / self.rows_of_block as u64) as usize];
-        let (mut lines, mut line, mut row) =
-            (Lines::new(self.letters, block.at), Vec::new(), Vec::new());
-        let mut at = block.row;
-        while at < first + count as u64 && lines.next(&mut self.source, &mut line)? {
-            if !self.take_row(&line, &mut row, None) {
-                continue;
-            }
-            if at >= first {
-                let mut own = String::new();
-                cells(&line, self.layout.between, |column, cell| {
-                    if column == channel + self.layout.skip {
-                        own = text(cell);
-                    }
-                });
-                found.push(own);
-            }
-            at += 1;
-        }
-        Ok(found)
     }
 }

@@ -6,7 +6,8 @@ use super::datatype::{Datatype, Kind};
 use super::fields::Fields;
 use super::header::{Message, kind};
 use super::storage::Storage;
-use crate::{FileError, Property, Value};
+use crate::FileError;
+use crate::file::{Property, Value};
 
 /// Most attributes of one object that are read.
 const MOST: usize = 4096;

@@ -49,9 +49,10 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use super::DAMAGED_PART;
+use super::Property;
 use super::clock;
 use super::source::Source;
-use crate::{Channel, FileError, Note, Property, Recording};
+use crate::{Channel, FileError, Note, Recording};
 use dataset::{Cache, Dataset, Line};
 use storage::{SIGNATURE, Storage};
 
@@ -73,7 +74,6 @@ pub struct Hdf5<S> {
     lines: Vec<Line>,
     /// Whether damage of each channel was reported.
     reported: Vec<bool>,
-    properties: Vec<Property>,
     notes: Vec<Note>,
 }
 
@@ -96,15 +96,14 @@ impl<S: Read + Seek> Hdf5<S> {
             datasets: found.datasets,
             channels: found.channels,
             lines: found.lines,
-            properties: found.properties,
             notes: found.notes,
         };
-        file.set_clocks();
+        file.set_clocks(&found.properties);
         Ok(file)
     }
 
     /// Gives a clock to channels whose own attributes state none.
-    fn set_clocks(&mut self) {
+    fn set_clocks(&mut self, properties: &[Property]) {
         let rounding: Vec<Option<f64>> = (self.channels.iter().zip(&self.lines))
             .map(|(channel, line)| {
                 let dense = self.datasets[line.dataset].is_dense(line.along, channel.count);
@@ -113,7 +112,7 @@ impl<S: Read + Seek> Hdf5<S> {
                 dense.then_some(rounding)
             })
             .collect();
-        let (clocks, notes) = clock::clocks(self, &rounding);
+        let (clocks, notes) = clock::clocks(self, properties, &rounding);
         for (channel, clock) in clocks {
             self.channels[channel].clock = clock;
         }

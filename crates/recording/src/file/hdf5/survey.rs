@@ -8,8 +8,8 @@ use super::datatype::{Datatype, Kind};
 use super::group::Target;
 use super::header::{Message, kind};
 use super::storage::Storage;
-use crate::file::clock;
-use crate::{Channel, Clock, FileError, Note, Property, Value};
+use crate::file::{Property, Value, clock};
+use crate::{Channel, Clock, FileError, Note};
 
 /// Deepest group that is looked into.
 const DEEPEST: usize = 64;
@@ -21,8 +21,6 @@ const MOST_COLUMNS: u64 = 4096;
 const LONGEST_UNIT: usize = 64;
 /// Longest description that is kept, in letters.
 const LONGEST_DESCRIPTION: usize = 1024;
-/// Longest text of MATLAB that becomes a property.
-const LONGEST_TEXT: u64 = 1 << 16;
 
 /// What a file holds.
 #[derive(Default)]
@@ -146,11 +144,6 @@ fn stated_interval(properties: &[Property]) -> Option<f64> {
     })
 }
 
-/// Whether a property is none that MATLAB keeps for itself.
-fn is_own(property: &Property) -> bool {
-    !property.name.starts_with("MATLAB_")
-}
-
 /// What an error says, without the name of the file, for a note of that file.
 fn left_out(error: &FileError) -> String {
     format!("{}: {}; it is left out", error.place, error.found)
@@ -198,11 +191,11 @@ impl Found {
     }
 
     fn take_properties(&mut self, prefix: &str, properties: Vec<Property>) {
-        let named = properties.into_iter().filter(is_own);
-        self.properties.extend(named.map(|property| Property {
+        let named = properties.into_iter().map(|property| Property {
             name: format!("{prefix}{}", property.name),
             value: property.value,
-        }));
+        });
+        self.properties.extend(named);
     }
 
     fn take_dataset<S: Read + Seek>(
@@ -251,10 +244,8 @@ impl Found {
         let numbers = numbers(&dataset.datatype);
         if numbers.is_empty() {
             let count: u64 = dataset.sizes.iter().product();
-            if count == 1
-                && let Some(value) = single(storage, &dataset)
-            {
-                return self.properties.push(Property { name, value });
+            if count == 1 && single(storage, &dataset).is_some() {
+                return;
             }
             let what = match &dataset.datatype.kind {
                 Kind::Other(what) => what,
@@ -273,12 +264,6 @@ impl Found {
             .filter(|&direction| dataset.sizes[direction] != 1)
             .collect();
         if class.as_deref() == Some("char") && wide.len() <= 1 {
-            if let Some(text) = self.matlab_text(storage, &dataset, &numbers) {
-                self.properties.push(Property {
-                    name,
-                    value: Value::Text(text),
-                });
-            }
             return;
         }
         let (along, across) = match wide[..] {
@@ -337,7 +322,6 @@ impl Found {
             }
         });
         let description: String = description.chars().take(LONGEST_DESCRIPTION).collect();
-        let mut properties: Vec<Property> = attributes.into_iter().filter(is_own).collect();
         for column in 0..columns {
             for (member, offset, datatype) in &numbers {
                 let mut line = line(&dataset, self.datasets.len(), along, *offset, datatype);
@@ -351,34 +335,11 @@ impl Found {
                     unit: unit.clone(),
                     description: description.clone(),
                     clock: clock.clone().unwrap_or(Clock::Unknown),
-                    properties: std::mem::take(&mut properties),
                     ..Channel::new(full, count)
                 });
             }
         }
         self.datasets.push(dataset);
-    }
-
-    /// A text of MATLAB, which is a row of letters of two bytes.
-    fn matlab_text<S: Read + Seek>(
-        &self,
-        storage: &mut Storage<S>,
-        dataset: &Dataset,
-        numbers: &[(String, usize, Datatype)],
-    ) -> Option<String> {
-        let (_, offset, datatype) = numbers.first()?;
-        let along = dataset.sizes.iter().position(|&size| size != 1);
-        let along = along.unwrap_or(0);
-        let count = dataset.readable(along, storage.base, storage.source.length());
-        let mut values = vec![0.0; count.min(LONGEST_TEXT) as usize];
-        if values.is_empty() {
-            return None;
-        }
-        let line = line(dataset, 0, along, *offset, datatype);
-        let mut cache = dataset::Cache::default();
-        dataset::read_line(storage, &mut cache, dataset, &line, 0, &mut values);
-        let letters: Vec<u16> = values.iter().map(|&value| value as u16).collect();
-        Some(String::from_utf16_lossy(&letters))
     }
 }
 

@@ -8,9 +8,10 @@ use std::io::{Read, Seek};
 
 use super::survey::Found;
 use super::values::{Stored, Values};
+use crate::FileError;
 use crate::file::number;
 use crate::file::source::Source;
-use crate::{FileError, Property, Value};
+use crate::file::{Property, Value};
 
 /// Longest name and longest text, in letters.
 const LONGEST: u64 = 1 << 12;
@@ -133,14 +134,7 @@ pub(super) fn survey<S: Read + Seek>(
                     found.matrix(&own, &[head.rows, head.columns], there, &values);
                 }
             }
-            1 if head.rows == 1 && count <= LONGEST => {
-                let mut bytes = vec![0; (count * size) as usize];
-                let there = source.read_at(start, &mut bytes)?;
-                let letters = bytes[..there].chunks_exact(size as usize);
-                let letters = letters.map(|b| head.stored.number(b, big_endian) as u8 as char);
-                let value = Value::Text(letters.collect());
-                found.properties.push(Property { name, value });
-            }
+            1 if head.rows == 1 && count <= LONGEST => {}
             1 => found.note(&name, "holds lines of text; it is left out"),
             _ => found.note(&name, "holds a sparse matrix; it is left out"),
         }

@@ -2,8 +2,8 @@
 //!
 //! A vector is a channel; a matrix is a channel for every column, or for every row where rows are longer. Complex
 //! values are two channels, `name/real` and `name/imaginary`. Fields of a structure and cells are `name/field` and
-//! `name/1`, of an array of structures `name(2)/field`. Single numbers and texts become properties. The format knows no
-//! unit, and no clock but a vector named `t` or `time` and numbers such as `fs` or `dt`.
+//! `name/1`, of an array of structures `name(2)/field`. Single numbers and texts are no channels. The format
+//! knows no unit, and no clock but a vector named `t` or `time` and numbers such as `fs` or `dt`.
 //!
 //! Level 4 holds matrices alone. Left out, with a note: sparse matrices, objects, functions, and arrays of more than two directions.
 //!
@@ -20,7 +20,7 @@ use std::path::Path;
 use super::DAMAGED_PART;
 use super::clock;
 use super::source::{HEAD, Source};
-use crate::{Channel, FileError, Note, Property, Recording};
+use crate::{Channel, FileError, Note, Recording};
 use stream::Stream;
 use values::{Stored, Values};
 
@@ -43,7 +43,6 @@ pub struct Mat5<S> {
     big_endian: bool,
     channels: Vec<Channel>,
     values: Vec<Values>,
-    properties: Vec<Property>,
     notes: Vec<Note>,
     /// Whether damage of each channel was reported.
     reported: Vec<bool>,
@@ -87,11 +86,10 @@ impl<S: Read + Seek> Mat5<S> {
             reported: vec![false; found.channels.len()],
             channels: found.channels,
             values: found.values,
-            properties: found.properties,
             notes: found.notes,
             places: Vec::new(),
         };
-        let (clocks, notes) = clock::clocks(&mut file, &rounding);
+        let (clocks, notes) = clock::clocks(&mut file, &found.properties, &rounding);
         for (channel, clock) in clocks {
             file.channels[channel].clock = clock;
         }

@@ -6,7 +6,8 @@ use super::stream::Stream;
 use super::values::{Stored, Values};
 use crate::file::number;
 use crate::file::source::Source;
-use crate::{Channel, FileError, Note, Property, Value};
+use crate::file::{Property, Value};
+use crate::{Channel, FileError, Note};
 
 /// Deepest structure that is looked into.
 const DEEPEST: usize = 16;
@@ -16,7 +17,7 @@ const MOST_COLUMNS: u64 = 4096;
 const MOST_MEMBERS: u64 = 1 << 16;
 /// Most channels of a file.
 const MOST_CHANNELS: usize = 1 << 17;
-/// Longest text that becomes a property, and longest name, in bytes.
+/// Longest text that is looked at, and longest name, in bytes.
 const LONGEST: u64 = 1 << 16;
 
 /// What a file holds.
@@ -260,7 +261,10 @@ impl<S: Read + Seek> Walk<'_, S> {
                 }
                 sound!(self.fields(&name, count, depth)?);
             }
-            4 => sound!(self.text(&name)?),
+            4 => match self.short()? {
+                Some((kind, _)) => drop(sound!(Stored::of(kind))),
+                None => self.found.note(&name, "is a text that cannot be read"),
+            },
             6..=15 => {
                 if count == 0 {
                     self.found.note(&name, "is empty");
@@ -331,30 +335,6 @@ impl<S: Read + Seek> Walk<'_, S> {
         Ok(Some(()))
     }
 
-    fn text(&mut self, name: &str) -> Damage<()> {
-        let (kind, bytes) = match self.short()? {
-            Some(short) => short,
-            None => {
-                self.found.note(name, "is a text that cannot be read");
-                return Ok(Some(()));
-            }
-        };
-        let stored = sound!(Stored::of(kind));
-        let text = match stored.size() {
-            1 => String::from_utf8_lossy(&bytes).into_owned(),
-            size => {
-                let letters = bytes.chunks_exact(size);
-                let letters = letters.map(|b| stored.number(b, self.big_endian) as u16);
-                String::from_utf16_lossy(&letters.collect::<Vec<u16>>())
-            }
-        };
-        self.found.properties.push(Property {
-            name: name.to_string(),
-            value: Value::Text(text),
-        });
-        Ok(Some(()))
-    }
-
     /// An array of numbers, of which the element comes next.
     fn numbers(&mut self, name: &str, sizes: &[u64], logical: bool) -> Damage<Element> {
         let element = sound!(self.element()?);
@@ -402,15 +382,13 @@ impl<S: Read + Seek> Walk<'_, S> {
             None if self.stream.read(self.source, &mut bytes[..size])? < size => return Ok(None),
             None => {}
         }
-        let number = stored.number(&bytes[..size], self.big_endian);
-        let value = match logical {
-            true => Value::Flag(number != 0.0),
-            false => Value::Number(number),
-        };
-        self.found.properties.push(Property {
-            name: name.to_string(),
-            value,
-        });
+        if !logical {
+            let number = stored.number(&bytes[..size], self.big_endian);
+            self.found.properties.push(Property {
+                name: name.to_string(),
+                value: Value::Number(number),
+            });
+        }
         Ok(Some(()))
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::data_type::{ByteArray, DataType, FixedLenByteArray, Int96};
+use parquet::data_type::{DataType, FixedLenByteArray, Int96};
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
@@ -200,22 +200,6 @@ impl Cursor {
         }?;
         self.row += read as u64;
         Ok(read)
-    }
-
-    /// The next texts, up to `count`; an empty cell is an empty text.
-    pub fn texts(&mut self, count: usize) -> Result<Vec<String>, ParquetError> {
-        let ColumnReader::ByteArrayColumnReader(reader) = &mut self.reader else {
-            return Ok(Vec::new());
-        };
-        let (levels, present) = records(reader, self.full, count)?;
-        self.row += levels.len() as u64;
-        let mut present = present
-            .iter()
-            .map(|value: &ByteArray| String::from_utf8_lossy(value.data()).into_owned());
-        let texts = levels
-            .iter()
-            .map(|&there| if there { present.next() } else { None });
-        Ok(texts.map(Option::unwrap_or_default).collect())
     }
 }
 

@@ -30,7 +30,7 @@ use bytes::Bytes;
 
 use super::clock;
 use super::source::Source;
-use crate::{Channel, Content, FileError, Instant, Note, Property, Recording, Value};
+use crate::{Channel, Content, FileError, Instant, Note, Recording};
 use columns::{Cursor, Kind};
 pub use write::ParquetWriter;
 
@@ -134,7 +134,6 @@ pub struct Parquet<S> {
     starts: Vec<u64>,
     columns: Vec<Column>,
     channels: Vec<Channel>,
-    properties: Vec<Property>,
     notes: Vec<Note>,
     /// What was found damaged in each channel.
     damage: Vec<Damage>,
@@ -210,7 +209,6 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             starts,
             columns: Vec::new(),
             channels: Vec::new(),
-            properties: Vec::new(),
             notes: Vec::new(),
             damage: Vec::new(),
             cursors: Vec::new(),
@@ -274,7 +272,6 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             });
             self.damage.push(Damage::None);
         }
-        self.properties = about.properties;
     }
 
     /// Counts the instants of each channel from its first.
@@ -309,7 +306,7 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
             .zip(&self.columns)
             .map(|(channel, column)| (channel.count <= most).then(|| column.kind.rounding()))
             .collect();
-        let (clocks, notes) = clock::clocks(self, &rounding);
+        let (clocks, notes) = clock::clocks(self, &[], &rounding);
         for (channel, clock) in clocks {
             self.channels[channel].clock = clock;
         }
@@ -395,11 +392,10 @@ impl<S: Read + Seek + Send + 'static> Parquet<S> {
     }
 }
 
-/// What the metadata of a file states of it and its columns.
+/// What the metadata of a file states of its columns.
 #[derive(Default)]
 struct About {
     columns: Vec<(String, String, String)>,
-    properties: Vec<Property>,
 }
 
 impl About {
@@ -413,11 +409,7 @@ impl About {
             match key.as_str() {
                 COLUMNS => about.take_json(value),
                 arrow_schema::KEY => about.take_schema(value),
-                "pandas" => {}
-                _ => about.properties.push(Property {
-                    name: key.clone(),
-                    value: Value::Text(value.clone()),
-                }),
+                _ => {}
             }
         }
         about
@@ -491,40 +483,6 @@ impl<S: Read + Seek + Send + 'static> Recording for Parquet<S> {
             self.keep(channel, group, kept);
         }
         Ok(there)
-    }
-
-    fn texts(
-        &mut self,
-        channel: usize,
-        first: u64,
-        count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        let mut texts: Vec<String> = Vec::new();
-        while texts.len() < count {
-            let (group, row) = self.group_of(first + texts.len() as u64);
-            let left = self.starts[group + 1] - self.starts[group] - row;
-            let here = left.min((count - texts.len()) as u64) as usize;
-            let mut cursor = self.cursor(channel, group, row);
-            let read = match &mut cursor {
-                Some(cursor) => guarded(|| match cursor.go_to(row)? {
-                    true => cursor.texts(here),
-                    false => Ok(Vec::new()),
-                }),
-                None => Ok(Vec::new()),
-            };
-            let (read, why) = match read {
-                Ok(read) => (read, String::new()),
-                Err(why) => (Vec::new(), why),
-            };
-            let whole = read.len() == here;
-            texts.extend(read);
-            self.keep(channel, group, cursor.filter(|_| whole));
-            if !whole {
-                self.tell_damage(channel, &why);
-                break;
-            }
-        }
-        Ok(texts)
     }
 }
 

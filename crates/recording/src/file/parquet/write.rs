@@ -16,7 +16,7 @@ use super::arrow_schema::{self, Field};
 use crate::file::columns::{self, Times};
 use crate::file::draft::Draft;
 use crate::file::writer::Writer;
-use crate::{Channel, FileError, Instant, Value};
+use crate::{Channel, FileError, Instant};
 
 /// Rows of a row group: the writer, and a reader, holds one of them at a time.
 const GROUP_ROWS: usize = 1 << 17;
@@ -27,8 +27,8 @@ const GROUP_VALUES: usize = 1 << 23;
 /// Writes channels of one clock as a Parquet file.
 ///
 /// Unit and meaning of a column stand in its Arrow field metadata and under [`COLUMNS`]. A uniform clock becomes a
-/// column `time` in s, unless a channel holds times. Not-a-number stays what it is. Properties of channels and the
-/// start are written under `channel/property` and `start` into the metadata of the file.
+/// column `time` in s, unless a channel holds times. Not-a-number stays what it is. The start is
+/// written under `start` into the metadata of the file.
 pub struct ParquetWriter {
     writer: SerializedFileWriter<Draft>,
     channels: Vec<Channel>,
@@ -187,28 +187,13 @@ fn about(heads: &[Head]) -> String {
     serde_json::Value::from_iter(columns).to_string()
 }
 
-/// What channels state besides.
+/// The start of the channels.
 fn stated(channels: &[Channel]) -> Vec<KeyValue> {
-    let instant = |instant: &Instant| {
-        let seconds = instant.seconds as f64 + instant.fraction;
-        format!("{seconds:?} s since 1970")
-    };
-    let mut pairs = Vec::new();
-    for channel in channels {
-        for property in &channel.properties {
-            let text = match &property.value {
-                Value::Number(number) => format!("{number:?}"),
-                Value::Flag(flag) => flag.to_string(),
-                Value::Text(text) => text.clone(),
-                Value::Time(time) => instant(time),
-            };
-            let key = format!("{}/{}", channel.name, property.name);
-            pairs.push(KeyValue::new(key, text));
-        }
-    }
     let start = channels.iter().find_map(|channel| channel.start);
-    pairs.extend(start.map(|start| KeyValue::new("start".to_string(), instant(&start))));
-    pairs
+    let text = start.map(|Instant { seconds, fraction }| {
+        format!("{:?} s since 1970", seconds as f64 + fraction)
+    });
+    Vec::from_iter(text.map(|text| KeyValue::new("start".to_string(), text)))
 }
 
 impl Writer for ParquetWriter {

@@ -11,7 +11,8 @@ use super::layout::{Layout, Piece};
 use super::meta::{Cursor, Placement, RawIndex, names};
 use crate::file::keep_note;
 use crate::file::source::Source;
-use crate::{Content, FileError, Note, Property, Value};
+use crate::file::{Property, Value};
+use crate::{Content, FileError, Note};
 
 /// Bytes of the head of a segment.
 pub const LEAD_IN: u64 = 28;

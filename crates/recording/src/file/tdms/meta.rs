@@ -1,8 +1,8 @@
 //! The meta data of a segment: objects, where their raw data stand, and their properties.
 
 use super::kind::{EPOCH, FRACTION, Kind, Stamp, stamp};
-use crate::file::number;
-use crate::{Instant, Value};
+use crate::Instant;
+use crate::file::{Value, number};
 
 /// What is wrong with meta data.
 pub type Wrong = String;
@@ -181,7 +181,7 @@ impl<'a> Cursor<'a> {
         };
         let value = match kind {
             Kind::Text => Value::Text(self.text()?),
-            Kind::Flag => Value::Flag(self.take(1)?[0] != 0),
+            Kind::Flag => Value::Text(format!("{}", self.take(1)?[0] != 0)),
             Kind::Time => Value::Time(instant(stamp(self.take(16)?, self.big))),
             _ => {
                 let raw = self.take(kind.size() as usize)?;

@@ -29,9 +29,9 @@ use std::io::{Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::number;
+use super::Value;
 use super::source::{Source, WINDOW};
-use crate::{Channel, Clock, Content, FileError, Note, Property, Recording, Value};
+use crate::{Channel, Clock, Content, FileError, Recording};
 use index::{Block, Index, Object};
 use kind::{Kind, Stamp, decode, stamp};
 use layout::{Layout, PLAIN, Part, Piece};
@@ -67,7 +67,6 @@ pub struct Tdms<S> {
     index: Index,
     channels: Vec<Channel>,
     origins: Vec<Origin>,
-    properties: Vec<Property>,
     /// Raw values of the parts of a piece.
     raw: Vec<Vec<f64>>,
 }
@@ -84,27 +83,17 @@ impl<S: Read + Seek> Tdms<S> {
             index,
             channels: Vec::new(),
             origins: Vec::new(),
-            properties: Vec::new(),
             raw: Vec::new(),
         };
         file.list()?;
         Ok(file)
     }
 
-    /// Lists the channels and the properties of the file and its groups.
+    /// Lists the channels.
     fn list(&mut self) -> Result<(), FileError> {
         for number in 0..self.index.objects.len() {
-            let object = &self.index.objects[number];
-            match object.names.as_slice() {
-                [] => self.properties.extend(object.properties.iter().cloned()),
-                [group] => {
-                    let named = object.properties.iter().map(|own| Property {
-                        name: format!("{group}/{}", own.name),
-                        value: own.value.clone(),
-                    });
-                    self.properties.extend(named);
-                }
-                _ => self.list_channel(number as u32)?,
+            if self.index.objects[number].names.len() > 1 {
+                self.list_channel(number as u32)?;
             }
         }
         self.find_clocks();
@@ -346,50 +335,6 @@ impl<S: Read + Seek> Tdms<S> {
         }
         Ok(())
     }
-
-    /// Brings the texts of a run.
-    fn bring_texts(
-        &mut self,
-        object: u32,
-        run: &Run,
-        texts: &mut Vec<String>,
-    ) -> Result<(), String> {
-        let Some(piece) = run.layout.piece(object) else {
-            return Ok(());
-        };
-        let Some(part) = piece.parts.first() else {
-            return Ok(());
-        };
-        let at = run.block.at + run.chunk * run.layout.bytes + part.offset;
-        let places = at + 4 * run.index;
-        let letters = at + 4 * piece.count;
-        let room = piece.bytes - 4 * piece.count;
-        let mut place = |at: u64| -> Result<u64, String> {
-            let bytes = self.source.window(at, 4).map_err(|e| e.to_string())?;
-            Ok(number::bits(bytes, run.layout.big))
-        };
-        let mut ends = Vec::new();
-        let mut begin = match run.index {
-            0 => 0,
-            _ => place(places - 4)?,
-        };
-        for i in 0..run.count {
-            ends.push(place(places + 4 * i)?);
-        }
-        for end in ends {
-            if end < begin || end > room {
-                let count = texts.len();
-                return Err(format!(
-                    "text {count} reaches from byte {begin} to {end} of {room}"
-                ));
-            }
-            let bytes = self.source.bytes(letters + begin, end - begin);
-            let bytes = bytes.map_err(|e| e.to_string())?;
-            texts.push(String::from_utf8_lossy(&bytes).into_owned());
-            begin = end;
-        }
-        Ok(())
-    }
 }
 
 /// The part with the raw values of a scale; plain values serve any.
@@ -473,34 +418,11 @@ fn describe(object: &Object) -> (Channel, Option<String>) {
         }
         _ => {}
     }
-    let shown = [
-        "unit_string",
-        "description",
-        "wf_increment",
-        "wf_start_offset",
-    ];
-    let rest = object.properties.iter();
-    let rest = rest.filter(|own| !shown.contains(&own.name.as_str()));
-    channel.properties = rest.cloned().collect();
     (channel, wrong)
 }
 
 impl<S: Read + Seek> Recording for Tdms<S> {
-    fn path(&self) -> &Path {
-        self.source.path()
-    }
-
-    fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    fn notes(&self) -> &[Note] {
-        &self.index.notes
-    }
-
-    fn properties(&self) -> &[Property] {
-        &self.properties
-    }
+    contents!(self, self.source.path(), self.index);
 
     fn fill(&mut self, channel: usize, first: u64, values: &mut [f64]) -> Result<usize, FileError> {
         let mut done = 0;
@@ -511,23 +433,5 @@ impl<S: Read + Seek> Recording for Tdms<S> {
             Ok(())
         })?;
         Ok(done)
-    }
-
-    fn texts(
-        &mut self,
-        channel: usize,
-        first: u64,
-        count: usize,
-    ) -> Result<Vec<String>, FileError> {
-        let mut texts = Vec::new();
-        self.runs(channel, first, count as u64, |file, run| {
-            let object = file.origins[channel].object;
-            let brought = file.bring_texts(object, &run, &mut texts);
-            brought.map_err(|why| FileError {
-                needed: "the file is damaged there".to_string(),
-                ..file.refusal(channel, &why)
-            })
-        })?;
-        Ok(texts)
     }
 }

@@ -3,7 +3,7 @@
 //! A scale takes the values of another by its number, or raw values; the last is the channel's.
 
 use super::layout::PLAIN;
-use crate::Value;
+use crate::file::Value;
 use statistics::interpolation::held;
 
 /// Most scales of a channel; devices use a handful.

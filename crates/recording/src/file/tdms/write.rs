@@ -7,7 +7,8 @@ use std::path::Path;
 use super::kind::EPOCH;
 use crate::file::draft::Draft;
 use crate::file::writer::Writer;
-use crate::{Channel, Clock, Content, FileError, Instant, Property, Value};
+use crate::file::{Property, Value};
+use crate::{Channel, Clock, Content, FileError, Instant};
 
 /// Values that are gathered before a segment is written.
 const GATHER: usize = 1 << 17;
@@ -32,7 +33,7 @@ impl TdmsWriter {
     /// Starts a file of the channels; `group/name` is written as group and channel, a name alone into the group
     /// `Untitled`.
     ///
-    /// Name, unit, description, start, uniform clock and properties are kept; texts cannot be written, and two channels of
+    /// Name, unit, description, start and uniform clock are kept; texts cannot be written, and two channels of
     /// one name are an error.
     pub fn create(path: &Path, channels: &[Channel]) -> Result<TdmsWriter, FileError> {
         let mut paths = HashSet::new();
@@ -202,17 +203,6 @@ fn properties(channel: &Channel) -> Vec<Property> {
         put("wf_start_offset", Value::Number(first));
         put("wf_increment", Value::Number(interval));
     }
-    // The values are scaled already: what would scale them again is left out.
-    let ours = [
-        "unit_string",
-        "description",
-        "wf_start_time",
-        "wf_start_offset",
-        "wf_increment",
-        "NI_Number_Of_Scales",
-    ];
-    let keep = |name: &str| !ours.contains(&name) && !name.starts_with("NI_Scal");
-    properties.extend(channel.properties.iter().filter(|p| keep(&p.name)).cloned());
     properties
 }
 
@@ -227,10 +217,6 @@ fn put_property(out: &mut Vec<u8>, property: &Property) {
         Value::Number(number) => {
             out.extend(10u32.to_le_bytes());
             out.extend(number.to_le_bytes());
-        }
-        Value::Flag(flag) => {
-            out.extend(0x21u32.to_le_bytes());
-            out.push(u8::from(*flag));
         }
         Value::Text(text) => {
             out.extend(0x20u32.to_le_bytes());

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use super::set::{Axis, Body, Set};
 use super::text::{Numbers, columns, value};
+use crate::Instant;
 use crate::file::clock;
-use crate::{Instant, Property, Value};
 
 /// The header of a set 58 as it stands.
 pub struct Header {
@@ -69,7 +69,6 @@ pub fn header(lines: &[String]) -> Result<Header, String> {
     }
     let set = Set {
         remarks: std::array::from_fn(|number| said(text(number))),
-        properties: freedom(text(5)),
         complex,
         uneven,
         count: 0,
@@ -109,31 +108,6 @@ fn axis(text: &str) -> Axis {
         label: said(label),
         unit: said(unit),
     }
-}
-
-/// The degree of freedom: type of the function, response and reference, each with name, node and direction.
-fn freedom(text: &str) -> Vec<Property> {
-    let mut properties = Vec::new();
-    let kind = columns(text, 0, 5).parse::<u32>().unwrap_or(0);
-    properties.push(Property {
-        name: "function type".to_owned(),
-        value: Value::Number(f64::from(kind)),
-    });
-    for (name, first) in [("response", 31), ("reference", 56)] {
-        let entity = said(columns(text, first, first + 10));
-        let (node, direction) = (
-            columns(text, first + 10, first + 20),
-            columns(text, first + 20, first + 24),
-        );
-        if !entity.is_empty() || node != "0" || direction != "0" {
-            let value = format!("{entity} {node} {direction}").trim().to_owned();
-            properties.push(Property {
-                name: name.to_owned(),
-                value: Value::Text(value),
-            });
-        }
-    }
-    properties
 }
 
 /// The unit of a quantity in SI, by its number in the format's list.

@@ -3,7 +3,7 @@
 //! ```text
 //! file = set, set, …        set = "    -1", number of its type, header, values, "    -1"
 //! ```
-//! Only sets 58 hold values of measurements; 151 (the file) and 164 (units) are read beside, others are left out with a note.
+//! Only sets 58 hold values of measurements; 164 (units) is read beside, others but 151 (the file) are left out with a note.
 //!
 //! Source: Structural Dynamics Research Corporation, universal file data set 58 (revision 3, from memory); University of
 //! Cincinnati, "The Binary 58 Universal File Format".
@@ -21,7 +21,7 @@ use std::path::Path;
 
 use super::number;
 use super::source::{Source, WINDOW};
-use crate::{Channel, Clock, FileError, Property, Recording, Value};
+use crate::{Channel, Clock, FileError, Recording};
 use header::{Names, date, si_unit};
 use scan::Contents;
 use set::{Axis, Body, Set};
@@ -119,12 +119,6 @@ impl<S: Read + Seek> Uff<S> {
         let words = remarks().filter(|r| !r.is_empty() && date(r).is_none());
         channel.description = words.collect::<Vec<_>>().join("; ");
         channel.start = remarks().find_map(date);
-        channel.properties = set.properties.clone();
-        if !set.ordinate.label.is_empty() {
-            let (name, label) = ("quantity".to_owned(), set.ordinate.label.clone());
-            let value = Value::Text(label);
-            channel.properties.push(Property { name, value });
-        }
         let (complex, uneven, axis) = (set.complex, set.uneven, set.abscissa.clone());
         let even = seconds(&axis)
             .filter(|_| !uneven)

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::io::{Read, Seek};
 
-use super::header::{Header, header, said};
+use super::header::{Header, header};
 use super::set::{Body, Set};
 use super::text::{Numbers, columns, decoded, is_mark, is_plain, line, value};
 use crate::file::keep_note;
 use crate::file::source::{Source, WINDOW};
-use crate::{FileError, Note, Property, Value};
+use crate::{FileError, Note};
 
 /// Lines of a header of set 58, without the one that names the set.
 const HEADER: usize = 11;
@@ -16,24 +16,11 @@ const HEADER: usize = 11;
 /// Values from one kept place of a text to the next.
 pub const PLACES: u64 = 4096;
 
-/// What the lines of the set 151 are.
-const HEAD: [&str; 7] = [
-    "model",
-    "description",
-    "program",
-    "created",
-    "saved",
-    "written by",
-    "written",
-];
-
 /// What a file holds.
 #[derive(Debug, Default)]
 pub struct Contents {
     /// The sets 58 in their order.
     pub sets: Vec<Set>,
-    /// What the set 151 states of the file.
-    pub properties: Vec<Property>,
     /// Number of the system of units by the set 164: 1 is SI.
     pub units: Option<u32>,
     /// What was wrong.
@@ -98,13 +85,6 @@ impl Contents {
             at = next;
             if is_mark(text) {
                 break;
-            }
-            if number < HEAD.len() && kind == "151" {
-                let text = said(&decoded(text).0);
-                if !text.is_empty() {
-                    let (name, value) = (HEAD[number].to_owned(), Value::Text(text));
-                    self.properties.push(Property { name, value });
-                }
             }
             if number == 0 && kind == "164" {
                 self.units = columns(&decoded(text).0, 0, 10).parse().ok();

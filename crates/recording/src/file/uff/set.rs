@@ -1,7 +1,5 @@
 //! A set 58 of a file, and its axes.
 
-use crate::Property;
-
 /// An axis of a set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
@@ -32,8 +30,6 @@ pub enum Body {
 pub struct Set {
     /// The five lines of remarks; empty where they say nothing.
     pub remarks: [String; 5],
-    /// What else the header states.
-    pub properties: Vec<Property>,
     /// Values have a real and an imaginary part.
     pub complex: bool,
     /// Abscissae are written with the values.
