@@ -91,6 +91,39 @@ fn a_rotor_starts_displaced_with_a_velocity_of_its_own() {
     assert!((both[1] - both[0] - 10e-6).abs() < 1e-11, "{both:?}");
 }
 
+#[test]
+fn starts_in_the_metal_are_refused_and_loads_beyond_the_end_are_told() {
+    let built = |text: &str, sets: &[&str]| match &parsed(text, sets)?.system {
+        System::Drop(drop) => build::drop(drop).map_err(|problem| problem.to_string()),
+        _ => panic!("a drop"),
+    };
+    let drop = include_str!("../../../scenarios/reference_drop.toml");
+    for text in [STIFF, drop, BLADE] {
+        let found = built(text, &["rotor.start_x=0.3 mm"]).unwrap_err();
+        assert!(
+            found.contains("rotor.start_x") && found.contains("clearance"),
+            "{found}"
+        );
+    }
+    let poles = [
+        "rotor.start_y=0.6 mm",
+        "contact.radial_air_clearance=0.45 mm",
+    ];
+    assert!(built(BLADE, &poles).unwrap_err().contains("pole"));
+    let sets = ["run.duration=2 ms"];
+    let shock = format!("{STIFF}\n[base]\nshock_y = \"1 gn\"\nshock_duration = \"4 ms\"\n");
+    let cut = |run: &Outcome| run.warnings.iter().any(|own| own.code == "AB2085");
+    let run = ran(&shock, &sets);
+    assert!(cut(&run) && !cut(&ran(&shock, &["run.duration=5 ms"])));
+    // nothing is touched: what is left at the bearings is a result
+    let left = number(&run, "node.right.least_distance");
+    let moved = number(&run, "node.right.largest_displacement");
+    assert!((left + moved - 0.2e-3).abs() < 1e-12, "{left} {moved}");
+    let held = ran(BLADE, &["run.duration=5 ms"]);
+    let left = number(&held, "node.auxiliary_drive_end.least_distance");
+    assert!((0.15e-3..0.2e-3).contains(&left), "{left}");
+}
+
 /// The largest absolute acceleration of an oscillator, by small steps of its own.
 fn peak(points: &[(f64, f64)], frequency: f64, damping: f64) -> f64 {
     let (mut z, mut v, mut largest) = (0.0, 0.0, 0.0_f64);
@@ -213,6 +246,19 @@ fn a_record_comes_from_a_file_with_its_units() {
     assert!(read("channel_y = \"up\"").unwrap_err().contains("m/s^2"));
     write("time (ms),east (g)\n0,0\n10,inf\n20,0\n");
     assert!(read("channel_x = \"east\"").is_err());
+    write("time (ms),east (g)\n0,1\n");
+    assert!(
+        read("channel_x = \"east\"")
+            .unwrap_err()
+            .contains("two or more")
+    );
+    write("time (ms),east (g)\n-10,0\n0,1\n10,0\n");
+    assert!(
+        read("channel_x = \"east\"")
+            .unwrap_err()
+            .contains("base.start")
+    );
+    assert!(read("channel_x = \"east\"\nstart = \"10 ms\"").is_ok());
     fs::remove_file(folder.path().join("quake.csv")).unwrap();
     assert!(
         read("channel_x = \"east\"")
@@ -250,6 +296,27 @@ fn motions_of_the_base_that_cannot_be_are_refused_where_they_stand() {
         "{}",
         refused(short, &[])
     );
+    for (lines, word) in [
+        ("channel_x = \"a\"", "base.file"),
+        ("scale = 2.0", "spectrum"),
+        ("spectrum_seed = 2", "base.spectrum"),
+        ("shock_start = \"1 ms\"", "base.shock_x"),
+        (
+            "shock_x = \"1 m/s^2\"\nshock_duration = \"1 ms\"\nscale = 2.0",
+            "no effect",
+        ),
+        (
+            "spectrum = [[\"1 Hz\", \"1 m/s^2\"], [\"0 Hz\", \"1 m/s^2\"]]",
+            "row",
+        ),
+        (
+            "spectrum = [[\"1 Hz\", \"1 m/s^2\"], [\"9000 Hz\", \"1 m/s^2\"]]",
+            "fewer are needed",
+        ),
+    ] {
+        let found = refused(lines, &[]);
+        assert!(found.contains(word), "{found}");
+    }
     let until = refused(
         "shock_x = \"30 m/s^2\"\nshock_duration = \"1 ms\"",
         &["run.until=standstill"],
@@ -276,6 +343,12 @@ fn a_lost_blade_is_an_unbalance_from_then_on() {
     let late = all.iter().zip(time).filter(|(_, t)| **t > 0.03);
     let largest = late.fold(0.0_f64, |most, (y, _)| most.max(y.abs()));
     assert!(largest > 0.05e-3, "{largest}");
+    let huge = BLADE.replace("600 g mm", "600 g m");
+    let System::Drop(drop) = &parsed(&huge, &[]).unwrap().system else {
+        panic!("a machine");
+    };
+    let found = build::drop(drop).unwrap_err().to_string();
+    assert!(found.contains("smaller amounts"), "{found}");
     let refused = |from: &str, to: &str| parsed(&BLADE.replace(from, to), &[]).unwrap_err();
     assert!(refused("plane = \"wheel\"", "plane = \"whel\"").contains("wheel"));
     assert!(refused("at = \"20 ms\"", "at = \"0 s\"").contains("[[rotor.unbalance]]"));

@@ -24,31 +24,41 @@ const fn share(path: &'static str, doc: &'static str) -> Key {
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
-    record("base.record_x", "Acceleration of the base along x over time: straight between the rows, none before the first and after the last."),
+    record("base.record_x", "Acceleration of the base along x over time, in m/s^2 or gn: straight between the rows, none before the first and after the last."),
     record("base.record_y", "The same along y."),
     Key::new(FILE, Kind::Text, "earthquake.csv", "File with a record, relative to this one: CSV, Parquet, TDMS, UFF 58, MAT, HDF5 or WAV, with a clock and the unit of each channel.").optional("no record from a file"),
-    Key::new("base.channel_x", Kind::Text, "east", "Channel of the file with the acceleration along x.").optional("none along x").beside(&["file"]),
-    Key::new("base.channel_y", Kind::Text, "up", "Channel of the file with the acceleration along y.").optional("none along y").beside(&["file"]),
+    Key::new("base.channel_x", Kind::Text, "east", "Channel of the file with the acceleration along x.").optional("none along x"),
+    Key::new("base.channel_y", Kind::Text, "up", "Channel of the file with the acceleration along y.").optional("none along y"),
     Key::new("base.start", Kind::Quantity("s"), "0.2 s", "Instant of the run at which time 0 of the record lies, or the start of the record of a spectrum.").not_negative().default("0 s", "the record begins with the run"),
-    Key::new("base.scale", Kind::Coefficient, "1.5", "Factor on all accelerations of record and spectrum.").within(Range::FromTo(0.0, 1000.0)).default("1.0", "as given"),
+    Key::new("base.scale", Kind::Coefficient, "1.5", "Factor on all accelerations of record and spectrum; not on those of a shock.").within(Range::FromTo(0.0, 1000.0)).default("1.0", "as given"),
     Key::new(SPECTRUM, Kind::Table("Hz", "m/s^2"), "[[\"1 Hz\", \"2 m/s^2\"], [\"3 Hz\", \"6 m/s^2\"], [\"10 Hz\", \"6 m/s^2\"], [\"33 Hz\", \"2.5 m/s^2\"]]", "Largest absolute acceleration of an oscillator over its natural frequency, straight between the rows on logarithmic axes. A record is made of it: sines with drawn phases under an envelope, corrected until its own spectrum is within 10 % between the first and the last frequency, without velocity and displacement left at its end.").optional("no record of a spectrum"),
-    Key::new("base.spectrum_damping", Kind::Coefficient, "0.05", "Damping ratio of the oscillators.").within(Range::FromTo(0.001, 0.5)).default("0.05", "that of most response spectra").beside(&["spectrum"]),
-    share("base.spectrum_x", "Factor on the spectrum along x; 0: no motion along x. Both directions have phases of their own.").default("1.0", "the whole spectrum").beside(&["spectrum"]),
-    share("base.spectrum_y", "The same along y.").default("0.0", "no motion along y").beside(&["spectrum"]),
-    Key::new("base.spectrum_rise", Kind::Quantity("s"), "2 s", "Time in which the envelope of its record rises, linearly.").positive().default("2 s", "an earthquake of moderate size").beside(&["spectrum"]),
-    Key::new("base.spectrum_hold", Kind::Quantity("s"), "10 s", "Time for which it stays.").not_negative().default("10 s", "its strong motion").beside(&["spectrum"]),
-    Key::new("base.spectrum_decay", Kind::Quantity("s"), "8 s", "Time in which it falls, linearly.").positive().default("8 s", "its end").beside(&["spectrum"]),
-    Key::new("base.spectrum_seed", Kind::Count, "1", "Seed of the phases: another seed is another earthquake of the same spectrum.").not_negative().default("1", "any number serves").beside(&["spectrum"]),
+    Key::new("base.spectrum_damping", Kind::Coefficient, "0.05", "Damping ratio of the oscillators.").within(Range::FromTo(0.001, 0.5)).default("0.05", "that of most response spectra"),
+    share("base.spectrum_x", "Factor on the spectrum along x; 0: no motion along x. Both directions have phases of their own.").default("1.0", "the whole spectrum"),
+    share("base.spectrum_y", "The same along y.").default("0.0", "no motion along y"),
+    Key::new("base.spectrum_rise", Kind::Quantity("s"), "2 s", "Time in which the envelope of its record rises, linearly.").positive().default("2 s", "an earthquake of moderate size"),
+    Key::new("base.spectrum_hold", Kind::Quantity("s"), "10 s", "Time for which it stays.").not_negative().default("10 s", "its strong motion"),
+    Key::new("base.spectrum_decay", Kind::Quantity("s"), "8 s", "Time in which it falls, linearly.").positive().default("8 s", "its end"),
+    Key::new("base.spectrum_seed", Kind::Count, "1", "Seed of the phases: another seed is another earthquake of the same spectrum.").not_negative().default("1", "any number serves"),
     Key::new("base.shock_x", Kind::Quantity("m/s^2"), "50 m/s^2", "Largest acceleration along x of a shock whose acceleration is half a period of a sine.").optional("0"),
     Key::new("base.shock_y", Kind::Quantity("m/s^2"), "50 m/s^2", "The same along y.").optional("0"),
-    Key::new("base.shock_start", Kind::Quantity("s"), "0.1 s", "Its start.").not_negative().default("0 s", "with the run").beside(&["shock_x", "shock_y"]),
-    Key::new(DURATION, Kind::Quantity("s"), "11 ms", "Its duration.").positive().optional("needed beside a shock").beside(&["shock_x", "shock_y"]),
+    Key::new("base.shock_start", Kind::Quantity("s"), "0.1 s", "Its start.").not_negative().default("0 s", "with the run"),
+    Key::new(DURATION, Kind::Quantity("s"), "11 ms", "Its duration.").positive().optional("needed beside a shock"),
 ];
 
 /// Key of the file, which stands beside the scenario.
 pub(crate) const FILE: &str = "base.file";
 const SPECTRUM: &str = "base.spectrum";
 const DURATION: &str = "base.shock_duration";
+
+const OF_SPECTRUM: &[&str] = &[
+    "spectrum_damping",
+    "spectrum_x",
+    "spectrum_y",
+    "spectrum_rise",
+    "spectrum_hold",
+    "spectrum_decay",
+    "spectrum_seed",
+];
 
 /// Motion of the base.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,7 +149,32 @@ impl Base {
             record,
         };
         let any = base.record.iter().any(|rows| !rows.is_empty());
-        if !(any || base.file.is_some() || base.spectrum.is_some() || shaken) {
+        let recorded = any || base.file.is_some() || base.spectrum.is_some();
+        for (there, needed, keys) in [
+            (
+                base.file.is_some(),
+                "base.file",
+                &["channel_x", "channel_y"][..],
+            ),
+            (
+                recorded,
+                "a record, a file or a spectrum",
+                &["start", "scale"],
+            ),
+            (base.spectrum.is_some(), "base.spectrum", OF_SPECTRUM),
+            (
+                shaken,
+                "base.shock_x or base.shock_y",
+                &["shock_start", "shock_duration"],
+            ),
+        ] {
+            let own = keys.iter().map(|key| format!("base.{key}"));
+            if let Some(key) = own.filter(|key| !there && values.is_own(key)).next() {
+                let allowed = format!("it is used only beside {needed}");
+                return values.refuse(Code::UnusedKey, &key, "a key that has no effect", allowed);
+            }
+        }
+        if !(recorded || shaken) {
             return Ok(None);
         }
         base.check(values)?;
@@ -188,9 +223,12 @@ impl Base {
         let Some(spectrum) = &self.spectrum else {
             return Ok(());
         };
-        let positive = spectrum.rows.iter().flatten().all(|value| *value > 0.0);
-        if spectrum.rows.len() < 2 || !positive {
-            let found = format!("{} rows", spectrum.rows.len());
+        let wrong = |row: &[f64; 2]| row.iter().any(|value| *value <= 0.0);
+        let found = match spectrum.rows.iter().position(wrong) {
+            Some(row) => Some(format!("a value that is not positive in row {}", row + 1)),
+            None => (spectrum.rows.len() < 2).then(|| "one row".to_string()),
+        };
+        if let Some(found) = found {
             let allowed = "two rows or more of positive frequencies and accelerations are needed";
             return values.refuse(Code::OutOfRange, SPECTRUM, found, allowed);
         }
@@ -198,9 +236,10 @@ impl Base {
         let length: f64 = spectrum.envelope.iter().sum();
         if length < LEAST_PERIODS * slowest {
             let found = format!("{} s of envelope", number_text(length));
+            let least = (1e6 * LEAST_PERIODS * slowest).round() / 1e6;
             let allowed = format!(
                 "at least {} s, {LEAST_PERIODS} periods of the lowest frequency of base.spectrum, are needed",
-                number_text(LEAST_PERIODS * slowest)
+                number_text(least)
             );
             return values.refuse(Code::OutOfRange, "base.spectrum_hold", found, allowed);
         }

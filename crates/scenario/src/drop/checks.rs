@@ -265,6 +265,22 @@ impl Context<'_> {
         let eccentricity = body.unbalance_eccentricity;
         let (along, ahead) = whirl(stiffness, damping, mass, rotor.speed, eccentricity);
         let whirl = along.hypot(ahead);
+        let [x, y] = rotor.start_displacement;
+        let start = (levitation.offset_x + x).hypot(levitation.offset_y + y) + whirl;
+        if start >= clearance && [x, y] != [0.0; 2] {
+            return Err(self.problem(
+                Code::ContactAtStart,
+                "rotor.start_x",
+                format!(
+                    "a rotor that starts {} from the bearing centre, its whirl with it",
+                    millimetres(start)
+                ),
+                format!(
+                    "less than the radial air clearance {} is needed",
+                    self.text("contact.radial_air_clearance")
+                ),
+            ));
+        }
         let repeat = &drop.repeat;
         let (spread, narrowest) = if repeat.count > 1 {
             let narrowing = (-SPREAD * repeat.radial_air_clearance_deviation).exp();

@@ -10,10 +10,12 @@
 //! of random phase alone exceed it. Phases that do not lead there are drawn again.
 
 use crate::drop::Drop;
+use crate::drop::warning_table::ShaftWarning;
 use model::base::{BaseConstants, HalfSine};
 use model::system::machine::MachineConstants;
 use model::table::Table;
 use number::Vec2;
+use outcome::Warning;
 use physics::response_spectrum::{Oscillator, spectrum_at};
 use problem::{Code, Problem, Result};
 use recording::unit::si_factor;
@@ -34,9 +36,11 @@ const LIMIT: f64 = 0.95;
 /// Limiting and taking out what is left at the end disturb each other: so often in turn.
 const TURNS: usize = 4;
 /// Corrections of amplitudes with one draw of phases.
-const CORRECTIONS: usize = 40;
+const CORRECTIONS: usize = 25;
 /// Draws of phases.
-const DRAWS: u64 = 40;
+const DRAWS: u64 = 16;
+/// Sines times instants of a record that is made in seconds.
+const MOST_WORK: f64 = 4e6;
 /// Before and after a record the base does not accelerate: it gets there in this time, s.
 const EDGE: f64 = 1e-6;
 const FILE: &str = "base.file";
@@ -59,6 +63,7 @@ pub(super) fn base(drop: &Drop) -> Result<Option<BaseConstants>> {
         }
     }
     if let Some(spectrum) = &given.spectrum {
+        affordable(spectrum)?;
         for (axis, share) in spectrum.shares.iter().enumerate() {
             if *share > 0.0 {
                 let mut rows = record(spectrum, axis as u64).map_err(|best| out_of_reach(best))?;
@@ -72,6 +77,16 @@ pub(super) fn base(drop: &Drop) -> Result<Option<BaseConstants>> {
         rows.map(|[time, value]| [time + given.start, value * given.scale])
             .collect()
     };
+    let first = records.iter().flatten().filter_map(|rows| rows.first());
+    let first = first.map(|row| row[0]).fold(0.0, f64::min);
+    if given.start + first < 0.0 {
+        let found = format!(
+            "a record that begins {} s before the run",
+            number_text(-first - given.start)
+        );
+        let needed = format!("at least {} s is needed", number_text(-first));
+        return Err(problem_at(Code::OutOfRange, "base.start", found, needed));
+    }
     let record = records.map(|list| {
         let list: Vec<_> = (list.iter())
             .filter(|rows| !rows.is_empty())
@@ -105,6 +120,30 @@ pub(super) fn largest(constants: &MachineConstants, until: f64) -> f64 {
     largest.fold(0.0, f64::max)
 }
 
+/// Motions of the base, and forces from outside, that go on after the end of a run.
+pub(super) fn cut_off(constants: &MachineConstants, end: f64) -> Vec<Warning> {
+    let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
+    let bases = constants.base.iter();
+    let records = bases.clone().flat_map(|base| &base.record);
+    let record = records.map(|table| last(table.points())).reduce(f64::max);
+    let shocks = bases.flat_map(|base| &base.shocks);
+    let shock = shocks.map(|own| own.start + own.duration).reduce(f64::max);
+    let forces = constants.forces.iter().flat_map(|own| &own.over_time);
+    let force = forces.map(|table| last(table.points())).reduce(f64::max);
+    let all = [
+        ("the record of the base", record),
+        ("the shock of the base", shock),
+        ("a force from outside", force),
+    ];
+    all.into_iter()
+        .filter_map(|(what, until)| {
+            let until = until.filter(|until| *until > end * (1.0 + 1e-9))?;
+            let what = what.to_string();
+            Some(ShaftWarning::CutOff { what, until, end }.into())
+        })
+        .collect()
+}
+
 /// The sum of records, each zero outside its rows.
 fn sum(records: &[Vec<[f64; 2]>]) -> Table {
     let tables: Vec<Table> = (records.iter())
@@ -118,7 +157,7 @@ fn sum(records: &[Vec<[f64; 2]>]) -> Table {
             if last[1] != 0.0 {
                 points.push(edges[1]);
             }
-            Table::through(points).ok()
+            Some(Table::through(points).expect("times of a record rise"))
         })
         .collect();
     let mut times: Vec<f64> = (tables.iter())
@@ -128,13 +167,31 @@ fn sum(records: &[Vec<[f64; 2]>]) -> Table {
     times.dedup();
     let value = |time: f64| tables.iter().map(|table| table.value(time)).sum();
     let points = times.into_iter().map(|time| (time, value(time))).collect();
-    Table::through(points).unwrap_or_else(|_| Table::constant(0.0))
+    match tables.is_empty() {
+        true => Table::constant(0.0),
+        false => Table::through(points).expect("times of records rise"),
+    }
+}
+
+/// Refuses a spectrum whose record would take minutes.
+fn affordable(spectrum: &Spectrum) -> Result<()> {
+    let (lines, steps) = Maker::size(spectrum);
+    if lines * steps <= MOST_WORK {
+        return Ok(());
+    }
+    let found = format!(
+        "{} sines at {} instants",
+        number_text(lines),
+        number_text(steps)
+    );
+    let needed = "fewer are needed: a lower highest frequency, a higher lowest one, more damping or a shorter envelope";
+    Err(problem_at(Code::OutOfRange, "base.spectrum", found, needed))
 }
 
 fn out_of_reach(best: f64) -> Box<Problem> {
     let found = format!(
-        "no record within 10 % of it; the best of {DRAWS} is within {}",
-        number_text((100.0 * best).round() / 100.0)
+        "no record within 10 % of it; the best of {DRAWS} is {} % away",
+        number_text((100.0 * best).round())
     );
     let needed = "a spectrum that falls less steeply at its ends, or a longer envelope, is needed";
     problem_at(Code::OutOfRange, "base.spectrum", found, needed)
@@ -170,15 +227,22 @@ struct Maker {
 }
 
 impl Maker {
+    /// Number of steps from sine to sine, and of intervals.
+    fn size(spectrum: &Spectrum) -> (f64, f64) {
+        let rows = &spectrum.rows;
+        let [first, last] = [rows[0][0], rows[rows.len() - 1][0]];
+        let length: f64 = spectrum.envelope.iter().sum();
+        let lines = (last / first).ln() / (1.0 + SPACING * spectrum.damping).ln();
+        (lines.ceil(), (length * last * INTERVALS / TAU).ceil())
+    }
     fn of(spectrum: &Spectrum) -> Self {
         let rows = &spectrum.rows;
         let [first, last] = [rows[0], rows[rows.len() - 1]];
         let [rise, hold, decay] = spectrum.envelope;
         let length = rise + hold + decay;
-        let steps = (length * last[0] * INTERVALS / TAU).ceil();
-        let interval = length / steps;
+        let (lines, steps) = Self::size(spectrum);
+        let (interval, count) = (length / steps, lines as usize);
         let ratio = last[0] / first[0];
-        let count = (ratio.ln() / (1.0 + SPACING * spectrum.damping).ln()).ceil() as usize;
         let at = |k: f64| first[0] * ratio.powf(k / count as f64);
         let oscillators = (0..=2 * count).map(|k| {
             let frequency = at(0.5 * k as f64);
@@ -331,6 +395,15 @@ fn read(file: &RecordFile) -> Result<[Vec<[f64; 2]>; 2]> {
             let found = format!("channel \"{name}\", whose time {} does not rise", row + 2);
             let needed = "times that rise are needed: two values at one time are a jump";
             return Err(problem_at(Code::TableOrder, key, found, needed));
+        }
+        if values.len() < 2 {
+            let found = format!("channel \"{name}\" with {} values", values.len());
+            return Err(problem_at(
+                Code::OutOfRange,
+                key,
+                found,
+                "two or more are needed",
+            ));
         }
         rows.extend(
             times

@@ -160,7 +160,7 @@ const NEVER: &str = "it did not happen in this run";
 results! {
     /// Of an event.
     fn happened(cuts: &bool, run: &(Option<f64>, Option<f64>)) {
-        "event.*.time": number "s", EVENT, "instant at which it happened" => run.0.ok_or_else(|| NEVER.to_string());
+        "event.*.time": number "s", EVENT, "instant at which it happened" in instants "*" => run.0.ok_or_else(|| NEVER.to_string());
         "event.*.growth": number "1/s", GROWTH, "rate at which the rotor leaves the middle after it" when *cuts => run.1.unwrap_or(f64::NAN);
     }
     /// Of a rotor that is levitated again.

@@ -121,8 +121,18 @@ pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
     let limits = (context.setup.machine).coil_limits(&context.finished.ending.state);
     let limit = format!("{:.3}", limits[axis]);
     let channel = value_of(given, axis, "current");
+    let reached = currents.iter().filter(|peak| peak.limited.first.is_some());
+    let others = match reached.count() {
+        0 | 1 => String::new(),
+        axes => format!(
+            ", and {} more of {} axes reach theirs",
+            axes - 1,
+            currents.len()
+        ),
+    };
     let warning = ShaftWarning::CurrentLimit {
         channel,
+        others,
         limit,
         share,
         time,

@@ -217,7 +217,7 @@ results! {
     fn release(setup: &Setup, run: &Context) {
         "release_time": number "s", RELEASE, "instant of the release" in instants "release" => run.release_time().ok_or_else(magnets::kept);
         "axial_gravity_share": number "1", AXIAL_SHARE, "share of the weight along the shaft" => axial_share(run.setup.drop().gravity.acceleration);
-        "base_largest_acceleration": number "m/s^2", BASE, "largest acceleration of the base" when setup.machine.constants.base.is_some() => {
+        "base_largest_acceleration": number "m/s^2", BASE, "largest acceleration of the base" in machine_tile "Largest acceleration of the base" when setup.machine.constants.base.is_some() => {
             base::largest(&run.setup.machine.constants, run.finished.ending.time)
         };
     }

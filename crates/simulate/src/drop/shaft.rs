@@ -9,6 +9,7 @@ use catalogue::geometry::millimetres;
 use levitation::response::{Loaded, excesses, unbalance};
 use levitation::{Plant, weight};
 use model::force::ForceConstants;
+use model::magnets::AxisConstants;
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::seal::SealConstants;
 use nalgebra::{DMatrix, DVector};
@@ -136,6 +137,7 @@ pub(crate) fn build(
     if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
         return Err(too_unbalanced());
     }
+    unbalances::check(&constants, &unbalances)?;
     constants.places = places.iter().map(|node| at(*node)).collect();
     let nodes = shaft.nodes.iter().map(|node| at(*node)).collect();
     Ok(BuiltShaft {
@@ -462,33 +464,62 @@ fn staying(
         .collect()
 }
 
-/// Refuses bearings that the rotor touches before its release, and those that let it reach a magnet.
+/// Refuses bearings that the rotor touches before its release or where it starts, and those that let it reach a magnet.
 pub(crate) fn clear(drop: &Drop, shaft: &Shaft, built: &BuiltShaft) -> Result<(), Box<Problem>> {
+    let [x, y] = drop.rotor.start_displacement;
+    let start = Vec2::new(x, y);
+    let magnets = built.in_time.magnets.iter().flat_map(|own| &own.magnets);
+    for magnet in magnets {
+        let place = built.displacement(&magnet.node) + start;
+        let at_pole = |axis: &&AxisConstants| place.dot(axis.direction).abs() >= axis.law.gap();
+        if let Some(axis) = magnet.axes.iter().find(at_pole) {
+            let found = "a start at a pole of a magnet";
+            let gap = millimetres(axis.law.gap());
+            let allowed = format!("less than the gap of {gap} along each axis is needed");
+            return Err(problem_at(
+                Code::ContactAtStart,
+                "rotor.start_x",
+                found,
+                allowed,
+            ));
+        }
+    }
     for (part, (place, row)) in
         (drop.auxiliary_bearings.iter()).zip(shaft.places.iter().zip(&built.nodes))
     {
         let clearance = part.contact.radial_air_clearance;
         let [x, y] = place.misalignment;
-        let apart = (built.displacement(row) - Vec2::new(x, y))
-            .length_squared()
-            .sqrt();
+        let steady = built.displacement(row) - Vec2::new(x, y);
+        let apart = steady.length_squared().sqrt();
+        let started = (steady + start).length_squared().sqrt();
         let key = "contact.radial_air_clearance";
         let problem = |code, found: String, allowed: String| {
             let key = path_of(Some(&part.name), key);
             Err(problem_at(code, key, found, allowed))
         };
+        let within = format!(
+            "less than the radial air clearance of {} is needed",
+            millimetres(clearance)
+        );
         if apart >= clearance {
-            return problem(
-                Code::ContactAtStart,
-                format!(
-                    "a levitated rotor that is {} from the middle of the bearing at the release",
-                    millimetres(apart)
-                ),
-                format!(
-                    "less than the radial air clearance of {} is needed",
-                    millimetres(clearance)
-                ),
+            let found = format!(
+                "a levitated rotor that is {} from the middle of the bearing at the release",
+                millimetres(apart)
             );
+            return problem(Code::ContactAtStart, found, within);
+        }
+        if started >= clearance {
+            let found = format!(
+                "a rotor that starts {} from the middle of the bearing {}",
+                millimetres(started),
+                part.name
+            );
+            return Err(problem_at(
+                Code::ContactAtStart,
+                "rotor.start_x",
+                found,
+                within,
+            ));
         }
         let gaps = shaft
             .model

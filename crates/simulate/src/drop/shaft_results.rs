@@ -20,7 +20,10 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     let Some((given, built)) = setup.bent() else {
         return;
     };
-    for node in named(given, built) {
+    let bearings = untouched(setup, run);
+    for mut node in named(given, built) {
+        let own = bearings.iter().find(|own| own.place == node.place);
+        node.clearance = node.clearance.or(own.and_then(|own| own.clearance));
         let peak = run.map(|run| run.finished.record.places[node.place].value);
         list.named(&[node.name], |list| place(list, &node, peak.as_ref()));
     }
@@ -28,6 +31,7 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
         given,
         built,
         speed: setup.drop().rotor.speed.abs(),
+        bearings,
     };
     basis(list, &(), run.map(|_| &bent));
     drawing::name(list, &given.model);
@@ -82,6 +86,8 @@ struct Bent<'a> {
     built: &'a BuiltShaft,
     /// At the start, rad/s.
     speed: f64,
+    /// Auxiliary bearings that the rotor did not touch.
+    bearings: Vec<Named<'a>>,
 }
 
 impl<'a> Bent<'a> {
@@ -111,7 +117,8 @@ impl<'a> Bent<'a> {
     fn around<T>(&self, of: fn(&Named<'a>) -> T) -> Vec<T> {
         let all = around(self.given, self.built);
         let around = all.filter(|own| own.clearance.is_some());
-        around.map(|own| of(&own)).collect()
+        let around = around.map(|own| of(&own));
+        around.chain(self.bearings.iter().map(of)).collect()
     }
 }
 
@@ -244,6 +251,26 @@ struct Named<'a> {
     name: &'a str,
     place: usize,
     clearance: Option<f64>,
+}
+
+/// Auxiliary bearings that the rotor did not touch, each at its node with what it is from the line of levitation on.
+fn untouched<'a>(setup: Setup<'a>, run: Option<&Context>) -> Vec<Named<'a>> {
+    let (Some((given, built)), Some(run)) = (setup.bent(), run) else {
+        return Vec::new();
+    };
+    let parts = given.places.iter().enumerate();
+    let free = parts.filter(|(k, _)| run.record(*k).contacts.is_empty());
+    let at = free.filter_map(|(k, place)| {
+        let node = given.model.named[place.node];
+        let [x, y] = place.misalignment;
+        let clearance = setup.given(k).contact.radial_air_clearance - x.hypot(y);
+        Some(Named {
+            name: &given.model.nodes[place.node].name,
+            place: built.places.iter().position(|own| *own == node)?,
+            clearance: Some(clearance),
+        })
+    });
+    at.collect()
 }
 
 fn named<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Named<'a>> {

@@ -2,9 +2,10 @@
 
 use crate::drop::Shaft;
 use crate::drop::magnets_in_time::{InTime, happens};
-use model::rotor::Unbalance;
+use model::rotor::{RotorConstants, Unbalance};
 use model::system::machine::Event;
-use scenario::Happens;
+use problem::{Code, Result};
+use scenario::{Happens, problem_at};
 
 /// The unbalances that come, with their events; `row` gives the row of a node.
 pub(super) fn built(
@@ -36,4 +37,26 @@ pub(super) fn built(
         }
     }
     list
+}
+
+/// Refuses unbalances that would leave the rotor no moment of inertia about its mass centre, whatever their directions.
+pub(super) fn check(rotor: &RotorConstants, unbalances: &[Unbalance]) -> Result<()> {
+    let about_centre = rotor.coordinates.iter().enumerate().map(|(k, own)| {
+        let added = unbalances
+            .iter()
+            .map(|plane| plane.product * plane.node[k].abs());
+        let largest = own.unbalance.length_squared().sqrt() + added.sum::<f64>() / own.mass;
+        own.mass * (largest * largest - own.unbalance.length_squared())
+    });
+    if rotor.polar_inertia > about_centre.sum::<f64>() {
+        return Ok(());
+    }
+    let found =
+        "unbalances that come and leave the rotor no moment of inertia about its mass centre";
+    Err(problem_at(
+        Code::Impossible,
+        "event.amount",
+        found,
+        "smaller amounts are needed",
+    ))
 }

@@ -71,8 +71,8 @@ problem::warnings! {
             ("The speed at the release ({speed:.0} rad/s) is near a mode of the rotor {held} ({frequency:.0} rad/s, {size}): it may turn with large orbits before it falls, and small changes of speed or unbalance change the drop much.");
         ThickShaft { shaft: "m", bore: "m" } "AB2033" Invalid
             ("The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and friction acts at the radius of the bore.", 1e3 * shaft, 1e3 * bore);
-        CurrentLimit { channel: text, limit: words, share: "1", time: "s" } "AB2034" Uncertain, each
-            ("{channel} reaches the limit of its coil ({limit} A, {:.1} % of the time with power, first at {:.2} ms): what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
+        CurrentLimit { channel: text, others: words, limit: words, share: "1", time: "s" } "AB2034" Uncertain, each
+            ("{channel} reaches the limit of its coil ({limit} A, {:.1} % of the time with power, first at {:.2} ms){others}: what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
         TouchesWithPower { time: "s" } "AB2035" Invalid, each
             ("The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may change what they do.", 1e3 * time);
         VoltageLimit { channel: text, limit: words, share: "1", time: "s" } "AB2036" Uncertain, each
@@ -81,6 +81,8 @@ problem::warnings! {
             ("The rotor is levitated again at {time:.4} s and not held: it was in contact or far from the middle until {last:.4} s of {end:.4} s; {first}. Magnets that push a rotor into its bearings load them for as long as they have power.");
         EventNever { name: text, why: words } "AB2083" Uncertain
             ("The event {name} never happens: {why}.");
+        CutOff { what: words, until: "s", end: "s" } "AB2085" Uncertain, each
+            ("{what} lasts until {until:.4} s, and the run ends at {end:.4} s: what it does after that is not in these results.");
         NoLossOfPower "AB2084" Note
             ("The magnets keep their power: with events of magnets, sensors or controllers levitation.power_lost_at has no default.");
         AgainstSpin { supports: text } "AB2041" Uncertain

@@ -9,7 +9,7 @@ use crate::drop::context::Context;
 use crate::drop::multirate::results::After;
 use crate::drop::quantities::residuals;
 use crate::drop::warning_table::{BENDING_SHARE, DropWarning};
-use crate::drop::{events, magnets, method, mount_results, shaft_results, surfaces};
+use crate::drop::{base, events, magnets, method, mount_results, shaft_results, surfaces};
 use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use outcome::Warning;
@@ -54,6 +54,10 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     list.extend(each(&|k| graded(magnets::touched(context, k))));
     list.extend(graded(events::not_held(context)));
     list.extend(events::never(context));
+    list.extend(base::cut_off(
+        &context.setup.machine.constants,
+        context.finished.ending.time,
+    ));
     list.extend(graded(magnets::limited(context)));
     list.extend(graded(magnets::voltage_limited(context)));
     list.extend(each(&|k| {
