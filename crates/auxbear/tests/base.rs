@@ -106,7 +106,8 @@ fn starts_in_the_metal_are_refused_and_loads_beyond_the_end_are_told() {
         );
     }
     let poles = [
-        "rotor.start_y=0.6 mm",
+        "rotor.start_x=0.4 mm",
+        "rotor.start_y=0.4 mm",
         "contact.radial_air_clearance=0.45 mm",
     ];
     assert!(built(BLADE, &poles).unwrap_err().contains("pole"));
