@@ -164,6 +164,8 @@ pub struct Key<S: 'static = ()> {
     pub unless: &'static [&'static str],
     /// The systems that have the key, where they are fewer than those of its section.
     pub systems: Option<&'static [S]>,
+    /// Of a quantity: a letter that may stand before a bare number, and the unit that it means, as in a balance grade "G2.5".
+    pub prefix: Option<(&'static str, &'static str)>,
 }
 
 impl<S: 'static> Key<S> {
@@ -186,12 +188,19 @@ impl<S: 'static> Key<S> {
             beside: &[],
             unless: &[],
             systems: None,
+            prefix: None,
         }
     }
 
     /// The same in fewer systems than its section.
     pub const fn only(mut self, systems: &'static [S]) -> Key<S> {
         self.systems = Some(systems);
+        self
+    }
+
+    /// The same, which a letter before a bare number gives in a unit too.
+    pub const fn prefixed(mut self, letter: &'static str, unit: &'static str) -> Key<S> {
+        self.prefix = Some((letter, unit));
         self
     }
 

@@ -1,6 +1,7 @@
 //! What is asked of a rotor, ready to be computed, and what is found.
 
 use crate::rotor::levitated::{self, Levitated};
+use crate::rotor::rolling::{RollingFound, RollingModel};
 use crate::rotor::whirl::{BearingWhirl, WhirlModel};
 use problem::{Code, Problem};
 use rotor::{
@@ -39,6 +40,8 @@ pub struct Asked {
     pub(crate) levitated: Option<Levitated>,
     /// The machine's auxiliary bearings, in which the rotor may whirl.
     pub(crate) whirl: Option<WhirlModel>,
+    /// The rotor as it rolls on them, or why it is not analysed so; none of a rotor alone.
+    pub(crate) rolling: Option<Result<RollingModel, String>>,
 }
 
 /// What was found.
@@ -70,6 +73,8 @@ pub(crate) struct Found {
     pub(crate) receptance_error: Option<f64>,
     /// Dry whirl in each auxiliary bearing.
     pub(crate) whirl: Vec<BearingWhirl>,
+    /// The rotor as it rolls on them.
+    pub(crate) rolling: Option<Box<RollingFound>>,
 }
 
 /// Gravity x + jy, m/s².
@@ -134,6 +139,7 @@ impl Asked {
         }
         let whirl = WhirlModel::of(analysis, &model, &full, cut)?;
         let this = Self {
+            rolling: RollingModel::of(analysis)?,
             whirl,
             analysis: analysis.clone(),
             model,
@@ -342,7 +348,9 @@ impl Asked {
             .whirl
             .iter()
             .flat_map(|own| own.bearings.iter().map(|one| own.find(one)));
+        let rolling = self.rolling.as_ref().and_then(|own| own.as_ref().ok());
         Ok(Found {
+            rolling: rolling.map(|own| own.find().map(Box::new)).transpose()?,
             whirl: whirl.collect::<Result<_, _>>()?,
             sag: match &self.levitated {
                 Some(levitated) => Some(Sag {
