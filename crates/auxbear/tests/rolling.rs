@@ -360,7 +360,7 @@ fn planes_that_cannot_be_balanced_are_refused() {
         ),
         (of("[\"near\"]"), needed),
         (of("[\"near\", \"neer\"]"), needed),
-        (of("[\"near\", \"near\"]"), needed),
+        (of("[\"near\", \"near\"]"), "all different"),
         (of("[\"near\", \"drive_end\"]"), "stands"),
         (vec!["rotor.balance_grade=G".to_string()], "found \"G\""),
     ] {

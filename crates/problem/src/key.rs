@@ -198,12 +198,6 @@ impl<S: 'static> Key<S> {
         self
     }
 
-    /// The same, which a letter before a bare number gives in a unit too.
-    pub const fn prefixed(mut self, letter: &'static str, unit: &'static str) -> Key<S> {
-        self.prefix = Some((letter, unit));
-        self
-    }
-
     /// The same above 0.
     pub const fn positive(self) -> Key<S> {
         self.within(Range::Positive)

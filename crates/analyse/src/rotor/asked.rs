@@ -208,18 +208,9 @@ impl Asked {
     /// a name where nothing has one.
     fn watched_nodes(&self) -> Vec<(String, usize)> {
         let all = self.places();
-        let named: Vec<(String, usize)> = all
-            .iter()
-            .filter(|(_, _, named)| *named)
-            .map(|(label, node, _)| (label.clone(), *node))
-            .collect();
-        match named.is_empty() {
-            true => all
-                .into_iter()
-                .map(|(label, node, _)| (label, node))
-                .collect(),
-            false => named,
-        }
+        let any = all.iter().any(|(_, _, named)| *named);
+        let shown = all.into_iter().filter(|(_, _, named)| *named || !any);
+        shown.map(|(label, node, _)| (label, node)).collect()
     }
 
     /// Label, node and whether it has a name.
@@ -445,13 +436,12 @@ pub(crate) fn sense(whirl: Whirl) -> f64 {
 
 /// Speeds of the criticals that amplify most, rising; without those that grow.
 fn most_amplified(criticals: &[Critical]) -> Vec<f64> {
-    let mut list: Vec<(f64, f64)> = criticals
-        .iter()
-        .filter_map(|one| Some((one.amplification()?, one.speed)))
-        .collect();
+    let known = criticals.iter();
+    let known = known.filter_map(|one| Some((one.amplification()?, one.speed)));
+    let mut list: Vec<(f64, f64)> = known.collect();
     list.sort_by(|a, b| b.0.total_cmp(&a.0));
-    list.truncate(DEFLECTIONS);
-    let mut speeds: Vec<f64> = list.into_iter().map(|(_, speed)| speed).collect();
+    let most = list.into_iter().take(DEFLECTIONS);
+    let mut speeds: Vec<f64> = most.map(|(_, speed)| speed).collect();
     speeds.sort_by(f64::total_cmp);
     speeds
 }

@@ -316,7 +316,7 @@ impl Asked {
     }
 
     /// A value of the displacement of each node.
-    fn over_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    pub(crate) fn over_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let nodes = 0..self.rotor().nodes.len();
         nodes.map(|node| value(2 * node)).collect()
     }

@@ -20,10 +20,6 @@ function analysisOf(run, rolls) {
   };
 }
 
-function rolls(run) {
-  return shownIn(run, "rolling_bearings").length > 0;
-}
-
 function rollingFigures(run, runs) {
   const of = (figureName, begin) => rowsIn(run, figureName).map(([key, entries]) => [key.slice(begin.length), ...entries.map(cellOf)]);
   const heads = rowsIn(run, "rolling_bearings").slice(0, 1).flatMap(([, entries]) => entries.map(({ words }) => words));
@@ -33,7 +29,7 @@ function rollingFigures(run, runs) {
   const outside = left ? ` At ${left} the linear answer does not hold: these speeds do not count here.` : "";
   const view = analysisOf(run, true);
   return [
-    figure(shareOfRun(run, runs, "What the bearings are to the rotor that lies in them"), "About the static load, of one row: along the weight contact, balls and mount in series; across it the rotor is a pendulum in the bore. Largest amplitudes are those of unbalance during the coast-down. Where the force exceeds the static load the rotor lifts off.", plainTable(["", ...heads], of("rolling_bearings", ROLLING))),
+    figure(shareOfRun(run, runs, "Static load and stiffness of each auxiliary bearing"), "Of one row, for small motion about the rest in the bottom of the bore: along the weight contact, balls and mount are in series; across it the rotor is a pendulum whose length is the clearance. Largest force and amplitude are those of unbalance from the rated speed down; where the force exceeds the static load the rotor lifts off.", plainTable(["", ...heads], of("rolling_bearings", ROLLING))),
     distances.length ? figure(shareOfRun(run, runs, "Least distances while it rolls"), `Clearance less the rotor's position at rest and its orbit under unbalance, during the coast-down.${outside}`, plainTable(["place", "least distance", "at"], distances)) : null,
     campbellFigures(view, runs),
     responsePlaces(view).length ? rotorResponseFigures(view, runs) : null,

@@ -257,7 +257,7 @@ register("rotor", {
     [23, rotorResponseSection, runs.map((run) => analysisOf(run, false)).filter((run) => responsePlaces(run).length)],
     [24, levitationSection, runs.filter(isLevitated)],
     [25, whirlSection, runs.filter((run) => shownIn(run, "whirl").length)],
-    [26, rollingSection, runs.filter(rolls)],
+    [26, rollingSection, runs.filter((run) => shownIn(run, "rolling_bearings").length)],
     [27, stiffnessMapSection, runs.filter((run) => tableOf(run, "stiffness_map")("stiffness").length)],
   ].filter(([, , part]) => part.length),
 });

@@ -16,11 +16,12 @@ pub(crate) mod results;
 use crate::rotor::asked::{Asked, Found};
 use crate::rotor::quantities::undamped;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
+use nalgebra::DVector;
 use physics::magnet::Magnet;
 use physics::rolling_rotor::{contact_stiffness, pendulum_stiffness, penetration};
 use rotor::{Block, C64, Coefficients, Place, Response, RotorError, along, sag_under};
 use scenario::rotor::{FlexibleRotor, Node, Support};
-use scenario::{Body, Drop, RotorAnalysis, Shaft};
+use scenario::{BearingPlace, Body, Drop, RotorAnalysis, Shaft};
 use simulate::drop::build::auxiliary_bearings;
 use simulate::rotor::RotorModel;
 
@@ -29,20 +30,15 @@ pub(crate) struct RollingModel {
     /// The rotor on what its bearings are to small motion.
     pub asked: Box<Asked>,
     pub bearings: Vec<RollingBearing>,
-    /// Displacement of each node at rest, x + jy, m.
-    pub rest: Vec<C64>,
+    /// The rotor at rest, its coordinates in x + jy, m.
+    pub rest: DVector<C64>,
     /// Direction of the weight.
     pub down: C64,
-    /// The highest speed of the coast-down, rad/s.
-    pub fastest: f64,
 }
 
 /// An auxiliary bearing that the rotor rolls on; forces and stiffnesses are those of one row.
 pub(crate) struct RollingBearing {
-    pub name: String,
     pub constants: AuxiliaryBearingConstants,
-    /// Static load, N.
-    pub load: f64,
     pub springs: Springs,
     node: usize,
     /// Its contact among the supports of the rotor.
@@ -90,6 +86,8 @@ const EXACT: f64 = 1e-9;
 
 /// An auxiliary bearing to small motion about a load on one row, N/m and m.
 pub(crate) struct Springs {
+    /// This load, N.
+    pub load: f64,
     pub contact: f64,
     /// Of balls between races that move; none of a bushing, or of races that are held.
     pub balls: Option<f64>,
@@ -122,6 +120,7 @@ impl Springs {
             depth: distance + balls.map_or(0.0, |_| moved(1.0)) + load * of_mount,
             along: 1.0 / (1.0 / link + of_mount),
             across: pendulum_stiffness(load, distance),
+            load,
             contact,
             balls,
             link,
@@ -190,16 +189,11 @@ impl RollingModel {
                 let at = analysis.rotor.nodes[place.node].at;
                 carry(&mut own.rotor, bearing, (at, down), &speeds);
             }
-            let fastest = match analysis.speed {
-                0.0 => analysis.speed_to,
-                speed => speed.abs(),
-            };
             Ok(Self {
                 asked: Box::new(Asked::of(&own).map_err(|own| own.found)?),
                 bearings,
                 rest,
                 down,
-                fastest,
             })
         })))
     }
@@ -207,20 +201,24 @@ impl RollingModel {
     /// Everything about it.
     pub fn find(&self) -> Result<RollingFound, RotorError> {
         let found = self.asked.find()?;
+        let fastest = match self.asked.analysis.speed {
+            0.0 => self.asked.analysis.speed_to,
+            speed => speed.abs(),
+        };
         let mut steps: Vec<Step> = (found.speeds.iter().zip(&found.responses))
-            .filter(|(speed, _)| **speed > 0.0 && **speed < self.fastest)
+            .filter(|(speed, _)| **speed > 0.0 && **speed < fastest)
             .map(|(speed, own)| (*speed, own.as_ref()))
             .collect();
         if !steps.is_empty() {
             // that at the rated speed is the first of the deflections
             let rated = found.deflections.first();
-            let rated = rated.filter(|own| own.speed.abs() == self.fastest);
-            steps.push((self.fastest, rated));
+            let rated = rated.filter(|own| own.speed.abs() == fastest);
+            steps.push((fastest, rated));
         }
         let mut holds: Vec<bool> = steps.iter().map(|(_, own)| own.is_some()).collect();
         let mut bearings = Vec::new();
         for bearing in &self.bearings {
-            let limits = [bearing.load, FAR * bearing.springs.distance];
+            let limits = [bearing.springs.load, FAR * bearing.springs.distance];
             let each = steps.iter().map(|(speed, own)| {
                 let values = own.map_or([f64::NAN; 2], |own| self.amplitudes(bearing, own));
                 values.map(|value| Peak::new(value, *speed))
@@ -245,10 +243,10 @@ impl RollingModel {
         let distances = self.places().map(|(_, node, clearance)| {
             let held = steps.iter().zip(&holds).filter(|(_, holds)| **holds);
             let turning = held.filter_map(|((speed, own), _)| {
-                let farthest = (*own)?.farthest(2 * node, self.rest[node]);
+                let farthest = (*own)?.farthest(2 * node, self.rest[2 * node]);
                 Some(Peak::new(clearance - farthest, *speed))
             });
-            let all = turning.chain([Peak::new(clearance - self.rest[node].norm(), 0.0)]);
+            let all = turning.chain([Peak::new(clearance - self.rest[2 * node].norm(), 0.0)]);
             all.min_by(|a, b| a.value.total_cmp(&b.value))
         });
         Ok(RollingFound {
@@ -318,7 +316,7 @@ fn carry(
     let race = rotor.housings.len();
     let mut add = |part: &str, at, on, coefficients| {
         rotor.supports.push(Support {
-            name: format!("{}{part}", bearing.name),
+            name: format!("{}{part}", own.label()),
             at,
             on,
             coefficients,
@@ -328,7 +326,7 @@ fn carry(
     };
     let springs = &bearing.springs;
     // of a damper in series with the balls, far below the frequency k/c
-    let damping = own.contact.damping * bearing.load * (springs.link / springs.contact).powi(2);
+    let damping = own.contact.damping * springs.load * (springs.link / springs.contact).powi(2);
     let link = Coefficients::constant(Block {
         stiffness: turned(planes * springs.link, planes * springs.across, down),
         damping: turned(planes * damping, 0.0, down),
@@ -340,7 +338,8 @@ fn carry(
     }
     let parts = &own.mount_parts;
     let row = |speed: f64| {
-        let frequency = speed.max(LOWEST);
+        // at standstill as of slow motion
+        let frequency = speed.max(1e-3);
         let mut whole = parts.linear(&own.mount, frequency);
         if let Some(housing) = &parts.housing {
             whole = whole.in_series(housing.dynamic_stiffness(frequency));
@@ -349,20 +348,17 @@ fn carry(
     };
     let rows = speeds.iter().map(|speed| (*speed, row(*speed)));
     let mount = Coefficients::table(rows.collect());
-    let mount = mount.unwrap_or_else(|| Coefficients::constant(row(LOWEST)));
+    let mount = mount.unwrap_or_else(|| Coefficients::constant(row(0.0)));
     add("_mount", None, None, mount);
     rotor.housings.push(planes * own.mass_on_mount());
 }
-
-/// Frequency at which a mount is taken at standstill, rad/s.
-const LOWEST: f64 = 1e-3;
 
 /// The rotor in the bottom of its bearings: what each row carries, and the displacement of each node. Newton's method over the loads.
 fn at_rest(
     model: &RotorModel,
     given: Vec<AuxiliaryBearingConstants>,
     (drop, shaft): (&Drop, &Shaft),
-) -> Result<(Vec<RollingBearing>, Vec<C64>), String> {
+) -> Result<(Vec<RollingBearing>, DVector<C64>), String> {
     let down = C64::from_polar(1.0, drop.gravity.direction);
     let weight = rotor::properties(&model.rotor).mass * drop.gravity.acceleration;
     let rows: f64 = given.iter().map(|own| own.planes).sum();
@@ -381,8 +377,6 @@ fn at_rest(
             seal: false,
         });
         bearings.push(RollingBearing {
-            name: constants.label(),
-            load: weight / rows,
             springs: Springs::of(&constants, weight / rows),
             node,
             link: 0,
@@ -390,46 +384,48 @@ fn at_rest(
         });
     }
     let first = rotor.supports.len() - bearings.len();
+    let datum = |place: &BearingPlace| {
+        let [x, y] = place.misalignment;
+        C64::new(x, y) * down.conj()
+    };
     for _ in 0..STEPS {
         let mut pushes = Vec::new();
-        let mut middles = Vec::new();
         for ((bearing, place), support) in
             (bearings.iter().zip(&shaft.places)).zip(&mut rotor.supports[first..])
         {
-            let planes = bearing.constants.planes;
-            let (stiff, aside) = (bearing.springs.along, bearing.springs.across);
+            let (planes, springs) = (bearing.constants.planes, &bearing.springs);
             support.coefficients = Coefficients::constant(Block {
-                stiffness: turned(planes * stiff, planes * aside, down),
+                stiffness: turned(planes * springs.along, planes * springs.across, down),
                 ..Block::default()
             });
-            let [x, y] = place.misalignment;
-            let datum = C64::new(x, y) * down.conj();
-            // where the springs of this load are free
-            let middle = datum.re + bearing.springs.depth - bearing.load / stiff;
-            middles.push(middle);
-            let push = C64::new(stiff * middle, aside * datum.im) * planes;
+            // what these springs lack to press with the load where the rotor lies under it
+            let datum = datum(place);
+            let along = springs.along * (datum.re + springs.depth) - springs.load;
+            let push = C64::new(along, springs.across * datum.im) * planes;
             pushes.push((bearing.node, push * down));
         }
         let gravity = down * drop.gravity.acceleration;
         let sag = sag_under(&rotor, drop.rotor.speed, gravity, &pushes);
         let sag = sag.map_err(|_| "they leave the rotor free to tilt".to_string())?;
         let mut change: f64 = 0.0;
-        for (bearing, middle) in bearings.iter_mut().zip(middles) {
+        for (bearing, place) in bearings.iter_mut().zip(&shaft.places) {
             let at = (sag.shape[rotor.displacement(bearing.node)] * down.conj()).re;
-            let load = bearing.springs.along * (at - middle);
-            change = change.max((load - bearing.load).abs());
+            let deeper = at - datum(place).re - bearing.springs.depth;
+            let (load, more) = (bearing.springs.load, bearing.springs.along * deeper);
+            change = change.max(more.abs());
             // a contact does not pull
-            bearing.load = load.max(0.1 * bearing.load);
-            bearing.springs = Springs::of(&bearing.constants, bearing.load);
+            let load = (load + more).max(0.1 * load);
+            bearing.springs = Springs::of(&bearing.constants, load);
         }
         if change <= EXACT * weight {
-            let nodes = 0..rotor.nodes.len();
-            let rest = nodes.map(|node| sag.shape[rotor.displacement(node)]);
-            return Ok((bearings, rest.collect()));
+            return Ok((bearings, sag.shape));
         }
-        let none = |own: &&RollingBearing| own.load < LEAST * weight;
+        let none = |own: &&RollingBearing| own.springs.load < LEAST * weight;
         if let Some(none) = bearings.iter().find(none) {
-            return Err(format!("{} carries none of the weight", none.name));
+            return Err(format!(
+                "{} carries none of the weight",
+                none.constants.label()
+            ));
         }
     }
     Err("their shares of the weight were not found".to_string())

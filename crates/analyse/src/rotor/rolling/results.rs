@@ -15,7 +15,8 @@ pub(crate) fn name(list: &mut List, model: &RollingModel, found: Option<&Rolling
     list.of_part(ON, |list| {
         for (k, bearing) in model.bearings.iter().enumerate() {
             let own = found.map(|own| &own.bearings[k]);
-            list.named(&[&bearing.name], |list| rolling_bearing(list, bearing, own));
+            let label = bearing.constants.label();
+            list.named(&[&label], |list| rolling_bearing(list, bearing, own));
         }
         distances(list, model, found);
         for (k, (name, ..)) in model.places().enumerate() {
@@ -33,19 +34,19 @@ pub(crate) fn name(list: &mut List, model: &RollingModel, found: Option<&Rolling
 
 results! {
     fn rolling_bearing(bearing: &RollingBearing, run: &BearingFound) {
-        "*.static_load": number "N" headline, REST, "weight of the rotor on one row while it rests in the bearing" in rolling_bearings "static load" => bearing.load;
-        "*.contact_stiffness": number "N/m", CONTACT, "stiffness of the contact about the static load" in rolling_bearings "contact" => bearing.springs.contact;
-        "*.ball_stiffness": number "N/m", BALLS, "stiffness of the balls about the static load" in rolling_bearings "balls" => bearing.springs.balls.ok_or_else(|| "no load goes through balls".to_string());
-        "*.stiffness_along": number "N/m", ALONG, "stiffness along the weight of contact, balls and mount in series at rest" in rolling_bearings "along the weight" => bearing.springs.along;
-        "*.stiffness_across": number "N/m", ACROSS, "stiffness across the weight of the rotor that rolls as a pendulum" in rolling_bearings "across" => bearing.springs.across;
+        "*.static_load": number "N" headline, REST, "weight of the rotor on one row while it rests in the bearing" in rolling_bearings "static load" => bearing.springs.load;
+        "*.contact_stiffness": number "N/m", CONTACT, "stiffness of the contact about the static load" in rolling_bearings "contact stiffness" => bearing.springs.contact;
+        "*.ball_stiffness": number "N/m", BALLS, "stiffness of the balls about the static load" in rolling_bearings "ball stiffness" => bearing.springs.balls.ok_or_else(|| "no load goes through balls".to_string());
+        "*.stiffness_along": number "N/m", ALONG, "stiffness along the weight of contact, balls and mount in series at rest" in rolling_bearings "stiffness along the weight" => bearing.springs.along;
+        "*.stiffness_across": number "N/m", ACROSS, "stiffness across the weight of the rotor that rolls as a pendulum" in rolling_bearings "stiffness across it" => bearing.springs.across;
         "*.largest_force": number "N" headline, FORCE, "largest amplitude of the contact force along the weight during the coast-down, of one row" in rolling_bearings "largest force" => value(&run.largest[0]);
         "*.largest_force_speed": number "rad/s", FORCE, "speed at which it is largest" in rolling_bearings "at" => speed(&run.largest[0]);
-        "*.largest_swing": number "m", FORCE, "largest amplitude across the weight during the coast-down" in rolling_bearings "largest swing" => value(&run.largest[1]);
-        "*.largest_swing_speed": number "rad/s", FORCE, "speed at which it is largest" in rolling_bearings "at speed" => speed(&run.largest[1]);
+        "*.largest_swing": number "m", FORCE, "largest amplitude across the weight during the coast-down" in rolling_bearings "largest amplitude across" => value(&run.largest[1]);
+        "*.largest_swing_speed": number "rad/s", FORCE, "speed at which it is largest" in rolling_bearings "at" => speed(&run.largest[1]);
     }
 
     fn distances(model: &RollingModel, run: &RollingFound) {
-        "rest_displacements": list "m", REST, "displacement of each node along the weight at rest, from the line of levitation" in rolling_rest "displacement" => model.along_weight();
+        "rest_displacements": list "m", REST, "displacement of each node along the weight at rest, from the line of levitation" in rolling_rest "displacement" => model.asked.over_nodes(|at| (model.rest[at] * model.down.conj()).re);
         "least_distance": number "m" headline, DISTANCE, "least distance left of a clearance along the rotor during the coast-down" => run.least(model).map(|(_, own)| own.value);
         "least_distance_place": text "", DISTANCE, "where that is" => run.least(model).map_or_else(|why| why, |(name, _)| name.to_string());
         "least_distance_speed": number "rad/s", DISTANCE, "speed at which it is" => run.least(model).map(|(_, own)| own.speed);
@@ -92,13 +93,6 @@ fn speed(peak: &Result<Peak, String>) -> Result<f64, String> {
     peak.as_ref().map(|own| own.speed).map_err(String::clone)
 }
 
-impl RollingModel {
-    fn along_weight(&self) -> Vec<f64> {
-        let nodes = self.rest.iter();
-        nodes.map(|own| (own * self.down.conj()).re).collect()
-    }
-}
-
 impl RollingFound {
     /// The least of all distances with its place.
     fn least<'a>(&'a self, model: &'a RollingModel) -> Result<(&'a str, &'a Peak), String> {
@@ -121,11 +115,11 @@ pub(crate) fn warned(
     let mut out = Vec::new();
     for (bearing, own) in model.bearings.iter().zip(&found.bearings) {
         let mut add = |warning: RotorWarning| {
-            out.push(Warning::from(warning).of_part(&bearing.name));
+            out.push(Warning::from(warning).of_part(&bearing.constants.label()));
         };
         let [lifts, swings] = own.beyond.each_ref().map(|own| texts(own));
         if !lifts.is_empty() {
-            let (load, speeds) = (bearing.load, lifts);
+            let (load, speeds) = (bearing.springs.load, lifts);
             add(RotorWarning::LiftsOff { load, speeds });
         }
         if !swings.is_empty() {
@@ -151,10 +145,7 @@ pub(crate) fn warned(
 fn texts(ranges: &[[f64; 2]]) -> String {
     let all = ranges.iter().map(|own| {
         let [from, to] = own.map(|speed| number_text(speed.round()));
-        match from == to {
-            true => from,
-            false => format!("{from} to {to}"),
-        }
+        format!("{from} to {to}")
     });
     all.collect::<Vec<_>>().join(", ")
 }
