@@ -29,6 +29,7 @@ mod planes;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;
+mod rolling;
 mod rotor_friction;
 mod rotor_torque;
 mod scenario;

@@ -82,6 +82,13 @@ pub struct AuxiliaryBearingConstants {
 }
 
 impl AuxiliaryBearingConstants {
+    /// Its name in results.
+    pub fn label(&self) -> String {
+        match self.name.as_str() {
+            "" => "auxiliary_bearing".to_string(),
+            name => name.to_string(),
+        }
+    }
     /// Whether it is a bushing: one ring that does not turn.
     pub fn is_bushing(&self) -> bool {
         self.bearing.balls() == 0
@@ -107,15 +114,19 @@ impl AuxiliaryBearingConstants {
     pub fn outer_moving_mass(&self) -> f64 {
         self.outer_race_mass + self.bearing.mass_with_outer_race()
     }
-    /// Chooses where the mount's spring is free so that it carries the bearing's weight with the outer race at the
-    /// origin; without a spring a force carries it. The weight of an inner race whose centre is held rests elsewhere.
-    pub fn balance_mount(&mut self, gravity: Vec2<f64>) {
+    /// Mass that its mount carries, kg: races, balls and what moves with them, without an inner race that is held.
+    pub fn mass_on_mount(&self) -> f64 {
         let inner = if self.inner_race.centre_held {
             0.0
         } else {
             self.inner_race.mass
         };
-        let mass = self.outer_moving_mass() + self.bearing.free_mass() + inner;
+        self.outer_moving_mass() + self.bearing.free_mass() + inner
+    }
+    /// Chooses where the mount's spring is free so that it carries the bearing's weight with the outer race at the
+    /// origin; without a spring a force carries it. The weight of an inner race whose centre is held rests elsewhere.
+    pub fn balance_mount(&mut self, gravity: Vec2<f64>) {
+        let mass = self.mass_on_mount();
         if self.mount.stiffness > 0.0 {
             self.mount.free_position = -(gravity * (mass / self.mount.stiffness));
         } else {

@@ -41,6 +41,7 @@
 //! | [`support`] | linear supports and seals: stiffness, damping and mass over speed |
 //! | [`magnet`] | force of a radial magnet: linear, or an opposed pair with bias, gap and limited currents |
 //! | [`unbalance`] | whirl of an unbalanced rotor on a linear support |
+//! | [`rolling_rotor`] | a rotor that rolls in a bore under its weight: stiffness of its contact along and across |
 //! | [`dry_whirl`] | backward whirl round a bore: the friction it needs, its contact force |
 
 #![forbid(unsafe_code)]
@@ -77,6 +78,7 @@ pub mod rainflow;
 pub mod response_spectrum;
 pub mod ring;
 pub mod rolling;
+pub mod rolling_rotor;
 pub mod severity;
 pub mod shaft;
 pub mod skf;

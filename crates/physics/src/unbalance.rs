@@ -1,4 +1,4 @@
-//! Whirl of an unbalanced rotor on a linear support.
+//! Whirl of an unbalanced rotor on a linear support; the unbalance that a balance grade permits.
 
 /// Steady whirl of the geometric centre, in the frame that turns with the rotor, m: (along the unbalance, ahead of it).
 ///
@@ -24,6 +24,31 @@ pub fn whirl(stiffness: f64, damping: f64, mass: f64, speed: f64, eccentricity: 
         return (f64::INFINITY, f64::INFINITY);
     }
     (radius * real / size, -radius * imaginary / size)
+}
+
+/// Permissible residual unbalance of a rotor, kg m.
+///
+/// Formula: U = G m/Ω
+///
+/// - `grade` G, the product of eccentricity and speed, m/s (G2.5: 2.5e-3); `mass` m, kg; `speed` Ω of operation, rad/s, not 0
+///
+/// Source: ISO 21940-11, 6.2 (from memory).
+/// Valid: rotors that are rigid at this speed; a flexible one may have more by its modal unbalances.
+pub fn residual(grade: f64, mass: f64, speed: f64) -> f64 {
+    grade * mass / speed.abs()
+}
+
+/// Shares of a residual unbalance in two planes; none unless the mass centre lies between them.
+///
+/// Formula: U₁/U = (z₂ - z)/(z₂ - z₁),  U₂/U = (z - z₁)/(z₂ - z₁)
+///
+/// - `planes` z₁, z₂; `centre` z of the mass: positions along the shaft, m
+///
+/// Source: ISO 21940-11, 7 (from memory): levers of planes that stand at the bearings.
+/// Valid: planes on both sides of the mass centre.
+pub fn shares([one, other]: [f64; 2], centre: f64) -> Option<[f64; 2]> {
+    let share = (other - centre) / (other - one);
+    (share > 0.0 && share < 1.0).then_some([share, 1.0 - share])
 }
 
 #[cfg(test)]

@@ -5,4 +5,5 @@ mod film_regimes;
 mod hertz_reference;
 mod lubricant_traction;
 mod rolling_reference;
+mod rolling_rotor;
 mod skf_published;

@@ -164,6 +164,8 @@ pub struct Key<S: 'static = ()> {
     pub unless: &'static [&'static str],
     /// The systems that have the key, where they are fewer than those of its section.
     pub systems: Option<&'static [S]>,
+    /// Of a quantity: a letter that may stand before a bare number, and the unit that it means, as in a balance grade "G2.5".
+    pub prefix: Option<(&'static str, &'static str)>,
 }
 
 impl<S: 'static> Key<S> {
@@ -186,6 +188,7 @@ impl<S: 'static> Key<S> {
             beside: &[],
             unless: &[],
             systems: None,
+            prefix: None,
         }
     }
 

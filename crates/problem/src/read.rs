@@ -231,7 +231,15 @@ impl<'a> Reader<'a> {
 
     fn read_quantity<S>(&self, key: &Key<S>, text: &str, place: Place) -> Result<(Value, String)> {
         let text = text.trim();
-        let quantity = parse_quantity(text).map_err(|error| {
+        let prefixed = key.prefix.and_then(|(letter, unit)| {
+            let number = text.strip_prefix(letter)?.trim();
+            number
+                .parse::<f64>()
+                .ok()
+                .map(|_| format!("{number} {unit}"))
+        });
+        let plain = prefixed.as_deref().unwrap_or(text);
+        let quantity = parse_quantity(plain).map_err(|error| {
             let (code, found, hint) = unreadable(&error, text, key.dimension());
             self.problem(code, place, found, key.needed())
                 .with_hint(hint)

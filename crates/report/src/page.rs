@@ -79,6 +79,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/rotor_drawing.js"),
     include_str!("page/rotor.js"),
     include_str!("page/whirl.js"),
+    include_str!("page/rolling.js"),
     include_str!("page/mount.js"),
     include_str!("page/machine.js"),
     include_str!("page/heat_flow.js"),

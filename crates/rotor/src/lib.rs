@@ -51,7 +51,7 @@ pub use parts::{Disk, Housing, PointMass, Rotor, Unbalance};
 pub use physics::shaft::{Annulus, Layer, Material};
 pub use physics::support::{Block, Coefficients};
 pub use properties::{Properties, properties};
-pub use response::{Responder, Response, Sag, held, loads, sag};
+pub use response::{Responder, Response, Sag, along, held, loads, sag, sag_under};
 pub use stiffness_map::{MapPoint, stiffness_map};
 pub use support::{Place, Support};
 pub use whirl::{SmallestFriction, WhirlCurve, WhirlPoint, WhirlRange};

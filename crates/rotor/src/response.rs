@@ -32,6 +32,21 @@ impl Response {
         self.forward[coordinate].norm() + self.backward[coordinate].norm()
     }
 
+    /// Farthest distance of the orbit at a coordinate about `middle` (x + jy, m) from the origin, at 64 points a turn, m.
+    #[must_use]
+    pub fn farthest(&self, coordinate: usize, middle: C64) -> f64 {
+        const POINTS: u32 = 64;
+        let (f, b) = (self.forward[coordinate], self.backward[coordinate].conj());
+        let points = (0..POINTS).map(|k| {
+            let turn = C64::from_polar(
+                1.0,
+                std::f64::consts::TAU * f64::from(k) / f64::from(POINTS),
+            );
+            (middle + f * turn + b * turn.conj()).norm()
+        });
+        points.fold(0.0, f64::max)
+    }
+
     /// X of x = Re(X e^{jφ}) and Y of y = Re(Y e^{jφ}).
     #[must_use]
     pub fn planes(&self, coordinate: usize) -> (C64, C64) {
@@ -45,6 +60,12 @@ impl Response {
         let (x, _) = self.planes(coordinate);
         (-x.arg()).rem_euclid(std::f64::consts::TAU)
     }
+}
+
+/// Amplitude along a direction (a unit x + jy) of what turns with f and against the spin with b.
+#[must_use]
+pub fn along([f, b]: [C64; 2], direction: C64) -> f64 {
+    (direction.conj() * f + direction * b).norm()
 }
 
 /// A rotor at hand for many speeds.
@@ -207,6 +228,20 @@ pub struct Sag {
 ///
 /// Where the supports leave a motion free.
 pub fn sag(rotor: &Rotor, speed: f64, gravity: C64) -> Result<Sag, RotorError> {
+    sag_under(rotor, speed, gravity, &[])
+}
+
+/// The same with forces besides: node and x + jy, N.
+///
+/// # Errors
+///
+/// As [`sag`].
+pub fn sag_under(
+    rotor: &Rotor,
+    speed: f64,
+    gravity: C64,
+    forces: &[(usize, C64)],
+) -> Result<Sag, RotorError> {
     let size = rotor.size();
     held(rotor, speed)?;
     let matrices = Matrices::new(rotor);
@@ -232,6 +267,10 @@ pub fn sag(rotor: &Rotor, speed: f64, gravity: C64) -> Result<Sag, RotorError> {
     force
         .rows_mut(size, size)
         .copy_from(&(&weight * gravity.im));
+    for (node, push) in forces {
+        force[rotor.displacement(*node)] += push.re;
+        force[size + rotor.displacement(*node)] += push.im;
+    }
     let solution = stiffness.lu().solve(&force).ok_or(RotorError::NotHeld)?;
     let shape = DVector::from_fn(size, |i, _| C64::new(solution[i], solution[size + i]));
     Ok(Sag {

@@ -334,6 +334,10 @@ impl Scenario {
         let alone = Scenario::of(self.document.rotor_alone(self.drive_speed()), &BuiltIn, &[]);
         Some(alone.map(|mut alone| {
             if let System::Rotor(analysis) = &mut alone.system {
+                if let Body::Flexible(shaft) = &machine.body {
+                    // with the angles of the machine's seed
+                    (analysis.rotor.balance_planes).clone_from(&shaft.rotor.balance_planes);
+                }
                 analysis.machine = Some(Box::new(machine.clone()));
             }
             alone

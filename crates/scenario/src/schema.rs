@@ -467,6 +467,7 @@ fn with_origin(plain: &Value) -> Value {
 fn plain(key: &Key, system: SystemName) -> Value {
     let quantity = json!({ "type": "string", "pattern": QUANTITY });
     match key.kind {
+        Kind::Quantity(_) if key.prefix.is_some() => json!({ "type": "string" }),
         Kind::Quantity(_) | Kind::ContactStiffness { .. } => quantity,
         Kind::Coefficient => number("number", key.range),
         Kind::Count => number("integer", key.range),

@@ -4,18 +4,25 @@ use crate::rotor::RotorModel;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use rotor::{Layer, Place};
-use scenario::rotor::Disk;
+use scenario::rotor::{Disk, Unbalance};
 
 origins! {
     /// What the scenario says.
     pub GIVEN: law "",
         source "the scenario",
         valid "";
+    BALANCE: law "U = G m/Ω at the rated speed, shared by the levers of the mass centre",
+        source "ISO 21940-11 (from memory); crates/physics/src/unbalance.rs",
+        valid "a permissible value: a rotor may have less, and in other directions";
 }
 
 /// Positions, diameters and names of all parts.
 pub fn name(list: &mut List, model: &RotorModel) {
     parts(list, model, Some(&Drawn(model)));
+    let balanced = |at: f64| (model.balance_planes.iter()).any(|own| own.at.contains(&at));
+    for plane in model.unbalance.iter().filter(|own| balanced(own.at)) {
+        list.named(&[&plane.name], |list| balance(list, plane, Some(plane)));
+    }
 }
 
 results! {
@@ -48,6 +55,13 @@ results! {
         "magnet_names": text "", GIVEN, "names of the magnets" in magnets "name" in sensors "name" => lines(run.magnets().map(|(name, _, _)| name));
         "support_names": text "", GIVEN, "names of the supports" in supports "name" => lines(run.on_nodes(false).map(|(name, _)| name));
         "seal_names": text "", GIVEN, "names of the seals" in seals "name" => lines(run.on_nodes(true).map(|(name, _)| name));
+    }
+}
+
+results! {
+    fn balance(plane: &Unbalance, run: &Unbalance) {
+        "balance.*.amount": number "kg m", BALANCE, "residual unbalance of this plane by rotor.balance_grade" => run.amount;
+        "balance.*.phase": number "rad", BALANCE, "its angle on the rotor, drawn from repeat.seed" => run.phase;
     }
 }
 

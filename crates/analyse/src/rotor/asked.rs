@@ -1,6 +1,7 @@
 //! What is asked of a rotor, ready to be computed, and what is found.
 
 use crate::rotor::levitated::{self, Levitated};
+use crate::rotor::rolling::{RollingFound, RollingModel};
 use crate::rotor::whirl::{BearingWhirl, WhirlModel};
 use problem::{Code, Problem};
 use rotor::{
@@ -39,6 +40,8 @@ pub struct Asked {
     pub(crate) levitated: Option<Levitated>,
     /// The machine's auxiliary bearings, in which the rotor may whirl.
     pub(crate) whirl: Option<WhirlModel>,
+    /// The rotor as it rolls on them, or why it is not analysed so; none of a rotor alone.
+    pub(crate) rolling: Option<Result<RollingModel, String>>,
 }
 
 /// What was found.
@@ -70,6 +73,8 @@ pub(crate) struct Found {
     pub(crate) receptance_error: Option<f64>,
     /// Dry whirl in each auxiliary bearing.
     pub(crate) whirl: Vec<BearingWhirl>,
+    /// The rotor as it rolls on them.
+    pub(crate) rolling: Option<Box<RollingFound>>,
 }
 
 /// Gravity x + jy, m/s².
@@ -134,6 +139,7 @@ impl Asked {
         }
         let whirl = WhirlModel::of(analysis, &model, &full, cut)?;
         let this = Self {
+            rolling: RollingModel::of(analysis)?,
             whirl,
             analysis: analysis.clone(),
             model,
@@ -202,18 +208,9 @@ impl Asked {
     /// a name where nothing has one.
     fn watched_nodes(&self) -> Vec<(String, usize)> {
         let all = self.places();
-        let named: Vec<(String, usize)> = all
-            .iter()
-            .filter(|(_, _, named)| *named)
-            .map(|(label, node, _)| (label.clone(), *node))
-            .collect();
-        match named.is_empty() {
-            true => all
-                .into_iter()
-                .map(|(label, node, _)| (label, node))
-                .collect(),
-            false => named,
-        }
+        let any = all.iter().any(|(_, _, named)| *named);
+        let shown = all.into_iter().filter(|(_, _, named)| *named || !any);
+        shown.map(|(label, node, _)| (label, node)).collect()
     }
 
     /// Label, node and whether it has a name.
@@ -342,7 +339,9 @@ impl Asked {
             .whirl
             .iter()
             .flat_map(|own| own.bearings.iter().map(|one| own.find(one)));
+        let rolling = self.rolling.as_ref().and_then(|own| own.as_ref().ok());
         Ok(Found {
+            rolling: rolling.map(|own| own.find().map(Box::new)).transpose()?,
             whirl: whirl.collect::<Result<_, _>>()?,
             sag: match &self.levitated {
                 Some(levitated) => Some(Sag {
@@ -437,13 +436,12 @@ pub(crate) fn sense(whirl: Whirl) -> f64 {
 
 /// Speeds of the criticals that amplify most, rising; without those that grow.
 fn most_amplified(criticals: &[Critical]) -> Vec<f64> {
-    let mut list: Vec<(f64, f64)> = criticals
-        .iter()
-        .filter_map(|one| Some((one.amplification()?, one.speed)))
-        .collect();
+    let known = criticals.iter();
+    let known = known.filter_map(|one| Some((one.amplification()?, one.speed)));
+    let mut list: Vec<(f64, f64)> = known.collect();
     list.sort_by(|a, b| b.0.total_cmp(&a.0));
-    list.truncate(DEFLECTIONS);
-    let mut speeds: Vec<f64> = list.into_iter().map(|(_, speed)| speed).collect();
+    let most = list.into_iter().take(DEFLECTIONS);
+    let mut speeds: Vec<f64> = most.map(|(_, speed)| speed).collect();
     speeds.sort_by(f64::total_cmp);
     speeds
 }

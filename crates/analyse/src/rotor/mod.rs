@@ -7,6 +7,7 @@
 pub(crate) mod asked;
 pub(crate) mod levitated;
 pub(crate) mod quantities;
+pub(crate) mod rolling;
 pub mod warnings;
 pub(crate) mod whirl;
 
@@ -72,18 +73,33 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
 
 /// The curves over speed, which is the first column.
 fn history(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
-    // a speed with its place in the diagram: those close to critical ones are of the responses alone
-    let diagram = found.map(|found| &found.diagram);
-    let at = |speed: &f64| {
-        let speeds = &diagram?.speeds;
-        speeds.binary_search_by(|own| own.total_cmp(speed)).ok()
-    };
-    let speeds = found.iter().flat_map(|found| found.speeds.iter());
-    let rows: Vec<(usize, f64, Option<usize>)> = (speeds.enumerate())
-        .map(|(row, speed)| (row, *speed, at(speed)))
-        .collect();
+    let rolling = asked.rolling.as_ref().and_then(|own| own.as_ref().ok());
+    let rolled = found.and_then(|found| found.rolling.as_deref());
+    let own = found.iter().flat_map(|found| found.speeds.iter());
+    let others = rolled.iter().flat_map(|own| own.found.speeds.iter());
+    let mut rows: Vec<f64> = own.chain(others).copied().collect();
+    rows.sort_by(f64::total_cmp);
+    rows.dedup();
     let mut table = Columns::over(&rows);
-    columns! { table, |row| "speed": "rad/s", "speed of the rotor" => row.1; }
+    columns! { table, |row| "speed": "rad/s", "speed of the rotor" => *row; }
+    over_speed(&mut table, "", asked, found);
+    if let Some(rolling) = rolling {
+        let begin = format!("{}.", rolling::results::ON);
+        over_speed(
+            &mut table,
+            &begin,
+            &rolling.asked,
+            rolled.map(|own| &own.found),
+        );
+    }
+    table.list
+}
+
+/// Branches and responses, their names after what begins them.
+fn over_speed(table: &mut Columns<f64>, begin: &str, asked: &Asked, found: Option<&Found>) {
+    // speeds close to critical ones are of the responses alone
+    let at = |speeds: &[f64], speed: f64| speeds.binary_search_by(|own| own.total_cmp(&speed)).ok();
+    let diagram = found.map(|found| &found.diagram);
     let branches: Vec<(String, Option<&rotor::Branch>)> = match diagram {
         Some(diagram) => (1..)
             .zip(&diagram.branches)
@@ -92,21 +108,25 @@ fn history(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
         None => vec![("*".to_string(), None)],
     };
     for (number, branch) in branches {
-        let of = |row: &(usize, f64, Option<usize>), value: fn(&rotor::Mode) -> f64| {
-            let mode = row.2.and_then(|at| branch?.modes[at].as_ref());
+        let of = |speed: f64, value: fn(&rotor::Mode) -> f64| {
+            let row = diagram.and_then(|own| at(&own.speeds, speed));
+            let mode = row.and_then(|row| branch?.modes[row].as_ref());
             mode.map_or(f64::NAN, value)
         };
         columns! { table, |row|
-            "branch_{number}.frequency": "rad/s", "damped natural frequency of branch {number}" => of(row, rotor::Mode::frequency);
-            "branch_{number}.damping_ratio": "1", "damping ratio of branch {number}" => of(row, rotor::Mode::damping_ratio);
-            "branch_{number}.whirl": "1", "whirl of branch {number}: 1 forward, -1 backward, 0 planar" => of(row, |mode| sense(mode.whirl));
+            "{begin}branch_{number}.frequency": "rad/s", "damped natural frequency of branch {number}" => of(*row, rotor::Mode::frequency);
+            "{begin}branch_{number}.damping_ratio": "1", "damping ratio of branch {number}" => of(*row, rotor::Mode::damping_ratio);
+            "{begin}branch_{number}.whirl": "1", "whirl of branch {number}: 1 forward, -1 backward, 0 planar" => of(*row, |mode| sense(mode.whirl));
         }
     }
     if !asked.responds() {
-        return table.list;
+        return;
     }
-    let of = |row: usize, value: &dyn Fn(&rotor::Response) -> f64| {
-        let response = found.and_then(|found| found.responses[row].as_ref());
+    let of = |speed: f64, value: &dyn Fn(&rotor::Response) -> f64| {
+        let response = found.and_then(|found| {
+            let row = at(&found.speeds, speed)?;
+            found.responses[row].as_ref()
+        });
         response.map_or(f64::NAN, value)
     };
     for watched in asked.watched() {
@@ -122,13 +142,12 @@ fn history(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
             _ => format!("response to unbalance at {label}: half the longer axis of the orbit"),
         };
         columns! { table, |row|
-            "{name}.amplitude": motion.unit(), "{meaning}" => of(row.0, &|response| motion.amplitude(response));
+            "{begin}{name}.amplitude": motion.unit(), "{meaning}" => of(*row, &|response| motion.amplitude(response));
         }
-        if let Motion::Of(at) = motion {
+        if let Motion::Of(coordinate) = motion {
             columns! { table, |row|
-                "{name}.lag": "rad", "how far x at {label} is behind the mark that phases count from" => of(row.0, &|response| response.lag(at));
+                "{begin}{name}.lag": "rad", "how far x at {label} is behind the mark that phases count from" => of(*row, &|response| response.lag(coordinate));
             }
         }
     }
-    table.list
 }

@@ -1,7 +1,7 @@
 //! The named results of the analysis of a rotor.
 
 use crate::rotor::asked::{Asked, Found, Motion, gravity, sense, support_label};
-use crate::rotor::{levitated, whirl};
+use crate::rotor::{levitated, rolling, whirl};
 use outcome::Quantity;
 use outcome::list::results;
 use outcome::list::{List, origins};
@@ -12,24 +12,7 @@ use simulate::drawing::{self, GIVEN};
 pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
     let mut list = List::default();
     body(&mut list, asked, found);
-    criticals(&mut list, asked, found);
-    let all = found.map(|found| &found.criticals[..]);
-    list.numbered(all, |list, one| critical(list, asked, one));
-    stability(&mut list, asked, found);
-    bending(&mut list, asked, found);
-    for (number, mode) in (1..).zip(asked.bending()) {
-        list.named(&[&format!("{number}")], |list| {
-            bending_mode(list, &(asked, mode), found);
-        });
-    }
-    let all = found.map(|found| &found.modes[..]);
-    list.numbered(all, |list, one| mode(list, asked, one));
-    branches(&mut list, asked, found);
-    for (k, watched) in asked.watched().into_iter().enumerate() {
-        let motion = watched.motion;
-        let shown = Shown { asked, motion, k };
-        list.named(&[&watched.name], |list| response(list, &shown, found));
-    }
+    on_supports(&mut list, asked, found, true);
     if asked.responds() {
         let all = found.map(|found| &found.deflections[..]);
         list.numbered(all, |list, one| deflection(list, asked, one));
@@ -57,7 +40,46 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
     if let Some(model) = &asked.whirl {
         whirl::results::name(&mut list, model, found.map(|found| &found.whirl[..]));
     }
+    if let Some(Ok(model)) = &asked.rolling {
+        let own = found.map(|found| found.rolling.as_deref());
+        rolling::results::name(&mut list, model, own.flatten());
+    }
     list.quantities
+}
+
+/// Motion of the rotor on its supports; `whole` with the modes of the free rotor.
+pub(crate) fn on_supports(list: &mut List, asked: &Asked, found: Option<&Found>, whole: bool) {
+    criticals(list, asked, found);
+    let all = found.map(|found| &found.criticals[..]);
+    list.numbered(all, |list, one| critical(list, asked, one));
+    stability(list, asked, found);
+    if whole {
+        bending(list, asked, found);
+        for (number, mode) in (1..).zip(asked.bending()) {
+            list.named(&[&format!("{number}")], |list| {
+                bending_mode(list, &(asked, mode), found);
+            });
+        }
+    }
+    let all = found.map(|found| &found.modes[..]);
+    list.numbered(all, |list, one| mode(list, asked, one));
+    branches(list, asked, found);
+    for (k, watched) in asked.watched().into_iter().enumerate() {
+        let motion = watched.motion;
+        let shown = Shown { asked, motion, k };
+        list.named(&[&watched.name], |list| response(list, &shown, found));
+    }
+}
+
+/// Why a response at a speed has no bound: a mode without damping whirls once a turn there.
+pub(crate) fn undamped(found: &Found, speed: f64) -> Option<String> {
+    let undamped = found.criticals.iter().find(|critical| {
+        let near = (critical.speed / speed - 1.0).abs() < 1e-6;
+        near && critical.amplification() == Some(f64::INFINITY)
+    });
+    undamped.map(|Critical { speed, .. }| {
+        format!("at {speed:.2} rad/s a mode has no damping: the response has no bound")
+    })
 }
 
 results! {
@@ -229,15 +251,8 @@ impl Shown<'_> {
 
     fn amplitude(&self, found: &Found, one: Option<&Response>) -> Result<f64, String> {
         let one = one.ok_or_else(|| no_response(found))?;
-        // the critical speed without damping at which a peak stands
-        let undamped = found.criticals.iter().find(|critical| {
-            let near = (critical.speed / one.speed - 1.0).abs() < 1e-6;
-            near && critical.amplification() == Some(f64::INFINITY)
-        });
-        match undamped {
-            Some(Critical { speed, .. }) => Err(format!(
-                "at {speed:.2} rad/s a mode has no damping: the response has no bound"
-            )),
+        match undamped(found, one.speed) {
+            Some(why) => Err(why),
             None => Ok(self.motion.amplitude(one)),
         }
     }
@@ -301,7 +316,7 @@ impl Asked {
     }
 
     /// A value of the displacement of each node.
-    fn over_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    pub(crate) fn over_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let nodes = 0..self.rotor().nodes.len();
         nodes.map(|node| value(2 * node)).collect()
     }

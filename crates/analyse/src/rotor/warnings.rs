@@ -1,7 +1,7 @@
 //! What the user should know of an analysis of a rotor.
 
 use crate::rotor::asked::{Asked, Found};
-use crate::rotor::{levitated, whirl};
+use crate::rotor::{levitated, rolling, whirl};
 use outcome::Warning;
 use simulate::drop::shaft_results::against_spin;
 use units::number_text;
@@ -30,7 +30,19 @@ problem::warnings! {
         DryWhirl { friction: "1", needed: "1", frequency: "rad/s", force: "N", settling: words, cure: words } "AB2044" Destroys
             ("Dry backward whirl is possible: the friction coefficient {friction} exceeds the {} that whirl of {frequency:.0} rad/s needs. {settling}. {cure}.", number_text((needed * 1e4).round() / 1e4));
         NotInWhirl { parts: text } "AB2045" Uncertain
-            ("The needed friction of dry whirl leaves out what is not linear in the mount: {parts}. Their stiffness and damping are not in it.");
+            ("The needed friction of dry whirl, and the support of the rotor that rolls, leave out what is not linear in the mount: {parts}. Their stiffness and damping are not in it.");
+        NotRolling { why: words } "AB2050" Note
+            ("The rotor was not analysed as it rolls on its auxiliary bearings: {why}.");
+        LiftsOff { load: "N", speeds: text } "AB2051" Uncertain
+            ("While the rotor rolls, the force of its unbalance exceeds its weight of {load:.1} N on a row at {speeds} rad/s: it lifts off, and the linear answer does not hold there.");
+        SwingsFar { speeds: text } "AB2051" Uncertain
+            ("While the rotor rolls, its unbalance drives it more than half a clearance up the bore at {speeds} rad/s: the linear answer does not hold there. How far it goes depends on damping and on the time that the coast-down takes.");
+        RollingRub { distance: "m", speed: "rad/s" } "AB2052" Destroys
+            ("While the rotor rolls on its auxiliary bearings it reaches what stands around it: at {speed:.0} rad/s the clearance is exceeded by {:.4} mm.", -distance * 1e3);
+        RollingGrows { from: "rad/s", to: "rad/s" } "AB2053" Invalid
+            ("While the rotor rolls on its auxiliary bearings a motion grows from {from:.0} to {to:.0} rad/s: nothing in the linear model limits it, and there is no steady response.");
+        RollingLimits "AB2054" Note
+            ("Critical speeds on the auxiliary bearings hold for a rotor that rolls on them without leaving its races, by small motion about its position at rest, without friction. Across the weight it swings as a pendulum that nothing but the mount damps.");
         WhirlAveraged { supports: text } "AB2046" Uncertain
             ("Supports and seals that treat x and y differently ({supports}) count in dry whirl with their mean over a turn: its orbit is taken as a circle.");
         WhirlRange { to: "rad/s" } "AB2047" Uncertain
@@ -107,6 +119,9 @@ pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
     }
     if let Some(model) = &asked.whirl {
         out.extend(whirl::results::warned(model, &found.whirl));
+    }
+    if let Some(model) = &asked.rolling {
+        out.extend(rolling::results::warned(model, found.rolling.as_deref()));
     }
     if !asked.held {
         out.push(RotorWarning::NoSupport.into());

@@ -107,6 +107,7 @@ fn coast_down(path: &str) -> String {
 /// What a grade scales.
 fn unbalanced(path: &str) -> &'static str {
     match path {
+        "rotor.balance_planes" => "[[rotor.node]]\nname = \"other_end\"\nat = \"0.6 m\"\n",
         "rotor.balance_grade" => "[[rotor.unbalance]]\nat = \"0.4 m\"\namount = \"40 g mm\"\n",
         _ => "",
     }
@@ -116,7 +117,8 @@ fn unbalanced(path: &str) -> &'static str {
 fn rotor() -> String {
     "format = \"auxbear.scenario/1\"\nsystem = \"rotor\"\n\
      [rotor]\nspeed = \"9000 rpm\"\n\
-     [[rotor.section]]\nlength = \"0.8 m\"\nouter_diameter = \"40 mm\"\nmaterial = \"steel\"\n"
+     [[rotor.section]]\nlength = \"0.8 m\"\nouter_diameter = \"40 mm\"\nmaterial = \"steel\"\n\
+     [[rotor.node]]\nname = \"drive_end\"\nat = \"0.2 m\"\n"
         .to_string()
 }
 

@@ -302,6 +302,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.acceleration_loss.force_over_speed=[[\"0 rad/s\", \"1 N\"], [\"1 rad/s\", \"1 N\"]]",
             "bearing.acceleration_loss.per_acceleration_over_speed=[[\"0 rad/s\", \"1e-5 N s^2/rad\"], [\"1 rad/s\", \"1e-5 N s^2/rad\"]]",
         ],
+        "rotor.balance_planes" => &["rotor.balance_grade=2.5 mm/s"],
         _ => &[],
     };
     list.iter().map(|set| set.to_string()).collect()

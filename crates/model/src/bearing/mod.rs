@@ -43,6 +43,7 @@ pub use acceleration_loss::AccelerationLoss;
 pub use ball_states::seat;
 pub use lubricant_state::{LubricantAt, LubricantConstants};
 use number::Real;
+use physics::load_zone::{cosines, displacement, joint_stiffness};
 use physics::rolling::RollingSet;
 use physics::traction::SlidingContact;
 pub use planar::Planar;
@@ -81,6 +82,25 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.balls,
             BearingConstants::Planar(bearing) => bearing.balls,
+        }
+    }
+    /// Displacement of the inner race under a radial load at rest, m, one ball on the load line; 0 of a bushing.
+    pub fn displacement_under(&self, load: f64) -> f64 {
+        let (stiffness, clearance) = match self {
+            BearingConstants::Rolling(bearing) => (
+                bearing.ball.series_stiffness,
+                -2.0 * bearing.ball.interference,
+            ),
+            BearingConstants::Planar(bearing) => {
+                let ball = &bearing.ball;
+                let radial = ball.outer_track - ball.inner_track - 2.0 * ball.radius;
+                let stiffness = joint_stiffness(ball.inner_stiffness, ball.outer_stiffness);
+                (stiffness, 2.0 * radial)
+            }
+        };
+        match self.balls() {
+            0 => 0.0,
+            balls => displacement(load, stiffness, clearance, &cosines(balls), 1.0),
         }
     }
     /// Name of a state, after `bearing.`.

@@ -162,6 +162,16 @@ impl MountParts {
             sum + branch.dynamic_stiffness(frequency)
         })
     }
+    /// What of it is not linear.
+    pub fn not_linear(&self) -> Vec<&'static str> {
+        let all = [
+            (self.ring.is_some(), "friction ring"),
+            (self.film.is_some(), "squeeze film"),
+            (self.stop.is_some(), "hard stop"),
+        ];
+        let present = all.into_iter().filter(|(present, _)| *present);
+        present.map(|(_, name)| name).collect()
+    }
     /// Names of its states.
     pub fn state_names(&self) -> Vec<String> {
         let mut names = Vec::new();

@@ -235,7 +235,7 @@ function rotorVerdict(run) {
   const unstable = quantityOf(run, "first_unstable_speed");
   const grows = isNumber(unstable.value);
   const stability = tile("Stability", grows ? engineeringText(unstable.value, "rad/s", 5) : "stable", [grows ? "from this speed on a mode grows" : unstable.why], verdictState(run, grows && unstable.value <= Math.abs(ratedSpeed(run))));
-  return element("div", { class: "tiles" }, stateTile(run), stability, tilesOf(run));
+  return element("div", { class: "tiles" }, stateTile(run), stability, tilesOf(analysisOf(run, false)));
 }
 
 function rotorLine(run) {
@@ -252,11 +252,12 @@ register("rotor", {
   facts: false,
   sections: (runs) => [
     [20, rotorSection, runs],
-    [21, campbellSection, runs],
-    [22, shapeSection, runs],
-    [23, rotorResponseSection, runs.filter((run) => responsePlaces(run).length)],
+    [21, campbellSection, runs.map((run) => analysisOf(run, false))],
+    [22, shapeSection, runs.map((run) => analysisOf(run, false))],
+    [23, rotorResponseSection, runs.map((run) => analysisOf(run, false)).filter((run) => responsePlaces(run).length)],
     [24, levitationSection, runs.filter(isLevitated)],
     [25, whirlSection, runs.filter((run) => shownIn(run, "whirl").length)],
-    [26, stiffnessMapSection, runs.filter((run) => tableOf(run, "stiffness_map")("stiffness").length)],
+    [26, rollingSection, runs.filter((run) => shownIn(run, "rolling_bearings").length)],
+    [27, stiffnessMapSection, runs.filter((run) => tableOf(run, "stiffness_map")("stiffness").length)],
   ].filter(([, , part]) => part.length),
 });

@@ -95,8 +95,10 @@ pub(crate) const KEYS: &[Key] = &[
         .not_negative().default("0 s", "damping of the material turns with the shaft").only(SHAFT),
     Key::new("rotor.damping_rotating", Kind::Quantity("s"), "1 us", "Damping of material and shrink fits, which turns with the shaft, as a multiple of the stiffness matrix of its elements. Above a critical speed it drives whirl.")
         .not_negative().default("0 s", "a shaft of one piece has little; a built-up one must be judged").only(SHAFT),
-    Key::new("rotor.balance_grade", Kind::Quantity("m/s"), "2.5 mm/s", "Balance quality grade G of ISO 21940-11: all amounts of [[rotor.unbalance]] are scaled by one factor until their sum times rotor.speed over the mass of the rotor is this.")
-        .positive().optional("the amounts of [[rotor.unbalance]] count as they are").only(SHAFT),
+    Key { prefix: Some(("G", "mm/s")), ..Key::new("rotor.balance_grade", Kind::Quantity("m/s"), "2.5 mm/s", "Balance quality grade G of ISO 21940-11, \"G2.5\" or \"2.5 mm/s\": the residual unbalance G m/rotor.speed stands in rotor.balance_planes; without these all amounts of [[rotor.unbalance]] are scaled by one factor until their sum is this.")
+        .positive().optional("the amounts of [[rotor.unbalance]] count as they are").only(SHAFT) },
+    Key::new("rotor.balance_planes", Kind::Texts, "[\"drive_end\", \"other_end\"]", "Names of the two [[rotor.node]] in whose planes rotor.balance_grade leaves residual unbalance: shares by the levers of the mass centre, angles on the rotor drawn from repeat.seed.")
+        .optional("rotor.balance_grade scales the amounts of [[rotor.unbalance]]").only(SHAFT),
     Key::new("gravity.acceleration", Kind::Quantity("m/s^2"), "9.81 m/s^2", "Acceleration of gravity in the plane of the bearing. Of an inclined shaft less is left of it, of a vertical one nothing, and the axial drop is not described: such a run warns.")
         .not_negative().default("9.81 m/s^2", "usual rounded value near sea level"),
     Key::new("gravity.direction", Kind::Quantity("rad"), "-90 deg", "Direction of gravity, from x.").default("-90 deg", "downwards"),

@@ -34,8 +34,10 @@ pub struct FlexibleRotor {
     pub unbalance: Vec<Unbalance>,
     /// Forces from outside.
     pub forces: Vec<Force>,
-    /// Balance quality grade G of ISO 21940-11 that the unbalances are scaled to, m/s.
+    /// Balance quality grade G of ISO 21940-11, m/s: of the balance planes, else of the unbalances, which are scaled to it.
     pub balance_grade: Option<f64>,
+    /// Planes in which the grade leaves unbalance.
+    pub balance_planes: Option<BalancePlanes>,
     /// Magnets with their sensors and controllers.
     pub levitation: Option<levitation::Magnets>,
     /// Longest element of a section that says nothing of elements, m.
@@ -120,6 +122,17 @@ pub struct Unbalance {
     pub amount: f64,
     /// Angle on the rotor, rad.
     pub phase: f64,
+}
+
+/// The two planes of a balanced rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BalancePlanes {
+    /// Their names.
+    pub names: [String; 2],
+    /// Their positions.
+    pub at: [f64; 2],
+    /// Seed of the angles of their unbalances.
+    pub seed: u64,
 }
 
 /// A force from outside over time.

@@ -5,7 +5,8 @@ use crate::key::quoted;
 use crate::rotor::keys::{FORCE, STAYS};
 use crate::rotor::tables::{self, Part};
 use crate::rotor::{
-    Disk, FlexibleRotor, Force, Node, Piece, PointMass, Support, Unbalance, levitation,
+    BalancePlanes, Disk, FlexibleRotor, Force, Node, Piece, PointMass, Support, Unbalance,
+    levitation,
 };
 use crate::values::Values;
 use physics::shaft::{Annulus, Layer, MATERIALS, Material, SAME_PLACE};
@@ -94,6 +95,7 @@ impl FlexibleRotor {
                 .map(|part| force(part, at(part)?))
                 .collect::<Checked<_>>()?,
             balance_grade: values.number(BALANCE_GRADE),
+            balance_planes: balance_planes(values, &nodes)?,
             levitation: levitation::magnets(&of, &at)?,
             longest_element: longest_element(ends, values),
             nodes,
@@ -107,18 +109,37 @@ impl FlexibleRotor {
     fn gradable(&self, values: &Values) -> Checked<()> {
         let speed = values.number("rotor.speed").unwrap_or_default();
         let given: f64 = self.unbalance.iter().map(|plane| plane.amount.abs()).sum();
-        let (found, needed) = match (self.balance_grade, given == 0.0, speed == 0.0) {
-            (Some(_), true, _) => (
-                "no unbalance that it could scale",
-                "[[rotor.unbalance]] with the planes and the shares of their amounts is needed",
+        let planes = self.balance_planes.as_ref();
+        let there = self.unbalance.iter().find(|own| {
+            let near = |at: &f64| (at - own.at).abs() <= SAME_PLACE;
+            planes.is_some_and(|planes| planes.at.iter().any(near))
+        });
+        let (path, found, needed) = match (self.balance_grade, planes) {
+            (Some(_), None) if given == 0.0 => (
+                BALANCE_GRADE,
+                "no unbalance that it could scale".to_string(),
+                "rotor.balance_planes, or [[rotor.unbalance]] with the planes and the shares of their amounts, is needed",
             ),
-            (Some(_), _, true) => (
-                "a rotor at rest",
+            (Some(_), _) if speed == 0.0 => (
+                BALANCE_GRADE,
+                "a rotor at rest".to_string(),
                 "rotor.speed is needed: a grade is the product of eccentricity and speed",
             ),
-            _ => return Ok(()),
+            (None, Some(_)) => (
+                BALANCE_PLANES,
+                "planes without a grade".to_string(),
+                "rotor.balance_grade is needed beside them",
+            ),
+            _ => match there {
+                Some(own) => (
+                    BALANCE_PLANES,
+                    format!("a plane at which [[rotor.unbalance]] {} stands", own.name),
+                    "either the grade or an amount is needed in a plane",
+                ),
+                None => return Ok(()),
+            },
         };
-        values.refuse(Code::Conflict, BALANCE_GRADE, found, needed)
+        values.refuse(Code::Conflict, path, found, needed)
     }
 
     /// The mean direct stiffness of what holds the shaft at a speed, N/m; 1 MN/m where nothing does.
@@ -145,6 +166,39 @@ impl FlexibleRotor {
 }
 
 const BALANCE_GRADE: &str = "rotor.balance_grade";
+const BALANCE_PLANES: &str = "rotor.balance_planes";
+
+/// The planes of a balance grade, where they are given.
+fn balance_planes(values: &Values, nodes: &[Node]) -> Checked<Option<BalancePlanes>> {
+    let given = values.texts(BALANCE_PLANES);
+    if given.is_empty() {
+        return Ok(None);
+    }
+    let of = |name: &String| nodes.iter().find(|node| node.name == *name);
+    let known: Vec<&Node> = given.iter().filter_map(of).collect();
+    if let ([one, other], 2) = (known.as_slice(), given.len())
+        && (one.at - other.at).abs() > SAME_PLACE
+    {
+        return Ok(Some(BalancePlanes {
+            names: [one, other].map(|node| node.name.clone()),
+            at: [one.at, other.at],
+            // a rotor alone has no key of a seed
+            seed: values.count("repeat.seed").max(1),
+        }));
+    }
+    let names: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
+    let allowed = format!(
+        "two of the names of [[rotor.node]] at different places are needed: {}",
+        names.join(", ")
+    );
+    values.refuse(
+        Code::NoSuchNode,
+        BALANCE_PLANES,
+        quoted(&given.join(", ")),
+        &allowed,
+    )
+}
+
 const LONGEST_ELEMENT: &str = "rotor.longest_element";
 
 /// Elements of a whole shaft that does not say how long they are.

@@ -6,8 +6,11 @@ use ::rotor::{
     Disk, Housing, MeshError, Place, PointMass, Rotor, Support, Unbalance, mesh, properties,
 };
 pub use levitation::LevitationModel;
+use physics::unbalance::{residual, shares};
 use problem::{Code, Problem};
+use scenario::rotor::BalancePlanes;
 use scenario::{FlexibleRotor, problem_at};
+use std::f64::consts::TAU;
 use std::ops::Deref;
 use units::number_text;
 
@@ -45,6 +48,7 @@ impl RotorModel {
             .chain(given.masses.iter().map(|mass| mass.at))
             .chain(given.supports.iter().filter_map(|support| support.at))
             .chain(given.unbalance.iter().map(|plane| plane.at))
+            .chain(given.balance_planes.iter().flat_map(|planes| planes.at))
             .chain(given.forces.iter().map(|force| force.at))
             .chain(magnets.flat_map(|magnet| [magnet.at, magnet.sensed_at]));
         let layers: Vec<_> = given.pieces.iter().map(|piece| piece.layer).collect();
@@ -80,20 +84,27 @@ impl RotorModel {
             housings: (given.housings.iter())
                 .map(|mass| Housing { mass: *mass })
                 .collect(),
-            unbalance: (given.unbalance.iter())
-                .map(|own| Unbalance {
-                    node: node(own.at),
-                    amount: own.amount,
-                    phase: own.phase,
-                })
-                .collect(),
+            unbalance: Vec::new(),
             nodes: mesh.nodes.clone(),
             elements: mesh.elements.clone(),
         };
-        if let Some(grade) = given.balance_grade {
+        let mut given = given.clone();
+        if let (Some(grade), Some(planes)) = (given.balance_grade, &given.balance_planes) {
+            let residual = balanced(grade, planes, &rotor, speed)?;
+            given.unbalance.extend(residual);
+        }
+        rotor.unbalance = (given.unbalance.iter())
+            .map(|own| Unbalance {
+                node: node(own.at),
+                amount: own.amount,
+                phase: own.phase,
+            })
+            .collect();
+        let scaled = given.balance_planes.is_none();
+        if let Some(grade) = given.balance_grade.filter(|_| scaled) {
             // all of them in one direction would be the grade: Σ|U| Ω/m = G; directions and shares of the planes stay
             let all: f64 = rotor.unbalance.iter().map(|plane| plane.amount.abs()).sum();
-            let factor = grade * properties(&rotor).mass / (speed.abs() * all);
+            let factor = residual(grade, properties(&rotor).mass, speed) / all;
             for plane in &mut rotor.unbalance {
                 plane.amount *= factor;
             }
@@ -106,7 +117,7 @@ impl RotorModel {
                 .map(|own| LevitationModel::new(own, &node, rotor.nodes.len()))
                 .transpose()?,
             rotor,
-            given: given.clone(),
+            given,
         })
     }
 
@@ -116,6 +127,33 @@ impl RotorModel {
         names.zip(self.named.iter().copied())
     }
 }
+
+/// What a balance grade leaves in its planes, each in a direction of its own.
+fn balanced(
+    grade: f64,
+    planes: &BalancePlanes,
+    rotor: &Rotor,
+    speed: f64,
+) -> Result<[scenario::rotor::Unbalance; 2], Box<Problem>> {
+    let whole = properties(rotor);
+    let Some(shares) = shares(planes.at, whole.centre) else {
+        let ([one, other], centre) = (planes.at, whole.centre);
+        let found = format!("{one:.4} m and {other:.4} m, the mass centre at {centre:.4} m");
+        let allowed = "planes on both sides of the mass centre are needed: its levers share the residual unbalance";
+        let key = "rotor.balance_planes";
+        return Err(problem_at(Code::Conflict, key, found, allowed));
+    };
+    let all = residual(grade, whole.mass, speed);
+    Ok([0, 1].map(|k| scenario::rotor::Unbalance {
+        name: planes.names[k].clone(),
+        at: planes.at[k],
+        amount: all * shares[k],
+        phase: TAU * statistics::random::uniform(planes.seed, k as u64, BALANCE),
+    }))
+}
+
+/// Keeps these numbers apart from others of the same seed.
+const BALANCE: u64 = 0x6261_6c61;
 
 /// What is wrong with the pieces of a shaft.
 fn no_shaft(given: &FlexibleRotor, error: MeshError) -> Box<Problem> {

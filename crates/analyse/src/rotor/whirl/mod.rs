@@ -12,6 +12,7 @@
 
 pub(crate) mod results;
 
+use crate::rotor::rolling::machine_of;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::mount::Mount;
 use physics::dry_whirl::{WhirlContact, rolling_limit};
@@ -19,7 +20,7 @@ use rotor::{
     Analysis, Basis, Block, C64, Coefficients, Matrices, ModeCount, Place, Responder, Rotor,
     RotorError, SmallestFriction, Support, WhirlCurve, WhirlPoint, WhirlRange,
 };
-use scenario::{Body, RotorAnalysis};
+use scenario::RotorAnalysis;
 use simulate::drop::build::auxiliary_bearings;
 use simulate::rotor::RotorModel;
 
@@ -95,10 +96,8 @@ impl WhirlModel {
         full: &Basis,
         cut: f64,
     ) -> problem::Result<Option<Self>> {
-        let Some((drop, shaft)) = analysis.machine.as_ref().and_then(|drop| match &drop.body {
-            Body::Flexible(shaft) if analysis.speed != 0.0 => Some((drop, shaft)),
-            _ => None,
-        }) else {
+        let turns = analysis.speed != 0.0;
+        let Some((drop, shaft)) = machine_of(analysis).filter(|_| turns) else {
             return Ok(None);
         };
         let given = auxiliary_bearings(drop)?;
@@ -124,10 +123,7 @@ impl WhirlModel {
             let falls = !carried && weight > 0.0;
             let high = most.min(rolling);
             WhirlBearing {
-                name: match constants.name.as_str() {
-                    "" => "auxiliary_bearing".to_string(),
-                    name => name.to_string(),
-                },
+                name: constants.label(),
                 coordinate: model.rotor.displacement(*node),
                 range: [if falls { weight } else { 1e-3 * high }, high],
                 ended_by: [falls, rolling <= most],
@@ -244,12 +240,6 @@ impl WhirlBearing {
         self.constants.inner_race.centre_held
     }
 
-    /// Mass of the race with all that moves with it, kg.
-    fn mass(&self) -> f64 {
-        let own = &self.constants;
-        own.outer_moving_mass() + own.bearing.free_mass() + own.inner_race.mass
-    }
-
     /// Receptance of the race on a mount with another spring and damper, for motion e^{-jωt}, m/N.
     fn race(&self, spring: &Mount<f64>, frequency: f64) -> C64 {
         if self.is_held() {
@@ -261,21 +251,9 @@ impl WhirlBearing {
             own = own.in_series(housing.dynamic_stiffness(frequency));
         }
         let stiffness = C64::new(own.storage, own.loss);
-        (stiffness - self.mass() * frequency * frequency)
+        (stiffness - self.constants.mass_on_mount() * frequency * frequency)
             .inv()
             .conj()
-    }
-
-    /// Parts of its mount that the analysis leaves out.
-    pub fn left_out(&self) -> Vec<&'static str> {
-        let parts = &self.constants.mount_parts;
-        let all = [
-            (parts.ring.is_some(), "friction ring"),
-            (parts.film.is_some(), "squeeze film"),
-            (parts.stop.is_some(), "hard stop"),
-        ];
-        let present = all.into_iter().filter(|(present, _)| *present);
-        present.map(|(_, name)| name).collect()
     }
 }
 
@@ -314,7 +292,9 @@ impl Samples<'_> {
         let own = &self.bearing.constants.mount;
         let damping = match own.damping > 0.0 {
             true => own.damping,
-            false => SMALL_DAMPING * (own.stiffness * self.bearing.mass()).sqrt(),
+            false => {
+                SMALL_DAMPING * (own.stiffness * self.bearing.constants.mass_on_mount()).sqrt()
+            }
         };
         let around = |middle: f64| -> Vec<f64> {
             let steps = (-SIDE..=SIDE).map(|k| middle * 10f64.powf(f64::from(k) / PER_DECADE));

@@ -179,7 +179,7 @@ pub(crate) fn warned(model: &WhirlModel, found: &[BearingWhirl]) -> Vec<Warning>
             let to = bearing.range[1];
             add(RotorWarning::WhirlRange { to });
         }
-        let left_out = bearing.left_out();
+        let left_out = bearing.constants.mount_parts.not_linear();
         if !left_out.is_empty() {
             let parts = left_out.join(", ");
             add(RotorWarning::NotInWhirl { parts });
