@@ -5,6 +5,7 @@ use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::drop::Drop;
 use crate::drop::base;
+use crate::drop::clearances;
 use crate::drop::layers;
 use crate::drop::magnets_in_time::InTime;
 use crate::drop::mount;
@@ -55,7 +56,7 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
     let shaft = match &drop.shaft {
         Some(given) => {
             let built = shaft::build(&drop, given, gravity(&drop))?;
-            shaft::clear(&drop, given, &built)?;
+            clearances::clear(&drop, given, &built)?;
             Some(built)
         }
         None => None,

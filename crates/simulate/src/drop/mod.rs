@@ -3,6 +3,7 @@
 mod base;
 mod body;
 pub mod build;
+mod clearances;
 pub(crate) mod columns;
 pub(crate) mod context;
 pub mod each;
