@@ -366,7 +366,10 @@ fn planes_that_cannot_be_balanced_are_refused() {
         (of("[\"near\", \"neer\"]"), needed),
         (of("[\"near\", \"near\"]"), "all different"),
         (of("[\"near\", \"drive_end\"]"), "stands"),
-        (vec!["rotor.balance_grade=G".to_string()], "no number at the start of \"G\""),
+        (
+            vec!["rotor.balance_grade=G".to_string()],
+            "no number at the start of \"G\"",
+        ),
     ] {
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
         let error = parsed(&text, &sets).unwrap_err();

@@ -168,8 +168,8 @@ impl Base {
                 &["shock_start", "shock_duration"],
             ),
         ] {
-            let own = keys.iter().map(|key| format!("base.{key}"));
-            if let Some(key) = own.filter(|key| !there && values.is_own(key)).next() {
+            let mut own = keys.iter().map(|key| format!("base.{key}"));
+            if let Some(key) = own.find(|key| !there && values.is_own(key)) {
                 let allowed = format!("it is used only beside {needed}");
                 return values.refuse(Code::UnusedKey, &key, "a key that has no effect", allowed);
             }

@@ -66,7 +66,7 @@ pub(super) fn base(drop: &Drop) -> Result<Option<BaseConstants>> {
         affordable(spectrum)?;
         for (axis, share) in spectrum.shares.iter().enumerate() {
             if *share > 0.0 {
-                let mut rows = record(spectrum, axis as u64).map_err(|best| out_of_reach(best))?;
+                let mut rows = record(spectrum, axis as u64).map_err(out_of_reach)?;
                 rows.iter_mut().for_each(|row| row[1] *= share);
                 records[axis].push(rows);
             }

@@ -13,7 +13,6 @@ use model::seal::SealConstants;
 use nalgebra::{DMatrix, DVector};
 use number::Vec2;
 use outcome::Warning;
-use physics::magnet::Magnet;
 use problem::{Code, Problem};
 use rotor::{Analysis, Basis, C64, Matrices, Place, Responder, Rotor};
 use scenario::{CUTOFFS, Spin, problem_at};
