@@ -7,7 +7,7 @@
 //! Barus's law, η e^(αp), is right at the inlet and far too stiff in the contact: at 1 GPa and α = 22 /GPa it is e²²
 //! where fits to falling-body viscometers give e¹⁵. Roelands's law is softer and has one parameter for it; the modulus equation
 //! has two, fitted to measurements of each oil, costs a division instead of a power, and has its temperature in it. So it is
-//! the law here, and an oil without such measurements has no traction: [`FilmOil`] lists some that have a film thickness.
+//! the law here, and an oil without such measurements has no traction.
 //!
 //! What the published data of an oil do not contain is `None`, and [`Lubricant::at`] says which number the user must give.
 //!
