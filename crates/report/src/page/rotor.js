@@ -80,7 +80,7 @@ function campbellFigures(run, runs) {
 }
 
 function campbellSection(runs) {
-  return section("campbell", "Frequencies and critical speeds", runs.map((run) => campbellFigures(run, runs)));
+  return section("campbell", "Frequencies and critical speeds", runs.map((run) => campbellFigures(analysisOf(run, false), runs)));
 }
 
 function shapeFigures(run, runs) {
@@ -100,7 +100,7 @@ function shapeFigures(run, runs) {
 }
 
 function shapeSection(runs) {
-  return section("shapes", "Mode shapes", runs.map((run) => shapeFigures(run, runs)));
+  return section("shapes", "Mode shapes", runs.map((run) => shapeFigures(analysisOf(run, false), runs)));
 }
 
 function responsePlaces(run) {
@@ -126,7 +126,7 @@ function rotorResponseFigures(run, runs) {
 }
 
 function rotorResponseSection(runs) {
-  return section("response", "Response to unbalance", runs.map((run) => rotorResponseFigures(run, runs)));
+  return section("response", "Response to unbalance", runs.map((run) => rotorResponseFigures(analysisOf(run, false), runs)));
 }
 
 function stiffnessMapFigures(run, runs) {
@@ -252,9 +252,9 @@ register("rotor", {
   facts: false,
   sections: (runs) => [
     [20, rotorSection, runs],
-    [21, campbellSection, runs.map((run) => analysisOf(run, false))],
-    [22, shapeSection, runs.map((run) => analysisOf(run, false))],
-    [23, rotorResponseSection, runs.map((run) => analysisOf(run, false)).filter((run) => responsePlaces(run).length)],
+    [21, campbellSection, runs],
+    [22, shapeSection, runs],
+    [23, rotorResponseSection, runs.filter((run) => responsePlaces(analysisOf(run, false)).length)],
     [24, levitationSection, runs.filter(isLevitated)],
     [25, whirlSection, runs.filter((run) => shownIn(run, "whirl").length)],
     [26, rollingSection, runs.filter((run) => shownIn(run, "rolling_bearings").length)],
