@@ -96,6 +96,10 @@ fn read(document: &str, log: &str) -> Vec<String> {
     if failed > 0 {
         faults.push(format!("{failed} parts could not be drawn"));
     }
+    let empty = document.matches("</h2></section>").count();
+    if empty > 0 {
+        faults.push(format!("{empty} sections without content"));
+    }
     if !document.contains("<h1>") {
         faults.push("no title was drawn".to_owned());
     }
@@ -114,6 +118,10 @@ mod tests {
         assert_eq!(read("<h1>a</h1>", log).len(), 1);
         assert_eq!(
             read("<h1>a</h1><section id=\"failed-orbitSection\">", "").len(),
+            1
+        );
+        assert_eq!(
+            read("<h1>a</h1><section><h2>Orbit</h2></section>", "").len(),
             1
         );
         assert_eq!(read("<main id=\"report\"></main>", "").len(), 1);
