@@ -149,7 +149,7 @@ const TABLE: &[Absent] = &[
         instead: PAIRS,
     },
     Absent {
-        paths: "foundation base pedestal support housing mount.friction mount.friction_coefficient mount.squeeze_film mount.tolerance_ring mount.stop \
+        paths: "foundation pedestal support housing mount.friction mount.friction_coefficient mount.squeeze_film mount.tolerance_ring mount.stop \
                 mount.gap mount.hysteresis mount.exponent mount.o_ring",
         what: "a mount is a sum of parts that are equal in all directions",
         point: 7,

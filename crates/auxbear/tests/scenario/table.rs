@@ -308,8 +308,22 @@ fn choices(path: &str) -> Vec<String> {
     list.iter().map(|set| set.to_string()).collect()
 }
 
-/// What stands together in a mount.
-const MOUNT: [(&str, &[&str]); 6] = [
+const SPECTRUM: &str = "base.spectrum=[[\"1 Hz\", \"2 m/s^2\"], [\"30 Hz\", \"2 m/s^2\"]]";
+
+/// What stands together in a mount, and in the motion of a base.
+const MOUNT: [(&str, &[&str]); 12] = [
+    (
+        "base.shock_",
+        &["base.shock_x=50 m/s^2", "base.shock_duration=11 ms"],
+    ),
+    ("base.spectrum", &[SPECTRUM]),
+    ("base.scale", &[SPECTRUM]),
+    ("base.start", &[SPECTRUM]),
+    ("base.file", &["base.channel_x=east"]),
+    (
+        "base.channel_",
+        &["base.file=quake.csv", "base.channel_x=east"],
+    ),
     (
         "mount.branch_",
         &[
@@ -430,7 +444,9 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 Range::Above(low) => low + 0.0123456,
                 Range::FromTo(low, _) if low < 0.0 => low * 0.1234567,
                 Range::FromTo(..) if path.ends_with("friction_coefficient") => 0.0612345,
-                Range::FromTo(..) if path.starts_with("analysis.") => 0.0612345,
+                Range::FromTo(..) if path.starts_with("analysis.") || path.starts_with("base.") => {
+                    0.0612345
+                }
                 Range::FromTo(low, _) => low * 1.234567,
                 // a traction coefficient must not become negative, so A is
                 _ if path == "bearing.traction.a" => -0.0612345,
@@ -442,8 +458,9 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
     }
 }
 
-/// Keys that stand for another value: eccentricity, viscosity, angle of the cage, state after a rest.
-const BECOME_OTHERS: [&str; 5] = [
+/// Keys that stand for another value: positive frequencies in rad/s, eccentricity, viscosity, angle of the cage, state after a rest.
+const BECOME_OTHERS: [&str; 6] = [
+    "base.spectrum",
     "rotor.unbalance",
     "bearing.moment.viscosity_points",
     "bearing.moment.temperature",
@@ -492,6 +509,15 @@ fn every_number_reaches_the_typed_scenario() {
                 "windage_quadratic" => "quadratic",
                 "windage_deviation" => "deviation",
                 "brake_torque" => "torque",
+                "start_x" | "start_y" => "start_displacement",
+                "start_speed_x" | "start_speed_y" => "start_velocity",
+                "record_x" | "record_y" => "record",
+                "shock_x" | "shock_y" => "acceleration",
+                "shock_start" => "start",
+                "shock_duration" => "duration",
+                "spectrum_x" | "spectrum_y" => "shares",
+                "spectrum_rise" | "spectrum_hold" | "spectrum_decay" => "envelope",
+                "spectrum_damping" => "damping",
                 "power_lost_at" => "power_lost",
                 "brake_start" => "start",
                 "torque_rate" | "peak_acceleration" => "engagement",

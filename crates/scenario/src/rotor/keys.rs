@@ -366,7 +366,7 @@ const EVENT_KEYS: &[Key] = &[
     Key::new("event.axis", Kind::Count, "1", "Number of the axis, 1 or 2.").within(Range::FromTo(1.0, 2.0)).optional("it happens to both").beside(&["magnet"]),
     Key::new("event.decay_time", Kind::Quantity("s"), "5 ms", "Of lost magnets and axes: time in which the currents decay to 1/e, that of the bias too; 0: at once.").not_negative().optional("it is levitation.decay_time"),
     Key::new("event.offset", Kind::Quantity("m"), "20 um", "Of a sensor offset: what it shows too much from then on, before its own filter.").optional("needed with do = \"sensor offset\""),
-    Key::new("event.deviation", Kind::Quantity("m"), "1 um", "Of sensor noise: standard deviation of what the sensor shows besides from then on, before its own filter.").positive().optional("needed with do = \"sensor noise\""),
+    Key::new("event.deviation", Kind::Quantity("m"), "1 um", "Of sensor noise: standard deviation of what the sensor shows besides from then on, before its own filter.").positive().optional("needed for the noise of a sensor"),
     Key::new("event.period", Kind::Quantity("s"), "50 us", "Of sensor noise: time from a value to the next.").positive().optional("a sample, of sampled controllers"),
     Key::new("event.seed", Kind::Count, "1", "Of sensor noise: seed of its values.").not_negative().optional("1"),
     Key::new("event.largest_current", Kind::Quantity("A"), "2 A", "Of an amplifier limit: largest current of a coil from then on, of a linear magnet largest control current.").positive().optional("it stays"),
@@ -375,9 +375,9 @@ const EVENT_KEYS: &[Key] = &[
     Key::new("event.reference_time", Kind::Quantity("s"), "0.1 s", "Of a re-levitation: time in which the references lead from where the rotor lies to the middle.").not_negative().optional("0: the controllers ask for the middle at once"),
     Key::new("event.within", Kind::Coefficient, "0.5", "Of a re-levitation: share of the radial air clearance within which the rotor must stay.").within(Range::FromTo(0.0, 1.0)).optional("0.5: half of it"),
     Key::new("event.hold", Kind::Quantity("s"), "0.1 s", "Of a re-levitation: how long before the end of the run the rotor must have stayed within it without contact, to count as held.").positive().optional("0.1 s"),
-    Key::new("event.torque", Kind::Quantity("N m"), "2 N m", "Of a brake: size of the torque from then on; it acts against the spin until the rotor stands. Of a drive: its torque from then on, in the place of rotor.drive_torque; 0: it is off.").not_negative().optional("needed with do = \"brake\" and \"drive\""),
-    Key::new("event.plane", Kind::Text, "wheel", "Of an unbalance: name of the [[rotor.unbalance]] in whose plane it comes.").optional("needed with do = \"unbalance\""),
-    Key::new("event.amount", Kind::Quantity("kg m"), "200 g mm", "Of an unbalance that comes: mass times distance from the axis; of a lost blade, whose own mass is not taken from the rotor.").positive().optional("needed with do = \"unbalance\""),
+    Key::new("event.torque", Kind::Quantity("N m"), "2 N m", "Of a brake: size of the torque from then on; it acts against the spin until the rotor stands. Of a drive: its torque from then on, in the place of rotor.drive_torque; 0: it is off.").not_negative().optional("needed for a brake and a drive"),
+    Key::new("event.plane", Kind::Text, "wheel", "Of an unbalance: name of the [[rotor.unbalance]] in whose plane it comes.").optional("needed for an unbalance that comes"),
+    Key::new("event.amount", Kind::Quantity("kg m"), "200 g mm", "Of an unbalance that comes: mass times distance from the axis; of a lost blade, whose own mass is not taken from the rotor.").positive().optional("needed for an unbalance that comes"),
     Key::new("event.phase", Kind::Quantity("rad"), "180 deg", "Of an unbalance that comes: angle on the rotor; of a lost blade opposite to where it was.").optional("0: along the mark that angles count from"),
 ];
 
