@@ -179,3 +179,56 @@ fn drive(path: &str) -> String {
     let load = unless("drive.load_history", "radial_load = \"80 N\"\n");
     format!("[drive]\n{load}{}", own.concat())
 }
+
+/// A spectrum of a base.
+const SPECTRUM: &str = "base.spectrum=[[\"1 Hz\", \"2 m/s^2\"], [\"30 Hz\", \"2 m/s^2\"]]";
+
+/// What stands together in a mount, and in the motion of a base.
+pub const MOUNT: [(&str, &[&str]); 12] = [
+    (
+        "base.shock_",
+        &["base.shock_x=50 m/s^2", "base.shock_duration=11 ms"],
+    ),
+    ("base.spectrum", &[SPECTRUM]),
+    ("base.scale", &[SPECTRUM]),
+    ("base.start", &[SPECTRUM]),
+    ("base.file", &["base.channel_x=east"]),
+    (
+        "base.channel_",
+        &["base.file=quake.csv", "base.channel_x=east"],
+    ),
+    (
+        "mount.branch_",
+        &[
+            "mount.branch_stiffness=[\"1e6 N/m\", \"2e6 N/m\"]",
+            "mount.branch_time=[\"2 ms\", \"1 ms\"]",
+        ],
+    ),
+    (
+        "mount.ring_",
+        &["mount.ring_stiffness=1e6 N/m", "mount.ring_travel=20 um"],
+    ),
+    (
+        "mount.film_",
+        &[
+            "mount.film_viscosity=0.1 Pa s",
+            "mount.film_radius=20 mm",
+            "mount.film_length=11 mm",
+            "mount.film_clearance=0.3 mm",
+            "mount.stop_gap=1 um",
+            "mount.stop_stiffness=1e9 N/m",
+        ],
+    ),
+    (
+        "contact.friction_over_temperature",
+        &["contact.width=12 mm"],
+    ),
+    (
+        "mount.stop_",
+        &["mount.stop_gap=1 um", "mount.stop_stiffness=1e9 N/m"],
+    ),
+    (
+        "mount.housing_",
+        &["mount.housing_mass=3 kg", "mount.housing_stiffness=1e7 N/m"],
+    ),
+];

@@ -1,6 +1,6 @@
 //! The table of keys: documented, right in itself, and each number of it reaches the typed scenario.
 
-use super::bases::base;
+use super::bases::{MOUNT, base};
 use super::files::must_read;
 use auxbear::scenario::{
     BuiltIn, Kind, Presence, Range, Scenario, SystemName, keys, keys_of, parts_of, sections,
@@ -307,58 +307,6 @@ fn choices(path: &str) -> Vec<String> {
     };
     list.iter().map(|set| set.to_string()).collect()
 }
-
-const SPECTRUM: &str = "base.spectrum=[[\"1 Hz\", \"2 m/s^2\"], [\"30 Hz\", \"2 m/s^2\"]]";
-
-/// What stands together in a mount, and in the motion of a base.
-const MOUNT: [(&str, &[&str]); 12] = [
-    (
-        "base.shock_",
-        &["base.shock_x=50 m/s^2", "base.shock_duration=11 ms"],
-    ),
-    ("base.spectrum", &[SPECTRUM]),
-    ("base.scale", &[SPECTRUM]),
-    ("base.start", &[SPECTRUM]),
-    ("base.file", &["base.channel_x=east"]),
-    (
-        "base.channel_",
-        &["base.file=quake.csv", "base.channel_x=east"],
-    ),
-    (
-        "mount.branch_",
-        &[
-            "mount.branch_stiffness=[\"1e6 N/m\", \"2e6 N/m\"]",
-            "mount.branch_time=[\"2 ms\", \"1 ms\"]",
-        ],
-    ),
-    (
-        "mount.ring_",
-        &["mount.ring_stiffness=1e6 N/m", "mount.ring_travel=20 um"],
-    ),
-    (
-        "mount.film_",
-        &[
-            "mount.film_viscosity=0.1 Pa s",
-            "mount.film_radius=20 mm",
-            "mount.film_length=11 mm",
-            "mount.film_clearance=0.3 mm",
-            "mount.stop_gap=1 um",
-            "mount.stop_stiffness=1e9 N/m",
-        ],
-    ),
-    (
-        "contact.friction_over_temperature",
-        &["contact.width=12 mm"],
-    ),
-    (
-        "mount.stop_",
-        &["mount.stop_gap=1 um", "mount.stop_stiffness=1e9 N/m"],
-    ),
-    (
-        "mount.housing_",
-        &["mount.housing_mass=3 kg", "mount.housing_stiffness=1e7 N/m"],
-    ),
-];
 
 /// The choices that the system has.
 /// What a coast-down after a drop needs.

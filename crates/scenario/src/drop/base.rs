@@ -41,8 +41,8 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("base.spectrum_seed", Kind::Count, "1", "Seed of the phases: another seed is another earthquake of the same spectrum.").not_negative().default("1", "any number serves"),
     Key::new("base.shock_x", Kind::Quantity("m/s^2"), "50 m/s^2", "Largest acceleration along x of a shock whose acceleration is half a period of a sine.").optional("no acceleration along x"),
     Key::new("base.shock_y", Kind::Quantity("m/s^2"), "50 m/s^2", "The same along y.").optional("no acceleration along y"),
-    Key::new("base.shock_start", Kind::Quantity("s"), "0.1 s", "Its start.").not_negative().default("0 s", "with the run"),
-    Key::new(DURATION, Kind::Quantity("s"), "11 ms", "Its duration.").positive().optional("needed beside a shock"),
+    Key::new("base.shock_start", Kind::Quantity("s"), "0.1 s", "Instant of the run at which the shock begins.").not_negative().default("0 s", "with the run"),
+    Key::new(DURATION, Kind::Quantity("s"), "11 ms", "Duration of the shock.").positive().optional("needed beside a shock"),
 ];
 
 /// Key of the file, which stands beside the scenario.
