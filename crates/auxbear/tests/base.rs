@@ -12,12 +12,12 @@ use std::sync::atomic::AtomicBool;
 
 const BLADE: &str = include_str!("../../../scenarios/machine_blade_loss.toml");
 
-fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
+pub fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
     Scenario::parse(text, "machine.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
 }
 
-fn ran(text: &str, sets: &[&str]) -> Outcome {
+pub fn ran(text: &str, sets: &[&str]) -> Outcome {
     let scenario = parsed(text, sets).unwrap();
     run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
 }

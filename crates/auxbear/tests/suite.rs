@@ -16,6 +16,7 @@ mod exudyn_cage_spin_up;
 mod feedback;
 mod heat;
 mod held_limits;
+mod housings;
 mod levitated_run;
 mod machine;
 mod machine_results;

@@ -73,7 +73,7 @@ impl<T: Coordinates> ClosedLoop<T> {
         slopes: Vec<(f64, f64)>,
     ) -> Result<Self, Refused> {
         let rows = |axes: Vec<&crate::Axis>| {
-            let rows = axes.iter().map(|axis| plant.row(axis.node, axis.angle));
+            let rows = axes.iter().map(|axis| plant.axis(axis));
             stacked(rows.collect(), plant.size())
         };
         let empty = DMatrix::zeros(0, 0);

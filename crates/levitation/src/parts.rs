@@ -11,6 +11,8 @@ pub struct Axis {
     pub name: String,
     /// Its node of the rotor.
     pub node: usize,
+    /// The housing that carries it; the ground without.
+    pub on: Option<usize>,
     /// Its direction, rad from +x about +z.
     pub angle: f64,
 }

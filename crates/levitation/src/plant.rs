@@ -1,6 +1,6 @@
 //! What the magnets hold: M q̈ + D q̇ + K q = F at one speed.
 
-use crate::{C64, Refused, eigen};
+use crate::{Axis, C64, Refused, eigen};
 use nalgebra::{ComplexField, DMatrix, DVector, RowDVector};
 use rotor::{Analysis, Dynamics, Matrices, Rotor};
 
@@ -77,6 +77,8 @@ pub struct Plant<T: Coordinates> {
     pub stiffness: DMatrix<T>,
     /// Displacement of each node in one plane, a row over the coordinates of one plane.
     pub nodes: DMatrix<f64>,
+    /// That of each housing.
+    pub housings: DMatrix<f64>,
 }
 
 impl Plant<C64> {
@@ -121,6 +123,9 @@ impl<T: Coordinates> Plant<T> {
             stiffness: dynamics.stiffness,
             // displacement and slope of each node stand in turn
             nodes: DMatrix::from_fn(nodes, shapes.ncols(), |node, k| shapes[(2 * node, k)]),
+            housings: shapes
+                .rows(2 * nodes, shapes.nrows() - 2 * nodes)
+                .into_owned(),
         }
     }
 
@@ -133,6 +138,16 @@ impl<T: Coordinates> Plant<T> {
     #[must_use]
     pub fn shape(&self, node: usize) -> RowDVector<f64> {
         self.nodes.row(node).into()
+    }
+    /// Row of an axis of a magnet or a sensor: of its node, less that of the housing that carries it.
+    #[must_use]
+    pub fn axis(&self, axis: &Axis) -> RowDVector<T> {
+        let node = self.shape(axis.node);
+        let shape = match axis.on {
+            None => node,
+            Some(housing) => node - self.housings.row(housing),
+        };
+        T::row(&shape, axis.angle)
     }
     /// Row of a direction at a node.
     #[must_use]

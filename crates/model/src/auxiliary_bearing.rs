@@ -389,18 +389,20 @@ impl<R: Real> AuxiliaryBearing<R> {
         (by.dot(own.momentum + housing + races), own.moment.cross(by))
     }
 
-    /// What the mount does at a motion of the outer race; writes the rates of its own states.
+    /// What the mount does at a motion of the outer race, and of what it stands on; writes the rates of its own states.
     #[inline(always)]
     pub fn mount(
         &self,
         at: &BearingAt,
         motion: &Motion<R>,
+        [position, velocity]: [Vec2<R>; 2],
         state: &[R],
         rate: &mut [R],
     ) -> MountReaction<R> {
         let outer = &motion.outer;
         let (state, rate) = (&state[at.of_mount()], &mut rate[at.of_mount()]);
-        (self.mount).react((outer.position, outer.velocity), state, rate)
+        let against = (outer.position - position, outer.velocity - velocity);
+        (self.mount).react(against, state, rate)
     }
 
     /// Writes the rates of both races and of the ledger's heats and sources, and the probes where asked, which alone see the

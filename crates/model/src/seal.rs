@@ -39,7 +39,7 @@ struct Piece<R> {
 #[derive(Clone, Debug)]
 pub struct Seal<R> {
     centre: Vec2<R>,
-    carried: Vec2<R>,
+    pub(crate) carried: Vec2<R>,
     first: [Axes<R>; 2],
     pieces: Vec<Piece<R>>,
 }

@@ -32,11 +32,13 @@ impl Response {
         self.forward[coordinate].norm() + self.backward[coordinate].norm()
     }
 
-    /// Farthest distance of the orbit at a coordinate about `middle` (x + jy, m) from the origin, at 64 points a turn, m.
+    /// Farthest distance of the orbit at a coordinate, less that at another where there is one, about `middle` (x + jy, m) from the origin, at 64 points a
+    /// turn, m.
     #[must_use]
-    pub fn farthest(&self, coordinate: usize, middle: C64) -> f64 {
+    pub fn farthest(&self, coordinate: usize, less: Option<usize>, middle: C64) -> f64 {
         const POINTS: u32 = 64;
-        let (f, b) = (self.forward[coordinate], self.backward[coordinate].conj());
+        let of = |list: &DVector<C64>| list[coordinate] - less.map_or(C64::default(), |k| list[k]);
+        let (f, b) = (of(&self.forward), of(&self.backward).conj());
         let points = (0..POINTS).map(|k| {
             let turn = C64::from_polar(
                 1.0,

@@ -153,7 +153,7 @@ const TABLE: &[Absent] = &[
                 mount.gap mount.hysteresis mount.exponent mount.o_ring",
         what: "a mount is a sum of parts that are equal in all directions",
         point: 7,
-        instead: "Besides stiffness and damping: branch_stiffness and branch_time (O-ring), ring_stiffness and ring_travel (tolerance ring), film_…, stop_…, housing_… of [mount]",
+        instead: "Besides stiffness and damping: branch_stiffness and branch_time (O-ring), ring_stiffness and ring_travel (tolerance ring), film_…, stop_…, housing_… of [mount]; of a machine a [[rotor.housing]] that several bearings and magnets share",
     },
     Absent {
         paths: "landing landing_sleeve sleeve landing.sleeve contact.sleeve contact.coating",

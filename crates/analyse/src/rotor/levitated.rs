@@ -56,10 +56,11 @@ pub(crate) fn on_magnets(
 /// The rotor on springs where its magnets act, whose stiffness stands for theirs.
 pub(crate) fn on_springs(model: &RotorModel) -> Rotor {
     let mut out = model.rotor.clone();
-    let magnets = model.levitation.iter().flat_map(|own| &own.magnets);
-    out.supports.extend(magnets.map(|(_, at, _)| Support {
-        at: Place::Node(*at),
-        on: None,
+    let magnets = (model.levitation.iter()).flat_map(|own| own.levitation.actuators());
+    // both axes of a magnet stand at its node
+    out.supports.extend(magnets.step_by(2).map(|own| Support {
+        at: Place::Node(own.axis.node),
+        on: own.axis.on,
         coefficients: Coefficients::constant(Block::equal(1.0, 0.0)),
         seal: false,
     }));

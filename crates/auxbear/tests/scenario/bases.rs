@@ -51,6 +51,11 @@ stiffness = "1 MN/m"
 at = "0.7 m"
 stiffness = "1 MN/m"
 after_release = "stays"
+
+[[rotor.housing]]
+name = "casing"
+mass = "200 kg"
+stiffness = "1e9 N/m"
 "#;
 
 const BEARING: &str = r#"

@@ -39,12 +39,14 @@ impl Mass {
             damping: DMatrix::zeros(2, 2),
             stiffness: DMatrix::zeros(2, 2),
             nodes: DMatrix::identity(1, 1),
+            housings: DMatrix::zeros(0, 1),
         }
     }
     pub fn axes(&self) -> (Vec<Sensor>, Vec<Actuator>) {
         let axis = |angle| Axis {
             name: format!("axis {angle:.1}"),
             node: 0,
+            on: None,
             angle,
         };
         let angles = [0.3, 0.3 + std::f64::consts::FRAC_PI_2];

@@ -72,6 +72,7 @@ impl File {
                 let axis = |node| Axis {
                     name: format!("magnet {magnet} at {turned:.2}"),
                     node,
+                    on: None,
                     angle: angle + turned,
                 };
                 sensors.push(Sensor {

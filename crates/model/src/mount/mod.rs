@@ -131,8 +131,10 @@ pub struct MountParts {
     pub film: Option<SqueezeFilm<f64>>,
     /// Hard stop.
     pub stop: Option<HardStop<f64>>,
-    /// Housing; ground without.
+    /// A housing of its own; ground without.
     pub housing: Option<Housing<f64>>,
+    /// Row φ of the housing of the machine on which it stands, beside bearings and magnets; ground without.
+    pub on: Option<Vec<f64>>,
     /// Force on the race that does not yield, N: it carries the weight where no spring does.
     pub preload: Vec2<f64>,
 }
@@ -145,6 +147,7 @@ impl MountParts {
         film: None,
         stop: None,
         housing: None,
+        on: None,
         preload: Vec2 { x: 0.0, y: 0.0 },
     };
     /// Whether there is anything besides spring and damper.
@@ -292,7 +295,7 @@ impl<R: Real> WholeMount<R> {
         }
     }
 
-    /// What it does at a motion of the outer race; writes the rates of its states.
+    /// What it does at a motion of the outer race against what it stands on; writes the rates of its states.
     #[inline(always)]
     pub fn react(
         &self,
@@ -360,6 +363,12 @@ impl<R: Real> WholeMount<R> {
         rate[at + 2] += by.x;
         rate[at + 3] += by.y;
         pair(state, at + 2) * housing.mass
+    }
+
+    /// The part of its force that balances weights, N, which a housing on which it stands does not feel.
+    #[inline(always)]
+    pub fn weight(&self) -> Vec2<R> {
+        self.preload + self.spring.free_position * self.spring.stiffness
     }
 
     /// What its parts do at a motion of the outer race.

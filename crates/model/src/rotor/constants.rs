@@ -63,6 +63,9 @@ pub struct RotorConstants {
     pub brake_torque: f64,
     /// True where a drive holds the spin whatever it takes.
     pub spin_held: bool,
+    /// So many of its first coordinates are displacements of housings, which carry the rotor and are no part of it. Their mounts are
+    /// the last seals of the machine, in this order.
+    pub housings: usize,
     /// Rows φ of places whose displacement is watched.
     pub places: Vec<Vec<f64>>,
 }
@@ -93,6 +96,7 @@ impl RotorConstants {
             torque: None,
             brake_torque: 0.0,
             spin_held: false,
+            housings: 0,
             places: Vec::new(),
         }
     }
@@ -124,7 +128,11 @@ impl RotorConstants {
     /// Mass of the rotor, kg; exact where the coordinates hold its rigid translation.
     pub fn mass(&self) -> f64 {
         let share = |own: &Coordinate| own.weight * (own.weight / own.mass);
-        self.coordinates.iter().map(share).sum()
+        self.own_coordinates().iter().map(share).sum()
+    }
+    /// Coordinates without those of housings.
+    pub fn own_coordinates(&self) -> &[Coordinate] {
+        &self.coordinates[self.housings..]
     }
     /// Largest distance of the mass centre from the axis, at a node, m.
     pub fn eccentricity(&self, node: &[f64]) -> f64 {

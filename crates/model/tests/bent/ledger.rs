@@ -84,7 +84,7 @@ fn loaded() -> (MachineConstants, Vec<f64>) {
 }
 
 /// Relative to what is turned over: energy, angular momentum.
-fn residuals(
+pub(super) fn residuals(
     constants: MachineConstants,
     start: &[f64],
     steps: Steps,

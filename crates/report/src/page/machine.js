@@ -125,22 +125,23 @@ function shapeFigure(machine) {
 
 const AXIS_COLOURS = ["#1f5fa8", "#6d9fd3", "#c2571a", "#e0a03c", "#2f8f5b", "#8fc4a6", "#8a4fae", "#b48fcc"];
 
-// Control currents of the magnets' axes over time.
-function currentFigure(run) {
-  const names = [...run.columns.keys()].filter((name) => /^magnet\..*\.current_[12]$/.test(name));
+// A figure of the columns over time whose names match, what their groups say in words; none where the run has none.
+function columnsFigure(run, pattern, { title, note, label, words, marks = [], factor = 1 }) {
+  const names = [...run.columns.keys()].filter((name) => pattern.test(name));
   if (!names.length) return null;
-  const words = (name) => name.replace(/^magnet\.(.*)\.current_([12])$/, (_, magnet, axis) => `${wordsOf(magnet)}, axis ${axis} [A]`);
-  const series = names.map((name, place) => ({ label: words(name), time: run.time, values: columnOf(run, name), colour: AXIS_COLOURS[place % AXIS_COLOURS.length], width: 1 }));
-  const marks = instantMarks(instantsOf([run]).filter(({ words }) => words === "release"));
-  return figure("Control currents", "Of each axis of the magnets, without bias; after the loss of power what is left of them.", timePlot({ series, label: "current [A]", marks, ticks: [run], height: 240 }));
+  const colour = (place) => AXIS_COLOURS[(names.length > 2 ? place : 2 * place) % AXIS_COLOURS.length];
+  const series = names.map((name, place) => ({ label: words(...name.match(pattern).slice(1)), time: run.time, values: columnOf(run, name).map((value) => factor * value), colour: colour(place), width: 1 }));
+  return figure(title, note, timePlot({ series, label, marks, ticks: [run], height: 220 }));
 }
 
-// Acceleration of the base over time.
-function baseFigure(run) {
-  const names = [...run.columns.keys()].filter((name) => /^base\.acceleration_[xy]$/.test(name));
-  if (!names.length) return null;
-  const series = names.map((name, place) => ({ label: `${name.slice(-1)} [m/s²]`, time: run.time, values: columnOf(run, name), colour: AXIS_COLOURS[2 * place], width: 1 }));
-  return figure("Acceleration of the base", "At the rows of the history; displacements are relative to the base.", timePlot({ series, label: "acceleration [m/s²]", ticks: [run], height: 200 }));
+// Control currents of the magnets' axes, acceleration of the base, motion of the housings.
+function besidesOf(run) {
+  const release = instantMarks(instantsOf([run]).filter(({ words }) => words === "release"));
+  return [
+    columnsFigure(run, /^base\.acceleration_([xy])$/, { title: "Acceleration of the base", note: "At the rows of the history; displacements are relative to the base.", label: "acceleration [m/s²]", words: (axis) => `${axis} [m/s²]` }),
+    columnsFigure(run, /^housing\.(.*)\.([xy])$/, { title: "Motion of the housings", note: "Displacement from where each rests with the levitated rotor.", label: "displacement [µm]", words: (housing, axis) => `${wordsOf(housing)}, ${axis} [µm]`, marks: release, factor: 1e6 }),
+    columnsFigure(run, /^magnet\.(.*)\.current_([12])$/, { title: "Control currents", note: "Of each axis of the magnets, without bias; after the loss of power what is left of them.", label: "current [A]", words: (magnet, axis) => `${wordsOf(magnet)}, axis ${axis} [A]`, marks: release }),
+  ];
 }
 
 function machineSection(runs) {
@@ -152,8 +153,7 @@ function machineSection(runs) {
     machines.map((machine) => [
       figure(`${of(machine)}Rotor to scale`, DRAWN, rotorPicture(machine[0], [], machine.map((run) => run.summary.name || ""))),
       columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets.", shapeFigure(machine)) : null,
-      baseFigure(machine[0]),
-      currentFigure(machine[0]),
+      ...besidesOf(machine[0]),
       tableOf(machine[0], "shape")("displacement").length ? figure(`${of(machine)}Largest displacement along the shaft`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
     ]),
   );

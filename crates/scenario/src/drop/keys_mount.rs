@@ -1,6 +1,10 @@
 //! Keys of a mount: spring and damper, and what else stands between outer race and ground.
 
 use crate::key::{Key, Kind, Range};
+use crate::system::MACHINE;
+
+/// Key of the housing on which a mount stands.
+pub(crate) const ON: &str = "mount.on";
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
@@ -29,6 +33,8 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("mount.stop_stiffness", Kind::Quantity("N/m"), "1e9 N/m", "Stiffness of the hard stop.").positive().optional("no hard stop"),
     Key::new("mount.stop_damping", Kind::Quantity("s/m"), "0.5 s/m", "Hunt-Crossley damping a of the stop's force F = k d(1 + a ḋ).")
         .not_negative().optional("0.5 s/m, as of contact.damping"),
+    Key::new(ON, Kind::Text, "casing", "Name of the [[rotor.housing]] on which the mount stands, which other bearings and magnets may share.")
+        .optional("the mount stands on ground, or on mount.housing_mass").excludes("mount.housing_mass").only(MACHINE),
     Key::new("mount.housing_mass", Kind::Quantity("kg"), "20 kg", "Mass of a housing that yields, under the mount.")
         .positive().optional("the mount stands on ground"),
     Key::new("mount.housing_stiffness", Kind::Quantity("N/m"), "1e8 N/m", "Stiffness between that housing and ground.")

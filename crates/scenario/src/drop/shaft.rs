@@ -2,6 +2,7 @@
 
 use crate::document::Document;
 use crate::drop::event::{self, Event};
+use crate::drop::keys_mount::ON;
 use crate::key::quoted;
 use crate::rotor::tables::{self, Part};
 use crate::rotor::{FlexibleRotor, Node};
@@ -44,6 +45,8 @@ pub struct BearingPlace {
     pub node: usize,
     /// Its middle from the line of levitation, x and y, m.
     pub misalignment: [f64; 2],
+    /// The housing on which its mount stands; the ground, or one of its own, without.
+    pub on: Option<usize>,
 }
 
 impl Shaft {
@@ -55,13 +58,11 @@ impl Shaft {
             part.refuse(Code::NotModelled, "", found, allowed)
         };
         const ALONE: &str = "it is computed with system = \"rotor\" alone";
-        if let Some(part) = parts.iter().find(|part| part.kind.word == "housing") {
-            return not_in_runs(part, "a housing in a run", ALONE);
-        }
         let rotor = FlexibleRotor::of(&parts, values)?;
         // supports first, then seals, as the rotor has them
         let of = |word: &'static str| parts.iter().filter(move |part| part.kind.word == word);
-        let held = || of("support").chain(of("seal")).zip(&rotor.supports);
+        let standing = || of("support").chain(of("seal")).chain(of("housing"));
+        let held = || standing().zip(&rotor.supports);
         for (part, support) in held().filter(|(_, support)| support.stays) {
             for (_, block) in support.coefficients.rows() {
                 let [[xx, xy], [yx, yy]] = block.damping;
@@ -77,6 +78,17 @@ impl Shaft {
                     return not_in_runs(part, &found, allowed);
                 }
             }
+        }
+        // what they carried would have to stay on the housing
+        let housed = held().find(|(_, support)| support.on.is_some() && !support.seal);
+        if let (Some((part, _)), None) = (housed, &rotor.levitation) {
+            let allowed = "a support on the ground is needed where no magnets hold the rotor";
+            return part.refuse(
+                Code::NotModelled,
+                "on",
+                "a support on a housing in a run",
+                allowed,
+            );
         }
         // supports that all stay release nothing: the rotor runs up or down on them
         let stands = rotor.supports.iter().any(|support| !support.seal);
@@ -105,11 +117,13 @@ impl Shaft {
         }
         let events = event::events(&parts, &rotor, values)?;
         let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
+        let housings: Vec<&str> = of("housing").map(|part| part.label.as_str()).collect();
         let place = |own: &Values| {
             Ok(BearingPlace {
                 node: node(own, &rotor.nodes)?,
                 misalignment: ["contact.misalignment_x", "contact.misalignment_y"]
                     .map(|path| number(own, path)),
+                on: on(own, &housings)?,
             })
         };
         Ok(Shaft {
@@ -148,20 +162,37 @@ impl Values {
 
 /// The node at which a bearing stands.
 fn node(values: &Values, nodes: &[Node]) -> Result<usize, Box<Problem>> {
-    const PATH: &str = "contact.node";
-    let named = values.text(PATH).unwrap_or_default();
-    if let Some(node) = nodes.iter().position(|node| node.name == named) {
-        return Ok(node);
-    }
     let names: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
-    let allowed = match names.as_slice() {
-        [] => "a [[rotor.node]] with this name is needed".to_string(),
+    let named = values.text("contact.node").unwrap_or_default();
+    named_part(values, ("contact.node", &named), "node", &names)
+}
+
+/// The housing on which its mount stands.
+fn on(values: &Values, housings: &[&str]) -> Result<Option<usize>, Box<Problem>> {
+    let named = values.text(ON);
+    named
+        .map(|named| named_part(values, (ON, &named), "housing", housings))
+        .transpose()
+}
+
+/// The place of a part that a key names among those of its kind.
+fn named_part(
+    values: &Values,
+    (path, named): (&str, &str),
+    kind: &str,
+    names: &[&str],
+) -> Result<usize, Box<Problem>> {
+    if let Some(at) = names.iter().position(|name| *name == named) {
+        return Ok(at);
+    }
+    let allowed = match names {
+        [] => format!("a [[rotor.{kind}]] with this name is needed"),
         names => format!(
-            "one of the names of [[rotor.node]] is needed: {}",
+            "one of the names of [[rotor.{kind}]] is needed: {}",
             names.join(", ")
         ),
     };
-    let place = values.place(PATH);
-    let problem = values.problem(Code::NoSuchNode, PATH, place, quoted(&named), allowed);
-    Err(problem.with_hint(did_you_mean(&named, names)))
+    let place = values.place(path);
+    let problem = values.problem(Code::NoSuchNode, path, place, quoted(named), allowed);
+    Err(problem.with_hint(did_you_mean(named, names.iter().copied())))
 }

@@ -158,6 +158,7 @@ pub(crate) const PARTS: &[PartKind] = &[
             key!("node", "name", Kind::Text, "drive_end", "Its name."),
             key!("node", "at", Kind::Quantity("m"), "0.1 m", "Position along the shaft."),
             key!("node", "clearance", Kind::Quantity("m"), "0.3 mm", "Radial clearance of what stands around the rotor here: a seal, a sensor, a magnet. A run on auxiliary bearings says what is left of it.").positive().optional("the least distance is not given"),
+            key!("node", "on", Kind::Text, "casing", "Name of the [[rotor.housing]] that this belongs to: displacement and distance are then against it.").optional("it stands on the ground").beside(&["clearance"]),
         ],
         starting: &[&[("name", "drive_end"), ("at", "0.1 m")], &[("name", "other_end"), ("at", "0.7 m")]],
     },
@@ -225,11 +226,11 @@ pub(crate) const PARTS: &[PartKind] = &[
     },
     PartKind {
         word: "housing",
-        doc: "A housing or pedestal: a mass that supports stand on, on a mount of its own.",
+        doc: "A housing or pedestal: a mass that supports, seals, magnets with their sensors and auxiliary bearings stand on, on a mount of its own. It translates in the plane of the bearings, from where it rests.",
         alone: false,
         keys: coefficients![
             "housing",
-            key!("housing", "name", Kind::Text, "pedestal", "Its name, for rotor.support.on."),
+            key!("housing", "name", Kind::Text, "pedestal", "Its name, for what stands on it: the keys on of support, seal, node, magnet and mount."),
             key!("housing", "mass", Kind::Quantity("kg"), "5 kg", "Mass.").positive(),
         ],
         starting: &[],
@@ -294,6 +295,7 @@ pub(crate) const PARTS: &[PartKind] = &[
         keys: &[
             lev!("magnet", "name", Kind::Text, "drive_end", "Its name, in results and messages."),
             lev!("magnet", "at", Kind::Text, "0.25 m", "Where it sits: a position along the shaft, or the name of a [[rotor.node]]."),
+            lev!("magnet", "on", Kind::Text, "casing", "Name of the [[rotor.housing]] that carries the magnet and its sensor.").optional("they stand on the ground"),
             lev!("magnet", "angle", Kind::Quantity("rad"), "45 deg", "Direction of its first axis from x; the second is a right angle ahead.").default("45 deg", "the usual frame"),
             lev!("magnet", "current_stiffness", Kind::Quantity("N/A"), "40 N/A", "Force over control current of an axis, k_i.").positive(),
             lev!("magnet", "position_stiffness", Kind::Quantity("N/m"), "1.6e5 N/m", "Force over displacement of an axis, k_s; it pushes away from the centre.").positive(),

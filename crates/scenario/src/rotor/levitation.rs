@@ -1,7 +1,7 @@
 //! From the tables of magnets, sensors and controllers to their values.
 
 use crate::key::quoted;
-use crate::rotor::parts::{Checked, OfKind};
+use crate::rotor::parts::{Checked, OfKind, on};
 use crate::rotor::tables::Part;
 use physics::magnet::{Amplifier, Magnet, OpposedPair, Timing};
 use problem::{Code, did_you_mean};
@@ -27,6 +27,8 @@ pub struct RadialMagnet {
     pub name: String,
     /// Position along the shaft, m.
     pub at: f64,
+    /// The housing that carries both; the ground without.
+    pub on: Option<usize>,
     /// Position of its sensor, m.
     pub sensed_at: f64,
     /// Corner of its sensor, rad/s; none follows at once.
@@ -112,6 +114,7 @@ pub(super) fn magnets<'a>(
             Ok,
         )
     };
+    let housings = of("housing");
     let (mut list, mut channels) = (Vec::new(), Vec::new());
     for magnet in &magnets {
         let sensor = own(&sensors, magnet, "sensor")?;
@@ -120,6 +123,7 @@ pub(super) fn magnets<'a>(
         list.push(RadialMagnet {
             name: magnet.label.clone(),
             at: at(magnet)?,
+            on: on(magnet, &housings)?,
             sensed_at: at(sensor)?,
             sensor_corner: sensor.number("bandwidth").map(|hertz| TAU * hertz),
             amplifier,

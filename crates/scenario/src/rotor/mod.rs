@@ -64,6 +64,8 @@ pub struct Node {
     pub at: f64,
     /// Radial clearance of what stands around the rotor there, m.
     pub clearance: Option<f64>,
+    /// The housing that this belongs to; the ground without.
+    pub on: Option<usize>,
 }
 
 /// A rigid disk.

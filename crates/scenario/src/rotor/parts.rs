@@ -35,12 +35,16 @@ impl FlexibleRotor {
         };
         let pieces = pieces(&of, values)?;
         let layers = || pieces.iter().map(|piece| &piece.layer);
-        let nodes = of("node").into_iter().map(|part| Node {
-            name: part.label.clone(),
-            at: part.needed("at"),
-            clearance: part.number("clearance"),
+        let housings = of("housing");
+        let nodes = of("node").into_iter().map(|part| {
+            Ok(Node {
+                name: part.label.clone(),
+                at: part.needed("at"),
+                clearance: part.number("clearance"),
+                on: on(part, &housings)?,
+            })
         });
-        let nodes: Vec<Node> = nodes.collect();
+        let nodes: Vec<Node> = nodes.collect::<Checked<_>>()?;
         let ends = ends(&pieces);
         let at = |part: &Part| on_shaft(part, position(part, &nodes)?, ends);
         for (part, node) in of("node").into_iter().zip(&nodes) {
@@ -55,7 +59,6 @@ impl FlexibleRotor {
             let found = format!("{elements} elements");
             return values.refuse(Code::RotorGeometry, LONGEST_ELEMENT, found, allowed);
         }
-        let housings = of("housing");
         let held = |part: &&Part| {
             Ok(Support {
                 name: part.label.clone(),
@@ -417,13 +420,14 @@ fn disk(part: &Part, at: f64, materials: &[&Part]) -> Checked<Disk> {
     ]))
 }
 
-fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
+/// The housing that a part stands on; the ground without.
+pub(super) fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
     let Some(name) = part.text("on") else {
         return Ok(None);
     };
-    let at = housings.iter().position(|housing| housing.label == name);
+    let names: Vec<&str> = housings.iter().map(|part| part.label.as_str()).collect();
+    let at = names.iter().position(|own| *own == name);
     at.map(Some).ok_or_else(|| {
-        let names: Vec<&str> = housings.iter().map(|part| part.label.as_str()).collect();
         let allowed = match names.as_slice() {
             [] => "a [[rotor.housing]] of this name is needed; the file has none".to_string(),
             names => format!("one of the housings {} is needed", names.join(", ")),

@@ -73,6 +73,7 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
             let [x, y] = given.places[k].misalignment;
             constants.node = built.nodes[k].clone();
             constants.datum = Vec2::new(x, y);
+            constants.mount_parts.on = built.stands[k].clone();
         }
         parts.push(constants);
         bearings.push(built);

@@ -1,7 +1,7 @@
 //! From magnets that hold a rotor to those of the model, which act in time.
 
 use crate::drop::{Drop, Shaft};
-use levitation::{Inputs, Levitation, Timing};
+use levitation::{Axis, Inputs, Levitation, Timing};
 use model::magnets::conditions::{Change, What};
 use model::magnets::{
     AxisConstants, ControlConstants, ControlEvent, MagnetConstants, MagnetsConstants,
@@ -56,7 +56,7 @@ pub(super) struct InTime {
 pub(super) fn built(
     shaft: &Shaft,
     end: f64,
-    row: &dyn Fn(usize) -> Vec<f64>,
+    row: &dyn Fn(&Axis) -> Vec<f64>,
     position: &[Vec2<f64>],
     held: &OnMagnets,
 ) -> Result<InTime, Box<Problem>> {
@@ -66,8 +66,8 @@ pub(super) fn built(
     let levitation = &model.levitation;
     let along = |angle: f64| Vec2::new(angle.cos(), angle.sin());
     let pair = |k: usize| [2 * k, 2 * k + 1];
-    let magnet = |(k, (_, node, _)): (usize, &(String, usize, usize))| MagnetConstants {
-        node: row(*node),
+    let magnet = |k: usize| MagnetConstants {
+        node: row(&levitation.actuators()[2 * k].axis),
         axes: pair(k)
             .map(|axis| AxisConstants {
                 direction: along(levitation.actuators()[axis].axis.angle),
@@ -76,11 +76,11 @@ pub(super) fn built(
             })
             .to_vec(),
     };
-    let sensor = |(k, (_, _, node)): (usize, &(String, usize, usize))| {
+    let sensor = |k: usize| {
         let angles = pair(k).map(|axis| along(levitation.sensors()[axis].axis.angle));
-        (row(*node), angles.to_vec())
+        (row(&levitation.sensors()[2 * k].axis), angles.to_vec())
     };
-    let all = || model.magnets.iter().enumerate();
+    let all = || 0..model.magnets.len();
     let of_magnets = |supply| MagnetsConstants {
         magnets: all().map(magnet).collect(),
         supply,

@@ -8,6 +8,7 @@ pub(crate) mod columns;
 pub(crate) mod context;
 pub mod each;
 pub(crate) mod events;
+mod housings;
 mod layers;
 pub(crate) mod magnets;
 mod magnets_in_time;

@@ -1,12 +1,13 @@
 //! From a flexible rotor to the coordinates of the model, and the motion in which it is released.
 
 use crate::bearing::loss::table;
+use crate::drop::housings::{self, row_against};
 use crate::drop::magnets_in_time::{self, InTime, OnMagnets};
 use crate::drop::{Drop, Shaft, events, torque, unbalances};
 use crate::levitated;
 use crate::rotor::RotorModel;
 use levitation::response::{Loaded, excesses, unbalance};
-use levitation::{Plant, weight};
+use levitation::{Axis, Plant, weight};
 use model::force::ForceConstants;
 use model::rotor::{Coordinate, RotorConstants, Unbalance};
 use model::seal::SealConstants;
@@ -27,8 +28,12 @@ pub struct BuiltShaft {
     pub cutoff: f64,
     /// Row of each auxiliary bearing's node.
     pub nodes: Vec<Vec<f64>>,
+    /// Row of the housing on which each of them stands; none on the ground.
+    pub stands: Vec<Option<Vec<f64>>>,
     /// Nodes whose displacement is watched, along the shaft.
     pub places: Vec<usize>,
+    /// Nodes that are watched besides against a housing, with it; the housings themselves are watched after them.
+    pub against: Vec<(usize, usize)>,
     /// Its magnets as they act in the run.
     pub(super) in_time: InTime,
     /// Seals.
@@ -82,6 +87,18 @@ impl BuiltShaft {
         let modes = frequencies.filter(|omega| *omega <= self.cutoff);
         modes.fold(0.0, f64::max)
     }
+    /// Where the displacement of a node is watched, against a housing where one is given.
+    pub fn watched(&self, node: usize, on: Option<usize>) -> Option<usize> {
+        let Some(on) = on else {
+            return self.places.iter().position(|own| *own == node);
+        };
+        let at = self.against.iter().position(|own| *own == (node, on))?;
+        Some(self.places.len() + at)
+    }
+    /// Where that of a housing is watched.
+    pub fn housing(&self, housing: usize) -> usize {
+        self.places.len() + self.against.len() + housing
+    }
     /// Displacement of a node's row at the release, m.
     pub fn displacement(&self, row: &[f64]) -> Vec2<f64> {
         let parts = row.iter().zip(&self.position);
@@ -105,23 +122,26 @@ pub(crate) fn build(
         steady: (position, velocity),
         still,
         carried,
+        on_mounts,
         magnets: on_magnets,
         warnings,
         modes: mut held,
         growth,
     } = match &shaft.model.levitation {
-        Some(_) => levitating(drop, shaft, &within, &loads)?,
-        None => on_supports(drop, rotor, &matrices, &within, &loads)?,
+        Some(_) => levitating(drop, shaft, &within, (loads, gravity))?,
+        None => on_supports(drop, rotor, &matrices, &within, (loads, gravity))?,
     };
     held.sort_by(|a, b| a.frequency.abs().total_cmp(&b.frequency.abs()));
     let at = |node: usize| row(&within.basis, node);
+    let whole = (rotor, &within.basis);
+    let of_axis = |axis: &Axis| row_against(whole, Place::Node(axis.node), axis.on);
     let end = drop.run.duration;
     let mut in_time = match on_magnets {
-        Some(own) => magnets_in_time::built(shaft, end, &at, &position, &own)?,
+        Some(own) => magnets_in_time::built(shaft, end, &of_axis, &position, &own)?,
         None => InTime::default(),
     };
     let unbalances = unbalances::built(shaft, &at, &mut in_time);
-    let seals = staying(&shaft.model, &within.basis, &still, &carried);
+    let seals = staying(&shaft.model, &within.basis, &still, (&carried, &on_mounts));
     let forces =
         (shaft.model.forces.iter().zip(&shaft.model.pushed)).map(|(own, node)| ForceConstants {
             node: at(*node),
@@ -134,13 +154,23 @@ pub(crate) fn build(
         return Err(too_unbalanced());
     }
     unbalances::check(&constants, &unbalances)?;
+    let against = housings::against(shaft);
+    let housing = |k| row_against(whole, Place::Housing(k), None);
     constants.places = places.iter().map(|node| at(*node)).collect();
+    let besides = against
+        .iter()
+        .map(|(node, on)| row_against(whole, Place::Node(*node), Some(*on)));
+    constants.places.extend(besides);
+    (constants.places).extend((0..rotor.housings.len()).map(housing));
+    let stands = (shaft.places.iter()).map(|own| own.on.map(housing));
     let nodes = shaft.nodes.iter().map(|node| at(*node)).collect();
     Ok(BuiltShaft {
         rotor: constants,
         cutoff,
         nodes,
         places,
+        against,
+        stands: stands.collect(),
         in_time,
         seals,
         forces,
@@ -250,6 +280,9 @@ pub fn in_coordinates(rotor: &Rotor, matrices: &Matrices, basis: &Basis) -> Roto
     for node in 0..rotor.nodes.len() {
         ones[rotor.displacement(node)] = 1.0;
     }
+    for housing in 0..rotor.housings.len() {
+        ones[rotor.coordinate(Place::Housing(housing))] = 1.0;
+    }
     let weights = basis.shapes.tr_mul(&(&matrices.mass * ones));
     // a matrix without entries is none
     let list = |matrix: &DMatrix<f64>| match matrix.amax() == 0.0 {
@@ -269,6 +302,7 @@ pub fn in_coordinates(rotor: &Rotor, matrices: &Matrices, basis: &Basis) -> Roto
         gyroscopic: list(&reduced.gyroscopic),
         damping: list(&reduced.damping),
         damping_rotating: list(&reduced.damping_rotating),
+        housings: rotor.housings.len(),
         ..RotorConstants::point(1.0, rotor::properties(rotor).polar, 0.0)
     }
 }
@@ -293,6 +327,8 @@ struct Held {
     still: Vec<Vec2<f64>>,
     /// Nodes with what supports carry there, N.
     carried: Vec<(usize, Vec2<f64>)>,
+    /// What the mounts of housings carry, N.
+    on_mounts: Vec<Vec2<f64>>,
     magnets: Option<OnMagnets>,
     warnings: Vec<Warning>,
     modes: Vec<HeldMode>,
@@ -304,7 +340,7 @@ fn levitating(
     drop: &Drop,
     shaft: &Shaft,
     within: &Analysis,
-    loads: &DVector<f64>,
+    (mut loads, gravity): (DVector<f64>, Vec2<f64>),
 ) -> Result<Held, Box<Problem>> {
     let Some(model) = &shaft.model.levitation else {
         return Err(failed("no magnets"));
@@ -313,7 +349,9 @@ fn levitating(
     let speed = drop.rotor.speed;
     let failed = |error: levitation::Refused| levitated::failed(&error.to_string());
     let plant = Plant::planes(within, rotor.nodes.len(), speed);
-    let rest = levitated::at_rest(model, &plant, loads, speed)?;
+    let levitation = Some((model, &plant));
+    let on_mounts = housings::carried(rotor, levitation, (&mut loads, gravity), speed)?;
+    let rest = levitated::at_rest(model, &plant, &loads, speed)?;
     let loaded = Loaded::about(rest, &plant, &model.levitation, speed).map_err(failed)?;
     let poles = loaded.closed.poles().map_err(failed)?;
     levitated::holds(model, &poles, &loaded.rest.slopes, speed)?;
@@ -337,6 +375,7 @@ fn levitating(
         // the loop holds the rotor about the middle of its magnets
         still: vec![Vec2::zero(); size],
         carried: Vec::new(),
+        on_mounts,
         magnets: Some(OnMagnets {
             currents: start.currents,
             states: start.states,
@@ -353,7 +392,7 @@ fn on_supports(
     rotor: &Rotor,
     matrices: &Matrices,
     within: &Analysis,
-    loads: &DVector<f64>,
+    (mut loads, gravity): (DVector<f64>, Vec2<f64>),
 ) -> Result<Held, Box<Problem>> {
     let basis = &within.basis;
     let size = basis.len();
@@ -366,13 +405,19 @@ fn on_supports(
         .collect();
     nodes.sort_unstable();
     nodes.dedup();
-    let whole = size + nodes.len();
+    let on_mounts = housings::carried(rotor, None, (&mut loads, gravity), drop.rotor.speed)?;
+    // housings rest where they are
+    let still: Vec<Place> = (nodes.iter().map(|node| Place::Node(*node)))
+        .chain((0..rotor.housings.len()).map(Place::Housing))
+        .collect();
+    let whole = size + still.len();
     let mut system = DMatrix::zeros(whole, whole);
     for (k, frequency) in basis.frequencies.iter().enumerate() {
         system[(k, k)] = frequency * frequency;
     }
-    for (s, node) in nodes.iter().enumerate() {
-        for (k, shape) in row(basis, *node).into_iter().enumerate() {
+    for (s, place) in still.iter().enumerate() {
+        let row = row_against((rotor, basis), *place, None);
+        for (k, shape) in row.into_iter().enumerate() {
             system[(size + s, k)] = shape;
             system[(k, size + s)] = shape;
         }
@@ -414,6 +459,7 @@ fn on_supports(
         carried: (nodes.iter().enumerate())
             .map(|(s, node)| (*node, Vec2::new(-x[size + s], -y[size + s])))
             .collect(),
+        on_mounts,
         magnets: None,
         warnings: Vec::new(),
         modes: held,
@@ -426,7 +472,7 @@ fn staying(
     model: &RotorModel,
     basis: &Basis,
     still: &[Vec2<f64>],
-    carried: &[(usize, Vec2<f64>)],
+    (carried, on_mounts): (&[(usize, Vec2<f64>)], &[Vec2<f64>]),
 ) -> Vec<SealConstants> {
     let supports = &model.rotor.supports;
     let beside = |node: usize| {
@@ -435,27 +481,29 @@ fn staying(
     };
     let all = supports.iter().zip(&model.supports);
     all.filter(|(_, given)| given.stays)
-        .filter_map(|(support, _)| {
-            let Place::Node(at) = support.at else {
-                return None;
-            };
-            let node = row(basis, at);
+        .map(|(support, _)| {
+            let node = row_against((&model.rotor, basis), support.at, support.on);
             let pairs = node.iter().zip(still);
             let centre = pairs.fold(Vec2::zero(), |sum, (share, own)| sum + *own * *share);
-            let load = carried
-                .iter()
-                .find(|(node, _)| *node == at && !support.seal);
+            // supports of one place share what it carries
+            let load = match support.at {
+                Place::Housing(housing) => on_mounts[housing],
+                Place::Node(at) => {
+                    let mut own = carried.iter().filter(|(node, _)| *node == at);
+                    let own = own.next().filter(|_| !support.seal);
+                    own.map_or(Vec2::zero(), |(_, load)| *load * (1.0 / beside(at)))
+                }
+            };
             let axes = |m: [[f64; 2]; 2]| [m[0][0], m[0][1], m[1][0], m[1][1]];
             let rows = support.coefficients.rows().iter();
             let rows =
                 rows.map(|(speed, block)| (*speed, axes(block.stiffness), axes(block.damping)));
-            Some(SealConstants {
+            SealConstants {
                 centre,
-                // supports of one place share what it carries
-                carried: load.map_or(Vec2::zero(), |(_, load)| *load * (1.0 / beside(at))),
+                carried: load,
                 rows: rows.collect(),
                 node,
-            })
+            }
         })
         .collect()
 }

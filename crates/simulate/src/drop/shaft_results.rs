@@ -3,10 +3,10 @@
 use crate::bearing::columns::Table;
 use crate::bearing::run::BearingRun;
 use crate::drawing::{self, GIVEN};
-use crate::drop::Shaft;
 use crate::drop::context::{Context, Setup};
 use crate::drop::shaft::{BuiltShaft, HeldMode, least_cutoff};
 use crate::drop::warning_table::{ShaftWarning, compared};
+use crate::drop::{Shaft, housings};
 use crate::rotor::RotorModel;
 use outcome::columns::columns;
 use outcome::list::results;
@@ -38,6 +38,7 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     positions(list, &(), run.map(|_| &bent));
     displacements(list, &(), run);
     clearances_along(list, &(), run.map(|_| &bent));
+    housings::name(list, setup, run);
 }
 
 results! {
@@ -69,13 +70,14 @@ results! {
     }
     fn displacements(setup: &(), run: &Context) {
         "largest_displacements": list "m", DISPLACEMENT, "largest displacement of the shaft at each of shape_positions" in shape "displacement" => {
-            run.finished.record.places.iter().map(|peak| peak.value).collect::<Vec<_>>()
+            let along = run.setup.bent().map_or(0, |(_, built)| built.places.len());
+            run.finished.record.places[..along].iter().map(|peak| peak.value).collect::<Vec<_>>()
         };
     }
     /// What stands around the shaft.
     fn clearances_along(setup: &(), bent: &Bent) {
         "clearance_names": text "", GIVEN, "what stands around the shaft" in clearances "name" => bent.around(|own| own.name).join("\n").as_str();
-        "clearance_positions": list "m", GIVEN, "its places" in clearances "place" => bent.z(bent.around(|own| own.place).into_iter().map(|place| bent.built.places[place]));
+        "clearance_positions": list "m", GIVEN, "its places" in clearances "place" => bent.z(bent.around(|own| own.node).into_iter());
         "clearances": list "m", GIVEN, "its radial clearances" in clearances "clearance" => bent.around(|own| own.clearance.unwrap_or(f64::NAN));
     }
 }
@@ -136,6 +138,7 @@ pub(crate) fn columns(setup: Setup, run: &BearingRun) -> Vec<Column> {
             "shape.{number}.y": "m", "displacement of the shaft at {z:.1} mm, upwards" => at(row.state).y;
         }
     }
+    housings::columns(&mut table, setup);
     table.columns.list
 }
 
@@ -249,6 +252,7 @@ const SHOWN: f64 = 3.0;
 /// A place along the shaft with something around it.
 struct Named<'a> {
     name: &'a str,
+    node: usize,
     place: usize,
     clearance: Option<f64>,
 }
@@ -266,7 +270,8 @@ fn untouched<'a>(setup: Setup<'a>, run: Option<&Context>) -> Vec<Named<'a>> {
         let clearance = setup.given(k).contact.radial_air_clearance - x.hypot(y);
         Some(Named {
             name: &given.model.nodes[place.node].name,
-            place: built.places.iter().position(|own| *own == node)?,
+            node,
+            place: built.watched(node, place.on)?,
             clearance: Some(clearance),
         })
     });
@@ -278,7 +283,8 @@ fn named<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = Na
     nodes.filter_map(|(own, node)| {
         Some(Named {
             name: &own.name,
-            place: built.places.iter().position(|place| place == node)?,
+            node: *node,
+            place: built.watched(*node, own.on)?,
             clearance: own.clearance,
         })
     })
@@ -296,10 +302,12 @@ fn magnets<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = 
         let magnets = model.magnets.iter().enumerate();
         magnets.filter_map(|(k, (name, node, _))| {
             // both axes of a magnet stand beside each other
-            match model.levitation.actuators()[2 * k].magnet {
+            let own = &model.levitation.actuators()[2 * k];
+            match own.magnet {
                 Magnet::Pair(pair) => Some(Named {
                     name,
-                    place: built.places.iter().position(|place| place == node)?,
+                    node: *node,
+                    place: built.watched(*node, own.axis.on)?,
                     clearance: Some(pair.gap),
                 }),
                 Magnet::Linear { .. } => None,

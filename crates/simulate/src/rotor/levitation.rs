@@ -29,6 +29,7 @@ impl LevitationModel {
                 let axis = |node| Axis {
                     name: format!("{} {number}", magnet.name),
                     node,
+                    on: magnet.on,
                     angle: own.angle,
                 };
                 sensors.push(Sensor {

@@ -107,6 +107,7 @@ impl Machine {
                 let axis = |node| Axis {
                     name: format!("magnet {number} {letter}"),
                     node,
+                    on: None,
                     angle,
                 };
                 sensors.push(Sensor {

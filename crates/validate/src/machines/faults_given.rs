@@ -39,6 +39,7 @@ pub(super) fn levitation(given: &Value, nodes: usize) -> Result<Levitation, Stri
             let axis = |node| Axis {
                 name: format!("m{k}a{axis}"),
                 node,
+                on: None,
                 angle,
             };
             sensors.push(Sensor {

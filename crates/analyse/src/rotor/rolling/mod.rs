@@ -187,7 +187,7 @@ impl RollingModel {
             for (bearing, place) in bearings.iter_mut().zip(&shaft.places) {
                 bearing.link = own.rotor.supports.len();
                 let at = analysis.rotor.nodes[place.node].at;
-                carry(&mut own.rotor, bearing, (at, down), &speeds);
+                carry(&mut own.rotor, bearing, (at, place.on, down), &speeds);
             }
             Ok(Self {
                 asked: Box::new(Asked::of(&own).map_err(|own| own.found)?),
@@ -240,10 +240,12 @@ impl RollingModel {
                 beyond: [0, 1].map(|k| ranges(&steps, each.iter().map(|own| over(own, k)))),
             });
         }
-        let distances = self.places().map(|(_, node, clearance)| {
+        let kernel = &self.asked.model.rotor;
+        let distances = self.places().map(|(_, node, clearance, on)| {
+            let on = on.map(|housing| kernel.coordinate(Place::Housing(housing)));
             let held = steps.iter().zip(&holds).filter(|(_, holds)| **holds);
             let turning = held.filter_map(|((speed, own), _)| {
-                let farthest = (*own)?.farthest(2 * node, self.rest[2 * node]);
+                let farthest = (*own)?.farthest(2 * node, on, self.rest[2 * node]);
                 Some(Peak::new(clearance - farthest, *speed))
             });
             let all = turning.chain([Peak::new(clearance - self.rest[2 * node].norm(), 0.0)]);
@@ -257,11 +259,11 @@ impl RollingModel {
         })
     }
 
-    /// Places with a clearance: name, node, clearance in m.
-    pub fn places(&self) -> impl Iterator<Item = (&str, usize, f64)> {
+    /// Places with a clearance: name, node, clearance in m, and the housing that it is of; none of the ground.
+    pub fn places(&self) -> impl Iterator<Item = (&str, usize, f64, Option<usize>)> {
         let model = &self.asked.model;
         let nodes = model.nodes.iter().zip(&model.named);
-        nodes.filter_map(|(own, node)| Some((own.name.as_str(), *node, own.clearance?)))
+        nodes.filter_map(|(own, node)| Some((own.name.as_str(), *node, own.clearance?, own.on)))
     }
 
     /// Amplitudes of the contact force of a row along the weight, N, and of the rotor in the bore across it, m.
@@ -299,6 +301,7 @@ fn after_release(given: &FlexibleRotor) -> FlexibleRotor {
             name: format!("magnet_{}", magnet.name),
             at: magnet.at,
             clearance,
+            on: magnet.on,
         });
     }
     free
@@ -308,7 +311,7 @@ fn after_release(given: &FlexibleRotor) -> FlexibleRotor {
 fn carry(
     rotor: &mut FlexibleRotor,
     bearing: &RollingBearing,
-    (at, down): (f64, C64),
+    (at, on, down): (f64, Option<usize>, C64),
     speeds: &[f64],
 ) {
     let (own, planes) = (&bearing.constants, bearing.constants.planes);
@@ -349,7 +352,7 @@ fn carry(
     let rows = speeds.iter().map(|speed| (*speed, row(*speed)));
     let mount = Coefficients::table(rows.collect());
     let mount = mount.unwrap_or_else(|| Coefficients::constant(row(0.0)));
-    add("_mount", None, None, mount);
+    add("_mount", None, on, mount);
     rotor.housings.push(planes * own.mass_on_mount());
 }
 

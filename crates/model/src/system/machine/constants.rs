@@ -90,6 +90,8 @@ impl MachineConstants {
         let on_rig = |part: &&AuxiliaryBearingConstants| part.fixture.is_some();
         let in_machine = self.bearings.iter().filter(|part| !on_rig(part));
         let rows = in_machine.map(|part| &part.node);
+        let rows =
+            rows.chain((self.bearings.iter()).filter_map(|part| part.mount_parts.on.as_ref()));
         let rows = rows.chain(self.magnets.iter().flat_map(MagnetsConstants::nodes));
         let rows = rows.chain(self.forces.iter().map(|force| &force.node));
         let rows = rows.chain(self.unbalances.iter().map(|plane| &plane.node));

@@ -331,7 +331,9 @@ fn rotor_sources(fixture: Option<&Fixture>, clutch: bool) -> [&'static str; 2] {
 /// What a unit of each coordinate moves the rotor by at that bearing where it moves it most.
 fn reaches(constants: &MachineConstants) -> Vec<f64> {
     let at = |k: usize| {
-        let shapes = constants.bearings.iter().map(|part| part.node[k].abs());
+        let parts = constants.bearings.iter();
+        let rows = parts.flat_map(|part| [Some(&part.node), part.mount_parts.on.as_ref()]);
+        let shapes = rows.flatten().map(|row| row[k].abs());
         shapes.fold(0.0, f64::max)
     };
     let reaches: Vec<f64> = (0..constants.rotor.coordinates.len()).map(at).collect();

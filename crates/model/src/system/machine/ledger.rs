@@ -48,8 +48,10 @@ impl RotorMachine {
             content.spin += planes * bearing.spin;
             content.potential += planes * part.contact.energy(&contact);
             let mount = &self.one.bearings[k].mount;
-            let [potential, kinetic] = mount.energy(outer.position, &state[at.of_mount()]);
-            content.potential += planes * potential;
+            let [ground, _] = self.one.ground(k, &motion);
+            let against = outer.position - ground;
+            let [potential, kinetic] = mount.energy(against, &state[at.of_mount()]);
+            content.potential += planes * (potential - mount.weight().dot(ground));
             content.translation += planes * kinetic;
             if k == 0 {
                 content.potential += rotor.weight + rotor.elastic;
@@ -113,7 +115,8 @@ impl RotorMachine {
         let at = &self.layout().bearings[bearing];
         let motion = at.motion(state);
         let mut rate = vec![0.0; self.dimension()];
-        self.one.bearings[bearing].mount(at, &motion, state, &mut rate)
+        let ground = self.one.ground(bearing, &self.layout().rotor.motion(state));
+        self.one.bearings[bearing].mount(at, &motion, ground, state, &mut rate)
     }
     /// The rate of change of a state at the start, for inspection: (rate, probes).
     pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {

@@ -142,6 +142,8 @@ pub struct Machines<R: Real> {
     bearings: Vec<AuxiliaryBearing<R>>,
     /// The rotor's node in each.
     nodes: Vec<Node<R>>,
+    /// Of each, the housing on which it stands; none on the ground.
+    stands: Vec<Option<Node<R>>>,
     /// 1/L, L the radius of the first bore, 1/m.
     inverse_rotor_radius: R,
     layout: Layout,
@@ -195,10 +197,13 @@ impl RotorMachine {
             let fixture = machine.fixture();
             fixture.map(|own| std::mem::discriminant(&own.drive))
         };
-        let held = |own: &MachineConstants| -> Vec<[bool; 2]> {
+        let held = |own: &MachineConstants| -> Vec<[bool; 3]> {
             let each = own.bearings.iter();
-            each.map(|part| [part.inner_race.centre_held, part.is_concentric()])
-                .collect()
+            each.map(|part| {
+                let stands = part.mount_parts.on.is_some();
+                [part.inner_race.centre_held, part.is_concentric(), stands]
+            })
+            .collect()
         };
         let alone = |own: &Fixture| own.housing.is_some() || matches!(own.drive, Drive::Clutch(_));
         let magnets = match (&a.magnets, &b.magnets) {
@@ -223,6 +228,14 @@ impl RotorMachine {
     pub fn place(&self, place: usize, state: &[f64]) -> Vec2<f64> {
         let motion = self.layout.rotor.motion(state);
         self.places[place].centre(&motion).position
+    }
+    /// Force of a housing on its mount besides what this carries at rest, N.
+    pub fn on_ground(&self, housing: usize, state: &[f64]) -> Vec2<f64> {
+        let motion = self.layout.rotor.motion(state);
+        let mounts = self.one.seals.len() - self.constants.rotor.housings;
+        let (node, mount) = &self.one.seals[mounts + housing];
+        let centre = node.centre(&motion);
+        mount.carried - (mount.react(centre.position, centre.velocity, motion.spin)).force
     }
     /// What turns, loads and carries the bearing of a rig; none of another machine.
     pub fn fixture(&self) -> Option<&Fixture> {
@@ -375,6 +388,14 @@ impl<R: Real> Machines<R> {
                 (&constants(lane).rotor, &part.node[..], part.datum)
             })
         };
+        let stand = |k: usize| {
+            let on = |lane: usize| constants(lane).bearings[k].mount_parts.on.as_deref();
+            on(0)?;
+            Some(Node::gather(&|lane| {
+                let row = on(lane).expect("lanes share what mounts stand on");
+                (&constants(lane).rotor, row, Vec2::zero())
+            }))
+        };
         let seal = |k: usize| {
             let node = Node::gather(&|lane| {
                 let of = constants(lane);
@@ -414,6 +435,7 @@ impl<R: Real> Machines<R> {
             seals: (0..constants(0).seals.len()).map(seal).collect(),
             forces: (0..constants(0).forces.len()).map(force).collect(),
             nodes: bearings.clone().map(node).collect(),
+            stands: bearings.clone().map(stand).collect(),
             base: constants(0).base.is_some().then(|| {
                 Base::gather(&|lane| {
                     let own = constants(lane).base.as_ref();

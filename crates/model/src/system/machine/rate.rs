@@ -44,6 +44,18 @@ impl<R: Real> Machines<R> {
         }
     }
 
+    /// Position and speed of what the mount of a bearing stands on.
+    #[inline(always)]
+    pub(super) fn ground(&self, k: usize, rotor: &RotorMotion<R>) -> [Vec2<R>; 2] {
+        match &self.stands[k] {
+            None => [Vec2::zero(); 2],
+            Some(housing) => {
+                let centre = housing.centre(rotor);
+                [centre.position, centre.velocity]
+            }
+        }
+    }
+
     /// The rate of change of the state, and the probes where asked.
     #[inline(always)]
     pub(super) fn rate_of_change(
@@ -124,6 +136,18 @@ impl<R: Real> Machines<R> {
             pushing += own.dot(centre.velocity);
             pulled += centre.position.cross(own);
         }
+        // mounts push on the housings that they stand on
+        for (k, stand) in self.stands.iter().enumerate() {
+            let (Some(stand), part, at) = (stand, &self.bearings[k], &layout.bearings[k]) else {
+                continue;
+            };
+            let ground = self.ground(k, &rotor);
+            let mount = part.mount(at, &at.motion(state), ground, state, rate);
+            let force = (part.mount.weight() - mount.force) * part.planes;
+            let [_, _, force_x, force_y] = blocks(rate, count);
+            stand.push(force, [force_x, force_y]);
+            pulled += ground[0].cross(force);
+        }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
             let moment = self.rotor.brake_moment(rotor.spin) * mode.brake;
@@ -183,7 +207,7 @@ impl<R: Real> Machines<R> {
             let held_load = acting.map_or(zero, |acting| acting.held_load);
             let reaction = part.bearing(at, (&motion, held_load), state, rate, probe);
             let mount = match acting {
-                None => part.mount(at, &motion, state, rate),
+                None => part.mount(at, &motion, self.ground(k, &rotor), state, rate),
                 Some(acting) => MountReaction::of(acting.on_outer),
             };
             let there = match kept.get(k) {

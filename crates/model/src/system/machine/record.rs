@@ -21,6 +21,8 @@ pub struct Record {
     pub largest_translation: f64,
     /// Largest displacement of the rotor at each watched place, m; seen at 64 points a turn.
     pub places: Vec<Peak>,
+    /// Largest force of each housing on its mount besides what this carries at rest, N; seen there too.
+    pub on_ground: Vec<Peak>,
     /// Of each axis of magnets with controllers: control current, and how long it was at its limit.
     pub currents: Vec<CurrentPeak>,
     /// Of each of these axes: how long its amplifier was at its largest voltage.
@@ -124,6 +126,7 @@ impl Record {
             rig: RigRecord::new(machine, end, taps).map(Box::new),
             largest_translation: 0.0,
             places: vec![Peak::NONE; machine.constants.rotor.places.len()],
+            on_ground: vec![Peak::NONE; machine.constants.rotor.housings],
             currents: match machine.controlled() {
                 true => vec![CurrentPeak::NONE; machine.axes().count()],
                 false => Vec::new(),
@@ -250,7 +253,8 @@ impl Record {
         }
         let (machine, time) = (step.machine, step.end);
         let rotor = machine.layout().rotor;
-        let motion = rotor.motion(step.leading_state(1.0, rotor.channels()));
+        let state = step.leading_state(1.0, rotor.channels());
+        let motion = rotor.motion(state);
         // a rotor that runs up is looked at as often a turn
         let spin = motion.spin.abs().max(machine.constants.speed.abs());
         self.next_look = time + look_interval(spin);
@@ -259,6 +263,9 @@ impl Record {
         for (peak, place) in self.places.iter_mut().zip(&machine.places) {
             let position = place.centre(&motion).position;
             peak.raise(position.length_squared().sqrt(), time);
+        }
+        for (k, peak) in self.on_ground.iter_mut().enumerate() {
+            peak.raise(machine.on_ground(k, state).length_squared().sqrt(), time);
         }
         for bearing in &mut self.bearings {
             bearing.whirl_of(step);

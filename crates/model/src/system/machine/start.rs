@@ -91,7 +91,8 @@ impl RotorMachine {
     /// Moves the rotor of a start state as a whole: by a displacement, m, and with a velocity, m/s.
     pub fn displace(&self, state: &mut [f64], displacement: Vec2<f64>, velocity: Vec2<f64>) {
         let at = self.layout().rotor;
-        for (k, own) in self.constants.rotor.coordinates.iter().enumerate() {
+        let housings = self.constants.rotor.housings;
+        for (k, own) in (housings..).zip(self.constants.rotor.own_coordinates()) {
             let share = own.weight / own.mass;
             for (block, by) in [displacement.x, displacement.y, velocity.x, velocity.y]
                 .into_iter()

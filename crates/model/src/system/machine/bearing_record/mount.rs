@@ -1,8 +1,6 @@
 //! What is kept of the mount of an auxiliary bearing.
 
 use super::{BearingRecord, NEAR_RECORD};
-use crate::auxiliary_bearing::BearingAt;
-use crate::mount::WholeMount;
 use crate::system::machine::RotorMachine;
 use crate::system::sampling::Peak;
 use number::Vec2;
@@ -37,9 +35,14 @@ impl MountPeaks {
     };
 
     /// Takes what is larger at an instant, and says whether something comes near to its record.
-    fn raise(&mut self, mount: &WholeMount<f64>, at: &BearingAt, state: &[f64], time: f64) -> bool {
+    fn raise(&mut self, machine: &RotorMachine, k: usize, state: &[f64], time: f64) -> bool {
+        let (at, mount) = (
+            &machine.layout().bearings[k],
+            &machine.one.bearings[k].mount,
+        );
+        let [position, velocity] = (machine.one).ground(k, &machine.layout().rotor.motion(state));
         let outer = at.outer.motion(state);
-        let motion = (outer.position, outer.velocity);
+        let motion = (outer.position - position, outer.velocity - velocity);
         let parts = mount.parts(motion, &state[at.of_mount()]);
         let [displacement, speed] = parts.housing;
         let records = [
@@ -101,12 +104,11 @@ impl BearingRecord {
             return;
         };
         let machine = step.machine;
-        let mount = &machine.one.bearings[self.bearing].mount;
         let end = step.end;
-        if peaks.raise(mount, &self.at, step.state(1.0), end) {
+        if peaks.raise(machine, self.bearing, step.state(1.0), end) {
             for theta in [0.25, 0.5, 0.75] {
                 let time = step.time(theta);
-                peaks.raise(mount, &self.at, step.state(theta), time);
+                peaks.raise(machine, self.bearing, step.state(theta), time);
             }
         }
     }

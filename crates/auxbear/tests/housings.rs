@@ -1,0 +1,119 @@
+//! A machine in a casing that moves.
+
+use crate::base::{parsed, ran};
+use crate::outcomes::number;
+
+const CASING: &str = include_str!("../../../scenarios/machine_casing.toml");
+
+/// Size of the casing's displacement over time.
+fn sizes(run: &auxbear::outcome::Outcome) -> Vec<(f64, f64)> {
+    let of = |axis: &str| {
+        &run.column(&format!("housing.casing.{axis}"))
+            .unwrap()
+            .values
+    };
+    let times = &run.column("time").unwrap().values;
+    let both = of("x").iter().zip(of("y")).map(|(x, y)| x.hypot(*y));
+    times.iter().copied().zip(both).collect()
+}
+
+/// The start is the steady motion of rotor, casing, sensors and controllers together: what runs has it too. Only the races start at rest, of 1 kg
+/// against the 60 kg of the casing.
+#[test]
+fn until_the_release_everything_goes_on_as_it_started() {
+    let sets = [
+        "levitation.power_lost_at=1 s",
+        "run.duration=0.2 s",
+        "rotor.unbalance.wheel.amount=100 g mm",
+    ];
+    let run = ran(CASING, &sets);
+    let all = sizes(&run);
+    let largest = |from: f64, to: f64| {
+        let part = all.iter().filter(|(time, _)| (from..to).contains(time));
+        part.fold(0.0, |most: f64, (_, size)| most.max(*size))
+    };
+    let (first, last) = (largest(0.0, 0.02), largest(0.18, 0.2));
+    assert!(last > 5e-7, "{last}");
+    assert!((first / last - 1.0).abs() < 0.08, "{first} {last}");
+}
+
+/// A casing that is heavy and stands stiffly is the ground.
+#[test]
+fn a_casing_that_does_not_yield_is_the_ground() {
+    let stiff = [
+        "rotor.housing.casing.mass=1e5 kg",
+        "rotor.housing.casing.stiffness=1e12 N/m",
+        "run.duration=65 ms",
+        "run.tolerance=1e-8",
+    ];
+    let casing = ran(CASING, &stiff);
+    let ground = CASING.replace("on = \"casing\"\n", "");
+    let ground = ran(&ground, &stiff);
+    for name in [
+        "drive_end.time_to_first_contact",
+        "other_end.first_impact_force",
+        "drive_end.max_rotor_displacement",
+    ] {
+        let (seen, wanted) = (number(&casing, name), number(&ground, name));
+        assert!(
+            (seen / wanted - 1.0).abs() < 1e-4,
+            "{name}: {seen} {wanted}"
+        );
+    }
+    assert!(number(&casing, "housing.casing.largest_displacement") < 1e-8);
+}
+
+/// The weight that the casing no longer carries is a step of force: without damping it swings about the place that this leads to, m g/k above its own,
+/// as long as the rotor falls freely.
+#[test]
+fn it_springs_up_by_the_weight_that_leaves_it() {
+    let sets = [
+        "levitation.power_lost_at=0 s",
+        "levitation.decay_time=0 s",
+        "rotor.unbalance.wheel.amount=0 g mm",
+        "rotor.housing.casing.damping=0 N s/m",
+        "run.duration=6 ms",
+        "run.tolerance=1e-8",
+    ];
+    let run = ran(CASING, &sets);
+    let (k, m) = (2e7_f64, 60.0_f64);
+    let weight = number(&run, "rotor_mass") * 9.80665;
+    let up = run.column("housing.casing.y").unwrap();
+    let t = 6e-3;
+    let wanted = weight / k * (1.0 - ((k / m).sqrt() * t).cos());
+    let seen = *up.values.last().unwrap();
+    // races and balls move too, 1 kg of 61
+    assert!((seen / wanted - 1.0).abs() < 0.02, "{seen} {wanted}");
+}
+
+#[test]
+fn what_stands_on_no_housing_is_refused() {
+    let refused = |text: &str| parsed(text, &[]).map(|_| ()).unwrap_err();
+    let bearing = CASING.replace("[mount]\non = \"casing\"", "[mount]\non = \"cassing\"");
+    let told = refused(&bearing);
+    assert!(
+        told.contains("mount.on") && told.contains("Did you mean \"casing\"?"),
+        "{told}"
+    );
+    let magnet = CASING.replacen(
+        "on = \"casing\"\ncurrent_stiffness",
+        "on = \"casin\"\ncurrent_stiffness",
+        1,
+    );
+    let told = refused(&magnet);
+    assert!(
+        told.contains("levitation.magnet") && told.contains("casin"),
+        "{told}"
+    );
+    let both = CASING.replace(
+        "[mount]\n",
+        "[mount]\nhousing_mass = \"20 kg\"\nhousing_stiffness = \"1e8 N/m\"\n",
+    );
+    let told = refused(&both);
+    assert!(
+        told.contains("mount.on") && told.contains("mount.housing_mass"),
+        "{told}"
+    );
+    let supported = "\n[[rotor.support]]\nat = \"100 mm\"\non = \"casing\"\nstiffness = \"1e6 N/m\"\nafter_release = \"stays\"\n";
+    assert!(parsed(&format!("{CASING}{supported}"), &[]).is_ok());
+}
