@@ -1,6 +1,7 @@
 //! A machine gives the same bits whatever computes it: alone without a vector unit, alone with its balls in groups,
 //! or on any lane among other machines.
 
+use crate::bent::housings::housed;
 use crate::machines::bent::bent;
 use crate::machines::{
     inlets, lubricant, oil, planar, reference, separate, separations, settings, times_mass, vec2,
@@ -198,6 +199,11 @@ fn a_rotor_that_bends_has_the_same_bits() {
         "{coordinates}"
     );
     same_bits(&machines, 0.01);
+    let in_casings = machines.iter().map(|own| {
+        let constants = housed(own.constants.clone(), [true, true]);
+        RotorMachine::new(constants)
+    });
+    same_bits(&in_casings.collect::<Vec<_>>(), 0.005);
 }
 
 /// A base that moves, and an unbalance that comes, at instants that differ from lane to lane.

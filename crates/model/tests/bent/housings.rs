@@ -30,7 +30,7 @@ fn longer(row: &[f64], of_housing: f64) -> Vec<f64> {
 }
 
 /// The same machine with a housing: its bearings for which `on` is true, its magnets and its seals stand on it.
-fn housed(mut constants: MachineConstants, on: [bool; 2]) -> MachineConstants {
+pub fn housed(mut constants: MachineConstants, on: [bool; 2]) -> MachineConstants {
     let row = 1.0 / HOUSING.mass.sqrt();
     let count = constants.rotor.coordinates.len();
     let rotor = &mut constants.rotor;
@@ -64,6 +64,9 @@ fn housed(mut constants: MachineConstants, on: [bool; 2]) -> MachineConstants {
         .flat_map(|own| &mut own.magnets)
     {
         magnet.node = longer(&magnet.node, -row);
+    }
+    for plane in &mut constants.unbalances {
+        plane.node = longer(&plane.node, 0.0);
     }
     for seal in &mut constants.seals {
         seal.node = longer(&seal.node, -row);

@@ -1,6 +1,6 @@
 //! Rotors that bend, by what must close. Beside an independent implementation they are judged by `auxbear validate`.
 
-mod housings;
+pub mod housings;
 mod ledger;
 mod mirror;
 mod one_node;
