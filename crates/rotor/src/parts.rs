@@ -91,9 +91,13 @@ impl Rotor {
             .all(|support| support.coefficients.turns())
     }
 
-    /// What carries a static load.
+    /// What carries a static load of the shaft.
     pub fn bearings(&self) -> impl Iterator<Item = &Support> {
-        self.supports.iter().filter(|support| !support.seal)
+        let of_shaft = |support: &&Support| matches!(support.at, Place::Node(_));
+        self.supports
+            .iter()
+            .filter(|support| !support.seal)
+            .filter(of_shaft)
     }
 
     /// The same rotor with nothing around it: no supports, seals and housings.

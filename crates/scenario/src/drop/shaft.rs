@@ -91,7 +91,7 @@ impl Shaft {
             );
         }
         // supports that all stay release nothing: the rotor runs up or down on them
-        let stands = rotor.supports.iter().any(|support| !support.seal);
+        let stands = (rotor.supports.iter()).any(|own| !own.seal && own.at.is_some());
         let lets_go = held().find(|(_, support)| !support.stays);
         match (lets_go, &rotor.levitation) {
             (Some((part, _)), Some(_)) => {

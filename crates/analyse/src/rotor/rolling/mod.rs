@@ -156,7 +156,7 @@ impl RollingModel {
         };
         let given = auxiliary_bearings(drop)?;
         let free = after_release(&analysis.rotor);
-        let stands = free.supports.iter().any(|own| !own.seal);
+        let stands = (free.supports.iter()).any(|own| !own.seal && own.at.is_some());
         let why = if drop.gravity.acceleration == 0.0 {
             Some("no weight acts across the shaft, which presses the rotor on none of them")
         } else if stands && analysis.rotor.levitation.is_none() {
