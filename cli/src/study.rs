@@ -9,7 +9,7 @@ use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::free_path;
 use auxbear::report::study::{Directory, Done, chosen};
 use auxbear::run::Options;
-use auxbear::run::outcome::Severity;
+use auxbear::run::outcome::{Severity, Verdict};
 use auxbear::scenario::StudyFile;
 use auxbear::study::Study;
 use auxbear::study::answer::{Answer, Sensitivity};
@@ -140,8 +140,11 @@ impl Pace {
 fn ranking(study: &Study, answer: &Answer) -> String {
     const FIRST: usize = 6;
     let rank = study.file.rank.as_ref();
-    let Some((name, ..)) = rank.filter(|_| !answer.ranking.is_empty()) else {
+    if answer.ranking.is_empty() {
         return String::new();
+    }
+    let Some((name, ..)) = rank else {
+        return cases(study, answer);
     };
     let known = study.known.iter().find(|known| known.name == *name);
     let unit = known.map_or("", |known| known.unit);
@@ -162,6 +165,41 @@ fn ranking(study: &Study, answer: &Answer) -> String {
     format!(
         "by {}, of which 95 % of the draws are not worse:\n{}{}\n",
         name.replace(['_', '.'], " "),
+        console::table(&rows),
+        chosen(study, answer)
+    )
+}
+
+/// The cases of a qualification, with the limits that each does not hold.
+fn cases(study: &Study, answer: &Answer) -> String {
+    let rows = answer.ranking.iter().flat_map(|one| {
+        let values: Vec<&str> = one.values.iter().map(|(_, value)| value.as_str()).collect();
+        let mut rows = vec![[
+            format!("  {}", one.verdict.word()),
+            values.join(", "),
+            String::new(),
+            String::new(),
+        ]];
+        let judged = one.limits.iter().zip(&one.worst);
+        let broken = judged.filter(|(judged, _)| judged.verdict != Verdict::Pass);
+        rows.extend(broken.map(|(judged, worst)| {
+            let member = worst.map_or(String::new(), |member| format!("; member {member}"));
+            [
+                String::new(),
+                format!(
+                    "  {}: {}",
+                    judged.limit.quantity.replace(['_', '.'], " "),
+                    judged.verdict.word()
+                ),
+                bound(judged),
+                format!("{}{member}", judged.why),
+            ]
+        }));
+        rows
+    });
+    let rows: Vec<[String; 4]> = rows.collect();
+    format!(
+        "cases:\n{}{}\n",
         console::table(&rows),
         chosen(study, answer)
     )

@@ -113,6 +113,8 @@ pub struct Quantity {
     pub spread: Option<Spread>,
     /// True of an instant that the run waits for: where it has no value it is later than the end of the run.
     pub awaited: bool,
+    /// True of what is zero in a run that ended as planned without a contact, where it has no value.
+    pub of_contacts: bool,
     /// Figures and tables of the fronts that show it, each with its words there.
     pub shown: Vec<(&'static str, String)>,
 }

@@ -199,7 +199,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             false => judged,
         }
     };
-    let limits = named(&scenario.limits, &outcome.quantities);
+    let limits = named(&scenario.limits_here(), &outcome.quantities);
     limits.iter().map(judged).collect()
 }
 
@@ -280,12 +280,14 @@ pub fn withheld(judged: Judged) -> Judged {
 fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
     let early = || outcome.stop.text.trim_end_matches('.').to_string();
     let beyond = |lasted: f64| (quantity.awaited && lasted > bound).then_some(f64::INFINITY);
+    let untouched = quantity.of_contacts.then_some(0.0);
     let asked = outcome.work.members;
     if asked > 1 {
         let members = &outcome.members;
         let values = members.values(&quantity.name).into_iter();
-        let mut values: Vec<Option<f64>> =
-            values.map(|value| value.or(beyond(members.end))).collect();
+        let mut values: Vec<Option<f64>> = values
+            .map(|value| value.or(beyond(members.end)).or(untouched))
+            .collect();
         let why = match values.len() < asked {
             true => early(),
             false => "it does not exist in these".to_string(),
@@ -294,6 +296,7 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
         return (values, why);
     }
     match (&quantity.value, outcome.stop.complete()) {
+        (Value::None { .. }, true) if quantity.of_contacts => (vec![Some(0.0)], String::new()),
         (Value::None { why }, _) => match (beyond(outcome.stop.time), quantity.awaited) {
             (Some(late), _) => (vec![Some(late)], format!("{why}, which is past the bound")),
             (None, true) => (vec![None], format!("{why}, which is not past the bound")),
@@ -467,6 +470,7 @@ mod tests {
             side,
             bound,
             share,
+            case: None,
             forbids: None,
             dimension: Dimension::NONE,
             text: units::number_text(bound),

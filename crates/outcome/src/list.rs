@@ -58,6 +58,8 @@ pub enum Kind {
     number,
     /// An instant that the run waits for: without a value it is later than the end of the run.
     instant,
+    /// A number of contacts: zero in a run that ends as planned without one, where it has no value.
+    contact,
     /// A list of numbers.
     list,
     /// A word.
@@ -178,7 +180,7 @@ impl List {
         };
         let name = filled(declared.name, &self.stars);
         let value = value.unwrap_or_else(|| match declared.kind {
-            Kind::number | Kind::instant => Value::None {
+            Kind::number | Kind::instant | Kind::contact => Value::None {
                 why: BEFORE_THE_RUN.to_string(),
             },
             Kind::list => Value::List(Vec::new()),
@@ -195,6 +197,7 @@ impl List {
         );
         if let Some(last) = self.quantities.last_mut() {
             last.awaited = declared.kind == Kind::instant;
+            last.of_contacts = declared.kind == Kind::contact;
             last.headline = declared.headline && is_missed;
             let plain: Vec<String> = (self.stars.iter())
                 .map(|star| star.replace('_', " "))
@@ -263,6 +266,7 @@ impl List {
             chaotic: false,
             spread: None,
             awaited: false,
+            of_contacts: false,
             shown: Vec::new(),
         });
     }

@@ -328,6 +328,7 @@ mod tests {
             valid: "",
             chaotic: false,
             awaited: false,
+            of_contacts: false,
             shown: Vec::new(),
             spread: Some(Spread {
                 members: 2,

@@ -74,9 +74,10 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
     let machine = Machine { scenario, system };
-    if !scenario.limits.is_empty() {
+    let limits = scenario.limits_here();
+    if !limits.is_empty() {
         let declared: Vec<_> = warnings::declared().collect();
-        limits::check(&scenario.limits, &machine.results(), &declared)
+        limits::check(&limits, &machine.results(), &declared)
             .map_err(|problem| scenario.locate(problem))?;
     }
     Ok(machine)

@@ -54,6 +54,7 @@ pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;
+pub use drop::case::{CASE, Cases};
 pub use drop::{
     AuxiliaryBearing, Base, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
     Levitation, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor, STANDARD_GRAVITY, Shaft,
@@ -133,6 +134,17 @@ const SPEEDS_OF_BEARINGS: [&str; 5] = [
 ];
 
 impl System {
+    /// Its cases; none of what is no machine.
+    pub fn cases(&self) -> Cases {
+        match self {
+            System::Drop(drop) => match &drop.body {
+                Body::Flexible(shaft) => shaft.cases.clone(),
+                Body::Rigid(_) => Cases::default(),
+            },
+            _ => Cases::default(),
+        }
+    }
+
     /// Its name.
     pub fn name(&self) -> SystemName {
         match self {
@@ -256,6 +268,14 @@ impl Scenario {
             System::Drop(drop) => Some(drop),
             _ => None,
         }
+    }
+
+    /// The limits of the case that happens.
+    pub fn limits_here(&self) -> Vec<Limit> {
+        let cases = self.system.cases();
+        let limits = self.limits.iter();
+        let here = limits.filter(|limit| cases.happens(limit.case.as_deref()));
+        here.cloned().collect()
     }
 
     /// The analysis of a rotor, where it is one.
@@ -393,7 +413,7 @@ impl Scenario {
         let mut document = self.document.clone();
         document.file = file.to_string();
         document.limits = tables;
-        limit::of(&document)
+        limit::of(&document, &self.system.cases())
     }
 
     /// Resolves and checks what was read.
@@ -412,7 +432,7 @@ impl Scenario {
             System::Drop(drop) => vary::of_drop(&drop.repeat, &document.vary, &values)?,
             _ => Vec::new(),
         };
-        let limits = limit::of(&document)?;
+        let limits = limit::of(&document, &system.cases())?;
         let parts = rotor::tables::toml(&document, &values[0]);
         let mut notes: Vec<Warning> = Vec::new();
         for note in values.iter().flat_map(values::Values::notes) {

@@ -13,6 +13,7 @@
 //! Whether a run has such a result is known when its machine is built: `crates/outcome/src/limits.rs`.
 
 use crate::document::Document;
+use crate::drop::case::Cases;
 use crate::locate::UNNAMED;
 use crate::several::LIMIT;
 use problem::key::{Key, Kind, quoted};
@@ -34,6 +35,8 @@ pub struct Limit {
     pub bound: f64,
     /// Share of the members of a repeated run that must hold it; 1: all of them.
     pub share: f64,
+    /// The case in which it must hold; in each without.
+    pub case: Option<String>,
     /// Warnings that must not come: the result is then their number in a member, 0 or 1.
     pub forbids: Option<Forbidden>,
     /// Dimension of the bound.
@@ -112,6 +115,7 @@ const KEYS: &[Key] = &[
     Key::new("limit.least", Kind::Any(BOUND), "1 mm", "Least that it may be.").optional("it is bounded above"),
     Key::new("limit.warning", Kind::Text, "AB2030", "Code of a warning that must not come.").optional("a result is limited"),
     Key::new("limit.severity", Kind::Text, "destroys", "Severity of which, or worse, no warning must come: destroys, invalid, uncertain or note.").optional("a result is limited"),
+    Key::new("limit.case", Kind::Text, "axis lost", "Name of the case in which it must hold, as run.case has it.").optional("in every case"),
     Key::new("limit.share", Kind::Any(SHARE), "0.95", "Share of the members of a repeated run that must hold it.").optional("all of them"),
 ];
 /// Words that people write for those of a limit.
@@ -140,10 +144,13 @@ impl Limit {
 
     /// The limit as a file has it.
     pub fn toml(&self) -> String {
-        let share = match self.share {
+        let mut share = match self.share {
             1.0 => String::new(),
             share => format!("share = {}\n", units::number_text(share)),
         };
+        if let Some(case) = &self.case {
+            share.push_str(&format!("case = {}\n", quoted(case)));
+        }
         if let Some((key, value)) = self.forbids.as_ref().map(Forbidden::written) {
             return format!("[[{LIMIT}]]\n{key} = {}\n{share}", quoted(value));
         }
@@ -171,11 +178,12 @@ impl Limit {
 }
 
 /// The limits of a file; those of overrides change or follow them.
-pub fn of(document: &Document) -> Result<Vec<Limit>> {
+pub fn of(document: &Document, cases: &Cases) -> Result<Vec<Limit>> {
     let mut limits: Vec<Limit> = Vec::new();
     for written in &document.limits {
         let table = read(document, written)?;
         let share = share_of(document, &table)?;
+        let case = case_of(&table, cases)?;
         if let Some(limit) = forbidding(&table, share)? {
             limits.retain(|known| table.place != Place::Set || known.quantity != limit.quantity);
             limits.push(limit);
@@ -183,7 +191,9 @@ pub fn of(document: &Document) -> Result<Vec<Limit>> {
         }
         let quantity = &present_name(table.text("quantity").unwrap_or_default().trim());
         let changes = table.place == Place::Set;
-        let own = |limit: &&mut Limit| changes && limit.quantity == *quantity;
+        let own = |limit: &&mut Limit| {
+            changes && limit.quantity == *quantity && (case.is_none() || limit.case == case)
+        };
         let side = [Side::Most, Side::Least]
             .into_iter()
             .find(|side| table.raw(side.word()).is_some());
@@ -216,6 +226,7 @@ pub fn of(document: &Document) -> Result<Vec<Limit>> {
                 side,
                 bound,
                 share: share.unwrap_or(1.0),
+                case: case.clone(),
                 forbids: None,
                 dimension,
                 text,
@@ -270,6 +281,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>> {
         side: Side::Most,
         bound: 0.0,
         share: share.unwrap_or(1.0),
+        case: table.text("case").map(str::to_string),
         dimension: Dimension::NONE,
         text: "0".to_string(),
         place: table.place_of(key),
@@ -299,6 +311,23 @@ fn read(document: &Document, written: &[Written]) -> Result<Table> {
         }
         problem
     })
+}
+
+/// The case in which it must hold.
+fn case_of(table: &Table, cases: &Cases) -> Result<Option<String>> {
+    let Some(case) = table.text("case") else {
+        return Ok(None);
+    };
+    if cases.names.iter().any(|name| name == case) {
+        return Ok(Some(case.to_string()));
+    }
+    let allowed = match cases.names.as_slice() {
+        [] => "no case is needed: [[event]] and [base] name none".to_string(),
+        names => format!("one of the cases {} is needed", names.join(", ")),
+    };
+    let problem = table.problem(Code::UnknownWord, "case", quoted(case), allowed);
+    let names = cases.names.iter().map(String::as_str);
+    Err(problem.with_hint(did_you_mean(case, names)))
 }
 
 /// The share of the members, of systems whose runs are repeated.

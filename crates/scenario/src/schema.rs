@@ -187,6 +187,10 @@ fn limits(system: SystemName) -> Value {
         ], "description": "Share of the members of a repeated run that must hold it; without it all of them." });
         keys.push(("share", share));
     }
+    if system == SystemName::Machine {
+        let words = "Name of the case in which it must hold; in each without.";
+        keys.push(("case", json!({ "type": "string", "description": words })));
+    }
     for (key, schema) in keys {
         properties(&mut one, "").insert(key.to_string(), schema);
     }

@@ -7,7 +7,7 @@
 //! seed = 1
 //!
 //! [design]
-//! kind = "monte carlo"          # widened, latin hypercube, sobol, factorial, sweep, morris, saltelli, selection
+//! kind = "monte carlo"          # widened, latin hypercube, sobol, factorial, sweep, morris, saltelli, selection, qualification
 //! members = 1000                # blocks of morris and saltelli
 //!
 //! [[input]]
@@ -24,7 +24,7 @@
 //! ```
 
 use crate::study_inputs::{StudyInput, inputs_of};
-use crate::{Accuracy, BuiltIn, Distribution, Limit, Scenario};
+use crate::{Accuracy, BuiltIn, CASE, Distribution, Limit, Scenario, UNBALANCE_ANGLE};
 use problem::key::{Key, Kind, Range, quoted};
 use problem::raw::{Raw, Sections, Written};
 use problem::table::Table;
@@ -42,7 +42,7 @@ const MOST_MEMBERS: usize = 1_000_000;
 const WIDENING: f64 = 2.0;
 /// Largest one: beyond it hardly a member counts.
 const MOST_WIDENING: f64 = 4.0;
-const DESIGNS: [&str; 9] = [
+const DESIGNS: [&str; 10] = [
     "monte carlo",
     "widened",
     "latin hypercube",
@@ -52,7 +52,15 @@ const DESIGNS: [&str; 9] = [
     "morris",
     "saltelli",
     "selection",
+    QUALIFICATION,
 ];
+/// Every case at every level of the inputs that have levels, each with the same draws of the others.
+pub(super) const QUALIFICATION: &str = "qualification";
+
+/// Whether a design has candidates, each with the same draws.
+pub(super) fn has_candidates(kind: &str) -> bool {
+    ["selection", QUALIFICATION].contains(&kind)
+}
 
 /// The keys of a study file.
 #[rustfmt::skip]
@@ -148,7 +156,11 @@ impl StudyFile {
             head.problem(Code::StudyScenario, "scenario", found, allowed)
         })?;
         let kind = kind_of(file, sections.one("design"))?;
-        let inputs = inputs_of(file, &scenario, sections.all("input"), kind)?;
+        let mut tables = sections.all("input").to_vec();
+        if kind == QUALIFICATION {
+            tables.splice(0..0, of_each_qualification(&scenario, &tables));
+        }
+        let inputs = inputs_of(file, &scenario, &tables, kind)?;
         let (design, asked, added) = design_of(file, sections.one("design"), kind, &inputs)?;
         let (pairs, correlation) = correlated(file, sections.all("correlation"), &inputs, kind)?;
         let keys: &[Key] = match kind {
@@ -279,6 +291,33 @@ impl StudyFile {
     }
 }
 
+/// Inputs that every qualification has, where its file does not have them: the cases of the machine, and the angle of the unbalance.
+fn of_each_qualification(scenario: &Scenario, tables: &[Vec<Written>]) -> Vec<Vec<Written>> {
+    let given = |path: &str| {
+        let mut keys = tables.iter().flatten();
+        keys.any(|(key, raw, _)| key == "path" && matches!(raw, Raw::Text(own) if own == path))
+    };
+    let text = |text: &str| Raw::Text(text.to_string());
+    let cases: Vec<Raw> = scenario
+        .system
+        .cases()
+        .names
+        .iter()
+        .map(|name| text(name))
+        .collect();
+    let turn = ["0 deg", "360 deg"].map(text).to_vec();
+    let added = [(CASE, "choice", cases), (UNBALANCE_ANGLE, "uniform", turn)];
+    let added = added
+        .into_iter()
+        .filter(|(path, _, list)| !given(path) && !list.is_empty());
+    let table = |(path, word, list): (&str, &str, Vec<Raw>)| {
+        let keys = [("path", text(path)), (word, Raw::List(list))];
+        keys.map(|(key, raw)| (key.to_string(), raw, Place::Whole))
+            .to_vec()
+    };
+    added.map(table).collect()
+}
+
 /// Why a scenario is no single run; a study takes what repeats it upon itself.
 fn single(scenario: &Scenario) -> Result<(), String> {
     match (&scenario.system, scenario.drop()) {
@@ -332,7 +371,7 @@ fn kind_of(file: &str, written: &[Written]) -> Result<&'static str> {
 fn count_key(kind: &str) -> &'static str {
     match kind {
         "morris" | "saltelli" => "blocks",
-        "selection" => "draws",
+        kind if has_candidates(kind) => "draws",
         _ => "members",
     }
 }
@@ -359,7 +398,7 @@ fn design_of(
     let levels = || inputs.iter().map(|input| input.levels).collect();
     let keys: &[Key] = match kind {
         "factorial" | "sweep" => &[],
-        "selection" => &[keys::DRAWS],
+        kind if has_candidates(kind) => &[keys::DRAWS],
         "widened" => &[keys::MEMBERS, keys::ADDED, keys::WIDEN],
         "morris" | "saltelli" => &[keys::BLOCKS, keys::ADDED],
         _ => &[keys::MEMBERS, keys::ADDED],
@@ -386,7 +425,7 @@ fn design_of(
         "latin hypercube" => Design::LatinHypercube(count, asked, 1),
         "sobol" => Design::Sobol(count, asked),
         "morris" => Design::Morris(count, asked),
-        "selection" => Design::Selection(levels(), asked),
+        kind if has_candidates(kind) => Design::Selection(levels(), asked),
         _ => Design::Saltelli(count, asked),
     };
     let design = match added {
@@ -451,7 +490,7 @@ fn correlated(
         return Ok((pairs, None));
     };
     let wrong = |found: &str, allowed| table.refuse(Code::StudyCorrelation, "", found, allowed);
-    if ["factorial", "sweep", "morris", "saltelli", "selection"].contains(&kind) {
+    if ["factorial", "sweep", "morris", "saltelli"].contains(&kind) || has_candidates(kind) {
         return wrong(
             &format!("correlated inputs of a {kind} design"),
             "its effects and indices belong to independent inputs; monte carlo, widened, latin hypercube and sobol take correlated ones",

@@ -1,6 +1,7 @@
 //! The inputs of a study: which value differs, how, and on how many levels; bearings of the catalogue that fit an envelope.
 
 use crate::bearing::source::{BearingRecord, BearingSource};
+use crate::study_file::has_candidates;
 use crate::{BuiltIn, Distribution, Scenario, Vary};
 use problem::key::{Key, Kind, Range, quoted};
 use problem::raw::{Raw, Written};
@@ -157,7 +158,10 @@ pub(super) fn inputs_of(
             Distribution::Choice(texts) => Some(texts.len()),
             _ => None,
         };
-        let unused = match (["factorial", "sweep", "selection"].contains(&kind), choice) {
+        let unused = match (
+            ["factorial", "sweep"].contains(&kind) || has_candidates(kind),
+            choice,
+        ) {
             (false, _) => Some("levels are those of a factorial, a sweep or a selection"),
             (true, Some(_)) => Some("a choice has its texts as levels"),
             (true, None) => None,
@@ -171,7 +175,7 @@ pub(super) fn inputs_of(
             );
         }
         // what has no levels in a selection is drawn for every candidate
-        let drawn = if kind == "selection" { 0 } else { LEVELS };
+        let drawn = if has_candidates(kind) { 0 } else { LEVELS };
         inputs.push(StudyInput {
             levels: choice.or(given).unwrap_or(drawn),
             vary,
@@ -181,7 +185,7 @@ pub(super) fn inputs_of(
     }
     let missing =
         |found, allowed| Err(Problem::new(Code::MissingKey, file, found, allowed).on_key("input"));
-    if kind == "selection" && inputs.iter().all(|input| input.levels == 0) {
+    if has_candidates(kind) && inputs.iter().all(|input| input.levels == 0) {
         return missing(
             "nothing to choose",
             "a choice, or levels = 3 of a range, is needed of one input at least: these are the candidates",

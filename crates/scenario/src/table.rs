@@ -3,12 +3,13 @@
 //! The order is the order of the resolved file and of the starting file. A key that another one depends on stands before it.
 //! Each system has some of the sections, and of a section all keys that name no other system.
 
+use crate::drop::case::CASE;
 use crate::key::{Key, Kind, Presence, Range, Section};
 use crate::run::{Accuracy, Method, Until};
 use crate::system::SystemName::{
     self, CoastDown, Drop, Identify, Machine, Rig, Rotor, Signals, SpinUp, Torque,
 };
-use crate::system::{COASTING_DOWN, FALLING, MOVING, STEPPED, WITH_BEARING};
+use crate::system::{COASTING_DOWN, FALLING, MACHINE, MOVING, STEPPED, WITH_BEARING};
 use problem::words::Words;
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -175,6 +176,8 @@ const HEAD: &[Key] = &[
 const RUN: &[Key] = &[
     Key::new("run.duration", Kind::Quantity("s"), "0.5 s", "Simulated time. Time 0 is the release of a rotor that drops, or the start of a drive.")
         .positive().default("0.5 s", "long enough for the first impacts and the spin-up of a small inner race"),
+    Key::new(CASE, Kind::Text, "axis lost", "Which of the cases that [[event]] and [base] name happens; what names none happens in each.")
+        .optional("the first that the file names").only(MACHINE),
     Key::new("run.until", Kind::Word(Until::WORDS), "standstill", "duration: the run ends at run.duration. standstill: once the rotor has rolled for 20 turns of every cage it coasts down on bearings that warm, until it stands.")
         .default("duration", "a drop decides itself in its first second").only(FALLING),
     Key::new("run.accuracy", Kind::Word(Accuracy::WORDS), "screening", "design: the energy ledger closes to a millionth of what is turned over. screening: for ensembles and long runs, several times quicker; means within some 1e-4 of those of design, the ledger within 2e-4.")

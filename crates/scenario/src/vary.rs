@@ -13,6 +13,7 @@
 
 use crate::document::Raw;
 use crate::drop::Repeat;
+use crate::drop::case::CASE;
 use crate::key::{Key, Kind, quoted};
 use crate::rotor::keys::kind_within;
 use crate::several::{AUXILIARY_BEARING, VARY, of_each_bearing, path_of};
@@ -320,7 +321,7 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary> 
     if ["format", "system", "title", "description", "catalogue"].contains(&plain)
         || ["run.", "repeat."]
             .iter()
-            .any(|section| plain.starts_with(section))
+            .any(|section| plain.starts_with(section) && plain != CASE)
     {
         let found = format!("{}, which is no property of the machine", quoted(path));
         return Err(problem(

@@ -33,6 +33,7 @@ pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
     body.push_str(&warned(table));
     body.push_str(&inputs(study));
     body.push_str(&ranking::html(study, answer));
+    body.push_str(&ranking::cases(study, answer));
     body.push_str(&verdicts(answer));
     body.push_str(&spreads(study, answer));
     body.push_str(&parallel::html(study, table));

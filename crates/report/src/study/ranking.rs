@@ -1,4 +1,4 @@
-//! The ranking of a selection: as a table of the page, and as lines of a terminal.
+//! The ranking of a selection, and the cases of a qualification: as a table of the page, and as lines of a terminal.
 
 use super::cells::{amount, bound, known, marked, rows, short};
 use crate::page::escape_text as plain;
@@ -9,6 +9,87 @@ use run::study::selection::Candidate;
 
 /// Share of the repetitions below which the first place is not settled.
 const SETTLED: f64 = 0.9;
+
+/// The cases of a qualification, each with the verdict of each limit; nothing of other designs.
+pub(super) fn cases(study: &Study, answer: &Answer) -> String {
+    if study.file.rank.is_some() || answer.ranking.is_empty() {
+        return String::new();
+    }
+    let paths = answer.ranking[0].values.iter();
+    let mut head: Vec<&str> = paths.map(|(path, _)| path.as_str()).collect();
+    head.extend([
+        "limit",
+        "verdict",
+        "worst of its draws",
+        "bound",
+        "why",
+        "member",
+    ]);
+    let body = answer.ranking.iter().flat_map(|one| {
+        let of = one.values.iter().map(|(_, value)| plain(value));
+        let of: Vec<String> = of.collect();
+        let limits = one.limits.iter().zip(&one.worst).map(|(judged, worst)| {
+            let value = judged.value.map(|value| amount(value, judged.unit));
+            [
+                plain(&judged.limit.quantity.replace(['_', '.'], " ")),
+                marked(judged.verdict),
+                plain(&value.unwrap_or_else(|| "no value".to_string())),
+                plain(&bound(judged)),
+                plain(&judged.why),
+                worst.map_or("–".to_string(), |member| member.to_string()),
+            ]
+        });
+        let rows = limits.map(move |cells| [of.clone(), cells.to_vec()].concat());
+        rows.collect::<Vec<_>>()
+    });
+    let failed = answer.ranking.iter().filter_map(|one| {
+        let why = one.why.as_ref().filter(|_| one.draws[1] > 0)?;
+        let of: Vec<&str> = one.values.iter().map(|(_, value)| value.as_str()).collect();
+        let (failed, all) = (one.draws[1], one.draws[0]);
+        Some(format!(
+            "<p>{}: {failed} of {all} draws failed: {}</p>\n",
+            plain(&of.join(", ")),
+            plain(why)
+        ))
+    });
+    format!(
+        "<h2>Cases</h2>\n<p>{}</p>\n{}{}<p class=\"small\">Every case meets the same draws. The member is that whose value is nearest to the bound, or the \
+         farthest beyond it; it runs again with its full report by <code>auxbear study FILE --member N</code>.</p>\n",
+        plain(&verdict(study, answer)),
+        rows(&head, &body.collect::<Vec<_>>()),
+        failed.collect::<String>()
+    )
+}
+
+/// Which cases hold every limit.
+fn of_cases(answer: &Answer) -> String {
+    let count = |verdict| {
+        answer
+            .ranking
+            .iter()
+            .filter(|one| one.verdict == verdict)
+            .count()
+    };
+    let [pass, fail, open] = [Verdict::Pass, Verdict::Fail, Verdict::Undecided].map(count);
+    let all = answer.ranking.len();
+    let draws = answer
+        .ranking
+        .iter()
+        .map(|one| one.draws[0])
+        .min()
+        .unwrap_or(0);
+    let rare = 100.0 * (1.0 - 0.05f64.powf(1.0 / draws.max(1) as f64));
+    let draws = format!(
+        "That {draws} draws hold a limit leaves room for up to {} % that do not (95 % confidence).",
+        short(rare)
+    );
+    match (fail, open) {
+        (0, 0) => format!("All of {all} cases hold every limit in every draw. {draws}"),
+        _ => format!(
+            "{fail} of {all} cases break a limit, {open} are undecided, {pass} hold every limit. {draws}"
+        ),
+    }
+}
 
 /// The ranking; nothing of other designs.
 pub(super) fn html(study: &Study, answer: &Answer) -> String {
@@ -75,6 +156,9 @@ fn reason(one: &Candidate) -> String {
 
 /// Which one to take, and how sure that is.
 pub fn verdict(study: &Study, answer: &Answer) -> String {
+    if study.file.rank.is_none() {
+        return of_cases(answer);
+    }
     let passes = |one: &&Candidate| one.verdict == Verdict::Pass;
     let passing = answer.ranking.iter().filter(passes).count();
     let all = answer.ranking.len();

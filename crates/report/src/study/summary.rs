@@ -81,8 +81,14 @@ fn candidate(one: &Candidate) -> Value {
         "draws": one.draws[0],
         "draws_failed": one.draws[1],
         "failed_why": one.why,
-        "limits": one.limits.iter().map(judged).collect::<Vec<_>>(),
+        "limits": one.limits.iter().zip(&one.worst).map(of_case).collect::<Vec<_>>(),
     })
+}
+
+fn of_case((limit, worst): (&Judged, &Option<usize>)) -> Value {
+    let mut all = judged(limit);
+    all["worst_member"] = json!(worst);
+    all
 }
 
 fn limit(limit: &run::study::answer::StudyLimit) -> Value {

@@ -83,7 +83,19 @@ impl Study {
                     None => table.warned_of(forbids),
                 }
             }
-            None => self.decisive(table, &limit.quantity, limit.bound),
+            None => {
+                let values = self
+                    .decisive(table, &limit.quantity, limit.bound)
+                    .into_iter();
+                let mut known = self.known.iter();
+                let known = known.find(|known| known.name == limit.quantity);
+                // a member that ended as planned without a contact has none of its loads
+                let untouched = known.filter(|known| known.of_contacts).map(|_| 0.0);
+                let of = |(value, member): (Option<f64>, &usize)| {
+                    value.or(untouched.filter(|_| !table.failed.contains_key(member)))
+                };
+                values.zip(&table.members).map(of).collect()
+            }
         }
     }
 

@@ -16,7 +16,7 @@ pub mod table;
 use outcome::{Options, host, limits};
 use outcome::{Quantity, Value};
 use problem::{Place, Problem, Result};
-use scenario::{Scenario, StudyFile};
+use scenario::{CASE, Scenario, StudyFile};
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
 use table::{Column, Row, Table};
@@ -89,6 +89,15 @@ impl Study {
     pub fn new(mut file: StudyFile) -> Result<Study> {
         let machine = crate::build(&file.scenario)?;
         let mut known = machine.results();
+        // and what only happens in other cases
+        for case in file.scenario.system.cases().names {
+            let other = file.scenario.with(&[(CASE.to_string(), case)])?;
+            for own in crate::build(&other)?.results() {
+                if known.iter().all(|known| known.name != own.name) {
+                    known.push(own);
+                }
+            }
+        }
         // numbers that only a run names are named by one with the values as given
         let number = |value: &Value| matches!(value, Value::Number(_) | Value::None { .. });
         if known

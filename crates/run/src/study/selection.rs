@@ -8,6 +8,8 @@ use super::Study;
 use super::table::Table;
 use outcome::limits;
 use outcome::{Judged, Verdict};
+use scenario::notes::NO_QUALIFICATION;
+use scenario::{CASE, Side};
 use statistics::design::{Coordinate, Design};
 use statistics::random::below;
 
@@ -35,8 +37,10 @@ pub struct Candidate {
     pub first: f64,
     /// Fail where one limit fails, pass where all pass.
     pub verdict: Verdict,
-    /// Each limit, judged over its draws.
+    /// Each limit of its case, judged over its draws.
     pub limits: Vec<Judged>,
+    /// Of each limit, the member that comes nearest to it, or is the farthest beyond.
+    pub worst: Vec<Option<usize>>,
     /// Why members failed, once.
     pub why: Option<String>,
 }
@@ -58,23 +62,31 @@ impl Study {
 
     /// Candidates of a selection, the best first; none of other designs.
     pub fn ranking(&self, table: &Table) -> Vec<Candidate> {
-        let (Design::Selection(levels, draws), Some((name, most, _))) =
-            (&self.file.design, &self.file.rank)
-        else {
+        let Design::Selection(levels, draws) = &self.file.design else {
             return Vec::new();
         };
+        let rank = self.file.rank.as_ref();
+        let (name, most) = rank.map_or(("", false), |(name, most, _)| (name.as_str(), *most));
         let rows = |candidate: usize| -> Vec<usize> {
             let members = table.members.iter().enumerate();
             let own = members.filter(|(_, member)| **member / draws == candidate);
             own.map(|(row, _)| row).collect()
         };
-        let ranked = self.decisive(table, name, f64::INFINITY);
+        let ranked = match rank {
+            Some(_) => self.decisive(table, name, f64::INFINITY),
+            None => vec![None; table.members.len()],
+        };
         let count = self.members() / draws;
         let all: Vec<Vec<usize>> = (0..count).map(rows).collect();
         let mut found: Vec<Candidate> = (all.iter().enumerate())
-            .map(|(k, rows)| self.judged(k * draws, rows, table, &ranked, *most, levels))
+            .map(|(k, rows)| self.judged(k * draws, rows, table, &ranked, most, levels))
             .collect();
-        self.first_places(&mut found, &all, &ranked, *most);
+        if rank.is_none() {
+            // cases stand in the order of their file
+            found.retain(|one| one.draws[0] > 0);
+            return found;
+        }
+        self.first_places(&mut found, &all, &ranked, most);
         let place = |one: &Candidate| match one.verdict {
             Verdict::Pass => 0,
             Verdict::Undecided => 1,
@@ -113,13 +125,37 @@ impl Study {
         let of = |values: &[Option<f64>]| -> Vec<Option<f64>> {
             rows.iter().map(|row| values[*row]).collect()
         };
-        let limits: Vec<Judged> = (self.file.limits.iter())
-            .map(|limit| {
-                let values = of(&self.limited(table, limit));
-                let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
-                self.whirl_sought(judged, table)
-            })
-            .collect();
+        let case = values.iter().find(|(path, _)| path == CASE);
+        let case = case.map(|(_, case)| case.as_str());
+        let no_verdict = table.warns(NO_QUALIFICATION.code);
+        let own = self.file.limits.iter();
+        let own = own.filter(|limit| {
+            case.is_none() || limit.case.is_none() || limit.case.as_deref() == case
+        });
+        let judged = own.map(|limit| {
+            let values = of(&self.limited(table, limit));
+            let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
+            let judged = self.whirl_sought(judged, table);
+            let judged = if no_verdict {
+                limits::withheld(judged)
+            } else {
+                judged
+            };
+            let size = |value: f64| {
+                if limit.side == Side::Most {
+                    value
+                } else {
+                    -value
+                }
+            };
+            let known = rows
+                .iter()
+                .zip(&values)
+                .filter_map(|(row, value)| Some((*row, (*value)?)));
+            let worst = known.max_by(|a, b| size(a.1).total_cmp(&size(b.1)));
+            (judged, worst.map(|(row, _)| table.members[row]))
+        });
+        let (limits, worst): (Vec<Judged>, Vec<Option<usize>>) = judged.unzip();
         let own: Vec<f64> = of(ranked).into_iter().flatten().collect();
         let failed = |row: &&usize| table.failed.contains_key(&table.members[**row]);
         let lacking = rows.iter().filter(failed).count();
@@ -139,6 +175,7 @@ impl Study {
             first: 0.0,
             verdict,
             limits,
+            worst,
             why: first.and_then(|row| table.failed.get(&table.members[*row]).cloned()),
         }
     }

@@ -1,8 +1,9 @@
 //! Motion of the base of a machine: a record of its acceleration, a record made of a response spectrum, a shock.
 
+use crate::drop::case::OF_BASE;
 use crate::key::{Key, Kind, Range, Section};
 use crate::run::Until;
-use crate::system::{FALLING, SystemName};
+use crate::system::{FALLING, MACHINE, SystemName};
 use crate::values::Values;
 use problem::{Code, Result};
 use std::path::PathBuf;
@@ -24,6 +25,7 @@ const fn share(path: &'static str, doc: &'static str) -> Key {
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
+    Key::new(OF_BASE, Kind::Text, "earthquake", "Name of the case in which the base moves, as run.case has it.").optional("it moves in every case").only(MACHINE),
     record("base.record_x", "Acceleration of the base along x over time, in m/s^2 or gn: straight between the rows, none before the first and after the last."),
     record("base.record_y", "The same along y."),
     Key::new(FILE, Kind::Text, "earthquake.csv", "File with a record, relative to this one: CSV, Parquet, TDMS, UFF 58, MAT, HDF5 or WAV, with a clock and the unit of each channel.").optional("no record from a file"),
@@ -75,6 +77,8 @@ pub struct Base {
     pub spectrum: Option<Spectrum>,
     /// A shock.
     pub shock: Option<Shock>,
+    /// The case in which it moves; in each without.
+    pub case: Option<String>,
 }
 
 /// A file with a record of accelerations.
@@ -147,6 +151,7 @@ impl Base {
                 acceleration: shock.map(Option::unwrap_or_default),
             }),
             record,
+            case: values.text(OF_BASE),
         };
         let any = base.record.iter().any(|rows| !rows.is_empty());
         let recorded = any || base.file.is_some() || base.spectrum.is_some();
@@ -162,6 +167,11 @@ impl Base {
                 &["start", "scale"],
             ),
             (base.spectrum.is_some(), "base.spectrum", OF_SPECTRUM),
+            (
+                recorded || shaken,
+                "a record, a file, a spectrum or a shock",
+                &["case"],
+            ),
             (
                 shaken,
                 "base.shock_x or base.shock_y",

@@ -1,5 +1,6 @@
 //! What happens to a machine, and when: `[[event]]`.
 
+use crate::drop::case::Cases;
 use crate::drop::event_checks::{check, relevitated};
 use crate::key::quoted;
 use crate::rotor::FlexibleRotor;
@@ -41,6 +42,16 @@ words! {
         Drive = "drive",
         /// An unbalance comes, as where a blade is lost.
         Unbalance = "unbalance",
+    }
+}
+
+impl Happening {
+    /// Whether it is of magnets, sensors or controllers.
+    fn is_of_magnets(self) -> bool {
+        !matches!(
+            self,
+            Happening::Brake | Happening::Drive | Happening::Unbalance
+        )
     }
 }
 
@@ -210,12 +221,36 @@ fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]
     }
 }
 
-/// All events of a machine; the loss of power that the file gives by its key, or by its default, is one of them.
-pub fn events(parts: &[Part], rotor: &FlexibleRotor, values: &Values) -> Result<Vec<Event>> {
+/// The cases of a machine, the one that happens first, and the events of this; the loss of power that the file gives by its key, or by its default, is one of them.
+pub fn events(
+    parts: &[Part],
+    rotor: &FlexibleRotor,
+    values: &Values,
+) -> Result<(Cases, Vec<Event>)> {
+    let cases = Cases::of(parts, values)?;
+    let of = |case: Option<&str>| of_case(parts, (rotor, case), values);
+    // the others have to be right as well
+    for other in cases.others() {
+        of(Some(other))?;
+    }
+    let events = of(cases.chosen())?;
+    Ok((cases, events))
+}
+
+fn of_case(
+    parts: &[Part],
+    (rotor, case): (&FlexibleRotor, Option<&str>),
+    values: &Values,
+) -> Result<Vec<Event>> {
     let magnets = rotor.levitation.as_ref();
-    let parts: Vec<&Part> = parts
-        .iter()
-        .filter(|part| part.kind.word == EVENT)
+    let all = || parts.iter().filter(|part| part.kind.word == EVENT);
+    // the power is lost by events alone where any case has one of magnets
+    let of_magnets = all().any(|part| {
+        let what = part.word("do").and_then(Happening::of_word);
+        what.is_some_and(Happening::is_of_magnets)
+    });
+    let parts: Vec<&Part> = all()
+        .filter(|part| part.text("case").is_none_or(|own| Some(own) == case))
         .collect();
     let mut events = Vec::new();
     for part in &parts {
@@ -227,7 +262,6 @@ pub fn events(parts: &[Part], rotor: &FlexibleRotor, values: &Values) -> Result<
         });
     }
     check(&parts, &events, values)?;
-    let of_magnets = events.iter().any(|event| event.what.axes().is_some());
     let given = values.is_own(LOST_AT);
     if let Some(own) = magnets.filter(|_| given || !of_magnets) {
         events.push(Event {
@@ -276,6 +310,7 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
     let others = [
         "name",
         "do",
+        "case",
         "at",
         "below_speed",
         "above_speed",

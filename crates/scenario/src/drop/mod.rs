@@ -1,6 +1,7 @@
 //! A drop as typed values in SI: what a simulation is built from.
 
 pub mod base;
+pub mod case;
 pub mod checks;
 pub mod event;
 mod event_checks;
@@ -20,6 +21,7 @@ use crate::run::{Run, Until};
 use crate::section::Section;
 use crate::values::Values;
 pub use base::{Base, RecordFile, Shock, Spectrum};
+use case::Cases;
 pub use event::{Event, Happens, Relevitation, When};
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
@@ -288,19 +290,25 @@ impl Drop {
             true => 0.0,
             false => values.section("levitation").number(name),
         };
+        let body = match bends {
+            true => Body::Flexible(Box::new(Shaft::of(document, all)?)),
+            false => Body::Rigid(body(&values.section("rotor"))),
+        };
+        let cases = match &body {
+            Body::Flexible(shaft) => shaft.cases.clone(),
+            Body::Rigid(_) => Cases::default(),
+        };
+        let moves = |base: &Base| cases.happens(base.case.as_deref());
         Ok(Drop {
             rotor: rotor(&values.section("rotor"), bends),
-            body: match bends {
-                true => Body::Flexible(Box::new(Shaft::of(document, all)?)),
-                false => Body::Rigid(body(&values.section("rotor"))),
-            },
+            body,
             coast_down: (until == Some(Until::Standstill))
                 .then(|| CoastDownEnd::from_values(values)),
             gravity: Gravity {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),
             },
-            base: Base::of(values)?,
+            base: Base::of(values)?.filter(moves),
             levitation: Levitation {
                 stiffness: levitation("stiffness"),
                 damping: levitation("damping"),

@@ -1,6 +1,7 @@
 //! A rotor that bends, in a machine: its parts, where its bearings stand, what holds it until the release.
 
 use crate::document::Document;
+use crate::drop::case::Cases;
 use crate::drop::event::{self, Event};
 use crate::drop::keys_mount::ON;
 use crate::key::quoted;
@@ -32,6 +33,8 @@ pub struct Shaft {
     pub decay_time: f64,
     /// Instant at which the magnets lose their power by the key of the file, s.
     pub power_lost: f64,
+    /// Its cases.
+    pub cases: Cases,
     /// What happens during the run; with magnets the loss of their power.
     pub events: Vec<Event>,
     /// Where the auxiliary bearings stand, in their order.
@@ -115,7 +118,7 @@ impl Shaft {
                 "run.until = \"duration\" is needed: the coast-down knows no forces from outside";
             return part.refuse(Code::Conflict, "", found, allowed);
         }
-        let events = event::events(&parts, &rotor, values)?;
+        let (cases, events) = event::events(&parts, &rotor, values)?;
         let number = |values: &Values, path: &str| values.number(path).unwrap_or_default();
         let housings: Vec<&str> = of("housing").map(|part| part.label.as_str()).collect();
         let place = |own: &Values| {
@@ -137,6 +140,7 @@ impl Shaft {
             windage: number(values, "rotor.windage"),
             decay_time: number(values, "levitation.decay_time"),
             power_lost: number(values, "levitation.power_lost_at"),
+            cases,
             events,
         })
     }

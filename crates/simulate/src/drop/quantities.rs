@@ -146,10 +146,10 @@ results! {
         "time_to_first_contact": instant "s" headline, FIRST_CONTACT, "first contact after the release" in instants_after_release "first contact" => {
             touched(run.record.contacts.first().map(|first| run.after(first.start)))
         };
-        "first_impact_force": number "N" headline, CONTACT_FORCE, "largest normal force of the first contact" => {
+        "first_impact_force": contact "N" headline, CONTACT_FORCE, "largest normal force of the first contact" => {
             touched(run.record.contacts.first().map(|first| first.peak_force))
         };
-        "peak_contact_force": number "N" headline, CONTACT_FORCE, "largest normal force between rotor and inner race" in tile "Peak contact force" => {
+        "peak_contact_force": contact "N" headline, CONTACT_FORCE, "largest normal force between rotor and inner race" in tile "Peak contact force" => {
             touched(run.record.peak_contact_force().map(|peak| peak.value))
         };
         "contact_count": number "" headline, CONTACT_COUNT, "number of contacts" in note "Peak contact force: contacts" => run.record.contacts.len() as f64;
