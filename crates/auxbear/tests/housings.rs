@@ -22,7 +22,7 @@ fn sizes(run: &auxbear::outcome::Outcome) -> Vec<(f64, f64)> {
 #[test]
 fn until_the_release_everything_goes_on_as_it_started() {
     let sets = [
-        "levitation.power_lost_at=1 s",
+        "event.all_lost.at=1 s",
         "run.duration=0.2 s",
         "rotor.unbalance.wheel.amount=100 g mm",
     ];
@@ -68,7 +68,7 @@ fn a_casing_that_does_not_yield_is_the_ground() {
 #[test]
 fn it_springs_up_by_the_weight_that_leaves_it() {
     let sets = [
-        "levitation.power_lost_at=0 s",
+        "event.all_lost.at=0 s",
         "levitation.decay_time=0 s",
         "rotor.unbalance.wheel.amount=0 g mm",
         "rotor.housing.casing.damping=0 N s/m",

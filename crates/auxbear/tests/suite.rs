@@ -27,6 +27,7 @@ mod mount;
 mod oil_range;
 mod outcomes;
 mod planes;
+mod qualification;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;

@@ -189,13 +189,15 @@ fn drive(path: &str) -> String {
 const SPECTRUM: &str = "base.spectrum=[[\"1 Hz\", \"2 m/s^2\"], [\"30 Hz\", \"2 m/s^2\"]]";
 
 /// What stands together in a mount, and in the motion of a base.
-pub const MOUNT: [(&str, &[&str]); 12] = [
+pub const MOUNT: [(&str, &[&str]); 14] = [
     (
         "base.shock_",
         &["base.shock_x=50 m/s^2", "base.shock_duration=11 ms"],
     ),
     ("base.spectrum", &[SPECTRUM]),
     ("base.scale", &[SPECTRUM]),
+    ("base.case", &[SPECTRUM]),
+    ("run.case", &[SPECTRUM, "base.case=axis lost"]),
     ("base.start", &[SPECTRUM]),
     ("base.file", &["base.channel_x=east"]),
     (

@@ -2,7 +2,7 @@
 
 use super::cells::{amount, bound, known, marked, rows, short};
 use crate::page::escape_text as plain;
-use outcome::Verdict;
+use outcome::{Judged, Verdict};
 use run::study::Study;
 use run::study::answer::Answer;
 use run::study::selection::Candidate;
@@ -10,54 +10,84 @@ use run::study::selection::Candidate;
 /// Share of the repetitions below which the first place is not settled.
 const SETTLED: f64 = 0.9;
 
-/// The cases of a qualification, each with the verdict of each limit; nothing of other designs.
+/// The cases of a qualification with the verdict of each limit, then those that are not held and why; nothing of other designs.
 pub(super) fn cases(study: &Study, answer: &Answer) -> String {
     if study.file.rank.is_some() || answer.ranking.is_empty() {
         return String::new();
     }
+    let name = |judged: &Judged| {
+        let name = judged.limit.quantity.replace(['_', '.'], " ");
+        format!("{name}, {}", bound(judged))
+    };
+    let of = |one: &Candidate| -> Vec<String> {
+        let values = one.values.iter();
+        values.map(|(_, value)| plain(value)).collect()
+    };
+    let value = |judged: &Judged| {
+        let value = judged.value.map(|value| amount(value, judged.unit));
+        plain(&value.unwrap_or_else(|| "no value".to_string())).replace(' ', "\u{a0}")
+    };
+    let mut limits: Vec<String> = Vec::new();
+    for judged in answer.ranking.iter().flat_map(|one| &one.limits) {
+        if !limits.contains(&name(judged)) {
+            limits.push(name(judged));
+        }
+    }
     let paths = answer.ranking[0].values.iter();
     let mut head: Vec<&str> = paths.map(|(path, _)| path.as_str()).collect();
-    head.extend([
-        "limit",
-        "verdict",
-        "worst of its draws",
-        "bound",
-        "why",
-        "member",
-    ]);
-    let body = answer.ranking.iter().flat_map(|one| {
-        let of = one.values.iter().map(|(_, value)| plain(value));
-        let of: Vec<String> = of.collect();
-        let limits = one.limits.iter().zip(&one.worst).map(|(judged, worst)| {
-            let value = judged.value.map(|value| amount(value, judged.unit));
-            [
-                plain(&judged.limit.quantity.replace(['_', '.'], " ")),
+    head.push("verdict");
+    head.extend(limits.iter().map(String::as_str));
+    let body = answer.ranking.iter().map(|one| {
+        let mut cells = of(one);
+        cells.push(marked(one.verdict));
+        cells.extend(limits.iter().map(|limit| {
+            let mut own = one.limits.iter().filter(|judged| name(judged) == *limit);
+            own.next().map_or("–".to_string(), |judged| {
+                format!("{} {}", marked(judged.verdict), value(judged))
+            })
+        }));
+        cells
+    });
+    let body: Vec<Vec<String>> = body.collect();
+    let open = answer.ranking.iter().flat_map(|one| {
+        let judged = one.limits.iter().zip(&one.worst);
+        let broken = judged.filter(|(judged, _)| judged.verdict != Verdict::Pass);
+        let broken = broken.map(|(judged, worst)| {
+            let member = worst.map_or("–".to_string(), |member| member.to_string());
+            let own = [
                 marked(judged.verdict),
-                plain(&value.unwrap_or_else(|| "no value".to_string())),
-                plain(&bound(judged)),
+                plain(&name(judged)),
                 plain(&judged.why),
-                worst.map_or("–".to_string(), |member| member.to_string()),
-            ]
+                member,
+            ];
+            [of(one), own.to_vec()].concat()
         });
-        let rows = limits.map(move |cells| [of.clone(), cells.to_vec()].concat());
-        rows.collect::<Vec<_>>()
+        let failed = one.why.as_ref().filter(|_| one.draws[1] > 0).map(|why| {
+            let why = format!("{} of {} draws failed: {why}", one.draws[1], one.draws[0]);
+            let own = [
+                marked(one.verdict),
+                String::new(),
+                plain(&why),
+                "–".to_string(),
+            ];
+            [of(one), own.to_vec()].concat()
+        });
+        broken.chain(failed).collect::<Vec<_>>()
     });
-    let failed = answer.ranking.iter().filter_map(|one| {
-        let why = one.why.as_ref().filter(|_| one.draws[1] > 0)?;
-        let of: Vec<&str> = one.values.iter().map(|(_, value)| value.as_str()).collect();
-        let (failed, all) = (one.draws[1], one.draws[0]);
-        Some(format!(
-            "<p>{}: {failed} of {all} draws failed: {}</p>\n",
-            plain(&of.join(", ")),
-            plain(why)
-        ))
-    });
+    let open: Vec<Vec<String>> = open.collect();
+    let paths = answer.ranking[0].values.iter();
+    let mut why: Vec<&str> = paths.map(|(path, _)| path.as_str()).collect();
+    why.extend(["verdict", "limit", "why", "member"]);
+    let open = match open.is_empty() {
+        true => String::new(),
+        false => format!("<h3>Not held, or not decided</h3>\n{}", rows(&why, &open)),
+    };
     format!(
-        "<h2>Cases</h2>\n<p>{}</p>\n{}{}<p class=\"small\">Every case meets the same draws. The member is that whose value is nearest to the bound, or the \
-         farthest beyond it; it runs again with its full report by <code>auxbear study FILE --member N</code>.</p>\n",
+        "<h2>Cases</h2>\n<p>{}</p>\n{}{open}<p class=\"small\">Every case meets the same draws. Beside a verdict stands the worst value, of a limit with a share that which so many \
+         of the draws do not exceed. A member is that whose value is the farthest beyond the bound, or the nearest to it: it runs again with its full report by \
+         <code>auxbear study FILE --member N</code>.</p>\n",
         plain(&verdict(study, answer)),
-        rows(&head, &body.collect::<Vec<_>>()),
-        failed.collect::<String>()
+        rows(&head, &body),
     )
 }
 

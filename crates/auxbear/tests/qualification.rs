@@ -1,0 +1,150 @@
+//! Cases of a machine, and a study that judges each of them.
+
+use crate::base::{parsed, ran};
+use crate::outcomes::number;
+use auxbear::outcome::Verdict;
+use auxbear::report::study::Directory;
+use auxbear::run::Options;
+use auxbear::scenario::StudyFile;
+use auxbear::study::Study;
+use std::fs;
+use std::sync::atomic::AtomicBool;
+use tempfile::TempDir;
+
+const CASING: &str = include_str!("../../../scenarios/machine_casing.toml");
+
+/// The machine, for 30 ms, its events earlier.
+fn machine() -> String {
+    CASING
+        .replace(
+            "duration = \"0.3 s\"",
+            "duration = \"30 ms\"\naccuracy = \"screening\"",
+        )
+        .replace("\"50 ms\"", "\"5 ms\"")
+}
+
+#[test]
+fn what_names_a_case_happens_in_it_alone() {
+    let machine = machine();
+    let first = ran(&machine, &[]);
+    let same = ran(&machine, &["run.case=power lost"]);
+    assert_eq!(first.quantities, same.quantities);
+    assert!(first.quantity("event.all_lost.time").is_some());
+    assert!(first.quantity("event.one_lost.time").is_none());
+    assert!(first.column("base.acceleration_x").is_none());
+    assert!(number(&first, "drive_end.first_impact_force") > 0.0);
+
+    // in each case, and not at the instant of the other loss
+    let one = "do = \"axis lost\"\nmagnet = \"drive_end\"\naxis = 1\nat = ";
+    let alone = machine.replace(
+        &format!("case = \"axis lost\"\n{one}\"5 ms\""),
+        &format!("{one}\"4 ms\""),
+    );
+    let both = ran(&alone, &["run.case=shock"]);
+    assert!(both.quantity("event.one_lost.time").is_some());
+    assert!(both.column("base.acceleration_x").is_some());
+    let lost = ran(&machine, &["run.case=axis lost"]);
+    assert!(lost.column("base.acceleration_x").is_none());
+}
+
+#[test]
+fn a_case_that_is_none_is_refused_and_so_is_one_that_contradicts_itself() {
+    let machine = machine();
+    let refused = |text: &str, sets: &[&str]| parsed(text, sets).map(|_| ()).unwrap_err();
+    let told = refused(&machine, &["run.case=power_lost"]);
+    assert!(
+        told.contains("run.case") && told.contains("power lost, axis lost, blade lost, shock"),
+        "{told}"
+    );
+    let limit = "\n[[limit]]\nquantity = \"energy_residual\"\nmost = 1e-3\ncase = \"shok\"\n";
+    let told = refused(&format!("{machine}{limit}"), &[]);
+    assert!(
+        told.contains("limit.case") && told.contains("Did you mean \"shock\"?"),
+        "{told}"
+    );
+    // whichever happens
+    let again = "\n[[event]]\nname = \"again\"\ncase = \"axis lost\"\ndo = \"re-levitate\"\nbias_time = \"1 ms\"\nat = \"1 ms\"\n";
+    let told = refused(&format!("{machine}{again}"), &[]);
+    assert!(told.contains("event"), "{told}");
+}
+
+#[test]
+fn a_limit_of_a_case_is_judged_in_it_alone_and_no_contact_is_no_force() {
+    let limits = "\n[[limit]]\nquantity = \"drive_end.peak_contact_force\"\nmost = \"1 N\"\n\
+        \n[[limit]]\ncase = \"axis lost\"\nquantity = \"drive_end.contact_count\"\nmost = 100\n";
+    let machine = format!("{}{limits}", machine());
+    let verdicts = |case: &str| -> Vec<Verdict> {
+        let run = ran(&machine, &[&format!("run.case={case}")]);
+        run.limits.iter().map(|judged| judged.verdict).collect()
+    };
+    assert_eq!(verdicts("power lost"), [Verdict::Fail]);
+    assert_eq!(verdicts("blade lost"), [Verdict::Pass]);
+    assert_eq!(verdicts("axis lost").len(), 2);
+}
+
+/// A qualification is each case at each level, with the draws that a run alone would have.
+#[test]
+fn a_qualification_judges_every_case_at_every_level() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("machine.toml"), machine()).unwrap();
+    let study = "format = \"auxbear.study/1\"\nscenario = \"machine.toml\"\nseed = 2\n[design]\nkind = \"qualification\"\ndraws = 3\n\
+        [[input]]\npath = \"rotor.speed\"\nchoice = [\"6000 rpm\", \"9000 rpm\"]\n\
+        [[limit]]\nquantity = \"*.peak_contact_force\"\nmost = \"1 N\"\n\
+        [[limit]]\ncase = \"shock\"\nquantity = \"housing.casing.largest_displacement\"\nmost = \"1 m\"\n";
+    let path = folder.path().join("study.toml");
+    fs::write(&path, study).unwrap();
+    let study = Study::new(StudyFile::read(&path).unwrap()).unwrap();
+    let written = study.file.toml();
+    assert_eq!(study.members(), 4 * 2 * 3);
+    let drawn = study.drawn(4);
+    let mut directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
+    let never = AtomicBool::new(false);
+    let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
+    let found: Vec<(String, Verdict, usize)> = (done.answer.ranking.iter())
+        .map(|one| {
+            let values: Vec<&str> = one.values.iter().map(|(_, value)| value.as_str()).collect();
+            (values.join(", "), one.verdict, one.limits.len())
+        })
+        .collect();
+    let names: Vec<&str> = found.iter().map(|(name, ..)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "power lost, 6000 rpm",
+            "power lost, 9000 rpm",
+            "axis lost, 6000 rpm",
+            "axis lost, 9000 rpm",
+            "blade lost, 6000 rpm",
+            "blade lost, 9000 rpm",
+            "shock, 6000 rpm",
+            "shock, 9000 rpm",
+        ]
+    );
+    for (name, verdict, limits) in &found {
+        let shaken = name.starts_with("shock");
+        assert_eq!(*limits, 2 + usize::from(shaken), "{name}");
+        let wanted = match name.starts_with("blade lost") {
+            true => Verdict::Pass,
+            false => Verdict::Fail,
+        };
+        assert_eq!(*verdict, wanted, "{name}");
+    }
+    // the run behind a verdict is that of its member
+    let worst = done.answer.ranking[1].worst[0].unwrap();
+    assert!((3..6).contains(&worst), "{worst}");
+    let sets: Vec<String> = (drawn.values.iter())
+        .map(|(path, value)| format!("{path}={value}"))
+        .collect();
+    let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+    assert!(
+        sets.iter()
+            .any(|set| set.starts_with("rotor.unbalance_angle="))
+    );
+    let alone = ran(&machine(), &sets);
+    let judged = &done.answer.ranking[1].limits[0];
+    assert!(number(&alone, "drive_end.peak_contact_force") <= judged.value.unwrap());
+    // what was asked reads again as it was resolved
+    fs::write(folder.path().join("scenario.toml"), machine()).unwrap();
+    fs::write(&path, &written).unwrap();
+    assert_eq!(StudyFile::read(&path).unwrap().toml(), written);
+}
