@@ -97,7 +97,7 @@ fn a_qualification_judges_every_case_at_every_level() {
     let written = study.file.toml();
     assert_eq!(study.members(), 4 * 2 * 3);
     let drawn = study.drawn(4);
-    let mut directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
+    let directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
     let never = AtomicBool::new(false);
     let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
     let found: Vec<(String, Verdict, usize)> = (done.answer.ranking.iter())

@@ -242,7 +242,7 @@ pub fn sag_under(
     rotor: &Rotor,
     speed: f64,
     gravity: C64,
-    forces: &[(usize, C64)],
+    forces: &[(Place, C64)],
 ) -> Result<Sag, RotorError> {
     let size = rotor.size();
     held(rotor, speed)?;
@@ -269,9 +269,9 @@ pub fn sag_under(
     force
         .rows_mut(size, size)
         .copy_from(&(&weight * gravity.im));
-    for (node, push) in forces {
-        force[rotor.displacement(*node)] += push.re;
-        force[size + rotor.displacement(*node)] += push.im;
+    for (place, push) in forces {
+        force[rotor.coordinate(*place)] += push.re;
+        force[size + rotor.coordinate(*place)] += push.im;
     }
     let solution = stiffness.lu().solve(&force).ok_or(RotorError::NotHeld)?;
     let shape = DVector::from_fn(size, |i, _| C64::new(solution[i], solution[size + i]));

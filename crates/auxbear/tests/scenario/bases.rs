@@ -56,6 +56,11 @@ after_release = "stays"
 name = "casing"
 mass = "200 kg"
 stiffness = "1e9 N/m"
+
+[[rotor.seal]]
+at = "0.4 m"
+on = "casing"
+stiffness = "1 N/m"
 "#;
 
 const BEARING: &str = r#"

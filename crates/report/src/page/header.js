@@ -133,9 +133,8 @@ function whirlTile(run) {
 
 // Distances left along the shaft between it and seals, sensors and magnets, the smallest first; less than none where it rubs.
 function distancesOf(run) {
-  const [around, shape] = ["clearances", "shape"].map((figure) => tableOf(run, figure));
-  const displacementAt = (place) => shape("displacement")[shape("place").indexOf(place)];
-  const all = around("name").map((name, k) => ({ name, clearance: around("clearance")[k], displacement: displacementAt(around("place")[k]) }));
+  const around = tableOf(run, "clearances");
+  const all = around("name").map((name, k) => ({ name, clearance: around("clearance")[k], displacement: around("displacement")[k] }));
   return all.filter((place) => isNumber(place.clearance) && isNumber(place.displacement)).sort((one, other) => one.clearance - one.displacement - other.clearance + other.displacement);
 }
 

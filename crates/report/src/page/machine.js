@@ -152,9 +152,9 @@ function machineSection(runs) {
     "The rotor on its bearings",
     machines.map((machine) => [
       figure(`${of(machine)}Rotor to scale`, DRAWN, rotorPicture(machine[0], [], machine.map((run) => run.summary.name || ""))),
-      columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets.", shapeFigure(machine)) : null,
+      columnOf(machine[0], "shape.1.x") ? figure(`${of(machine)}Shape of the shaft over time`, "Displacement of the shaft's axis from the line of levitation, at the rows of the history. Bars: clearance of each auxiliary bearing about where it stands at rest; violet: clearances of seals, sensors and magnets, where housings rest.", shapeFigure(machine)) : null,
       ...besidesOf(machine[0]),
-      tableOf(machine[0], "shape")("displacement").length ? figure(`${of(machine)}Largest displacement along the shaft`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there.", reachFigure(machine)) : null,
+      tableOf(machine[0], "shape")("displacement").length ? figure(`${of(machine)}Largest displacement along the shaft`, "Largest distance of the shaft's axis from the line of levitation in the whole run; dots: the clearances. A bearing's race moves with the rotor; beyond any other dot the rotor touches what stands there. What belongs to a housing moves with it: how far it was from the shaft stands in node.*.least_distance.", reachFigure(machine)) : null,
     ]),
   );
 }

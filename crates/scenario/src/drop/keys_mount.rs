@@ -34,11 +34,11 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("mount.stop_damping", Kind::Quantity("s/m"), "0.5 s/m", "Hunt-Crossley damping a of the stop's force F = k d(1 + a ḋ).")
         .not_negative().optional("0.5 s/m, as of contact.damping"),
     Key::new(ON, Kind::Text, "casing", "Name of the [[rotor.housing]] on which the mount stands, which other bearings and magnets may share.")
-        .optional("the mount stands on ground, or on mount.housing_mass").excludes("mount.housing_mass").only(MACHINE),
+        .optional("the mount stands on ground, or on mount.housing_mass").only(MACHINE),
     Key::new("mount.housing_mass", Kind::Quantity("kg"), "20 kg", "Mass of a housing that yields, under the mount.")
-        .positive().optional("the mount stands on ground"),
+        .positive().optional("the mount stands on ground").excludes(ON),
     Key::new("mount.housing_stiffness", Kind::Quantity("N/m"), "1e8 N/m", "Stiffness between that housing and ground.")
-        .positive().optional("the mount stands on ground"),
+        .positive().optional("the mount stands on ground").excludes(ON),
     Key::new("mount.housing_damping", Kind::Quantity("N s/m"), "1e4 N s/m", "Damping between that housing and ground.")
-        .not_negative().optional("0 N s/m: no loss but in the mount"),
+        .not_negative().optional("0 N s/m: no loss but in the mount").excludes(ON),
 ];

@@ -129,8 +129,13 @@ impl Shaft {
                 on: on(own, &housings)?,
             })
         };
+        let places: Vec<BearingPlace> =
+            all.iter().map(place).collect::<Result<_, Box<Problem>>>()?;
+        for (k, part) in of("housing").enumerate() {
+            housing(part, &rotor, (k, &places), all)?;
+        }
         Ok(Shaft {
-            places: all.iter().map(place).collect::<Result<_, Box<Problem>>>()?,
+            places,
             rotor,
             cutoff: values.number(CUTOFF),
             cutoff_check: values.number("rotor.cutoff_check"),
@@ -162,6 +167,41 @@ impl Values {
         let how = "first impacts of a rotor whose first mode bends at 655 rad/s within half a percent of those of all modes";
         self.put_derived(CUTOFF, Value::Number(CUTOFFS[1]), how)
     }
+}
+
+/// Refuses a housing that nothing stands on, that does not stand itself, or whose name another part has.
+fn housing(
+    part: &Part,
+    rotor: &FlexibleRotor,
+    (own, places): (usize, &[BearingPlace]),
+    all: &[Values],
+) -> Result<(), Box<Problem>> {
+    let magnets = rotor.levitation.iter().flat_map(|own| &own.magnets);
+    let carried = (rotor.supports.iter().map(|own| own.on))
+        .chain(magnets.map(|own| own.on))
+        .chain(places.iter().map(|own| own.on));
+    if !carried.flatten().any(|on| on == own) {
+        let found = "a housing that nothing stands on";
+        let allowed = "on = its name is needed in a [mount], a [[levitation.magnet]], a [[rotor.seal]] or a [[rotor.support]]";
+        return part.refuse(Code::UnusedKey, "", found, allowed);
+    }
+    let mounts = rotor.supports.iter().filter(|own| own.at.is_none());
+    let stands = mounts.skip(own).take(1).all(|mount| {
+        let mut rows = mount.coefficients.rows().iter();
+        rows.all(|(_, block)| block.stiffness[0][0] > 0.0 && block.stiffness[1][1] > 0.0)
+    });
+    if !stands {
+        let found = "a housing without stiffness";
+        let allowed = "a stiffness above 0 in both directions is needed: its own mount";
+        return part.refuse(Code::OutOfRange, "stiffness", found, allowed);
+    }
+    let named = |own: &Values| own.bearing.as_ref() == Some(&part.label);
+    if all.iter().any(named) {
+        let allowed = "another name is needed: results of both would have the same";
+        let found = format!("{}, the name of an auxiliary bearing", quoted(&part.label));
+        return part.refuse(Code::Conflict, "name", found, allowed);
+    }
+    Ok(())
 }
 
 /// The node at which a bearing stands.

@@ -6,6 +6,7 @@ use crate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::drop::Drop;
 use crate::drop::base;
 use crate::drop::clearances;
+use crate::drop::housings;
 use crate::drop::layers;
 use crate::drop::magnets_in_time::InTime;
 use crate::drop::mount;
@@ -16,7 +17,7 @@ use model::base::BaseConstants;
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
 use model::levitation::Levitation;
-use model::mount::Mount;
+use model::mount::{Housing, Mount};
 use model::rotor::RotorConstants;
 use model::system::machine::{Event, MachineConstants};
 use number::Vec2;
@@ -95,7 +96,7 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
     })
 }
 
-/// The auxiliary bearings of a drop with their contacts and mounts, at no node yet.
+/// The auxiliary bearings of a drop with their contacts and mounts, at no node yet; each alone on the housing that others share.
 ///
 /// # Errors
 /// What the drop would be refused for.
@@ -104,7 +105,21 @@ pub fn auxiliary_bearings(
 ) -> Result<Vec<AuxiliaryBearingConstants>, Box<Problem>> {
     let drop = Drop::of(given)?;
     let all = 0..drop.auxiliary_bearings.len();
-    all.map(|k| Ok(auxiliary_bearing(&drop, k)?.0)).collect()
+    let of = |k: usize| {
+        let (mut constants, _) = auxiliary_bearing(&drop, k)?;
+        let shaft = drop.shaft.as_ref();
+        if let Some((shaft, on)) = shaft.and_then(|shaft| Some((shaft, shaft.places[k].on?))) {
+            let own = housings::alone(&shaft.model.rotor, on, drop.rotor.speed);
+            let row = |whole: f64| whole / constants.planes;
+            constants.mount_parts.housing = Some(Housing {
+                mass: row(own.mass),
+                stiffness: row(own.stiffness),
+                damping: row(own.damping),
+            });
+        }
+        Ok(constants)
+    };
+    all.map(of).collect()
 }
 
 fn auxiliary_bearing(

@@ -10,11 +10,12 @@ use crate::drop::context::{Context, Setup};
 use crate::levitated::at_rest;
 use crate::rotor::{LevitationModel, RotorModel};
 use levitation::Plant;
+use model::mount::Housing;
 use nalgebra::DVector;
 use number::Vec2;
 use outcome::list::{List, origins, results};
 use problem::Problem;
-use rotor::{Basis, Place, Rotor};
+use rotor::{Basis, Block, Place, Rotor};
 
 /// Stiffness over mass of a housing that does not yield, 1/s²: what it carries is found on it.
 const UNYIELDING: f64 = 1e12;
@@ -81,6 +82,22 @@ pub(super) fn against(shaft: &Shaft) -> Vec<(usize, usize)> {
     all.sort_unstable();
     all.dedup();
     all
+}
+
+/// A housing as one bearing meets it, in the mean of its directions; what else stands on it is left out.
+pub(super) fn alone(rotor: &Rotor, housing: usize, speed: f64) -> Housing<f64> {
+    let own = |own: &&rotor::Support| own.at == Place::Housing(housing);
+    let mounts = rotor.supports.iter().filter(own);
+    let blocks = mounts.map(|own| own.coefficients.at(speed));
+    let mean = |of: &dyn Fn(&Block) -> [[f64; 2]; 2]| -> f64 {
+        let each = blocks.clone().map(|block| of(&block));
+        each.map(|m| 0.5 * (m[0][0] + m[1][1])).sum()
+    };
+    Housing {
+        mass: rotor.housings[housing].mass,
+        stiffness: mean(&|block| block.stiffness),
+        damping: mean(&|block| block.damping),
+    }
 }
 
 /// Names of the housings.

@@ -32,6 +32,10 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
         built,
         speed: setup.drop().rotor.speed.abs(),
         bearings,
+        peaks: run.map_or(Vec::new(), |run| {
+            let places = run.finished.record.places.iter();
+            places.map(|peak| peak.value).collect()
+        }),
     };
     basis(list, &(), run.map(|_| &bent));
     drawing::name(list, &given.model);
@@ -78,6 +82,9 @@ results! {
     fn clearances_along(setup: &(), bent: &Bent) {
         "clearance_names": text "", GIVEN, "what stands around the shaft" in clearances "name" => bent.around(|own| own.name).join("\n").as_str();
         "clearance_positions": list "m", GIVEN, "its places" in clearances "place" => bent.z(bent.around(|own| own.node).into_iter());
+        "clearance_displacements": list "m", DISPLACEMENT, "largest displacements of the shaft there, against the housing that it is of" in clearances "displacement" => {
+            bent.around(|own| bent.peaks[own.place])
+        };
         "clearances": list "m", GIVEN, "its radial clearances" in clearances "clearance" => bent.around(|own| own.clearance.unwrap_or(f64::NAN));
     }
 }
@@ -90,6 +97,8 @@ struct Bent<'a> {
     speed: f64,
     /// Auxiliary bearings that the rotor did not touch.
     bearings: Vec<Named<'a>>,
+    /// Largest displacement at each watched place, m; none before the run.
+    peaks: Vec<f64>,
 }
 
 impl<'a> Bent<'a> {
@@ -116,11 +125,11 @@ impl<'a> Bent<'a> {
         places.map(|place| place.misalignment[axis]).collect()
     }
     /// Of each place along it with a clearance.
-    fn around<T>(&self, of: fn(&Named<'a>) -> T) -> Vec<T> {
+    fn around<T>(&self, of: impl Fn(&Named<'a>) -> T) -> Vec<T> {
         let all = around(self.given, self.built);
         let around = all.filter(|own| own.clearance.is_some());
         let around = around.map(|own| of(&own));
-        around.chain(self.bearings.iter().map(of)).collect()
+        around.chain(self.bearings.iter().map(&of)).collect()
     }
 }
 
@@ -317,10 +326,10 @@ fn magnets<'a>(given: &'a Shaft, built: &'a BuiltShaft) -> impl Iterator<Item = 
 }
 
 origins! {
-    DISPLACEMENT: law "largest distance of the rotor's axis from the line of levitation, at 64 points a turn",
+    DISPLACEMENT: law "largest distance of the rotor's axis from the line of levitation, of a node on a housing from where this has it, at 64 points a turn",
         source "crates/model/src/system/machine/record.rs",
         valid "small tilt; modes up to rotor.cutoff with residual flexibility";
-    DISTANCE: law "clearance of the node less its largest displacement; negative: the rotor reaches what stands there",
+    DISTANCE: law "clearance of the node less its largest displacement, against the housing that it is of; negative: the rotor reaches what stands there",
         source "crates/model/src/system/machine/record.rs",
         valid "what stands around the rotor is centred on the line of levitation and touches nothing else";
     HELD: law "eigenvalues of the rotor on its magnets with their controllers, or on its supports, at the speed of the release, up to three \

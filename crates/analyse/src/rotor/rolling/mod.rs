@@ -20,6 +20,7 @@ use nalgebra::DVector;
 use physics::magnet::Magnet;
 use physics::rolling_rotor::{contact_stiffness, pendulum_stiffness, penetration};
 use rotor::{Block, C64, Coefficients, Place, Response, RotorError, along, sag_under};
+use scenario::rotor::levitation::Magnets;
 use scenario::rotor::{FlexibleRotor, Node, Support};
 use scenario::{BearingPlace, Body, Drop, RotorAnalysis, Shaft};
 use simulate::drop::build::auxiliary_bearings;
@@ -170,7 +171,8 @@ impl RollingModel {
             return Ok(Some(Err(why.to_string())));
         }
         let model = RotorModel::new(&free, analysis.speed)?;
-        let rested = at_rest(&model, given, (drop, shaft));
+        let held = analysis.rotor.levitation.as_ref();
+        let rested = at_rest((&model, held), given, (drop, shaft));
         Ok(Some(rested.and_then(|(mut bearings, rest)| {
             let down = C64::from_polar(1.0, drop.gravity.direction);
             let mut own = RotorAnalysis {
@@ -243,12 +245,13 @@ impl RollingModel {
         let kernel = &self.asked.model.rotor;
         let distances = self.places().map(|(_, node, clearance, on)| {
             let on = on.map(|housing| kernel.coordinate(Place::Housing(housing)));
+            let rest = self.rest[2 * node] - on.map_or(C64::default(), |k| self.rest[k]);
             let held = steps.iter().zip(&holds).filter(|(_, holds)| **holds);
             let turning = held.filter_map(|((speed, own), _)| {
-                let farthest = (*own)?.farthest(2 * node, on, self.rest[2 * node]);
+                let farthest = (*own)?.farthest(2 * node, on, rest);
                 Some(Peak::new(clearance - farthest, *speed))
             });
-            let all = turning.chain([Peak::new(clearance - self.rest[2 * node].norm(), 0.0)]);
+            let all = turning.chain([Peak::new(clearance - rest.norm(), 0.0)]);
             all.min_by(|a, b| a.value.total_cmp(&b.value))
         });
         Ok(RollingFound {
@@ -358,7 +361,7 @@ fn carry(
 
 /// The rotor in the bottom of its bearings: what each row carries, and the displacement of each node. Newton's method over the loads.
 fn at_rest(
-    model: &RotorModel,
+    (model, levitation): (&RotorModel, Option<&Magnets>),
     given: Vec<AuxiliaryBearingConstants>,
     (drop, shaft): (&Drop, &Shaft),
 ) -> Result<(Vec<RollingBearing>, DVector<C64>), String> {
@@ -371,11 +374,15 @@ fn at_rest(
         support.seal = false;
     }
     let mut bearings: Vec<RollingBearing> = Vec::new();
-    for (constants, place) in given.into_iter().zip(&shaft.places) {
+    for (mut constants, place) in given.into_iter().zip(&shaft.places) {
         let node = model.named[place.node];
+        // what stands on a housing with others stands on it here
+        if place.on.is_some() {
+            constants.mount_parts.housing = None;
+        }
         rotor.supports.push(rotor::Support {
             at: Place::Node(node),
-            on: None,
+            on: place.on,
             coefficients: Coefficients::constant(Block::default()),
             seal: false,
         });
@@ -387,12 +394,21 @@ fn at_rest(
         });
     }
     let first = rotor.supports.len() - bearings.len();
+    let gravity = down * drop.gravity.acceleration;
+    // housings count from where they rest with the levitated rotor
+    let mut standing: Vec<(Place, C64)> = (rotor.housings.iter().enumerate())
+        .map(|(k, own)| (Place::Housing(k), -gravity * own.mass))
+        .collect();
+    standing.extend(
+        levitated_loads(levitation, &rotor, weight)
+            .map(|(k, load)| (Place::Housing(k), -down * load)),
+    );
     let datum = |place: &BearingPlace| {
         let [x, y] = place.misalignment;
         C64::new(x, y) * down.conj()
     };
     for _ in 0..STEPS {
-        let mut pushes = Vec::new();
+        let mut pushes = standing.clone();
         for ((bearing, place), support) in
             (bearings.iter().zip(&shaft.places)).zip(&mut rotor.supports[first..])
         {
@@ -405,14 +421,20 @@ fn at_rest(
             let datum = datum(place);
             let along = springs.along * (datum.re + springs.depth) - springs.load;
             let push = C64::new(along, springs.across * datum.im) * planes;
-            pushes.push((bearing.node, push * down));
+            pushes.push((Place::Node(bearing.node), push * down));
+            if let Some(on) = place.on {
+                pushes.push((Place::Housing(on), -push * down));
+            }
         }
-        let gravity = down * drop.gravity.acceleration;
         let sag = sag_under(&rotor, drop.rotor.speed, gravity, &pushes);
         let sag = sag.map_err(|_| "they leave the rotor free to tilt".to_string())?;
         let mut change: f64 = 0.0;
         for (bearing, place) in bearings.iter_mut().zip(&shaft.places) {
-            let at = (sag.shape[rotor.displacement(bearing.node)] * down.conj()).re;
+            let ground = place.on.map_or(C64::default(), |on| {
+                sag.shape[rotor.coordinate(Place::Housing(on))]
+            });
+            let at = sag.shape[rotor.displacement(bearing.node)] - ground;
+            let at = (at * down.conj()).re;
             let deeper = at - datum(place).re - bearing.springs.depth;
             let (load, more) = (bearing.springs.load, bearing.springs.along * deeper);
             change = change.max(more.abs());
@@ -432,6 +454,28 @@ fn at_rest(
         }
     }
     Err("their shares of the weight were not found".to_string())
+}
+
+/// What each magnet that stands on a housing puts on it while it holds the rotor, N: its share of the weight, where all are equally stiff.
+fn levitated_loads(
+    levitation: Option<&Magnets>,
+    rotor: &rotor::Rotor,
+    weight: f64,
+) -> impl Iterator<Item = (usize, f64)> {
+    let magnets = levitation.map_or(&[][..], |own| &own.magnets);
+    let at = magnets.iter().map(|own| own.at);
+    let count = magnets.len() as f64;
+    let middle = at.clone().sum::<f64>() / count;
+    let spread: f64 = at.clone().map(|z| (z - middle).powi(2)).sum();
+    let lever = rotor::properties(rotor).centre - middle;
+    let load = move |z: f64| match spread > 0.0 {
+        true => weight * (1.0 / count + lever * (z - middle) / spread),
+        false => weight / count,
+    };
+    let loads: Vec<_> = (magnets.iter())
+        .filter_map(|own| Some((own.on?, load(own.at))))
+        .collect();
+    loads.into_iter()
 }
 
 /// Share of the weight below which a bearing carries none.

@@ -14,7 +14,7 @@ pub(crate) mod results;
 
 use crate::rotor::rolling::machine_of;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
-use model::mount::{Housing, Mount};
+use model::mount::Mount;
 use physics::dry_whirl::{WhirlContact, rolling_limit};
 use rotor::{
     Analysis, Basis, Block, C64, Coefficients, Matrices, ModeCount, Place, Responder, Rotor,
@@ -100,12 +100,7 @@ impl WhirlModel {
         let Some((drop, shaft)) = machine_of(analysis).filter(|_| turns) else {
             return Ok(None);
         };
-        let mut given = auxiliary_bearings(drop)?;
-        for (own, place) in given.iter_mut().zip(&shaft.places) {
-            if let Some(on) = place.on {
-                own.mount_parts.housing = Some(alone(&model.rotor, on, analysis.speed));
-            }
-        }
+        let given = auxiliary_bearings(drop)?;
         let nodes = shaft.places.iter().map(|place| model.named[place.node]);
         let nodes: Vec<usize> = nodes.collect();
         let (free, unequal) = in_flight(model, &nodes);
@@ -230,22 +225,6 @@ fn in_flight(model: &RotorModel, nodes: &[usize]) -> (Rotor, Vec<String>) {
         seal: true,
     }));
     (free, names)
-}
-
-/// A housing as one bearing meets it, in the mean of its directions; what else stands on it is left out.
-fn alone(rotor: &Rotor, housing: usize, speed: f64) -> Housing<f64> {
-    let own = |own: &&Support| own.at == Place::Housing(housing);
-    let mounts = rotor.supports.iter().filter(own);
-    let blocks = mounts.map(|own| own.coefficients.at(speed));
-    let mean = |of: &dyn Fn(&Block) -> [[f64; 2]; 2]| -> f64 {
-        let each = blocks.clone().map(|block| of(&block));
-        each.map(|m| 0.5 * (m[0][0] + m[1][1])).sum()
-    };
-    Housing {
-        mass: rotor.housings[housing].mass,
-        stiffness: mean(&|block| block.stiffness),
-        damping: mean(&|block| block.damping),
-    }
 }
 
 /// Stiffness of spring and branches of all rows together, N/m.

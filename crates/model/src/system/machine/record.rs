@@ -232,7 +232,9 @@ impl Record {
         if let Some((share, outside)) = &mut self.within {
             for (k, last) in outside.iter_mut().enumerate() {
                 let clearance = machine.constants.bearings[k].contact.radial_clearance;
-                let away = machine.node(k, state).position.length_squared().sqrt();
+                let ground = machine.one.ground(k, &machine.layout().rotor.motion(state))[0];
+                let away = machine.node(k, state).position - ground;
+                let away = away.length_squared().sqrt();
                 if away > *share * clearance {
                     *last = Some(time);
                 }

@@ -68,6 +68,9 @@ impl MountPeaks {
 impl BearingRecord {
     pub(in super::super) fn mount_of(&mut self, step: &mut Step<RotorMachine>) {
         self.mount_parts_of(step);
+        if step.machine.one.stands[self.bearing].is_some() {
+            return self.mount_on_housing(step);
+        }
         let outer = self.at.outer;
         let pair = |at: [usize; 2], value: &dyn Fn(usize) -> f64| {
             let [x, y] = at.map(value);
@@ -96,6 +99,16 @@ impl BearingRecord {
                     .raise(state[x].hypot(state[y]), time);
             }
         }
+    }
+
+    /// The outer race against the housing that its mount stands on, at the end of a step.
+    fn mount_on_housing(&mut self, step: &mut Step<RotorMachine>) {
+        let (machine, end) = (step.machine, step.end);
+        let state = step.leading_state(1.0, self.at.outer.channels().end);
+        let [ground, _] = (machine.one).ground(self.bearing, &machine.layout().rotor.motion(state));
+        let away = self.at.outer.motion(state).position - ground;
+        self.mount_displacement
+            .raise(away.length_squared().sqrt(), end);
     }
 
     /// The parts of the mount at the end of a step, and between where one of them comes near to its record.
