@@ -47,8 +47,8 @@ pub struct Resolved {
     vary: Vec<String>,
     /// What results must hold, a table each.
     limits: Vec<String>,
-    /// Parts of a flexible rotor, a table each.
-    parts: Vec<String>,
+    /// Parts of a flexible rotor, a table each, with the paths of what is assumed of it.
+    parts: Vec<(String, Vec<String>)>,
 }
 
 impl Resolved {
@@ -60,10 +60,15 @@ impl Resolved {
             parts: Vec::new(),
         }
     }
-    /// The same with the parts of a flexible rotor, each as a file has it.
-    pub fn of_parts(mut self, parts: Vec<String>) -> Resolved {
+    /// The same with the parts of a flexible rotor, each as a file has it, and what is assumed of it.
+    pub fn of_parts(mut self, parts: Vec<(String, Vec<String>)>) -> Resolved {
         self.parts = parts;
         self
+    }
+    /// Paths of what is assumed of the parts of a flexible rotor.
+    pub fn assumed_of_parts(&self) -> impl Iterator<Item = &str> {
+        let assumed = self.parts.iter().flat_map(|(_, assumed)| assumed);
+        assumed.map(String::as_str)
     }
     /// The same with what results must hold, each limit as a file has it.
     pub fn limited(mut self, limits: Vec<String>) -> Resolved {
@@ -122,7 +127,7 @@ impl Resolved {
             out.push_str(&line(key, value));
             out.push('\n');
         }
-        for part in &self.parts {
+        for (part, _) in &self.parts {
             out.push_str(&format!("\n{part}"));
         }
         if !self.vary.is_empty() {

@@ -283,10 +283,16 @@ fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>> {
         .collect()
 }
 
-/// The parts of a document as its resolved file has them.
-pub fn toml(document: &Document, values: &Values) -> Vec<String> {
+/// The parts of a document as its resolved file has them, each with the paths of what is assumed of it.
+pub fn toml(document: &Document, values: &Values) -> Vec<(String, Vec<String>)> {
     let parts = resolve(document, values).unwrap_or_default();
-    parts.iter().map(Part::toml).collect()
+    let of = |part: &Part| {
+        let known = part.known.iter();
+        let assumed = known.filter(|(_, known)| known.provenance.mark() == "assumed");
+        let path = |key: &str| format!("{}.{}.{key}", part.kind.path(), part.label);
+        (part.toml(), assumed.map(|(key, _)| path(key)).collect())
+    };
+    parts.iter().map(of).collect()
 }
 
 /// Where a key of a part stands, such as `rotor.disk.impeller.mass`; else where its table does, or the first of its kind.

@@ -251,6 +251,12 @@ pub(crate) fn assumed(
         .filter(|value| value.bearing.as_deref() == name)
         .filter(|value| value.provenance.mark() == "assumed" && counts(value.path))
         .map(|value| value.path)
+        .chain(
+            scenario
+                .resolved
+                .assumed_of_parts()
+                .filter(|_| name.is_none()),
+        )
         .collect();
     assumptions(&paths)
 }
