@@ -17,6 +17,7 @@ mod feedback;
 mod heat;
 mod held_limits;
 mod levitated_run;
+mod loads;
 mod machine;
 mod machine_results;
 mod machine_supports;

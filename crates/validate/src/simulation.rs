@@ -249,6 +249,7 @@ pub(super) fn constants(
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        loaded: Vec::new(),
         base: None,
         unbalances: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {

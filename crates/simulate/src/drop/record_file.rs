@@ -1,13 +1,16 @@
 //! Records over time from a file: accelerations of the base, forces on the rotor.
 
+use crate::bearing::loss::table;
 use model::table::Table;
 use problem::{Code, Result};
 use recording::unit::si_factor;
 use recording::{Channel, Clock, FileError, Recording};
-use scenario::{RecordFile, STANDARD_GRAVITY, problem_at};
+use scenario::{Force, RecordFile, STANDARD_GRAVITY, problem_at};
 
 /// Before and after a record there is nothing: what it records gets there in this time, s.
 const EDGE: f64 = 1e-6;
+/// Largest number of a record: sums and slopes of what is beyond have no finite value.
+const LARGEST: f64 = 1e100;
 
 /// The sum of records, each zero outside its rows.
 pub(super) fn sum(records: &[Vec<[f64; 2]>]) -> Table {
@@ -22,6 +25,8 @@ pub(super) fn sum(records: &[Vec<[f64; 2]>]) -> Table {
             if last[1] != 0.0 {
                 points.push(edges[1]);
             }
+            // a start far away may round times to one
+            points.dedup_by(|next, before| next.0 <= before.0);
             Some(Table::through(points).expect("times of a record rise"))
         })
         .collect();
@@ -38,12 +43,22 @@ pub(super) fn sum(records: &[Vec<[f64; 2]>]) -> Table {
     }
 }
 
+/// A force from outside over time along x and along y, N.
+pub(super) fn force(given: &Force) -> Result<[Table; 2]> {
+    let Some(record) = &given.record else {
+        return Ok(given.over_time.each_ref().map(|rows| table(rows, 1.0)));
+    };
+    let placed = |[time, force]: &[f64; 2]| [time + record.start, record.scale * force];
+    let rows = read(&record.file, "N", &record.name)?;
+    Ok(rows.map(|rows| sum(&[rows.iter().map(placed).collect()])))
+}
+
 /// The records of a file along x and along y, in a unit of SI; `table` is where a scenario names it, such as `base`.
 pub(super) fn read(file: &RecordFile, unit: &str, table: &str) -> Result<[Vec<[f64; 2]>; 2]> {
     let of_file = |error: FileError| {
         problem_at(
             Code::MeasurementUnreadable,
-            &format!("{table}.file"),
+            format!("{table}.file"),
             error.to_string(),
             "a file that can be read is needed",
         )
@@ -75,9 +90,15 @@ pub(super) fn read(file: &RecordFile, unit: &str, table: &str) -> Result<[Vec<[f
                 return Err(problem_at(Code::ChannelClock, key, found, needed));
             }
         };
-        let finite = |list: &[f64]| list.iter().position(|value| !value.is_finite());
+        let finite = |list: &[f64]| {
+            list.iter()
+                .position(|value| value.is_nan() || value.abs() > LARGEST)
+        };
         if let Some(row) = finite(&values).or(finite(&times)) {
-            let found = format!("channel \"{name}\", whose value {} is no number", row + 1);
+            let found = format!(
+                "channel \"{name}\", whose value {} is no number below 1e100",
+                row + 1
+            );
             let needed = "a record without gaps and without jumps of velocity is needed";
             return Err(problem_at(Code::OutOfRange, key, found, needed));
         }
