@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod base;
+mod braked_to_standstill;
 mod cage_forces;
 mod catalogue;
 mod catalogue_file;

@@ -220,7 +220,9 @@ impl<'a> Multirate<'a> {
     ) -> Result<Option<Leave>, Failure> {
         let limits = Limits::of(built, now);
         let pace = leap::pace(&self.modes, built.start.speed);
-        let length = limits.length(self.length.min(pace.leap));
+        // a leap ends where a brake comes
+        let ahead = built.start.speed / built.brake_below(built.start.speed);
+        let length = limits.length(self.length.min(pace.leap)).min(ahead.ln());
         let followed: f64 = self.batches.iter().map(|batch| batch.span).sum();
         let dwell = pace.dwell.min(LONGEST_ESTIMATE as f64 * span);
         // neither the interval nor the jumps of the motion are to take longer than the leap
