@@ -183,6 +183,14 @@ fn of_runs(repository: &Repository, program: &Path, runs: &Path) -> Result<(), S
             lines.columns(&history);
         }
         let _ = std::fs::remove_dir_all(&tables);
+        let column = "\ncolumn ";
+        let before = repository.text(&format!("{FOLDER}/{name}.numbers"));
+        let had = before.is_some_and(|text| text.contains(column));
+        if (had || run.join("history.parquet").exists()) && !lines.numbers.contains(column) {
+            return Err(format!(
+                "{file}: its run has no columns of a history; is the disk full?"
+            ));
+        }
         save(&name, "numbers", &lines.numbers)?;
         save(&name, "words", &lines.words)?;
     }

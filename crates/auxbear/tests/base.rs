@@ -1,26 +1,14 @@
 //! A base that moves, a rotor that starts displaced, and a blade that is lost.
 
-use crate::machine::STIFF;
+use crate::machine::{STIFF, parsed, ran};
 use crate::outcomes::number;
 use auxbear::outcome::Outcome;
-use auxbear::run::{Options, run};
 use auxbear::scenario::{BuiltIn, Scenario, System};
 use auxbear::simulate::drop::build;
 use std::f64::consts::{PI, TAU};
 use std::fs;
-use std::sync::atomic::AtomicBool;
 
 const BLADE: &str = include_str!("../../../scenarios/machine_blade_loss.toml");
-
-pub fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
-    Scenario::parse(text, "machine.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
-}
-
-pub fn ran(text: &str, sets: &[&str]) -> Outcome {
-    let scenario = parsed(text, sets).unwrap();
-    run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
-}
 
 fn last(run: &Outcome, column: &str) -> f64 {
     let column = run.column(column).expect("a column");

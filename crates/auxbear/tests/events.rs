@@ -1,24 +1,11 @@
 //! What happens to a machine during a run: `[[event]]`.
 
-use crate::machine::STIFF;
+use crate::machine::{STIFF, parsed, ran};
 use crate::outcomes::number;
 use auxbear::outcome::{Outcome, Value};
-use auxbear::run::{Options, run};
-use auxbear::scenario::{BuiltIn, Scenario};
-use std::sync::atomic::AtomicBool;
 
 const AGAIN: &str = include_str!("../../../scenarios/machine_relevitation.toml");
 const AXIS: &str = include_str!("../../../scenarios/machine_axis_lost.toml");
-
-fn parsed(text: &str, sets: &[&str]) -> Result<Scenario, String> {
-    let sets: Vec<String> = sets.iter().map(|set| (*set).to_string()).collect();
-    Scenario::parse(text, "machine.toml", &sets, &BuiltIn).map_err(|problem| problem.to_string())
-}
-
-fn ran(text: &str, sets: &[&str]) -> Outcome {
-    let scenario = parsed(text, sets).unwrap();
-    run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap()
-}
 
 fn codes(outcome: &Outcome) -> Vec<&str> {
     outcome.warnings.iter().map(|own| own.code).collect()

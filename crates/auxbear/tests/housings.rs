@@ -1,6 +1,6 @@
 //! A machine in a casing that moves.
 
-use crate::base::{parsed, ran};
+use crate::machine::{parsed, ran};
 use crate::outcomes::number;
 
 const CASING: &str = include_str!("../../../scenarios/machine_casing.toml");

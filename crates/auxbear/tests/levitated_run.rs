@@ -226,7 +226,7 @@ fn a_loss_without_magnets_or_before_standstill_is_refused() {
         error.contains("power_lost_at") && error.contains("no magnets"),
         "{error}"
     );
-    let mut sets = vec!["levitation.power_lost_at=1 ms", "run.until=standstill"];
+    let mut sets = vec!["levitation.power_lost_at=9 s", "run.until=standstill"];
     // laws that a coast-down knows
     let laws = ["drive_end", "other_end"].map(|end| {
         let law = format!("auxiliary_bearing.{end}.bearing.moment");

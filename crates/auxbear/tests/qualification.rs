@@ -1,6 +1,6 @@
 //! Cases of a machine, and a study that judges each of them.
 
-use crate::base::{parsed, ran};
+use crate::machine::{parsed, ran};
 use crate::outcomes::number;
 use auxbear::outcome::Verdict;
 use auxbear::report::study::Directory;

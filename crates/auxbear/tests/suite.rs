@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod base;
+mod braked_to_standstill;
 mod cage_forces;
 mod catalogue;
 mod catalogue_file;
@@ -18,6 +19,7 @@ mod heat;
 mod held_limits;
 mod housings;
 mod levitated_run;
+mod loads;
 mod machine;
 mod machine_results;
 mod machine_supports;

@@ -3,10 +3,10 @@
 //! ```text
 //!   F = (F_x(t), F_y(t)) at the geometric centre C; straight between its points, constant beyond them
 //! ```
-//! Its points are landed. Its work F·Ċ is a signed source; about the mass centre it has the moment of its arm.
+//! Its points are landed. A load that comes on the way is constant from its instant on. Its work F·Ċ is a signed source; about the mass centre it has the moment of its arm.
 
 use crate::rotor::Node;
-use crate::table::{Lines, Table};
+use crate::table::Table;
 use number::{Real, Vec2};
 
 /// A force at a node of the rotor.
@@ -24,10 +24,6 @@ impl ForceConstants {
         let points = self.over_time.iter().flat_map(Table::points);
         points.map(|(time, _)| *time)
     }
-    /// Numbers of its points: lanes share them.
-    pub(crate) fn rows(&self) -> [usize; 2] {
-        self.over_time.each_ref().map(|table| table.points().len())
-    }
 }
 
 /// A force over `R`, at its node.
@@ -35,15 +31,16 @@ impl ForceConstants {
 pub struct Force<R> {
     /// Its node.
     pub node: Node<R>,
-    /// Along x and along y.
-    pub over_time: [Lines<R>; 2],
+    /// Along x and along y, of each lane: records have points of their own and many of them.
+    pub over_time: Vec<[Table; 2]>,
 }
 
 impl<R: Real> Force<R> {
     /// The force at a time, N.
     #[inline(always)]
     pub fn at(&self, time: R) -> Vec2<R> {
-        let [x, y] = &self.over_time;
-        Vec2::new(x.value(time), y.value(time))
+        let along =
+            |axis: usize| R::from_lanes(|lane| self.over_time[lane][axis].value(time.lane(lane)));
+        Vec2::new(along(0), along(1))
     }
 }

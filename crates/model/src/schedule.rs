@@ -40,6 +40,15 @@ impl<E: Copy> Schedule<E> {
     pub fn at_the_start(&self) -> impl Iterator<Item = E> + Clone + '_ {
         self.at_the_start.iter().copied()
     }
+    /// All events with their times, s; 0 of what holds from the start.
+    pub fn all(&self) -> impl Iterator<Item = (f64, E)> + '_ {
+        let later = self
+            .instants
+            .iter()
+            .copied()
+            .zip(self.events.iter().copied());
+        self.at_the_start().map(|event| (0.0, event)).chain(later)
+    }
     /// Instants to land on, ascending, s.
     pub fn instants(&self) -> &[f64] {
         &self.instants

@@ -7,8 +7,10 @@
 
 #[cfg(feature = "files")]
 pub mod file;
+mod find;
 pub mod unit;
 
+pub use find::{NoChannel, find};
 use std::fmt;
 use std::path::{Path, PathBuf};
 

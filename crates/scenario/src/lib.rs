@@ -55,6 +55,7 @@ pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;
 pub use drop::case::{CASE, Cases};
+pub use drop::event_checks::{MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES};
 pub use drop::{
     AuxiliaryBearing, Base, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
     Levitation, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor, STANDARD_GRAVITY, Shaft,
@@ -72,7 +73,7 @@ pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
     RigPickup, RigPickupKind, RigProgram, RigShaft, RigTemperature,
 };
-pub use rotor::{FlexibleRotor, RotorAnalysis, parts_of};
+pub use rotor::{FlexibleRotor, Force, RotorAnalysis, parts_of};
 pub use run::{Accuracy, Method, Run};
 pub use schema::schema;
 pub use signals::analysis::{

@@ -153,7 +153,7 @@ pub fn names_files(key: &Key) -> bool {
     let all = crate::signals::keys::FILES
         .iter()
         .chain(crate::identify::keys::FILES)
-        .chain(&[crate::drop::base::FILE]);
+        .chain(&[crate::drop::base::FILE, "rotor.force.file"]);
     all.into_iter().any(|path| *path == key.path)
 }
 

@@ -110,8 +110,8 @@ pub struct Plan<'a> {
     pub interval: f64,
     /// What a converter samples on a rig.
     pub taps: &'a [Tap],
-    /// Whether a run ends once its rotor rolls.
-    pub until_rolling: bool,
+    /// From when on a run ends once its rotor rolls, s.
+    pub until_rolling: Option<f64>,
     /// Share of the clearance within which a rotor that is levitated again must stay.
     pub within: Option<f64>,
     /// Stops everything when true.
@@ -204,8 +204,8 @@ impl<'a> Watched<'a> {
         let record = record.staying_within(plan.within);
         Watched {
             record: match plan.until_rolling {
-                true => record.until_rolling(),
-                false => record,
+                Some(from) => record.until_rolling(from),
+                None => record,
             },
             following: member.following.as_deref(),
             now: None,

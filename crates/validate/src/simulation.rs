@@ -149,7 +149,7 @@ fn simulate(
                 largest_step: 1e-3,
                 step_limit: 100_000_000,
             },
-            until_rolling: false,
+            until_rolling: None,
             within: None,
             steps: Steps::Explicit,
             interval: duration,
@@ -249,6 +249,7 @@ pub(super) fn constants(
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        loaded: Vec::new(),
         base: None,
         unbalances: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {

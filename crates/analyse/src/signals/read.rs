@@ -8,7 +8,7 @@ pub use stamps::Stamps;
 use timing::Timing;
 
 use measure::converter::Converter;
-use problem::{Code, Problem, Result, did_you_mean};
+use problem::{Code, Problem, Result};
 use recording::unit::{no_signal, si_factor, speed_factor, unit_of};
 use recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use scenario::{Signals, problem_at};
@@ -145,89 +145,10 @@ impl<'a> Source<'a> {
     }
 
     fn channel(&self, key: &str, name: &str) -> Result<(usize, Channel)> {
-        let channels = self.recording.channels();
-        let alike = || (0..channels.len()).filter(|k| channels[*k].name == name);
-        if let (Some(first), Some(second)) = (alike().next(), alike().nth(1)) {
-            let found = format!(
-                "which has {} channels \"{name}\", the first two as numbers {} and {} of {}",
-                alike().count(),
-                first + 1,
-                second + 1,
-                channels.len()
-            );
-            let needed = format!(
-                "which of them is needed: \"{name}#1\" is the first, \"{name}#2\" the second"
-            );
-            return Err(self.problem(Code::UnknownChannel, key, found, needed));
-        }
-        let exact = alike().next().or_else(|| {
-            let (name, place) = name.rsplit_once('#')?;
-            let place = place.parse::<usize>().ok()?.checked_sub(1)?;
-            (0..channels.len())
-                .filter(|k| channels[*k].name == name)
-                .nth(place)
-        });
-        // a name without its group, where only one channel has it
-        let mut ends = channels.iter().enumerate().filter(|(_, channel)| {
-            let end = channel.name.strip_suffix(name);
-            end.is_some_and(|start| start.ends_with('/'))
-        });
-        let only = match (ends.next(), ends.next()) {
-            (Some((index, _)), None) => Some(index),
-            _ => None,
-        };
-        let Some(index) = exact.or(only) else {
-            let names = || channels.iter().map(|channel| channel.name.as_str());
-            let mut known: Vec<String> =
-                names().take(12).map(|name| format!("\"{name}\"")).collect();
-            if channels.len() > known.len() {
-                known.push(format!("{} more", channels.len() - known.len()));
-            }
-            let needed = match known.len() {
-                0 => "a file with channels is needed".to_string(),
-                _ => format!("it has the channels {}", known.join(", ")),
-            };
-            let found = format!("which has no channel \"{name}\"");
-            let problem = self.problem(Code::UnknownChannel, key, found, needed);
-            let hints = [did_you_mean(name, names()), self.unread(name)];
-            let hints: Vec<String> = hints.into_iter().flatten().collect();
-            let hint = (!hints.is_empty()).then(|| hints.join(" "));
-            return Err(problem.with_hint(hint));
-        };
-        let channel = channels[index].clone();
-        let found = match (channel.content, channel.count) {
-            (Content::Text, _) => "whose values are texts",
-            (_, 0) => "which holds no values",
-            _ => return Ok((index, channel)),
-        };
-        let found = format!("channel \"{name}\", {found}");
-        let needed = "a channel of numbers is needed";
-        let problem = self.problem(Code::UnknownChannel, key, found, needed);
-        Err(problem.with_hint(self.unread(name)))
-    }
-
-    /// What the reader found wrong with the file, for a message that misses a channel: of this one first. A file cut by a crash
-    /// tells it here.
-    fn unread(&self, name: &str) -> Option<String> {
-        const TOLD: usize = 3;
-        let own = |channel: &Option<String>| {
-            let end = |path: &str| path.rsplit('/').next().unwrap_or_default().to_string();
-            channel
-                .as_ref()
-                .is_some_and(|other| end(other) == end(name))
-        };
-        let mut notes: Vec<_> = self.recording.notes().iter().collect();
-        notes.sort_by_key(|note| !own(&note.channel));
-        let first = notes.iter().take(TOLD).map(|note| match &note.channel {
-            Some(channel) => format!("{channel} {}", note.text),
-            None => note.text.clone(),
-        });
-        let more = match notes.len().saturating_sub(TOLD) {
-            0 => String::new(),
-            more => format!("; and {more} more"),
-        };
-        let told: Vec<String> = first.collect();
-        (!told.is_empty()).then(|| format!("What was not read: {}{more}", told.join("; ")))
+        recording::find(&*self.recording, name).map_err(|why| {
+            let problem = self.problem(Code::UnknownChannel, key, why.found, why.needed);
+            problem.with_hint(why.hint)
+        })
     }
 
     /// Seconds from the earliest start of the file to that of a channel, and its delay by the converter: columns of times are

@@ -289,6 +289,7 @@ pub fn reference() -> MachineConstants {
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        loaded: Vec::new(),
         base: None,
         unbalances: Vec::new(),
         bearings: vec![AuxiliaryBearingConstants {

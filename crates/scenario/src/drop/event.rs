@@ -1,7 +1,7 @@
 //! What happens to a machine, and when: `[[event]]`.
 
 use crate::drop::case::Cases;
-use crate::drop::event_checks::{check, relevitated};
+use crate::drop::event_checks::{check, relevitated, until_standstill};
 use crate::key::quoted;
 use crate::rotor::FlexibleRotor;
 use crate::rotor::keys::EVENT;
@@ -40,6 +40,8 @@ words! {
         Brake = "brake",
         /// The drive has another torque.
         Drive = "drive",
+        /// A force acts at a node.
+        Load = "load",
         /// An unbalance comes, as where a blade is lost.
         Unbalance = "unbalance",
     }
@@ -50,7 +52,7 @@ impl Happening {
     fn is_of_magnets(self) -> bool {
         !matches!(
             self,
-            Happening::Brake | Happening::Drive | Happening::Unbalance
+            Happening::Brake | Happening::Drive | Happening::Load | Happening::Unbalance
         )
     }
 }
@@ -69,7 +71,7 @@ pub struct Event {
 }
 
 /// When something happens.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub enum When {
     /// At an instant of the run, s.
     At(f64),
@@ -128,6 +130,13 @@ pub enum Happens {
     Brake(f64),
     /// The drive has this torque, N m, in the place of `rotor.drive_torque`.
     Drive(f64),
+    /// A force acts from then on, in the place of that of an earlier load at its node.
+    Load {
+        /// The place of its node among those of the rotor.
+        node: usize,
+        /// Along x and along y, N.
+        force: [f64; 2],
+    },
     /// An unbalance comes.
     Unbalance {
         /// The place of its plane among those of the rotor.
@@ -173,7 +182,10 @@ impl Happens {
             | Happens::SensorOffset(axes, _)
             | Happens::ControllerFrozen(axes) => Some(axes),
             Happens::Relevitate(_) => Some(&[]),
-            Happens::Brake(_) | Happens::Drive(_) | Happens::Unbalance { .. } => None,
+            Happens::Brake(_)
+            | Happens::Drive(_)
+            | Happens::Load { .. }
+            | Happens::Unbalance { .. } => None,
         }
     }
     /// Whether both change the same thing.
@@ -188,11 +200,15 @@ impl Happens {
             Happens::Unbalance { .. } => 6,
             Happens::Drive(_) => 7,
             Happens::SensorNoise { .. } => 8,
+            Happens::Load { node, .. } => 9 + *node,
         };
         let all = |of: &Happens| {
             matches!(
                 of,
-                Happens::Relevitate(_) | Happens::Brake(_) | Happens::Drive(_)
+                Happens::Relevitate(_)
+                    | Happens::Brake(_)
+                    | Happens::Drive(_)
+                    | Happens::Load { .. }
             )
         };
         let shared = |a: &[usize], b: &[usize]| a.iter().any(|axis| b.contains(axis));
@@ -217,6 +233,7 @@ fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]
         Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
         Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
         Happening::Brake | Happening::Drive => (&["torque"], &[]),
+        Happening::Load => (&["node"], &["force_x", "force_y"]),
         Happening::Unbalance => (&["plane", "amount"], &["phase"]),
     }
 }
@@ -275,6 +292,8 @@ fn of_case(
         });
     }
     relevitated(&parts, &events, magnets)?;
+    let axes = magnets.map_or(0, |own| 2 * own.magnets.len());
+    until_standstill(&parts, &events, axes, values)?;
     let end = values.number("run.duration").unwrap_or(f64::INFINITY);
     for (part, event) in parts.iter().zip(&events) {
         if let (Happens::Relevitate(own), When::At(time)) = (&event.what, event.when)
@@ -330,6 +349,7 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
     match what {
         Happening::Brake => return Ok(Happens::Brake(torque())),
         Happening::Drive => return Ok(Happens::Drive(torque())),
+        Happening::Load => return load(part, rotor),
         Happening::Unbalance => return unbalance(part, rotor),
         _ => {}
     }
@@ -412,24 +432,54 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
             within: part.number("within").unwrap_or(0.5),
             hold: part.number("hold").unwrap_or(0.1),
         }),
-        Happening::Brake | Happening::Drive | Happening::Unbalance => {
+        Happening::Brake | Happening::Drive | Happening::Load | Happening::Unbalance => {
             unreachable!("it is of no magnet")
         }
     })
 }
 
+/// The place of what a key names among the parts of a table.
+fn place<'a>(
+    part: &Part,
+    key: &'static str,
+    table: &str,
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<usize> {
+    let named = part.text(key).unwrap_or_default();
+    names.clone().position(|name| name == named).ok_or_else(|| {
+        let allowed = match names.clone().collect::<Vec<_>>().join(", ").as_str() {
+            "" => format!("a {table} of this name is needed where it comes"),
+            names => format!("one of the names of {table} is needed: {names}"),
+        };
+        let problem = part.problem(Code::NoSuchNode, key, quoted(named), allowed);
+        problem.with_hint(did_you_mean(named, names))
+    })
+}
+
+/// A force that acts from then on.
+fn load(part: &Part, rotor: &FlexibleRotor) -> Result<Happens> {
+    let names = rotor.nodes.iter().map(|node| node.name.as_str());
+    let node = place(part, "node", "[[rotor.node]]", names)?;
+    let force = ["force_x", "force_y"].map(|key| part.number(key));
+    if force == [None; 2] {
+        let found = "a load without a force";
+        return part.refuse(
+            Code::MissingKey,
+            "force_x",
+            found,
+            "force_x or force_y is needed",
+        );
+    }
+    Ok(Happens::Load {
+        node,
+        force: force.map(Option::unwrap_or_default),
+    })
+}
+
 /// An unbalance that comes.
 fn unbalance(part: &Part, rotor: &FlexibleRotor) -> Result<Happens> {
-    let named = part.text("plane").unwrap_or_default();
-    let names = || rotor.unbalance.iter().map(|plane| plane.name.as_str());
-    let Some(plane) = names().position(|name| name == named) else {
-        let allowed = match names().collect::<Vec<_>>().join(", ").as_str() {
-            "" => "a [[rotor.unbalance]] is needed where it comes, of any amount".to_string(),
-            names => format!("one of the planes of [[rotor.unbalance]] is needed: {names}"),
-        };
-        let problem = part.problem(Code::NoSuchNode, "plane", quoted(named), allowed);
-        return Err(problem.with_hint(did_you_mean(named, names())));
-    };
+    let names = rotor.unbalance.iter().map(|plane| plane.name.as_str());
+    let plane = place(part, "plane", "[[rotor.unbalance]]", names)?;
     if part.number("at") == Some(0.0) {
         let found = "an unbalance that comes at the start";
         let allowed =
@@ -526,8 +576,8 @@ fn of_key(part: &Part, named: &str, all: &[&Part], values: &Values) -> Result<Wh
     // with events of magnets the key has no default, and the brake of its key follows what they say
     let of_magnets = all.iter().any(|part| {
         let own = part.word("do").and_then(Happening::of_word);
-        use Happening::{Brake, Drive, Unbalance};
-        !matches!(own, Some(Brake | Drive | Unbalance))
+        use Happening::{Brake, Drive, Load, Unbalance};
+        !matches!(own, Some(Brake | Drive | Load | Unbalance))
     });
     match (named, start) {
         _ if of_magnets && !values.is_own(LOST_AT) => {}

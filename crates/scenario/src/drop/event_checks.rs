@@ -8,25 +8,22 @@ use crate::rotor::tables::Part;
 use crate::run::Until;
 use crate::values::Values;
 use problem::{Code, Result};
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// Most unbalances that come.
-const MOST_UNBALANCES: usize = 16;
-
+/// Most unbalances that come: as many as a machine of the model has.
+pub const MOST_UNBALANCES: usize = 16;
 /// Most different speeds that events wait for.
-const MOST_SPEEDS: usize = 4;
+pub const MOST_SPEEDS: usize = 4;
+/// Most nodes at which loads come.
+pub const MOST_LOADED: usize = 4;
 
 /// Refuses events that contradict each other or what keys say, and those that no run of the file has.
 pub(super) fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {
-    let Some(first) = parts.first() else {
-        return Ok(());
-    };
-    if values.chosen("run.until") == Some(Until::Standstill) {
-        let found = "an event beside run.until = \"standstill\"";
-        let allowed = "run.until = \"duration\" is needed: the coast-down knows no events";
-        return first.refuse(Code::Conflict, "", found, allowed);
-    }
     let speed = values.number("rotor.speed").unwrap_or_default().abs();
+    let drives = |own: &Event| matches!(own.what, Happens::Drive(torque) if torque > 0.0);
+    let keys = ["rotor.drive_torque", "rotor.torque_over_speed"];
+    let driven = events.iter().any(drives) || keys.iter().any(|path| values.is_own(path));
     let mut speeds = Vec::new();
     for (k, (part, event)) in parts.iter().zip(events).enumerate() {
         let brakes = matches!(event.what, Happens::Brake(_));
@@ -72,17 +69,24 @@ pub(super) fn check(parts: &[&Part], events: &[Event], values: &Values) -> Resul
                 "at most sixteen are possible",
             );
         }
+        let nodes = events[..=k].iter().filter_map(|own| match own.what {
+            Happens::Load { node, .. } => Some(node),
+            _ => None,
+        });
+        if nodes.collect::<BTreeSet<_>>().len() > MOST_LOADED {
+            let found = "a fifth node at which loads come";
+            return part.refuse(Code::OutOfRange, "node", found, "at most four are possible");
+        }
         if let When::Speed {
             speed: own, rising, ..
         } = event.when
         {
             let there = if rising { speed >= own } else { speed <= own };
             let key = ["below_speed", "above_speed"][usize::from(rising)];
-            if there && part.known.contains_key(key) {
+            if there && !driven && part.known.contains_key(key) {
                 let side = ["below", "above"][usize::from(rising)];
                 let found = format!("a rotor that is {side} it from the start on");
-                let allowed =
-                    "a speed that the rotor comes to during the run is needed, or at = \"0 s\"";
+                let allowed = "a speed that the rotor comes to during the run is needed, a drive that brings it beyond, or at = \"0 s\"";
                 return part.refuse(Code::OutOfRange, key, found, allowed);
             }
             if !speeds.contains(&(own, rising)) {
@@ -107,6 +111,52 @@ fn same_instant(a: When, b: When) -> bool {
 
 fn line(line: Option<usize>) -> String {
     line.map_or(String::new(), |line| format!(" in line {line}"))
+}
+
+/// Refuses what a coast-down until the standstill cannot follow: its quasi-steady part begins after the last known event, of a rotor without
+/// power, drive and loads, and lands on speeds at which a brake comes.
+pub(super) fn until_standstill(
+    parts: &[&Part],
+    events: &[Event],
+    axes: usize,
+    values: &Values,
+) -> Result<()> {
+    if values.chosen("run.until") != Some(Until::Standstill) {
+        return Ok(());
+    }
+    let end = values.number("run.duration").unwrap_or_default();
+    let known = |event: &&Event| matches!(event.when, When::At(_));
+    let mut known: Vec<&Event> = events.iter().filter(known).collect();
+    known.sort_by(|a, b| a.when.partial_cmp(&b.when).unwrap_or(Ordering::Equal));
+    let (mut lost, mut off) = (BTreeSet::<&usize>::new(), None);
+    for event in known {
+        match &event.what {
+            Happens::Lost { axes, .. } => lost.extend(axes),
+            Happens::Relevitate(_) => lost.clear(),
+            Happens::Drive(torque) => off = (*torque == 0.0).then_some(event.when),
+            _ => {}
+        }
+    }
+    for (part, event) in parts.iter().zip(events) {
+        let of_magnets = event.what.axes().is_some();
+        let (key, found) = match (&event.what, event.when) {
+            (Happens::Load { .. } | Happens::Unbalance { .. }, _) => ("do", "a load or unbalance"),
+            (_, When::Speed { .. }) if of_magnets => ("do", "an event of magnets by a speed"),
+            (_, When::Speed { delay, .. }) if delay > 0.0 => ("delay", "a delay after a speed"),
+            (Happens::Drive(torque), when)
+                if *torque > 0.0 && off.is_none_or(|off| when >= off) =>
+            {
+                ("torque", "a drive that stays on")
+            }
+            (_, When::At(time)) if time > end => ("", "an instant after run.duration"),
+            _ if of_magnets && lost.len() < axes => ("do", "magnets that keep power"),
+            _ => continue,
+        };
+        let found = format!("{found} beside run.until = \"standstill\"");
+        let allowed = "run.until = \"duration\" is needed for it: after run.duration quasi-steady steps follow, without power, drive and loads; they land on speeds of brakes and drives that end";
+        return part.refuse(Code::Conflict, key, found, allowed);
+    }
+    Ok(())
 }
 
 /// Refuses a re-levitation of a rotor that was not lost before, or whose hold is longer than the run.

@@ -4,7 +4,7 @@ pub mod base;
 pub mod case;
 pub mod checks;
 pub mod event;
-mod event_checks;
+pub mod event_checks;
 pub mod keys;
 pub mod keys_mount;
 pub mod keys_surface;

@@ -6,7 +6,7 @@ pub mod parts;
 pub mod tables;
 
 use crate::document::Document;
-use crate::drop::Drop;
+use crate::drop::{Drop, RecordFile};
 use crate::key::Key;
 use crate::system::SystemName;
 use crate::values::Values;
@@ -144,6 +144,21 @@ pub struct Force {
     pub at: f64,
     /// Rows of time, s, and force along x, N; the same along y.
     pub over_time: [Vec<[f64; 2]>; 2],
+    /// A file that has them instead.
+    pub record: Option<ForceRecord>,
+}
+
+/// A record of a force in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceRecord {
+    /// Path of the force in the scenario: `rotor.force.shaker`.
+    pub name: String,
+    /// The file.
+    pub file: RecordFile,
+    /// When the record begins, s.
+    pub start: f64,
+    /// Factor on it.
+    pub scale: f64,
 }
 
 /// The kinds of parts of a system, with their keys: `rotor.section` of `[[rotor.section]]`.

@@ -1,12 +1,13 @@
 //! From the tables of a file to the parts of a flexible rotor.
 
 use crate::document::Document;
+use crate::drop::RecordFile;
 use crate::key::quoted;
 use crate::rotor::keys::{FORCE, STAYS};
 use crate::rotor::tables::{self, Part};
 use crate::rotor::{
-    BalancePlanes, Disk, FlexibleRotor, Force, Node, Piece, PointMass, Support, Unbalance,
-    levitation,
+    BalancePlanes, Disk, FlexibleRotor, Force, ForceRecord, Node, Piece, PointMass, Support,
+    Unbalance, levitation,
 };
 use crate::values::Values;
 use physics::shaft::{Annulus, Layer, MATERIALS, Material, SAME_PLACE};
@@ -439,7 +440,33 @@ pub(super) fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
 
 /// A force from outside at a place.
 fn force(part: &Part, at: f64) -> Checked<Force> {
+    let channels = ["channel_x", "channel_y"].map(|key| part.text(key).map(str::to_string));
+    let record = part.text("file").map(|path| ForceRecord {
+        name: part.path.clone(),
+        file: RecordFile {
+            path: path.into(),
+            channels: channels.clone(),
+        },
+        start: part.needed("start"),
+        scale: part.needed("scale"),
+    });
+    if record.is_some() {
+        if channels == [None, None] {
+            let found = "a file of which no channel is named";
+            let allowed = "channel_x or channel_y is needed";
+            return part.refuse(Code::MissingKey, "file", found, allowed);
+        }
+        return Ok(Force {
+            at,
+            over_time: [Vec::new(), Vec::new()],
+            record,
+        });
+    }
     let times = part.series("times").unwrap_or_default();
+    if times.is_empty() {
+        let allowed = "times with x or y, or file, is needed";
+        return part.refuse(Code::MissingKey, "times", "a force without times", allowed);
+    }
     if !times.windows(2).all(|pair| pair[0] < pair[1]) {
         let allowed = "times that rise from entry to entry are needed";
         return part.refuse(Code::TableOrder, "times", "times that do not rise", allowed);
@@ -471,6 +498,7 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
     Ok(Force {
         at,
         over_time: [along("x")?, along("y")?],
+        record: None,
     })
 }
 

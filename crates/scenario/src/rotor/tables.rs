@@ -5,6 +5,7 @@ use crate::not_modelled;
 use crate::resolved::{ResolvedValue, line};
 use crate::rotor::keys::{EVENT, OF_MACHINES, PARTS, PartKind, kind_within};
 use crate::system::SystemName;
+use crate::table::names_files;
 use crate::values::Values;
 use physics::shaft::MATERIALS;
 use problem::key::quoted;
@@ -228,7 +229,13 @@ pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>> {
     for kind in PARTS {
         let of_kind = document.parts.iter().filter(|part| part.kind == kind.word);
         for (number, written) in (1..).zip(of_kind) {
-            let part = read(kind, number, written, &values.file)?;
+            let mut part = read(kind, number, written, &values.file)?;
+            for key in kind.keys.iter().filter(|key| names_files(key)) {
+                if let Some(known) = part.table.known.remove(key.name()) {
+                    let known = values.lasting_path(key, known);
+                    part.table.known.insert(key.name(), known);
+                }
+            }
             let same = |other: &&Part| other.kind.word == kind.word && other.label == part.label;
             if part.known.contains_key("name") && all.iter().any(|other| same(&other)) {
                 let found = format!("the name {} twice", quoted(&part.label));

@@ -75,8 +75,8 @@ pub struct Built {
     pub inertia: f64,
     /// What brakes the rotor besides.
     pub rotor: RotorDrag,
-    /// When its brake begins, s.
-    pub brake_start: f64,
+    /// Torques that brake it from a time or a speed on.
+    pub(crate) brakes: Vec<Brake>,
     /// A load over speed and time that brakes it.
     pub load: Option<TorqueTables>,
     /// How it ends.
@@ -89,6 +89,17 @@ pub struct Built {
     pub(crate) start: Start,
     /// How its motion differs from rolling, between two intervals; none where it rolls.
     pub(crate) motion: Option<Motion>,
+}
+
+/// A torque that brakes a rotor besides, or takes from what does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Brake {
+    /// From when on, s.
+    pub from: f64,
+    /// From which speed on downwards, rad/s.
+    pub below: f64,
+    /// N m.
+    pub torque: f64,
 }
 
 /// Between two intervals that followed the motion.
@@ -220,7 +231,9 @@ impl Built {
     /// brakes, N m; the last one there is at the latest.
     pub(crate) fn until(&self, time: f64, speed: f64, braking: f64) -> f64 {
         let knots = (self.load.iter()).flat_map(|load| load.share_over_time.points());
-        let instants = knots.map(|knot| knot.0).chain([self.brake_start]);
+        let instants = knots
+            .map(|knot| knot.0)
+            .chain(self.brakes.iter().map(|own| own.from));
         let later = instants.filter(|instant| *instant > time);
         let next = later.fold(self.end.longest, f64::min);
         let changes = (self.load.as_ref()).map_or(0.0, |load| {
@@ -236,7 +249,12 @@ impl Built {
     pub(crate) fn knot_below(&self, speed: f64) -> f64 {
         let knots = (self.load.iter()).flat_map(|load| load.over_speed.points());
         let lower = knots.map(|knot| knot.0).filter(|knot| *knot < speed);
-        lower.fold(0.0, f64::max)
+        lower.fold(self.brake_below(speed), f64::max)
+    }
+    /// The next speed below this one, rad/s, at which a brake comes; 0 where none does.
+    pub(crate) fn brake_below(&self, speed: f64) -> f64 {
+        let brakes = self.brakes.iter().map(|own| own.below);
+        brakes.filter(|below| *below < speed).fold(0.0, f64::max)
     }
 
     /// Equal bearings that each node stands for.
@@ -259,9 +277,9 @@ impl Built {
     /// The losses of the machine at a time; of a load by tables the line that holds down from a speed, rad/s.
     pub fn losses(&self, time: f64, speed: f64) -> WarmMachine {
         let mut rotor = self.rotor;
-        if time < self.brake_start {
-            rotor.torque = 0.0;
-        }
+        let acts = |own: &&Brake| time >= own.from && speed <= own.below;
+        let brakes = self.brakes.iter().filter(acts);
+        rotor.torque += brakes.map(|own| own.torque).sum::<f64>();
         if let Some(load) = &self.load {
             let line = load.over_speed.piece(speed.next_down());
             let share = load.share_over_time.value(time);
@@ -296,7 +314,7 @@ pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
             drag_square: run.windage,
             ..RotorDrag::default()
         },
-        brake_start: 0.0,
+        brakes: Vec::new(),
         load: None,
         end: run.end,
         energy: 0.5 * run.polar_inertia * run.speed * run.speed,

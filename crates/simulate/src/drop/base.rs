@@ -10,17 +10,15 @@
 //! of random phase alone exceed it. Phases that do not lead there are drawn again.
 
 use crate::drop::Drop;
+use crate::drop::record_file::{self, sum};
 use crate::drop::warning_table::ShaftWarning;
 use model::base::{BaseConstants, HalfSine};
 use model::system::machine::MachineConstants;
-use model::table::Table;
 use number::Vec2;
 use outcome::Warning;
 use physics::response_spectrum::{Oscillator, spectrum_at};
 use problem::{Code, Problem, Result};
-use recording::unit::si_factor;
-use recording::{Channel, Clock, FileError, Recording};
-use scenario::{RecordFile, STANDARD_GRAVITY, Spectrum, problem_at};
+use scenario::{Spectrum, problem_at};
 use statistics::random::uniform;
 use std::f64::consts::TAU;
 use units::number_text;
@@ -41,10 +39,6 @@ const CORRECTIONS: usize = 25;
 const DRAWS: u64 = 16;
 /// Sines times instants of a record that is made in seconds.
 const MOST_WORK: f64 = 4e6;
-/// Before and after a record the base does not accelerate: it gets there in this time, s.
-const EDGE: f64 = 1e-6;
-const FILE: &str = "base.file";
-
 /// How the base of a drop moves.
 ///
 /// # Errors
@@ -58,7 +52,10 @@ pub(super) fn base(drop: &Drop) -> Result<Option<BaseConstants>> {
         vec![rows]
     });
     if let Some(file) = &given.file {
-        for (axis, rows) in read(file)?.into_iter().enumerate() {
+        for (axis, rows) in record_file::read(file, "m/s^2", "base")?
+            .into_iter()
+            .enumerate()
+        {
             records[axis].push(rows);
         }
     }
@@ -142,35 +139,6 @@ pub(super) fn cut_off(constants: &MachineConstants, end: f64) -> Vec<Warning> {
             Some(ShaftWarning::CutOff { what, until, end }.into())
         })
         .collect()
-}
-
-/// The sum of records, each zero outside its rows.
-fn sum(records: &[Vec<[f64; 2]>]) -> Table {
-    let tables: Vec<Table> = (records.iter())
-        .filter_map(|rows| {
-            let (first, last) = (rows.first()?, rows.last()?);
-            let edges = [(first[0] - EDGE, 0.0), (last[0] + EDGE, 0.0)];
-            let mut points: Vec<_> = rows.iter().map(|[time, value]| (*time, *value)).collect();
-            if first[1] != 0.0 {
-                points.insert(0, edges[0]);
-            }
-            if last[1] != 0.0 {
-                points.push(edges[1]);
-            }
-            Some(Table::through(points).expect("times of a record rise"))
-        })
-        .collect();
-    let mut times: Vec<f64> = (tables.iter())
-        .flat_map(|table| table.points().iter().map(|point| point.0))
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times.dedup();
-    let value = |time: f64| tables.iter().map(|table| table.value(time)).sum();
-    let points = times.into_iter().map(|time| (time, value(time))).collect();
-    match tables.is_empty() {
-        true => Table::constant(0.0),
-        false => Table::through(points).expect("times of records rise"),
-    }
 }
 
 /// Refuses a spectrum whose record would take minutes.
@@ -341,104 +309,5 @@ impl Maker {
             velocity += 0.5 * h * (before + after);
         }
         (velocity, displacement)
-    }
-}
-
-/// The records of a file along x and along y.
-fn read(file: &RecordFile) -> Result<[Vec<[f64; 2]>; 2]> {
-    let of_file = |error: FileError| {
-        problem_at(
-            Code::MeasurementUnreadable,
-            FILE,
-            error.to_string(),
-            "a file that can be read is needed",
-        )
-    };
-    let mut recording = recording::open(&file.path).map_err(of_file)?;
-    let mut records = [Vec::new(), Vec::new()];
-    let keys = ["base.channel_x", "base.channel_y"];
-    for ((name, key), rows) in file.channels.iter().zip(keys).zip(&mut records) {
-        let Some(name) = name else { continue };
-        let channels = recording.channels().to_vec();
-        let Some(index) = channels.iter().position(|channel| channel.name == *name) else {
-            let names: Vec<&str> = channels.iter().map(|own| own.name.as_str()).collect();
-            let found = format!("\"{name}\", which {} does not have", file.path.display());
-            let needed = format!("one of its channels is needed: {}", names.join(", "));
-            return Err(problem_at(Code::UnknownChannel, key, found, needed));
-        };
-        let channel = &channels[index];
-        let factor = factor_of(channel, "m/s^2", key)?;
-        let values = all(recording.as_mut(), index, channel.count).map_err(of_file)?;
-        let times: Vec<f64> = match &channel.clock {
-            Clock::Uniform { first, interval } => (0..values.len())
-                .map(|k| first + k as f64 * interval)
-                .collect(),
-            Clock::Channel(clock) => {
-                let own = &channels[*clock];
-                let factor = factor_of(own, "s", key)?;
-                let times = all(recording.as_mut(), *clock, own.count).map_err(of_file)?;
-                times.into_iter().map(|time| time * factor).collect()
-            }
-            Clock::Unknown => {
-                let found = format!("channel \"{name}\" without times");
-                let needed = "a file that states them is needed: a column of times, or an interval";
-                return Err(problem_at(Code::ChannelClock, key, found, needed));
-            }
-        };
-        let finite = |list: &[f64]| list.iter().position(|value| !value.is_finite());
-        if let Some(row) = finite(&values).or(finite(&times)) {
-            let found = format!("channel \"{name}\", whose value {} is no number", row + 1);
-            let needed = "a record without gaps and without jumps of velocity is needed";
-            return Err(problem_at(Code::OutOfRange, key, found, needed));
-        }
-        if let Some(row) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
-            let found = format!("channel \"{name}\", whose time {} does not rise", row + 2);
-            let needed = "times that rise are needed: two values at one time are a jump";
-            return Err(problem_at(Code::TableOrder, key, found, needed));
-        }
-        if values.len() < 2 {
-            let found = format!("channel \"{name}\" with {} values", values.len());
-            return Err(problem_at(
-                Code::OutOfRange,
-                key,
-                found,
-                "two or more are needed",
-            ));
-        }
-        rows.extend(
-            times
-                .into_iter()
-                .zip(values)
-                .map(|(time, value)| [time, value * factor]),
-        );
-    }
-    Ok(records)
-}
-
-/// All values of a channel.
-fn all(
-    recording: &mut dyn Recording,
-    channel: usize,
-    count: u64,
-) -> std::result::Result<Vec<f64>, FileError> {
-    let mut values = vec![0.0; count as usize];
-    let there = recording.read(channel, 0, &mut values)?;
-    values.truncate(there);
-    Ok(values)
-}
-
-/// What turns the values of a channel into a unit of SI.
-fn factor_of(channel: &Channel, unit: &str, key: &str) -> Result<f64> {
-    let needed = format!("a unit of the kind of {unit} is needed in the file");
-    let found = match channel.unit.as_str() {
-        "" => format!("channel \"{}\" without a unit", channel.name),
-        own => format!("channel \"{}\" in {own}", channel.name),
-    };
-    // accelerometers count in g
-    match (channel.unit.trim(), unit) {
-        ("g", "m/s^2") => Ok(STANDARD_GRAVITY),
-        (own, unit) => {
-            si_factor(own, unit).ok_or_else(|| problem_at(Code::ChannelUnit, key, found, needed))
-        }
     }
 }

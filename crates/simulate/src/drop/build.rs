@@ -16,6 +16,7 @@ use model::auxiliary_bearing::{AuxiliaryBearingConstants, RaceConstants};
 use model::base::BaseConstants;
 use model::bearing::{BearingConstants, RollingConstants};
 use model::contact::JournalContact;
+use model::force::ForceConstants;
 use model::levitation::Levitation;
 use model::mount::{Housing, Mount};
 use model::rotor::RotorConstants;
@@ -81,11 +82,13 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
     }
     let in_time = shaft.as_ref().map(|built| built.in_time.clone());
     let base = base::base(&drop)?;
-    let mut constants = constants(&drop, parts, in_time.unwrap_or_default(), base);
+    let forces = (shaft.as_ref()).map_or_else(Vec::new, |built| built.forces.clone());
+    let in_time = in_time.unwrap_or_default();
+    let mut constants = constants(&drop, parts, in_time, base, forces);
     if let Some(built) = &shaft {
         constants.rotor = built.rotor.clone();
         constants.seals = built.seals.clone();
-        constants.forces = built.forces.clone();
+        constants.loaded = built.loaded.clone();
         constants.unbalances = built.unbalances.clone();
     }
     Ok(Built {
@@ -240,6 +243,7 @@ fn constants(
     bearings: Vec<AuxiliaryBearingConstants>,
     in_time: InTime,
     base: Option<BaseConstants>,
+    forces: Vec<ForceConstants>,
 ) -> MachineConstants {
     let gravity = gravity(drop);
     let mass = drop.body.mass;
@@ -250,9 +254,8 @@ fn constants(
         mut at_speeds,
     } = in_time;
     let (brake_torque, brakes) = torque::brakes(drop, &mut at_speeds);
-    let pushed = drop.shaft.iter().flat_map(|shaft| &shaft.model.forces);
-    let rows = pushed.flat_map(|own| own.over_time.iter().flatten());
-    let knots = rows.map(|[time, _]| (*time, Event::Knot));
+    let knots = forces.iter().flat_map(ForceConstants::knots);
+    let knots = knots.map(|time| (time, Event::Knot));
     let shaken = base.iter().flat_map(BaseConstants::knots);
     let shaken = shaken.map(|time| (time, Event::Knot));
     let known = known.into_iter().chain(knots).chain(shaken).collect();
@@ -275,7 +278,8 @@ fn constants(
             carried: -(gravity * mass),
         },
         seals: Vec::new(),
-        forces: Vec::new(),
+        forces,
+        loaded: Vec::new(),
         base,
         unbalances: Vec::new(),
         bearings,

@@ -7,8 +7,8 @@ use crate::drop::build::Built;
 use crate::drop::shaft::BuiltShaft;
 use crate::drop::{Drop, Shaft};
 use crate::ensemble::Finished;
-use model::system::machine::RotorMachine;
 use model::system::machine::record::BearingRecord;
+use model::system::machine::{MOST_SPEEDS, RotorMachine};
 use scenario::AuxiliaryBearing;
 
 /// A drop before its run.
@@ -66,6 +66,10 @@ pub(crate) struct Context<'a> {
     pub setup: Setup<'a>,
     pub finished: &'a Finished,
     pub members: usize,
+    /// When the rotor came to each of the speeds at which something happens, s; infinite where it did not.
+    pub reached: [f64; MOST_SPEEDS],
+    /// End of the run with the coast-down behind it, s.
+    pub end: f64,
 }
 
 impl<'a> Context<'a> {

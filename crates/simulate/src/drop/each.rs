@@ -134,7 +134,7 @@ fn together(
         steps: stepping.steps,
         interval: built.drop.run.output_interval,
         taps: &[],
-        until_rolling: built.drop.coast_down.is_some(),
+        until_rolling: (built.drop.coast_down.is_some()).then(|| events::last(&built.drop)),
         within: events::within(&built.drop),
         interrupt: options.interrupt,
         progress: &of_drop,
@@ -150,15 +150,20 @@ fn together(
             }
         };
         let one = &all[group[place]];
-        let context = Context {
+        let mut context = Context {
             setup: Setup {
                 built: &one.built,
                 machine: &one.member.machine,
             },
             finished,
             members: one.members,
+            reached: finished.record.reached,
+            end: finished.ending.time,
         };
         let after = multirate::results::after(&context, options.interrupt, &of_coast_down);
+        if let Some(after) = &after {
+            (context.reached, context.end) = after.reached;
+        }
         drop::outcome(one, &context, after.as_ref())
     })
 }

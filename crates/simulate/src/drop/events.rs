@@ -7,7 +7,6 @@ use crate::drop::{Drop, Shaft};
 use crate::rotor::LevitationModel;
 use levitation::ClosedLoop;
 use levitation::response::Loaded;
-use model::system::machine::record::Record;
 use outcome::Warning;
 use outcome::list::{List, origins, results};
 use scenario::{Event, Happens, Relevitation, When};
@@ -31,6 +30,16 @@ fn relevitations(drop: &Drop) -> impl DoubleEndedIterator<Item = (Relevitation, 
 /// Share of the clearance within which a rotor that is levitated again must stay.
 pub(super) fn within(drop: &Drop) -> Option<f64> {
     relevitations(drop).map(|(own, _)| own.within).next_back()
+}
+
+/// The last instant at which something known before the run happens, s.
+pub(super) fn last(drop: &Drop) -> f64 {
+    let known = |event: &Event| match event.when {
+        When::At(time) => Some(time),
+        When::Speed { .. } => None,
+    };
+    let events = drop.shaft.iter().flat_map(|own| &own.events);
+    events.filter_map(known).fold(0.0, f64::max)
 }
 
 /// How quickly the rotor leaves the middle after each event that cuts loops: a cut axis keeps k_s, a lost one has neither k_i nor k_s.
@@ -67,7 +76,7 @@ pub(super) fn growths(
 }
 
 /// When an event happened, s; none where the rotor did not come to its speed.
-fn time_of(when: When, setup: Setup, record: &Record) -> Option<f64> {
+fn time_of(when: When, context: &Context) -> Option<f64> {
     match when {
         When::At(time) => Some(time),
         When::Speed {
@@ -75,9 +84,9 @@ fn time_of(when: When, setup: Setup, record: &Record) -> Option<f64> {
             rising,
             delay,
         } => {
-            let mut speeds = setup.machine.constants.at_speeds.iter();
+            let mut speeds = context.setup.machine.constants.at_speeds.iter();
             let at = speeds.position(|own| own.speed == speed && own.rising == rising)?;
-            let reached = record.reached[at];
+            let reached = context.reached[at];
             reached.is_finite().then_some(reached + delay)
         }
     }
@@ -101,7 +110,7 @@ impl Again {
         let end = context.finished.ending.time;
         // the last of those that happened to a rotor without power
         let happened = relevitations(context.setup.drop()).filter_map(|(own, when)| {
-            let time = time_of(when, context.setup, record).filter(|time| *time <= end)?;
+            let time = time_of(when, context).filter(|time| *time <= end)?;
             record
                 .lost
                 .is_some_and(|(lost, _)| lost < time)
@@ -136,8 +145,8 @@ pub(super) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     };
     for event in events(given) {
         let time = run.map(|run| {
-            let time = time_of(event.when, setup, &run.finished.record);
-            time.filter(|time| *time <= run.finished.ending.time)
+            let time = time_of(event.when, run);
+            time.filter(|time| *time <= run.end)
         });
         let growths = setup.built.shaft.iter().flat_map(|own| &own.growth);
         let growth = growths
@@ -186,10 +195,10 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     let Some(given) = context.setup.drop().shaft.as_deref() else {
         return Vec::new();
     };
-    let end = context.finished.ending.time;
+    let end = context.end;
     let mut list = Vec::new();
     for event in events(given) {
-        let time = time_of(event.when, context.setup, &context.finished.record);
+        let time = time_of(event.when, context);
         let again = matches!(event.what, Happens::Relevitate(_));
         let lost = context.finished.record.lost;
         let why = match (time, event.when) {

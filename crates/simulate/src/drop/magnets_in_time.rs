@@ -23,7 +23,7 @@ pub(super) struct OnMagnets {
 }
 
 /// Refuses currents that decay where there are none, and a loss of power after the start where there is none to lose, or where the run
-/// has no end of its own.
+/// goes on without magnets.
 pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>> {
     if shaft.decay_time > 0.0 && shaft.model.levitation.is_none() {
         let (key, found) = ("levitation.decay_time", "a key that has no effect");
@@ -33,10 +33,13 @@ pub(super) fn lost_later(drop: &Drop, shaft: &Shaft) -> Result<(), Box<Problem>>
     let found = match (&shaft.model.levitation, &drop.coast_down) {
         _ if shaft.power_lost <= 0.0 => return Ok(()),
         (None, _) => "no magnets, whose power could be lost",
-        (_, Some(_)) => "run.until = \"standstill\"",
+        (_, Some(_)) if shaft.power_lost > drop.run.duration => {
+            "run.until = \"standstill\" and a loss after run.duration"
+        }
         _ => return Ok(()),
     };
-    let allowed = "magnets with their controllers, and a run of a given duration, are needed for a loss after the start";
+    let allowed =
+        "magnets with their controllers are needed for a loss after the start, within run.duration";
     let key = "levitation.power_lost_at";
     Err(problem_at(Code::Conflict, key, found, allowed))
 }
@@ -240,7 +243,10 @@ fn change(what: &Happens, count: usize) -> Change {
             reference_rate: rate(own.reference_time),
         },
         Happens::SensorNoise { .. } => unreachable!("it changes again and again"),
-        Happens::Brake(_) | Happens::Drive(_) | Happens::Unbalance { .. } => {
+        Happens::Brake(_)
+        | Happens::Drive(_)
+        | Happens::Load { .. }
+        | Happens::Unbalance { .. } => {
             unreachable!("it is of no magnet")
         }
     };

@@ -18,6 +18,7 @@ mod mount_results;
 mod multirate;
 pub(crate) mod orders;
 pub(crate) mod quantities;
+mod record_file;
 pub mod repetition;
 pub mod shaft;
 pub mod shaft_results;

@@ -1,9 +1,8 @@
 //! From a flexible rotor to the coordinates of the model, and the motion in which it is released.
 
-use crate::bearing::loss::table;
 use crate::drop::housings::{self, row_against};
 use crate::drop::magnets_in_time::{self, InTime, OnMagnets};
-use crate::drop::{Drop, Shaft, events, torque, unbalances};
+use crate::drop::{Drop, Shaft, events, record_file, torque, unbalances};
 use crate::levitated;
 use crate::rotor::RotorModel;
 use levitation::response::{Loaded, excesses, unbalance};
@@ -40,6 +39,8 @@ pub struct BuiltShaft {
     pub seals: Vec<SealConstants>,
     /// Forces from outside.
     pub forces: Vec<ForceConstants>,
+    /// Rows of the nodes at which loads come on the way.
+    pub loaded: Vec<Vec<f64>>,
     /// Unbalances that come on the way.
     pub unbalances: Vec<Unbalance>,
     /// Where its coordinates are at the release, m √kg.
@@ -142,12 +143,14 @@ pub(crate) fn build(
     };
     let unbalances = unbalances::built(shaft, &at, &mut in_time);
     let seals = staying(&shaft.model, &within.basis, &still, (&carried, &on_mounts));
-    let forces =
-        (shaft.model.forces.iter().zip(&shaft.model.pushed)).map(|(own, node)| ForceConstants {
+    let forces = (shaft.model.forces.iter().zip(&shaft.model.pushed)).map(|(own, node)| {
+        Ok(ForceConstants {
             node: at(*node),
-            over_time: own.over_time.each_ref().map(|rows| table(rows, 1.0)),
-        });
-    let forces = forces.collect();
+            over_time: record_file::force(own)?,
+        })
+    });
+    let forces = forces.collect::<problem::Result<_>>()?;
+    let loaded = unbalances::loaded(shaft).into_iter().map(at).collect();
     let places = places(shaft);
     let mut constants = constants(drop, shaft, &matrices, &within.basis);
     if constants.polar_inertia.partial_cmp(&0.0) != Some(Ordering::Greater) {
@@ -174,6 +177,7 @@ pub(crate) fn build(
         in_time,
         seals,
         forces,
+        loaded,
         unbalances,
         position,
         velocity,
@@ -209,7 +213,8 @@ fn basis(drop: &Drop, shaft: &Shaft, matrices: &Matrices) -> Result<(Basis, f64)
     let full = Basis::full(rotor, matrices).map_err(|error| failed(&error.to_string()))?;
     let cutoff = (shaft.cutoff).unwrap_or_else(|| default_cutoff(drop, &full));
     let mut kept = rotor.kept();
-    let loaded = shaft.nodes.iter().chain(&shaft.model.pushed);
+    let coming = unbalances::loaded(shaft);
+    let loaded = (shaft.nodes.iter().chain(&shaft.model.pushed)).chain(&coming);
     kept.extend(loaded.map(|node| rotor.displacement(*node)));
     if let Some(levitation) = &shaft.model.levitation {
         let nodes = levitation.magnets.iter().map(|(_, at, _)| *at);

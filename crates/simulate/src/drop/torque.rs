@@ -1,11 +1,12 @@
 //! The torque of a drive or a load on the rotor, by tables over speed and time.
 
 use crate::bearing::loss::table;
+use crate::coast_down::build::Brake;
 use crate::drop::Drop;
 use crate::drop::magnets_in_time::happens;
 use model::rotor::TorqueTables;
 use model::schedule::Schedule;
-use model::system::machine::{AtSpeed, Event};
+use model::system::machine::{AtSpeed, Event, MachineConstants};
 use model::table::Table;
 use scenario::{Happens, Spin, When};
 
@@ -49,6 +50,52 @@ pub(super) fn brakes(drop: &Drop, at_speeds: &mut Vec<AtSpeed>) -> (f64, Vec<(f6
         happens(when, event, &mut known, at_speeds);
     }
     (largest, known)
+}
+
+/// What is known of events at the end of a drop, with those of speeds that were reached, and the speeds to which a rotor that only slows down
+/// from this speed, rad/s, comes yet.
+pub(super) fn ahead(
+    machine: &MachineConstants,
+    reached: &[f64],
+    speed: f64,
+) -> (Schedule<Event>, Vec<AtSpeed>) {
+    let after = machine.at_speeds.iter().zip(reached).flat_map(|(own, at)| {
+        let then = own.then.iter();
+        then.map(move |(delay, event)| (at + delay, *event))
+    });
+    let waits = |(own, at): &(&AtSpeed, &f64)| !at.is_finite() && !own.rising && own.speed < speed;
+    let yet = machine.at_speeds.iter().zip(reached).filter(waits);
+    (
+        Schedule::of(machine.schedule.all().chain(after)),
+        yet.map(|(own, _)| own.clone()).collect(),
+    )
+}
+
+/// The torques that brake such a rotor: those that came, and those whose time or speed is to come.
+pub(super) fn coming(machine: &MachineConstants, reached: &[f64], speed: f64) -> Vec<Brake> {
+    let (known, mut yet) = ahead(machine, reached, speed);
+    yet.sort_by(|a, b| b.speed.total_cmp(&a.speed));
+    let known = known
+        .all()
+        .map(|(from, event)| (from, f64::INFINITY, event));
+    let yet = yet
+        .iter()
+        .flat_map(|own| own.then.iter().map(|then| (0.0, own.speed, then.1)));
+    let mut now = [0.0; 2];
+    let brakes = known.chain(yet).filter_map(|(from, below, event)| {
+        let (kind, torque) = match event {
+            Event::Brake(share) => (0, share * machine.rotor.brake_torque),
+            Event::Drive(more) => (1, -more),
+            _ => return None,
+        };
+        let torque = torque - std::mem::replace(&mut now[kind], torque);
+        Some(Brake {
+            from,
+            below,
+            torque,
+        })
+    });
+    brakes.collect()
 }
 
 /// When the brake comes on, where a torque over time has its rows, what happens to the magnets: a step ends there.

@@ -77,7 +77,7 @@ impl<'a> RigRun<'a> {
             steps: stepping.steps,
             interval: given.run.output_interval,
             taps,
-            until_rolling: false,
+            until_rolling: None,
             within: None,
             interrupt: options.interrupt,
             progress: options.progress,

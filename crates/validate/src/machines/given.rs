@@ -267,6 +267,7 @@ pub(super) fn machine(
         magnets: None,
         seals: Vec::new(),
         forces: Vec::new(),
+        loaded: Vec::new(),
         base: None,
         unbalances: Vec::new(),
         bearings: bearings.collect::<Result<_, _>>()?,

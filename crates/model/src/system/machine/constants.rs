@@ -24,6 +24,8 @@ pub struct MachineConstants {
     pub seals: Vec<SealConstants>,
     /// Forces from outside over time.
     pub forces: Vec<ForceConstants>,
+    /// Rows of the nodes at which loads come on the way, [`MOST_LOADED`] at most.
+    pub loaded: Vec<Vec<f64>>,
     /// How the base moves, where it does.
     pub base: Option<BaseConstants>,
     /// The auxiliary bearings, one at least.
@@ -48,7 +50,10 @@ pub const MOST_SPEEDS: usize = 4;
 /// Most unbalances that come on the way.
 pub const MOST_UNBALANCES: usize = 16;
 
-/// What happens where the rotor reaches a speed.
+/// Most nodes at which loads come on the way.
+pub const MOST_LOADED: usize = 4;
+
+/// What happens where the rotor comes to a speed, from the side from which it is reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtSpeed {
     /// The size of the spin, rad/s.
@@ -57,6 +62,28 @@ pub struct AtSpeed {
     pub rising: bool,
     /// What happens, and how long after, s, rising.
     pub then: Vec<(f64, Event)>,
+}
+
+/// Share of a speed by which the rotor must have been beyond it to reach it.
+const BEYOND: f64 = 1e-6;
+
+/// A speed at which something happens, in a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// Whether the rotor has been on the side from which it is reached.
+    pub armed: bool,
+    /// When the rotor reached it, s; infinite where it has not.
+    pub at: f64,
+    /// How much of what follows has happened.
+    pub done: usize,
+}
+
+impl Reached {
+    pub(super) const NEVER: Reached = Reached {
+        armed: false,
+        at: f64::INFINITY,
+        done: 0,
+    };
 }
 
 /// Something that happens at a known instant.
@@ -70,6 +97,8 @@ pub enum Event {
     Knot,
     /// The unbalance of that place among those that come on the way is there.
     Unbalance(usize),
+    /// A load acts at that place among the loaded nodes, N, in the place of the one before.
+    Load(usize, Vec2<f64>),
     /// Something happens to the controllers of the magnets.
     Control(ControlEvent),
 }
@@ -80,6 +109,13 @@ impl AtSpeed {
         match self.rising {
             true => self.speed - spin,
             false => spin - self.speed,
+        }
+    }
+    /// What is left until a rotor reaches it, or until it is beyond it and may reach it, rad/s.
+    pub(super) fn waits(&self, reached: &Reached, spin: f64) -> f64 {
+        match reached.armed {
+            true => self.left(spin),
+            false => BEYOND * self.speed - self.left(spin),
         }
     }
 }
@@ -94,6 +130,7 @@ impl MachineConstants {
             rows.chain((self.bearings.iter()).filter_map(|part| part.mount_parts.on.as_ref()));
         let rows = rows.chain(self.magnets.iter().flat_map(MagnetsConstants::nodes));
         let rows = rows.chain(self.forces.iter().map(|force| &force.node));
+        let rows = rows.chain(&self.loaded);
         let rows = rows.chain(self.unbalances.iter().map(|plane| &plane.node));
         let mut rows = rows.chain(self.seals.iter().map(|seal| &seal.node));
         let count = self.rotor.coordinates.len();
@@ -108,6 +145,8 @@ impl MachineConstants {
             Some("a node has an entry for each coordinate, and moves with one of them")
         } else if self.at_speeds.len() > MOST_SPEEDS {
             Some("a machine waits for four speeds at most")
+        } else if self.loaded.len() > MOST_LOADED {
+            Some("loads come at four nodes at most")
         } else if self.unbalances.len() > MOST_UNBALANCES {
             Some("at most sixteen unbalances come on the way")
         } else {

@@ -129,7 +129,7 @@ impl Layout {
         if !constants.seals.is_empty() {
             of_rotor.seals = Some(channels.sources_of("", ["seals"]));
         }
-        if !constants.forces.is_empty() {
+        if !(constants.forces.is_empty() && constants.loaded.is_empty()) {
             of_rotor.forces = Some(channels.sources_of("", ["forces"]));
         }
         if constants.base.is_some() {

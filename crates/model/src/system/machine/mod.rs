@@ -43,7 +43,7 @@ pub mod unbalances;
 
 use crate::auxiliary_bearing::AuxiliaryBearing;
 use crate::base::Base;
-use crate::force::{Force, ForceConstants};
+use crate::force::Force;
 use crate::levitation::Levitation;
 use crate::magnets::conditions::What;
 use crate::magnets::{AxisConstants, ControlEvent, CurrentsOfAxes, Magnets};
@@ -52,7 +52,9 @@ use crate::seal::Seal;
 use crate::system::rig::{Clutch, ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
 use crate::table::Piece;
 use ::levitation::OfAxes;
-pub use constants::{AtSpeed, Event, MOST_SPEEDS, MOST_UNBALANCES, MachineConstants};
+pub use constants::{
+    AtSpeed, Event, MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES, MachineConstants, Reached,
+};
 use layout::Layout;
 use number::{Gather, Real, Vec2};
 use solve::{Batch, Machine};
@@ -68,6 +70,8 @@ pub struct Mode<R> {
     pub driving: R,
     /// Radial load on a rig, N.
     pub load: Piece<R>,
+    /// Loads from outside that have come, N.
+    pub loads: [Vec2<R>; MOST_LOADED],
     /// Recorded acceleration of the base along x and y, m/s².
     pub base: [Piece<R>; 2],
     /// Torque, N m, or speed, rad/s, that is given on a rig; zero where neither is.
@@ -80,22 +84,6 @@ pub struct Mode<R> {
     pub reached: [Reached; MOST_SPEEDS],
 }
 
-/// A speed at which something happens, in a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reached {
-    /// When the rotor reached it, s; infinite where it has not.
-    pub at: f64,
-    /// How much of what follows has happened.
-    pub done: usize,
-}
-
-impl Reached {
-    const NEVER: Reached = Reached {
-        at: f64::INFINITY,
-        done: 0,
-    };
-}
-
 /// Share of a speed to which the instant is found at which it is reached.
 const AT_SPEED: f64 = 1e-9;
 
@@ -105,6 +93,7 @@ impl Mode<f64> {
         match event {
             Event::Brake(share) => self.brake = share,
             Event::Drive(torque) => self.driving = torque,
+            Event::Load(place, force) => self.loads[place] = force,
             Event::Unbalance(plane) => self.unbalances |= 1 << plane,
             Event::Knot | Event::Control(_) => {}
         }
@@ -137,6 +126,8 @@ pub struct Machines<R: Real> {
     magnets: Option<Magnets<R>>,
     seals: Vec<(Node<R>, Seal<R>)>,
     forces: Vec<Force<R>>,
+    /// Nodes at which loads come on the way.
+    loaded: Vec<Node<R>>,
     base: Option<Base<R>>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
@@ -189,9 +180,7 @@ impl RotorMachine {
         let rows = |own: &MachineConstants| -> Vec<usize> {
             own.seals.iter().map(|seal| seal.rows.len()).collect()
         };
-        let forces = |own: &MachineConstants| -> Vec<[usize; 2]> {
-            own.forces.iter().map(ForceConstants::rows).collect()
-        };
+        let forces = |own: &MachineConstants| [own.forces.len(), own.loaded.len()];
         let shocks = |own: &MachineConstants| own.base.as_ref().map(|base| base.shocks.len());
         let drive = |machine: &Self| {
             let fixture = machine.fixture();
@@ -268,6 +257,7 @@ impl RotorMachine {
             levitation: f64::from(u8::from(self.levitated)),
             brake: 0.0,
             driving: 0.0,
+            loads: [Vec2::zero(); MOST_LOADED],
             base: self.base_at(time),
             load,
             drive,
@@ -281,11 +271,12 @@ impl RotorMachine {
         let base = self.constants.base.as_ref();
         base.map_or([Piece::NONE; 2], |base| base.pieces(time))
     }
-    /// What a rotor with a size of spin, rad/s, lacks of the nearest speed at which something happens; infinite where all is reached.
+    /// What a rotor with a size of spin, rad/s, lacks of the nearest speed at which something happens, or from which on it may; infinite where all
+    /// is reached.
     fn left(&self, mode: &Mode<f64>, spin: f64) -> f64 {
         let speeds = self.constants.at_speeds.iter().zip(&mode.reached);
         let waiting = speeds.filter(|(_, reached)| !reached.at.is_finite());
-        let left = waiting.map(|(own, _)| own.left(spin));
+        let left = waiting.map(|(own, reached)| own.waits(reached, spin));
         left.fold(f64::INFINITY, f64::min)
     }
     /// What follows next after a speed that was reached, with its instant: which speed, infinite where nothing does.
@@ -405,13 +396,17 @@ impl<R: Real> Machines<R> {
         };
         let force = |k: usize| {
             let of = |lane: usize| &constants(lane).forces[k];
+            let over_time = (0..R::LANES).map(|lane| of(lane).over_time.clone());
             Force {
                 node: Node::gather(&|lane| {
                     (&constants(lane).rotor, &of(lane).node[..], Vec2::zero())
                 }),
-                over_time: [0, 1]
-                    .map(|axis| Gather::<R>::gather(&|lane| &of(lane).over_time[axis])),
+                over_time: over_time.collect(),
             }
+        };
+        let loaded = |k: usize| {
+            let row = |lane: usize| &constants(lane).loaded[k][..];
+            Node::gather(&|lane| (&constants(lane).rotor, row(lane), Vec2::zero()))
         };
         let point = constants(0).rotor.coordinates.len() == 1;
         Machines {
@@ -434,6 +429,7 @@ impl<R: Real> Machines<R> {
             }),
             seals: (0..constants(0).seals.len()).map(seal).collect(),
             forces: (0..constants(0).forces.len()).map(force).collect(),
+            loaded: (0..constants(0).loaded.len()).map(loaded).collect(),
             nodes: bearings.clone().map(node).collect(),
             stands: bearings.clone().map(stand).collect(),
             base: constants(0).base.is_some().then(|| {
@@ -484,6 +480,9 @@ impl Machine for RotorMachine {
     }
     fn start_mode(&self) -> Mode<f64> {
         let mut mode = self.mode_at(0.0);
+        for (own, reached) in self.constants.at_speeds.iter().zip(&mut mode.reached) {
+            reached.armed = own.left(self.constants.speed.abs()) > 0.0;
+        }
         for event in self.constants.schedule.at_the_start() {
             mode.happen(event);
         }
@@ -554,8 +553,12 @@ impl Machine for RotorMachine {
         let least = self.left(mode, spin);
         let speeds = self.constants.at_speeds.iter().zip(&mut mode.reached);
         for (own, reached) in speeds.filter(|(_, reached)| !reached.at.is_finite()) {
-            if own.left(spin) <= least {
-                reached.at = time;
+            if own.waits(reached, spin) > least {
+                continue;
+            }
+            match reached.armed {
+                true => reached.at = time,
+                false => reached.armed = true,
             }
         }
         self.change_clutch(time, mode, state);
@@ -592,6 +595,10 @@ impl<R: Real> Batch<R> for Machines<R> {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
             brake: R::from_lanes(|lane| modes(lane).brake),
             driving: R::from_lanes(|lane| modes(lane).driving),
+            loads: std::array::from_fn(|k| Vec2 {
+                x: R::from_lanes(|lane| modes(lane).loads[k].x),
+                y: R::from_lanes(|lane| modes(lane).loads[k].y),
+            }),
             base: [0, 1].map(|axis| Piece::from_lanes(&|lane| modes(lane).base[axis])),
             load: Piece::from_lanes(&|lane| modes(lane).load),
             drive: Piece::from_lanes(&|lane| modes(lane).drive),

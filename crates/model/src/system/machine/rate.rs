@@ -129,9 +129,11 @@ impl<R: Real> Machines<R> {
             pulled += centre.position.cross(reaction.force);
         }
         let mut pushing = zero;
-        for force in &self.forces {
-            let (centre, own) = (force.node.centre(&rotor), force.at(time));
-            force.node.push(own, [&mut *force_x, &mut *force_y]);
+        let loads = self.loaded.iter().zip(mode.loads);
+        let forces = self.forces.iter().map(|own| (&own.node, own.at(time)));
+        for (node, own) in forces.chain(loads) {
+            let centre = node.centre(&rotor);
+            node.push(own, [&mut *force_x, &mut *force_y]);
             moment += centre.arm.cross(own);
             pushing += own.dot(centre.velocity);
             pulled += centre.position.cross(own);

@@ -40,8 +40,8 @@ pub struct Record {
     /// In which share of the clearance of each bearing the rotor is to stay, and when it was last outside, s.
     pub within: Option<(f64, Vec<Option<f64>>)>,
     limit_passed: bool,
-    /// Whether the run ends when it rolls.
-    halts_when_rolling: bool,
+    /// From when on the run halts once the rotor rolls, s.
+    rolling_from: Option<f64>,
 }
 
 /// The largest control current of an axis of a magnet.
@@ -143,14 +143,14 @@ impl Record {
             reached: [f64::INFINITY; MOST_SPEEDS],
             within: None,
             limit_passed: false,
-            halts_when_rolling: false,
+            rolling_from: None,
         }
     }
-    /// The same of a run that halts with [`ROLLS`] when the rotor rolls.
+    /// The same of a run that halts with [`ROLLS`] when the rotor rolls, from a time on, s.
     #[must_use]
-    pub fn until_rolling(self) -> Self {
+    pub fn until_rolling(self, from: f64) -> Self {
         Record {
-            halts_when_rolling: true,
+            rolling_from: Some(from),
             ..self
         }
     }
@@ -312,13 +312,13 @@ impl Observer<RotorMachine> for Record {
             return Flow::Halt(AT_POLE);
         }
         self.rows.sample(step, RotorMachine::row);
-        if self.halts_when_rolling {
+        if let Some(from) = self.rolling_from {
             let mut rolling = self
                 .bearings
                 .iter_mut()
                 .map(|bearing| bearing.rolling_of(step));
             // every bearing counts its turns
-            if rolling.by_ref().fold(true, |all, one| all & one) {
+            if rolling.by_ref().fold(true, |all, one| all & one) && step.end >= from {
                 return Flow::Halt(ROLLS);
             }
         }

@@ -47,11 +47,8 @@ impl RotorMachine {
         let added: Vec<_> = pairs.map(|(new, old)| *new - *old).collect();
         self.shift(&added, state);
         let after = new.content(state);
-        let energy = |content: &crate::system::energy::Content| {
-            content.translation + content.spin + content.potential
-        };
         if let Some(source) = self.layout().of_rotor.unbalance {
-            state[self.layout().source(source)] += energy(&after) - energy(&before);
+            state[self.layout().source(source)] += after.energy() - before.energy();
         }
         state[self.layout().angular_impulse()] += after.angular_momentum - before.angular_momentum;
     }

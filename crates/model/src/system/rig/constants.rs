@@ -109,6 +109,7 @@ impl RigConstants {
             magnets: None,
             seals: Vec::new(),
             forces: Vec::new(),
+            loaded: Vec::new(),
             base: None,
             unbalances: Vec::new(),
             gravity,

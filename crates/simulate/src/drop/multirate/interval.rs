@@ -15,8 +15,8 @@
 use crate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::coast_down::rows::BallsSeen;
 use crate::drop::context::Context;
-use crate::drop::method;
 use crate::drop::multirate::batch::{Batch, Bearing, Interval};
+use crate::drop::{method, torque};
 use crate::ending::settings_at;
 use crate::following::{Following, Now, Warmed};
 use model::auxiliary_bearing::HEATS;
@@ -25,7 +25,7 @@ use model::schedule::Schedule;
 use model::surface_heat::SurfaceHeat;
 use model::system::machine::record::{BearingRecord, Record};
 use model::system::machine::simulate::{Runs, Steps, simulate};
-use model::system::machine::{Event, RotorMachine};
+use model::system::machine::{AtSpeed, MachineConstants, RotorMachine};
 use model::system::sampling::Peak;
 use scenario::Accuracy;
 use solve::{Observer, Settings};
@@ -64,12 +64,16 @@ impl<'a> Motion<'a> {
         let records = &context.finished.record.bearings;
         let mut coarse = context.setup.built.clone();
         coarse.drop.given.run.accuracy = Accuracy::Screening;
+        let mut constants = context.setup.machine.constants.clone();
+        let spin = ending.state[context.setup.machine.layout().rotor.spin()].abs();
+        (constants.schedule, constants.at_speeds) =
+            torque::ahead(&constants, &context.reached, spin);
         let stepping = method::stepping(&coarse, context.setup.machine.tangents());
         Motion {
             context,
             interrupt,
             following: Following::of(context.setup.drop()).map(Arc::new),
-            machine: Arc::new(context.setup.machine.clone()),
+            machine: Arc::new(RotorMachine::new(constants)),
             settings: settings_at(&coarse.drop.run, stepping.tolerance),
             steps: stepping.steps,
             state: ending.state.clone(),
@@ -149,7 +153,9 @@ impl<'a> Motion<'a> {
             None => self.machine.constants.clone(),
         };
         constants.speed = start.speed * constants.speed.signum();
-        constants.schedule = happened(&constants.schedule, start.time);
+        let own = &self.machine.constants;
+        (constants.schedule, constants.at_speeds) = (own.schedule.clone(), own.at_speeds.clone());
+        happen(&mut constants, start.time, start.speed);
         let leap = start.time - self.time;
         for heat in self.surfaces.iter_mut().flatten() {
             heat.leap(leap);
@@ -226,10 +232,14 @@ impl<'a> Motion<'a> {
         for own in &mut record.bearings {
             own.contacts.clear();
         }
-        let schedule = &self.machine.constants.schedule;
-        if (schedule.instants().first()).is_some_and(|time| *time <= self.time) {
-            let mut constants = self.machine.constants.clone();
-            constants.schedule = happened(schedule, self.time);
+        let own = &self.machine.constants;
+        let known = own.schedule.instants().first();
+        let speed = self.speed();
+        if known.is_some_and(|time| *time <= self.time)
+            || own.at_speeds.iter().any(|own| has_come(own, speed))
+        {
+            let mut constants = own.clone();
+            happen(&mut constants, self.time, speed);
             self.machine = Arc::new(RotorMachine::new(constants));
         }
         let machine = self.machine.clone();
@@ -298,15 +308,27 @@ impl<'a> Motion<'a> {
     }
 }
 
-/// A schedule whose events until a time, s, hold from the start.
-fn happened(schedule: &Schedule<Event>, until: f64) -> Schedule<Event> {
-    let later = schedule.instants().iter().enumerate();
-    let later = later.map(|(k, time)| match *time > until {
-        true => (*time, schedule.event(k)),
-        false => (0.0, schedule.event(k)),
-    });
-    let before = schedule.at_the_start().map(|event| (0.0, event));
-    Schedule::of(before.chain(later))
+/// Whether a rotor that slows down has come to a speed.
+fn has_come(own: &AtSpeed, speed: f64) -> bool {
+    speed <= own.speed * (1.0 + 1e-9)
+}
+
+/// Events until a time, s, and a speed, rad/s, hold from the start.
+fn happen(constants: &mut MachineConstants, until: f64, speed: f64) {
+    let before = constants
+        .schedule
+        .all()
+        .map(|(time, event)| match time > until {
+            true => (time, event),
+            false => (0.0, event),
+        });
+    let come = constants
+        .at_speeds
+        .iter()
+        .filter(|own| has_come(own, speed));
+    let come = come.flat_map(|own| own.then.iter().map(|(_, event)| (0.0, *event)));
+    constants.schedule = Schedule::of(before.chain(come));
+    constants.at_speeds.retain(|own| !has_come(own, speed));
 }
 
 /// Leaves out what a record found largest so far.

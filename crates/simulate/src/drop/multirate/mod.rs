@@ -16,7 +16,7 @@
 //!                     e = max(|Δt_again − Δt|/(t + t_r), |T_again − T|/50 K),   t_r = I Ω/M
 //!                   where e > ε a leap of more than 4 % of speed is taken back and repeated with 0.5 to 0.9 of its length
 //!   3 leap          the next step, in the logarithm of the speed
-//!                     h = min(0.9 √(ε/e) h_before, ln 1.25, what a natural frequency allows),   and in time
+//!                     h = min(0.9 √(ε/e) h_before, ln 1.25, what a natural frequency allows, the speed of an event),   and in time
 //!                     σ Δt ≤ ε (t + t_r),   λ Δt ≤ ln 2,   |ṡ| Δt ≤ 4 %
 //!                   The motion comes down with it in jumps of 4 % of speed at most, and ends the leap where it presses harder than before.
 //!   4 or not        where Δt is less than the interval took, the motion itself goes on: 1 again, with more batches.
@@ -220,7 +220,9 @@ impl<'a> Multirate<'a> {
     ) -> Result<Option<Leave>, Failure> {
         let limits = Limits::of(built, now);
         let pace = leap::pace(&self.modes, built.start.speed);
-        let length = limits.length(self.length.min(pace.leap));
+        // a leap ends where a brake comes
+        let ahead = built.start.speed / built.brake_below(built.start.speed);
+        let length = limits.length(self.length.min(pace.leap)).min(ahead.ln());
         let followed: f64 = self.batches.iter().map(|batch| batch.span).sum();
         let dwell = pace.dwell.min(LONGEST_ESTIMATE as f64 * span);
         // neither the interval nor the jumps of the motion are to take longer than the leap

@@ -8,14 +8,17 @@ use crate::bearing::severity::STEEL_CHANGES;
 use crate::coast_down::build::{Built, Part, Start, part};
 use crate::coast_down::passages::limits;
 use crate::coast_down::ran::{Ran, ran};
+use crate::coast_down::rows::Row;
 use crate::coast_down::{self, history, quantities as of_coast_down};
 use crate::drop::context::{Context, Setup};
 use crate::drop::multirate::series::{Place, SeenBearing, Stretch};
 use crate::drop::multirate::{self, IntervalSeries, warnings};
 use crate::drop::quantities;
 use crate::drop::surfaces::{no_width, wear_depth};
+use crate::drop::torque;
 use crate::ending;
 use model::system::layout::of_part;
+use model::system::machine::MOST_SPEEDS;
 use model::system::machine::record::ROLLS;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
@@ -44,6 +47,8 @@ pub(crate) struct After {
     pub stop: Stop,
     /// Quasi-steady steps.
     pub steps: u64,
+    /// When the rotor came to each of the speeds at which something happens, and when all of it ended, s.
+    pub reached: ([f64; MOST_SPEEDS], f64),
 }
 
 /// Follows a drop until the rotor stands; none where that is not asked.
@@ -59,7 +64,7 @@ pub(crate) fn after(
     let goes_on = rolls || ending.stop == solve::Stop::Finished;
     let mut built = match built(context, end, goes_on) {
         Ok(built) => built,
-        Err(why) => return Some(After::none(Vec::new(), broken(stop, why))),
+        Err(why) => return Some(After::none(context, Vec::new(), broken(stop, why))),
     };
     let series = match goes_on {
         true => multirate::follow(context, &mut built, interrupt, progress),
@@ -69,7 +74,13 @@ pub(crate) fn after(
     let at_once = AtomicBool::new(!goes_on);
     let found = match ran(&built, if goes_on { interrupt } else { &at_once }) {
         Ok(found) => found,
-        Err(problem) => return Some(After::none(Vec::new(), broken(stop, problem.found))),
+        Err(problem) => {
+            return Some(After::none(
+                context,
+                Vec::new(),
+                broken(stop, problem.found),
+            ));
+        }
     };
     let went = Followed {
         series: &series,
@@ -78,7 +89,7 @@ pub(crate) fn after(
     let quantities = named(context.setup, &built.parts, Some((&found, &went)));
     if !goes_on {
         let why = "the drop before it did not end as planned";
-        return Some(After::none(without_values(quantities, why), stop));
+        return Some(After::none(context, without_values(quantities, why), stop));
     }
     let list = warnings::of(context, &found, &series);
     let ended = coast_down::stop(&found.free);
@@ -90,7 +101,22 @@ pub(crate) fn after(
             ..ended
         },
         steps: found.free.state.steps as u64 + series.steps,
+        reached: reached(context, &found.free.rows),
     })
+}
+
+/// When the rotor came to each speed at which something happens, in the drop or after it, and the end of the coast-down.
+fn reached(context: &Context, rows: &[Row]) -> ([f64; MOST_SPEEDS], f64) {
+    let mut all = context.reached;
+    for (own, at) in (context.setup.machine.constants.at_speeds.iter()).zip(&mut all) {
+        let passes = |pair: &&[Row]| pair[0].speed > own.speed && pair[1].speed <= own.speed;
+        let waits = !at.is_finite() && !own.rising;
+        if let Some([before, after]) = rows.windows(2).find(passes).filter(|_| waits) {
+            let share = (before.speed - own.speed) / (before.speed - after.speed);
+            *at = before.time + share * (after.time - before.time);
+        }
+    }
+    (all, rows.last().map_or(context.end, |row| row.time))
 }
 
 /// How it was followed, in words.
@@ -129,12 +155,13 @@ impl After {
     pub(crate) fn says(&self, kind: &Declared) -> bool {
         self.warnings.iter().any(|warning| warning.is(kind))
     }
-    fn none(quantities: Vec<Quantity>, stop: Stop) -> After {
+    fn none(context: &Context, quantities: Vec<Quantity>, stop: Stop) -> After {
         After {
             quantities,
             warnings: Vec::new(),
             stop,
             steps: 0,
+            reached: (context.reached, context.end),
         }
     }
 }
@@ -221,14 +248,11 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
         energy: 0.5 * inertia * speed * speed,
         warm_from: temperatures.clone(),
         rotor: RotorDrag {
-            torque: rotor.brake_torque,
+            torque: 0.0,
             drag: rotor.drag,
             drag_square: rotor.drag_square,
         },
-        brake_start: match drop.rotor.spin {
-            scenario::Spin::Braked { start, .. } => start,
-            _ => 0.0,
-        },
+        brakes: torque::coming(&machine.constants, &context.reached, speed),
         load: rotor.torque.clone(),
         end: *end,
         start: Start::at(ending.time, speed, temperatures, bearings)
