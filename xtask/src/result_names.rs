@@ -5,7 +5,7 @@ use crate::repository::{Outcome, Repository, is_vendored};
 use std::collections::BTreeSet;
 
 /// Names that fronts may spell: lower it with each that goes.
-const SPELLED: usize = 29;
+const SPELLED: usize = 28;
 
 const TABLES: [&str; 3] = [
     "crates/simulate/src/",

@@ -472,12 +472,15 @@ fn on_supports(
     })
 }
 
+/// What supports carry at nodes, and what the mounts of housings do, N.
+type Carried<'a> = (&'a [(usize, Vec2<f64>)], &'a [Vec2<f64>]);
+
 /// Seals and supports that stay, centred where the rotor is held at rest; supports carry there what they did.
 fn staying(
     model: &RotorModel,
     basis: &Basis,
     still: &[Vec2<f64>],
-    (carried, on_mounts): (&[(usize, Vec2<f64>)], &[Vec2<f64>]),
+    (carried, on_mounts): Carried,
 ) -> Vec<SealConstants> {
     let supports = &model.rotor.supports;
     let beside = |node: usize| {

@@ -47,7 +47,7 @@ use crate::force::Force;
 use crate::levitation::Levitation;
 use crate::magnets::conditions::What;
 use crate::magnets::{AxisConstants, ControlEvent, CurrentsOfAxes, Magnets};
-use crate::rotor::{GeometricCentre, Node, Rotor};
+use crate::rotor::{Node, Rotor};
 use crate::seal::Seal;
 use crate::system::rig::{Clutch, ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
 use crate::table::Piece;
@@ -213,19 +213,6 @@ impl RotorMachine {
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
-    /// Displacement of the rotor's geometric centre at a watched place from the line of levitation, m.
-    pub fn place(&self, place: usize, state: &[f64]) -> Vec2<f64> {
-        let motion = self.layout.rotor.motion(state);
-        self.places[place].centre(&motion).position
-    }
-    /// Force of a housing on its mount besides what this carries at rest, N.
-    pub fn on_ground(&self, housing: usize, state: &[f64]) -> Vec2<f64> {
-        let motion = self.layout.rotor.motion(state);
-        let mounts = self.one.seals.len() - self.constants.rotor.housings;
-        let (node, mount) = &self.one.seals[mounts + housing];
-        let centre = node.centre(&motion);
-        mount.carried - (mount.react(centre.position, centre.velocity, motion.spin)).force
-    }
     /// What turns, loads and carries the bearing of a rig; none of another machine.
     pub fn fixture(&self) -> Option<&Fixture> {
         self.constants.bearings[0].fixture.as_deref()
@@ -362,11 +349,6 @@ impl RotorMachine {
         magnets.map_or_else(OfAxes::new, |own| {
             own.towards_poles(&self.layout.rotor.motion(state))
         })
-    }
-    /// The rotor's geometric centre at its node in a bearing, from the datum of that.
-    #[inline(always)]
-    pub fn node(&self, bearing: usize, state: &[f64]) -> GeometricCentre<f64> {
-        self.one.nodes[bearing].centre(&self.layout.rotor.motion(state))
     }
 }
 

@@ -5,10 +5,12 @@
 
 pub use super::bearing_record::{BearingRecord, Contact};
 use super::{MOST_SPEEDS, Mode, RotorMachine};
+use crate::rotor::GeometricCentre;
 use crate::system::energy::Content;
 use crate::system::rig::Tap;
 use crate::system::rig::record::RigRecord;
 use crate::system::sampling::{Peak, Row, Rows};
+use number::Vec2;
 use solve::{Flow, Observer, Step};
 
 /// Everything kept of one machine.
@@ -364,6 +366,24 @@ impl RotorMachine {
         let content = self.content(state);
         self.as_begun(state);
         content
+    }
+    /// Displacement of the rotor's geometric centre at a watched place from the line of levitation, m.
+    pub fn place(&self, place: usize, state: &[f64]) -> Vec2<f64> {
+        let motion = self.layout.rotor.motion(state);
+        self.places[place].centre(&motion).position
+    }
+    /// Force of a housing on its mount besides what this carries at rest, N.
+    pub fn on_ground(&self, housing: usize, state: &[f64]) -> Vec2<f64> {
+        let motion = self.layout.rotor.motion(state);
+        let mounts = self.one.seals.len() - self.constants.rotor.housings;
+        let (node, mount) = &self.one.seals[mounts + housing];
+        let centre = node.centre(&motion);
+        mount.carried - (mount.react(centre.position, centre.velocity, motion.spin)).force
+    }
+    /// The rotor's geometric centre at its node in a bearing, from the datum of that.
+    #[inline(always)]
+    pub fn node(&self, bearing: usize, state: &[f64]) -> GeometricCentre<f64> {
+        self.one.nodes[bearing].centre(&self.layout.rotor.motion(state))
     }
     /// Cage speed of a bearing at a state, rad/s.
     pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {
