@@ -115,8 +115,8 @@ impl RotorMachine {
         let at = &self.layout().bearings[bearing];
         let motion = at.motion(state);
         let mut rate = vec![0.0; self.dimension()];
-        let ground = self.one.ground(bearing, &self.layout().rotor.motion(state));
-        self.one.bearings[bearing].mount(at, &motion, ground, state, &mut rate)
+        let ground = self.ground(bearing, state);
+        self.one.bearings[bearing].mount_on(at, &motion, ground, state, &mut rate)
     }
     /// The rate of change of a state at the start, for inspection: (rate, probes).
     pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {

@@ -135,6 +135,8 @@ pub struct Machines<R: Real> {
     nodes: Vec<Node<R>>,
     /// Of each, the housing on which it stands; none on the ground.
     stands: Vec<Option<Node<R>>>,
+    /// Whether any stands on one.
+    housed: bool,
     /// 1/L, L the radius of the first bore, 1/m.
     inverse_rotor_radius: R,
     layout: Layout,
@@ -413,6 +415,7 @@ impl<R: Real> Machines<R> {
             forces: (0..constants(0).forces.len()).map(force).collect(),
             loaded: (0..constants(0).loaded.len()).map(loaded).collect(),
             nodes: bearings.clone().map(node).collect(),
+            housed: bearings.clone().any(|k| stand(k).is_some()),
             stands: bearings.clone().map(stand).collect(),
             base: constants(0).base.is_some().then(|| {
                 Base::gather(&|lane| {

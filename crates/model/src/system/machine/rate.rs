@@ -56,6 +56,24 @@ impl<R: Real> Machines<R> {
         }
     }
 
+    /// What mounts do to the housings that they stand on; returns the moment of these forces about the origin, N m.
+    #[inline(never)]
+    fn push_housings(&self, rotor: &RotorMotion<R>, state: &[R], rate: &mut [R]) -> R {
+        let mut moment = R::zero();
+        for (k, stand) in self.stands.iter().enumerate() {
+            let (Some(stand), part) = (stand, &self.bearings[k]) else {
+                continue;
+            };
+            let (at, ground) = (&self.layout.bearings[k], self.ground(k, rotor));
+            let mount = part.mount_on(at, &at.motion(state), ground, state, rate);
+            let force = (part.mount.weight() - mount.force) * part.planes;
+            let [_, _, force_x, force_y] = blocks(rate, self.layout.rotor.coordinates);
+            stand.push(force, [force_x, force_y]);
+            moment += ground[0].cross(force);
+        }
+        moment
+    }
+
     /// The rate of change of the state, and the probes where asked.
     #[inline(always)]
     pub(super) fn rate_of_change(
@@ -138,17 +156,8 @@ impl<R: Real> Machines<R> {
             pushing += own.dot(centre.velocity);
             pulled += centre.position.cross(own);
         }
-        // mounts push on the housings that they stand on
-        for (k, stand) in self.stands.iter().enumerate() {
-            let (Some(stand), part, at) = (stand, &self.bearings[k], &layout.bearings[k]) else {
-                continue;
-            };
-            let ground = self.ground(k, &rotor);
-            let mount = part.mount(at, &at.motion(state), ground, state, rate);
-            let force = (part.mount.weight() - mount.force) * part.planes;
-            let [_, _, force_x, force_y] = blocks(rate, count);
-            stand.push(force, [force_x, force_y]);
-            pulled += ground[0].cross(force);
+        if self.housed {
+            pulled += self.push_housings(&rotor, state, rate);
         }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
@@ -209,7 +218,10 @@ impl<R: Real> Machines<R> {
             let held_load = acting.map_or(zero, |acting| acting.held_load);
             let reaction = part.bearing(at, (&motion, held_load), state, rate, probe);
             let mount = match acting {
-                None => part.mount(at, &motion, self.ground(k, &rotor), state, rate),
+                None => match &self.stands[k] {
+                    None => part.mount(at, &motion, state, rate),
+                    Some(_) => part.mount_on(at, &motion, self.ground(k, &rotor), state, rate),
+                },
                 Some(acting) => MountReaction::of(acting.on_outer),
             };
             let there = match kept.get(k) {

@@ -234,7 +234,7 @@ impl Record {
         if let Some((share, outside)) = &mut self.within {
             for (k, last) in outside.iter_mut().enumerate() {
                 let clearance = machine.constants.bearings[k].contact.radial_clearance;
-                let ground = machine.one.ground(k, &machine.layout().rotor.motion(state))[0];
+                let [ground, _] = machine.ground(k, state);
                 let away = machine.node(k, state).position - ground;
                 let away = away.length_squared().sqrt();
                 if away > *share * clearance {
@@ -384,6 +384,14 @@ impl RotorMachine {
     #[inline(always)]
     pub fn node(&self, bearing: usize, state: &[f64]) -> GeometricCentre<f64> {
         self.one.nodes[bearing].centre(&self.layout.rotor.motion(state))
+    }
+    /// Position, m, and speed, m/s, of what the mount of a bearing stands on.
+    #[inline(always)]
+    pub fn ground(&self, bearing: usize, state: &[f64]) -> [Vec2<f64>; 2] {
+        match self.one.housed {
+            false => [Vec2::zero(); 2],
+            true => (self.one).ground(bearing, &self.layout().rotor.motion(state)),
+        }
     }
     /// Cage speed of a bearing at a state, rad/s.
     pub fn cage_speed(&self, bearing: usize, state: &[f64]) -> f64 {

@@ -40,7 +40,7 @@ impl MountPeaks {
             &machine.layout().bearings[k],
             &machine.one.bearings[k].mount,
         );
-        let [position, velocity] = (machine.one).ground(k, &machine.layout().rotor.motion(state));
+        let [position, velocity] = machine.ground(k, state);
         let outer = at.outer.motion(state);
         let motion = (outer.position - position, outer.velocity - velocity);
         let parts = mount.parts(motion, &state[at.of_mount()]);
@@ -105,7 +105,7 @@ impl BearingRecord {
     fn mount_on_housing(&mut self, step: &mut Step<RotorMachine>) {
         let (machine, end) = (step.machine, step.end);
         let state = step.leading_state(1.0, self.at.outer.channels().end);
-        let [ground, _] = (machine.one).ground(self.bearing, &machine.layout().rotor.motion(state));
+        let [ground, _] = machine.ground(self.bearing, state);
         let away = self.at.outer.motion(state).position - ground;
         self.mount_displacement
             .raise(away.length_squared().sqrt(), end);
