@@ -2,7 +2,7 @@
 
 use crate::{Axis, C64, Refused, eigen};
 use nalgebra::{ComplexField, DMatrix, DVector, RowDVector};
-use rotor::{Analysis, Dynamics, Matrices, Rotor};
+use rotor::{Analysis, Dynamics, Matrices, Place, Rotor};
 
 /// Coordinates of a rotor: complex w = x + jy, one list for both planes, or real, the x-plane first and then the y-plane.
 pub trait Coordinates: ComplexField<RealField = f64> {
@@ -99,12 +99,15 @@ impl Plant<f64> {
 }
 
 /// Forces of weight on the coordinates of both planes, N: gravity (x, y) in m/s² times the mass that each coordinate of a plane
-/// carries, Φᵀ M 1 over displacements of nodes. Housings stand on the ground.
+/// carries, Φᵀ M 1 over displacements of nodes and housings.
 #[must_use]
 pub fn weight(rotor: &Rotor, analysis: &Analysis, gravity: [f64; 2]) -> DVector<f64> {
     let mut shift = DVector::zeros(rotor.size());
     for node in 0..rotor.nodes.len() {
         shift[rotor.displacement(node)] = 1.0;
+    }
+    for housing in 0..rotor.housings.len() {
+        shift[rotor.coordinate(Place::Housing(housing))] = 1.0;
     }
     let carried = analysis
         .basis
