@@ -178,7 +178,7 @@ fn cases(study: &Study, answer: &Answer) -> String {
             format!("  {}", one.verdict.word()),
             values.join(", "),
             String::new(),
-            String::new(),
+            one.open.clone().unwrap_or_default(),
         ]];
         let judged = one.limits.iter().zip(&one.worst);
         let broken = judged.filter(|(judged, _)| judged.verdict != Verdict::Pass);

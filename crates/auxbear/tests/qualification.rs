@@ -148,3 +148,79 @@ fn a_qualification_judges_every_case_at_every_level() {
     fs::write(&path, &written).unwrap();
     assert_eq!(StudyFile::read(&path).unwrap().toml(), written);
 }
+
+/// A study of the machine, beside it; what is asked of it follows.
+fn study_of(machine: &str, asked: &str) -> Result<(TempDir, Study), String> {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("machine.toml"), machine).unwrap();
+    let path = folder.path().join("study.toml");
+    let head = "format = \"auxbear.study/1\"\nscenario = \"machine.toml\"\n";
+    fs::write(&path, format!("{head}{asked}")).unwrap();
+    let study = StudyFile::read(&path).and_then(Study::new);
+    study
+        .map(|study| (folder, study))
+        .map_err(|problem| problem.to_string())
+}
+
+const FORCE: &str = "[[limit]]\nquantity = \"*.peak_contact_force\"\nmost = \"1 MN\"\n";
+const QUALIFIED: &str = "[design]\nkind = \"qualification\"\ndraws = 1\n";
+
+#[test]
+fn a_qualification_that_would_judge_nothing_is_refused() {
+    let refused = |machine: &str, asked: &str| study_of(machine, asked).map(|_| ()).unwrap_err();
+    let told = refused(&machine(), QUALIFIED);
+    assert!(told.contains("no limit"), "{told}");
+    let left_out = format!(
+        "{QUALIFIED}[[input]]\npath = \"run.case\"\nchoice = [\"shock\"]\n[[limit]]\ncase = \"axis lost\"\nquantity = \"energy_residual\"\nmost = 1\n"
+    );
+    let told = refused(&machine(), &left_out);
+    assert!(told.contains("left out"), "{told}");
+    let unknown =
+        format!("{QUALIFIED}[[input]]\npath = \"run.case\"\nchoice = [\"shok\"]\n{FORCE}");
+    let told = refused(&machine(), &unknown);
+    assert!(told.contains("shok"), "{told}");
+    let told = refused(
+        include_str!("../../../scenarios/machine_compressor.toml"),
+        &format!("{QUALIFIED}{FORCE}"),
+    );
+    assert!(told.contains("without cases"), "{told}");
+    let blank = machine().replace("case = \"axis lost\"", "case = \" \"");
+    let told = parsed(&blank, &[]).map(|_| ()).unwrap_err();
+    assert!(told.contains("event.one_lost.case"), "{told}");
+}
+
+/// What did not happen is not held, and what is judged in one case says nothing of another.
+#[test]
+fn a_case_whose_event_never_comes_is_undecided() {
+    let late = machine().replace("axis = 1\nat = \"5 ms\"", "axis = 1\nat = \"2 s\"");
+    let (folder, study) = study_of(&late, &format!("{QUALIFIED}{FORCE}")).unwrap();
+    let never = AtomicBool::new(false);
+    let directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
+    let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
+    let verdicts: Vec<Verdict> = done.answer.ranking.iter().map(|one| one.verdict).collect();
+    let pass = Verdict::Pass;
+    assert_eq!(verdicts, [pass, Verdict::Undecided, pass, pass]);
+    let why = done.answer.ranking[1].open.as_deref().unwrap();
+    assert!(why.contains("AB2083"), "{why}");
+
+    let other = "set = [\"run.case=blade lost\"]\n[design]\nkind = \"monte carlo\"\nmembers = 2\n[[input]]\npath = \"contact.friction_coefficient\"\nlognormal = 0.1\n\
+        [[limit]]\ncase = \"axis lost\"\nquantity = \"drive_end.contact_count\"\nmost = 0\n";
+    let (folder, study) = study_of(&machine(), other).unwrap();
+    let directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
+    let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
+    let judged = &done.answer.limits[0].judged;
+    assert_eq!(judged.verdict, Verdict::Undecided, "{}", judged.why);
+}
+
+/// Instants count from the release: what did not come in the 25 ms after it is not past 27 ms, though the run lasted 30.
+#[test]
+fn an_instant_that_did_not_come_is_judged_from_the_release_on() {
+    let judged = |bound: &str, case: &str| {
+        let limit = format!("limit.drive_end.inner_race_time_to_95_percent.most={bound}");
+        let run = ran(&machine(), &[&format!("run.case={case}"), &limit]);
+        run.limits[0].verdict
+    };
+    assert_eq!(judged("27 ms", "power lost"), Verdict::Undecided);
+    assert_eq!(judged("23 ms", "power lost"), Verdict::Fail);
+    assert_eq!(judged("1 ms", "blade lost"), Verdict::Undecided);
+}

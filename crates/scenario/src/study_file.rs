@@ -158,6 +158,11 @@ impl StudyFile {
         let kind = kind_of(file, sections.one("design"))?;
         let mut tables = sections.all("input").to_vec();
         if kind == QUALIFICATION {
+            if scenario.system.cases().names.is_empty() {
+                let allowed = "a machine is needed whose [[event]] or [base] name a case";
+                let found = "a scenario without cases";
+                return head.refuse(Code::StudyDesign, "scenario", found, allowed);
+            }
             tables.splice(0..0, of_each_qualification(&scenario, &tables));
         }
         let inputs = inputs_of(file, &scenario, &tables, kind)?;
@@ -175,6 +180,7 @@ impl StudyFile {
         };
         let mut limits = scenario.limits_of(file, sections.all("limit").to_vec())?;
         limits.extend(scenario.limits.iter().cloned());
+        qualifiable(file, kind, &scenario, (&inputs, &limits))?;
         let confirm = question.count("confirm").unwrap_or(0);
         let at_screening =
             (scenario.drop()).is_some_and(|drop| drop.run.accuracy == Accuracy::Screening);
@@ -288,6 +294,44 @@ impl StudyFile {
             out.push_str(&format!("rank = {}\nbest = \"{best}\"\n", quoted(name)));
         }
         out
+    }
+}
+
+/// Refuses cases that the machine does not have, and a qualification that would judge nothing.
+fn qualifiable(
+    file: &str,
+    kind: &str,
+    scenario: &Scenario,
+    (inputs, limits): (&[StudyInput], &[Limit]),
+) -> Result<()> {
+    let known = scenario.system.cases().names;
+    let refuse = |key: &str, found: String, allowed: &str| {
+        Err(Problem::new(Code::StudyDesign, file, found, allowed).on_key(key))
+    };
+    let chosen = inputs.iter().find(|input| input.vary.path == CASE);
+    let chosen = match chosen.map(|input| &input.vary.distribution) {
+        Some(Distribution::Choice(texts)) => texts.as_slice(),
+        _ => &[],
+    };
+    if let Some(other) = chosen.iter().find(|name| !known.contains(name)) {
+        let allowed = format!("cases of the scenario are needed: {}", known.join(", "));
+        return refuse("input.choice", quoted(other), &allowed);
+    }
+    if kind != QUALIFICATION {
+        return Ok(());
+    }
+    if limits.is_empty() {
+        let allowed = "a [[limit]] in the study or its scenario is needed: else nothing is judged";
+        return refuse("limit", "no limit".to_string(), allowed);
+    }
+    let own = limits.iter().filter_map(|limit| limit.case.as_ref());
+    match own.clone().find(|case| !chosen.contains(case)) {
+        None => Ok(()),
+        Some(other) => {
+            let found = format!("a limit of the case {}, which is left out", quoted(other));
+            let allowed = format!("one of the cases {} is needed", chosen.join(", "));
+            refuse("limit.case", found, &allowed)
+        }
     }
 }
 

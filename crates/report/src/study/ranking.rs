@@ -17,7 +17,13 @@ pub(super) fn cases(study: &Study, answer: &Answer) -> String {
     }
     let name = |judged: &Judged| {
         let name = judged.limit.quantity.replace(['_', '.'], " ");
-        format!("{name}, {}", bound(judged))
+        let share = match judged.limit.share {
+            1.0 => String::new(),
+            share => format!(" in {} %", short(100.0 * share)),
+        };
+        let case = judged.limit.case.as_ref();
+        let case = case.map_or(String::new(), |case| format!(", {case} alone"));
+        format!("{name}, {}{share}{case}", bound(judged))
     };
     let of = |one: &Candidate| -> Vec<String> {
         let values = one.values.iter();
@@ -72,7 +78,16 @@ pub(super) fn cases(study: &Study, answer: &Answer) -> String {
             ];
             [of(one), own.to_vec()].concat()
         });
-        broken.chain(failed).collect::<Vec<_>>()
+        let open = one.open.as_ref().map(|why| {
+            let own = [
+                marked(one.verdict),
+                String::new(),
+                plain(why),
+                "–".to_string(),
+            ];
+            [of(one), own.to_vec()].concat()
+        });
+        broken.chain(failed).chain(open).collect::<Vec<_>>()
     });
     let open: Vec<Vec<String>> = open.collect();
     let paths = answer.ranking[0].values.iter();

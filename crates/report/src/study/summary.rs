@@ -81,6 +81,7 @@ fn candidate(one: &Candidate) -> Value {
         "draws": one.draws[0],
         "draws_failed": one.draws[1],
         "failed_why": one.why,
+        "open_why": one.open,
         "limits": one.limits.iter().zip(&one.worst).map(of_case).collect::<Vec<_>>(),
     })
 }

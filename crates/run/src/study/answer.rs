@@ -106,16 +106,24 @@ impl Study {
         let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
             let decisive = self.limited(table, limit);
-            let values: Vec<Option<f64>> = some.iter().map(|at| decisive[*at]).collect();
+            let here = |at: &&usize| {
+                limit.case.is_none() || limit.case == self.case_of(table.members[**at])
+            };
+            let own: Vec<usize> = some.iter().filter(here).copied().collect();
+            let values: Vec<Option<f64>> = own.iter().map(|at| decisive[*at]).collect();
             let unit = unit.map_or("", |known| known.unit);
             let mut found = match design {
                 Design::Widened(..) => {
-                    let members = some.iter().map(|at| table.members[*at]);
+                    let members = own.iter().map(|at| table.members[*at]);
                     let weights = members.map(|k| design.weight(self.file.seed, k));
                     rare(limit, unit, &values, &weights.collect::<Vec<_>>())
                 }
                 _ => limit_of(limit, unit, &values, is_sample),
             };
+            if own.is_empty() && !some.is_empty() {
+                found.judged.verdict = Verdict::Undecided;
+                found.judged.why = "no member is of its case".to_string();
+            }
             found.judged = self.whirl_sought(found.judged, table);
             if table.warns(NO_QUALIFICATION.code) {
                 found.judged = limits::withheld(found.judged);

@@ -16,7 +16,7 @@ pub mod table;
 use outcome::{Options, host, limits};
 use outcome::{Quantity, Value};
 use problem::{Place, Problem, Result};
-use scenario::{CASE, Scenario, StudyFile};
+use scenario::{CASE, Distribution, Scenario, StudyFile};
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
 use table::{Column, Row, Table};
@@ -188,6 +188,14 @@ impl Study {
         drawn
     }
 
+    /// The case that happens in member k; none of what has no cases.
+    pub(super) fn case_of(&self, k: usize) -> Option<String> {
+        let drawn = self.drawn(k).values.into_iter();
+        let drawn = drawn.filter(|(path, _)| path == CASE).map(|(_, case)| case);
+        let cases = self.file.scenario.system.cases();
+        drawn.last().or(cases.chosen().map(str::to_string))
+    }
+
     /// The scenario of member k.
     ///
     /// # Errors
@@ -226,7 +234,7 @@ impl Study {
     pub fn input_columns(&self) -> Vec<Column> {
         let column = |input: &scenario::StudyInput| {
             let meaning = match &input.vary.distribution {
-                scenario::Distribution::Choice(texts) => {
+                Distribution::Choice(texts) => {
                     let words: Vec<String> = (texts.iter().enumerate())
                         .map(|(k, text)| format!("{k}: {text}"))
                         .collect();
@@ -234,9 +242,15 @@ impl Study {
                 }
                 _ => "drawn".to_string(),
             };
+            // the number of a choice is its place
+            let of_choice = matches!(input.vary.distribution, Distribution::Choice(_));
             Column {
                 name: format!("input.{}", input.vary.path),
-                unit: input.vary.unit(),
+                unit: if of_choice {
+                    String::new()
+                } else {
+                    input.vary.unit()
+                },
                 meaning,
                 values: Vec::new(),
             }

@@ -9,10 +9,12 @@ use super::table::Table;
 use outcome::limits;
 use outcome::{Judged, Verdict};
 use scenario::notes::NO_QUALIFICATION;
-use scenario::{CASE, Side};
+use scenario::{Forbidden, Side};
 use statistics::design::{Coordinate, Design};
 use statistics::random::below;
 
+/// Warnings of events that did not happen, and of a motion of the base that the run cuts off.
+const NEVER: [&str; 2] = ["AB2083", "AB2085"];
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;
 /// Apart from the numbers of the design.
@@ -41,6 +43,8 @@ pub struct Candidate {
     pub limits: Vec<Judged>,
     /// Of each limit, the member that comes nearest to it, or is the farthest beyond.
     pub worst: Vec<Option<usize>>,
+    /// Why nothing is decided whatever its limits say.
+    pub open: Option<String>,
     /// Why members failed, once.
     pub why: Option<String>,
 }
@@ -82,8 +86,7 @@ impl Study {
             .map(|(k, rows)| self.judged(k * draws, rows, table, &ranked, most, levels))
             .collect();
         if rank.is_none() {
-            // cases stand in the order of their file
-            found.retain(|one| one.draws[0] > 0);
+            // cases stand in the order of their file, those that have not run as well
             return found;
         }
         self.first_places(&mut found, &all, &ranked, most);
@@ -125,13 +128,10 @@ impl Study {
         let of = |values: &[Option<f64>]| -> Vec<Option<f64>> {
             rows.iter().map(|row| values[*row]).collect()
         };
-        let case = values.iter().find(|(path, _)| path == CASE);
-        let case = case.map(|(_, case)| case.as_str());
+        let case = self.case_of(member);
         let no_verdict = table.warns(NO_QUALIFICATION.code);
         let own = self.file.limits.iter();
-        let own = own.filter(|limit| {
-            case.is_none() || limit.case.is_none() || limit.case.as_deref() == case
-        });
+        let own = own.filter(|limit| limit.case.is_none() || limit.case == case);
         let judged = own.map(|limit| {
             let values = of(&self.limited(table, limit));
             let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
@@ -160,7 +160,9 @@ impl Study {
         let failed = |row: &&usize| table.failed.contains_key(&table.members[**row]);
         let lacking = rows.iter().filter(failed).count();
         let any = |verdict: Verdict| limits.iter().any(|judged| judged.verdict == verdict);
-        let verdict = match (any(Verdict::Fail), any(Verdict::Undecided) || lacking > 0) {
+        let open = self.open(rows, table, limits.is_empty());
+        let undecided = any(Verdict::Undecided) || lacking > 0 || open.is_some();
+        let verdict = match (any(Verdict::Fail), undecided) {
             (true, _) => Verdict::Fail,
             (false, true) => Verdict::Undecided,
             (false, false) => Verdict::Pass,
@@ -176,8 +178,32 @@ impl Study {
             verdict,
             limits,
             worst,
+            open,
             why: first.and_then(|row| table.failed.get(&table.members[*row]).cloned()),
         }
+    }
+
+    /// Why a case of a qualification is not decided: draws that have not run, nothing that is judged, or what should happen and did not.
+    fn open(&self, rows: &[usize], table: &Table, unlimited: bool) -> Option<String> {
+        let Design::Selection(_, draws) = self.file.design else {
+            return None;
+        };
+        if self.file.rank.is_some() {
+            return None;
+        }
+        if rows.len() < draws {
+            return Some(format!("{} of {draws} draws have run", rows.len()));
+        }
+        if unlimited {
+            return Some("no limit is of this case".to_string());
+        }
+        let mut never = NEVER.iter().filter_map(|code| {
+            let warned = table.warned_of(&Forbidden::Code(code.to_string()));
+            let some = rows.iter().filter(|row| warned[**row] == Some(1.0)).count();
+            (some > 0)
+                .then(|| format!("what should happen did not in {some} of {draws} draws ({code})"))
+        });
+        never.next()
     }
 
     /// How often each candidate that holds its limits comes first when the draws are drawn with repetition.

@@ -1,6 +1,7 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
 use crate::warnings::rank;
+use outcome::limits::counted_from;
 use outcome::{Quantity, Severity, Value, Warning};
 use problem::explain;
 use scenario::Forbidden;
@@ -96,6 +97,7 @@ impl Table {
                 table.failed.insert(row.member, why);
             }
             let mut last = 0;
+            let from = counted_from(&row.results);
             for result in &row.results {
                 let value = match result.value {
                     Value::Number(value) => value,
@@ -105,10 +107,10 @@ impl Table {
                 // results of a run that ended early are those of another question
                 let value = if row.whole { value } else { f64::NAN };
                 last = table.set(last + 1, &result.name, result.unit, || result.law, value);
-                if result.awaited && value.is_nan() && row.whole {
+                if let (true, Some(from)) = (result.awaited && value.is_nan() && row.whole, from) {
                     let name = format!("{LATE}{}", result.name);
                     let meaning = || "the run ended before it came";
-                    last = table.set(last + 1, &name, "s", meaning, row.time);
+                    last = table.set(last + 1, &name, "s", meaning, row.time - from);
                 }
             }
             for warning in &row.warnings {

@@ -11,6 +11,8 @@ pub const CASE: &str = "run.case";
 /// Key of the case in which the base moves.
 pub(super) const OF_BASE: &str = "base.case";
 
+const NAMED: &str = "the name of a case is needed";
+
 /// The cases that a file names, and which of them happens.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cases {
@@ -25,8 +27,15 @@ impl Cases {
     /// # Errors
     /// A case that nothing names.
     pub(super) fn of(parts: &[Part], values: &Values) -> Result<Cases> {
-        let events = parts.iter().filter(|part| part.kind.word == EVENT);
-        let of_events = events.filter_map(|part| part.text("case").map(str::to_string));
+        let events = || parts.iter().filter(|part| part.kind.word == EVENT);
+        let blank = |name: &str| name.trim().is_empty();
+        if let Some(part) = events().find(|part| part.text("case").is_some_and(blank)) {
+            return part.refuse(Code::UnknownWord, "case", "a name without letters", NAMED);
+        }
+        if values.text(OF_BASE).is_some_and(|name| blank(&name)) {
+            return values.refuse(Code::UnknownWord, OF_BASE, "a name without letters", NAMED);
+        }
+        let of_events = events().filter_map(|part| part.text("case").map(str::to_string));
         let mut names: Vec<String> = Vec::new();
         for name in of_events.chain(values.text(OF_BASE)) {
             if !names.contains(&name) {
