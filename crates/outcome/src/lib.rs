@@ -128,6 +128,15 @@ impl Quantity {
     }
 }
 
+/// The instant from which instants of a run count, s: that of its release where it has one, else its start; none where nothing was released.
+pub fn counted_from(results: &[Quantity]) -> Option<f64> {
+    let release = results.iter().find(|own| own.name == "release_time");
+    release.map_or(Some(0.0), |own| match own.value {
+        Value::Number(time) => Some(time),
+        _ => None,
+    })
+}
+
 /// Named results of the members of a repeated run: each name once, with a column of values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Members {

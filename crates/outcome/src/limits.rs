@@ -275,23 +275,12 @@ pub fn withheld(judged: Judged) -> Judged {
     }
 }
 
-/// The instant from which instants of a run count, s: that of its release where it has one, else its start; none where nothing was released.
-pub fn counted_from(results: &[Quantity]) -> Option<f64> {
-    let release = results.iter().find(|own| own.name == "release_time");
-    release.map_or(Some(0.0), |own| match own.value {
-        Value::Number(time) => Some(time),
-        _ => None,
-    })
-}
-
 /// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while
 /// the run lasted, which is longer than the bound, is infinite: whenever it comes, the bound is passed.
 fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
     let early = || outcome.stop.text.trim_end_matches('.').to_string();
-    let beyond = |end: f64| {
-        let lasted = end - counted_from(&outcome.quantities)?;
-        (quantity.awaited && lasted > bound).then_some(f64::INFINITY)
-    };
+    let from = crate::counted_from(&outcome.quantities).filter(|_| quantity.awaited);
+    let beyond = |end: f64| (end - from? > bound).then_some(f64::INFINITY);
     let untouched = quantity.of_contacts.then_some(0.0);
     let asked = outcome.work.members;
     if asked > 1 {

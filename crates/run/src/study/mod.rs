@@ -190,10 +190,10 @@ impl Study {
 
     /// The case that happens in member k; none of what has no cases.
     pub(super) fn case_of(&self, k: usize) -> Option<String> {
-        let drawn = self.drawn(k).values.into_iter();
-        let drawn = drawn.filter(|(path, _)| path == CASE).map(|(_, case)| case);
+        let mut drawn = self.drawn(k).values.into_iter();
+        let drawn = drawn.find(|(path, _)| path == CASE).map(|(_, case)| case);
         let cases = self.file.scenario.system.cases();
-        drawn.last().or(cases.chosen().map(str::to_string))
+        drawn.or(cases.chosen().map(str::to_string))
     }
 
     /// The scenario of member k.

@@ -1,7 +1,6 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
 use crate::warnings::rank;
-use outcome::limits::counted_from;
 use outcome::{Quantity, Severity, Value, Warning};
 use problem::explain;
 use scenario::Forbidden;
@@ -97,7 +96,7 @@ impl Table {
                 table.failed.insert(row.member, why);
             }
             let mut last = 0;
-            let from = counted_from(&row.results);
+            let from = outcome::counted_from(&row.results);
             for result in &row.results {
                 let value = match result.value {
                     Value::Number(value) => value,
