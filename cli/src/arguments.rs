@@ -26,6 +26,8 @@ pub enum Command {
     Run(Run),
     /// Run a scenario many times with values that differ: sweep, Monte Carlo, sensitivity; go on where it stopped
     Study(Study),
+    /// Run every case of a qualification and write its document; go on where it stopped
+    Qualify(Qualify),
     /// Show the moments of one bearing over speed, load and acceleration, and write a run directory
     Torque(Torque),
     /// Compute speed, torque and cage speed from the channels of a measurement file, and write a run directory
@@ -179,6 +181,21 @@ pub struct Study {
     /// Run this member alone again, with its own run directory
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     pub member: Option<String>,
+    /// Print no progress and no tables; warnings and problems are printed all the same
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Qualify {
+    /// Study file with [design] kind = "qualification"
+    pub file: PathBuf,
+    /// Directory to begin or to go on with [runs/NAME of the file]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of threads [all cores]; the numbers do not depend on it
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub threads: Option<String>,
     /// Print no progress and no tables; warnings and problems are printed all the same
     #[arg(long)]
     pub quiet: bool,

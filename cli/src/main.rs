@@ -12,6 +12,7 @@ mod limits;
 mod measured;
 mod mount;
 mod progress;
+mod qualify;
 mod results;
 mod run;
 mod schema;
@@ -84,6 +85,7 @@ fn perform(command: &Command) -> Result<Exit> {
     match command {
         Command::Run(wish) => return run::perform(wish),
         Command::Study(wish) => return study::perform(wish),
+        Command::Qualify(wish) => return qualify::perform(wish),
         Command::Torque(wish) => return torque::perform(wish),
         Command::Signals(wish) => return measured::perform(wish, SystemName::Signals),
         Command::Identify(wish) => return measured::perform(wish, SystemName::Identify),

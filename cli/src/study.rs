@@ -19,7 +19,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Time between lines of progress.
-const PAUSE: Duration = Duration::from_secs(2);
+pub const PAUSE: Duration = Duration::from_secs(2);
 
 /// Begins a study or goes on with it, or runs one of its members with its full report.
 pub fn perform(wish: &Wish) -> Result<Exit> {
@@ -61,16 +61,7 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
     if !wish.quiet {
         console::print(&text(&path, &directory.study, &done))?;
     }
-    let warned = done.warned.iter();
-    for warned in warned.filter(|warned| warned.severity() < Severity::Note) {
-        let share = warned.share(done.answer.members);
-        let (code, title) = (&warned.code, &warned.title);
-        console::report(&format!("warning[{code}]: {title}: {share}"));
-    }
-    if done.failed > 0 {
-        let failed = done.failed;
-        console::report(&format!("{failed} members failed: summary.json says why"));
-    }
+    warn(&done);
     match done.complete {
         // no member has results
         true if done.failed == done.answer.members => Ok(Exit::Failed),
@@ -83,6 +74,20 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
             ));
             Ok(Exit::Interrupted)
         }
+    }
+}
+
+/// What the members warn of, and how many failed.
+pub fn warn(done: &Done) {
+    let warned = done.warned.iter();
+    for warned in warned.filter(|warned| warned.severity() < Severity::Note) {
+        let share = warned.share(done.answer.members);
+        let (code, title) = (&warned.code, &warned.title);
+        console::report(&format!("warning[{code}]: {title}: {share}"));
+    }
+    if done.failed > 0 {
+        let failed = done.failed;
+        console::report(&format!("{failed} members failed: summary.json says why"));
     }
 }
 
@@ -171,7 +176,7 @@ fn ranking(study: &Study, answer: &Answer) -> String {
 }
 
 /// The cases of a qualification, with the limits that each does not hold.
-fn cases(study: &Study, answer: &Answer) -> String {
+pub fn cases(study: &Study, answer: &Answer) -> String {
     let rows = answer.ranking.iter().flat_map(|one| {
         let values: Vec<&str> = one.values.iter().map(|(_, value)| value.as_str()).collect();
         let mut rows = vec![[

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 from collections.abc import Mapping
 from os import PathLike
@@ -90,6 +91,29 @@ class Study:
         finally:
             end()
         return StudyResult.load(directory)
+
+    def qualify(
+        self,
+        directory: str | PathLike[str],
+        *,
+        date: str | None = None,
+        threads: int | None = None,
+        progress: bool | Progress | None = None,
+    ) -> list[dict[str, Any]]:
+        """Begins a qualification in a directory, or goes on where it stopped, and writes its ``document.html``.
+
+        Returns its requirements: text, verdict (``met``, ``not met``, ``not shown``), worst value, margin and member.
+
+        - ``date``: as the document has it; today
+        - ``threads``, ``progress``: as of ``Scenario.run``
+        """
+        tell, end = _progress.shown("qualify", progress)
+        try:
+            self._native.qualify(directory, date or datetime.date.today().isoformat(), threads, tell)
+        finally:
+            end()
+        text = (Path(directory) / "qualification.json").read_text(encoding="utf-8")
+        return json.loads(text)["requirements"]
 
     def __repr__(self) -> str:
         return f"<auxbear.Study {self.kind}, {self.members} members>"

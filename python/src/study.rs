@@ -4,7 +4,8 @@ use crate::problem::raised;
 use crate::scenario::Scenario;
 use crate::table::Table;
 use crate::watched::{LONG_PATIENCE, PATIENCE, watched};
-use auxbear::report::study::{Directory, part as part_of, read};
+use auxbear::report::study::{Directory, Wish, part as part_of, read};
+use auxbear::run::Options;
 use auxbear::scenario::StudyFile;
 use auxbear::study;
 use pyo3::exceptions::PyIndexError;
@@ -112,6 +113,30 @@ impl Study {
                 directory.run(options, &|members| tell(members / all))
             },
         )?;
+        done.map(|_| ()).map_err(|problem| raised(py, problem))
+    }
+
+    /// Begins a qualification or goes on with it, and writes its document.
+    #[pyo3(signature = (path, date, threads, progress))]
+    fn qualify(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        date: String,
+        threads: Option<NonZeroUsize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let file = self.0.clone();
+        let work = move |options: &Options, tell: &(dyn Fn(f64) + Sync)| {
+            let directory = Directory::open(&path, study::Study::new(file)?, 0)?;
+            let wish = Wish {
+                date: &date,
+                due: &|| false,
+                progress: &|_, done, all| tell(done / all.max(1) as f64),
+            };
+            directory.qualify(options, &wish)
+        };
+        let done = watched(py, threads, progress, LONG_PATIENCE, work)?;
         done.map(|_| ()).map_err(|problem| raised(py, problem))
     }
 }

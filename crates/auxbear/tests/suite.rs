@@ -30,6 +30,7 @@ mod oil_range;
 mod outcomes;
 mod planes;
 mod qualification;
+mod qualify;
 mod races;
 mod reference_scenario;
 mod rig_to_verdict;

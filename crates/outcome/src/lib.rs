@@ -349,6 +349,19 @@ pub struct Judged {
     pub why: String,
 }
 
+impl Judged {
+    /// How far the value that decides stays from the bound, as a share of the bound; of a bound of 0 in its unit. Negative beyond it; none
+    /// where it has no value.
+    pub fn margin(&self) -> Option<f64> {
+        let apart = match self.limit.side {
+            scenario::Side::Most => self.limit.bound - self.value?,
+            scenario::Side::Least => self.value? - self.limit.bound,
+        };
+        let size = self.limit.bound.abs();
+        Some(if size > 0.0 { apart / size } else { apart })
+    }
+}
+
 /// Whether a limit is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {

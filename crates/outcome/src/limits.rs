@@ -472,6 +472,7 @@ mod tests {
             bound,
             share,
             case: None,
+            source: None,
             forbids: None,
             dimension: Dimension::NONE,
             text: units::number_text(bound),

@@ -85,8 +85,10 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/heat_flow.js"),
     include_str!("page/coast_down.js"),
     include_str!("page/tables.js"),
-    include_str!("page/start.js"),
 ];
+/// What puts the page of runs together, and what draws the rotor of a document.
+const START: &str = include_str!("page/start.js");
+const DRAWING: &str = include_str!("page/document.js");
 
 /// The report page of one run, or of several side by side, as one self-contained HTML text.
 pub fn html(runs: &[PageRun]) -> String {
@@ -95,7 +97,7 @@ pub fn html(runs: &[PageRun]) -> String {
         [only] => format!("{} · auxbear report", only.name),
         several => format!("{} runs · auxbear report", several.len()),
     };
-    let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPTS.concat());
+    let script = script(START);
     let (limit, with_balls) = room(runs);
     let mut data = String::new();
     for run in runs {
@@ -113,6 +115,24 @@ pub fn html(runs: &[PageRun]) -> String {
             ("library", &library),
             ("script", &script),
         ],
+    )
+}
+
+/// All scripts with what begins them.
+fn script(start: &str) -> String {
+    format!(
+        "\"use strict\";\n(() => {{\n{}{start}}})();\n",
+        SCRIPTS.concat()
+    )
+}
+
+/// What draws the rotor of a run wherever a page has a place for it.
+pub(super) fn drawing(run: &PageRun) -> String {
+    let mut data = String::new();
+    push_run(&mut data, run, LEAST_ROWS, false);
+    format!(
+        "<script type=\"application/json\" class=\"run\">{data}</script>\n<script>\n{}</script>\n",
+        script(DRAWING)
     )
 }
 

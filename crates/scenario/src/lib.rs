@@ -34,6 +34,7 @@ pub mod section;
 pub mod several;
 pub mod signals;
 pub mod spin_up;
+pub mod study_document;
 pub mod study_file;
 mod study_inputs;
 pub mod system;

@@ -5,6 +5,7 @@
 //! quantity = "drive_end.peak_contact_force"   # a result; "*.peak_contact_force" is that of every bearing
 //! most = "5 kN"                               # or least
 //! share = 0.95                                # of the members of a repeated run; 1 unless given
+//! source = "three quarters of the bolts"      # where the bound comes from, for the document of a qualification
 //!
 //! [[limit]]
 //! severity = "destroys"                       # no warning that severe or worse; warning = "AB2030": none of that code
@@ -37,6 +38,8 @@ pub struct Limit {
     pub share: f64,
     /// The case in which it must hold; in each without.
     pub case: Option<String>,
+    /// Where the bound comes from, in words.
+    pub source: Option<String>,
     /// Warnings that must not come: the result is then their number in a member, 0 or 1.
     pub forbids: Option<Forbidden>,
     /// Dimension of the bound.
@@ -116,6 +119,7 @@ const KEYS: &[Key] = &[
     Key::new("limit.warning", Kind::Text, "AB2030", "Code of a warning that must not come.").optional("a result is limited"),
     Key::new("limit.severity", Kind::Text, "destroys", "Severity of which, or worse, no warning must come: destroys, invalid, uncertain or note.").optional("a result is limited"),
     Key::new("limit.case", Kind::Text, "axis lost", "Name of the case in which it must hold, as run.case has it.").optional("in every case"),
+    Key::new("limit.source", Kind::Text, "drawing 4711", "Where the bound comes from: a standard, a drawing, a contract.").optional("the document of a qualification says that it has none"),
     Key::new("limit.share", Kind::Any(SHARE), "0.95", "Share of the members of a repeated run that must hold it.").optional("all of them"),
 ];
 /// Words that people write for those of a limit.
@@ -150,6 +154,9 @@ impl Limit {
         };
         if let Some(case) = &self.case {
             share.push_str(&format!("case = {}\n", quoted(case)));
+        }
+        if let Some(source) = &self.source {
+            share.push_str(&format!("source = {}\n", quoted(source)));
         }
         if let Some((key, value)) = self.forbids.as_ref().map(Forbidden::written) {
             return format!("[[{LIMIT}]]\n{key} = {}\n{share}", quoted(value));
@@ -227,6 +234,7 @@ pub fn of(document: &Document, cases: &Cases) -> Result<Vec<Limit>> {
                 bound,
                 share: share.unwrap_or(1.0),
                 case: case.clone(),
+                source: table.text("source").map(str::to_string),
                 forbids: None,
                 dimension,
                 text,
@@ -282,6 +290,7 @@ fn forbidding(table: &Table, share: Option<f64>) -> Result<Option<Limit>> {
         bound: 0.0,
         share: share.unwrap_or(1.0),
         case: table.text("case").map(str::to_string),
+        source: table.text("source").map(str::to_string),
         dimension: Dimension::NONE,
         text: "0".to_string(),
         place: table.place_of(key),

@@ -36,7 +36,9 @@ const FRACTION: &str = r"^\s*[+\-]?\d*\.?\d*\s*(/\s*[+\-]?\d+\s*)?$";
 /// The JSON Schema (draft 2020-12) of the files of a system; `None` for a kind that is not built yet.
 pub fn schema(kind: &str) -> Option<String> {
     if kind == super::template::STUDY {
-        return Some(include_str!("study_schema.json").to_string());
+        // its limits are those of a scenario
+        let limits = format!("\"limit\": {}", limits(SystemName::Machine));
+        return Some(include_str!("study_schema.json").replace("\"limit\": true", &limits));
     }
     let system = SystemName::of(kind)?;
     // strings and numbers always serialise
@@ -191,6 +193,8 @@ fn limits(system: SystemName) -> Value {
         let words = "Name of the case in which it must hold; in each without.";
         keys.push(("case", json!({ "type": "string", "description": words })));
     }
+    let words = "Where the bound comes from: a standard, a drawing, a contract.";
+    keys.push(("source", json!({ "type": "string", "description": words })));
     for (key, schema) in keys {
         properties(&mut one, "").insert(key.to_string(), schema);
     }

@@ -23,6 +23,7 @@
 //! results = ["peak_contact_force", "first_impact_force"]
 //! ```
 
+use crate::study_document::{self, StudyDocument};
 use crate::study_inputs::{StudyInput, inputs_of};
 use crate::{Accuracy, BuiltIn, CASE, Distribution, Limit, Scenario, UNBALANCE_ANGLE};
 use problem::key::{Key, Kind, Range, quoted};
@@ -124,6 +125,8 @@ pub struct StudyFile {
     pub confirm: usize,
     /// The result that candidates of a selection are ranked by, and whether most of it is best.
     pub rank: Option<(String, bool, Place)>,
+    /// What the document of a qualification says besides.
+    pub document: StudyDocument,
 }
 
 impl StudyFile {
@@ -143,7 +146,11 @@ impl StudyFile {
     /// What is wrong with it or its scenario, with file, line and key.
     pub fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<StudyFile> {
         let root = DeTable::parse(text).map_err(|error| Problem::of_toml(&error, text, file))?;
-        let names = ["design", "input", "limit", "correlation", "question"];
+        let names = [
+            &["design", "input", "limit", "correlation", "question"],
+            study_document::SECTIONS.as_slice(),
+        ]
+        .concat();
         let sections = Sections::of(text, root.get_ref(), &names);
         require_format(file, &sections.head)?;
         let top = (String::new(), "the top level");
@@ -163,6 +170,15 @@ impl StudyFile {
                 let found = "a scenario without cases";
                 return head.refuse(Code::StudyDesign, "scenario", found, allowed);
             }
+            if head
+                .texts("set")
+                .iter()
+                .any(|set| set.trim_start().starts_with(CASE))
+            {
+                let found = format!("{CASE}, which differs from member to member");
+                let allowed = "a qualification runs every case; an [[input]] of run.case with a choice names some of them";
+                return head.refuse(Code::Conflict, "set", found, allowed);
+            }
             tables.splice(0..0, of_each_qualification(&scenario, &tables));
         }
         let inputs = inputs_of(file, &scenario, &tables, kind)?;
@@ -180,7 +196,8 @@ impl StudyFile {
         };
         let mut limits = scenario.limits_of(file, sections.all("limit").to_vec())?;
         limits.extend(scenario.limits.iter().cloned());
-        qualifiable(file, kind, &scenario, (&inputs, &limits))?;
+        let cases = qualifiable(file, kind, &scenario, (&inputs, &limits))?;
+        let document = StudyDocument::of(file, &sections, cases)?;
         let confirm = question.count("confirm").unwrap_or(0);
         let at_screening =
             (scenario.drop()).is_some_and(|drop| drop.run.accuracy == Accuracy::Screening);
@@ -208,7 +225,21 @@ impl StudyFile {
                 .collect(),
             confirm,
             rank: question.text("rank").map(ranked),
+            document,
         })
+    }
+
+    /// Refuses what is no qualification.
+    ///
+    /// # Errors
+    /// Another kind of design.
+    pub fn require_qualification(&self) -> Result<()> {
+        if self.kind == QUALIFICATION {
+            return Ok(());
+        }
+        let found = quoted(self.kind);
+        let allowed = "kind = \"qualification\" is needed; auxbear study runs any design";
+        Err(Problem::new(Code::StudyDesign, &self.file, found, allowed).on_key("design.kind"))
     }
 
     /// The same with more blocks.
@@ -293,17 +324,18 @@ impl StudyFile {
             let best = if *most { "most" } else { "least" };
             out.push_str(&format!("rank = {}\nbest = \"{best}\"\n", quoted(name)));
         }
+        out.push_str(&self.document.toml());
         out
     }
 }
 
-/// Refuses cases that the machine does not have, and a qualification that would judge nothing.
-fn qualifiable(
+/// The cases of a qualification; refuses those that the machine does not have, and a qualification that would judge nothing.
+fn qualifiable<'a>(
     file: &str,
     kind: &str,
     scenario: &Scenario,
-    (inputs, limits): (&[StudyInput], &[Limit]),
-) -> Result<()> {
+    (inputs, limits): (&'a [StudyInput], &[Limit]),
+) -> Result<&'a [String]> {
     let known = scenario.system.cases().names;
     let refuse = |key: &str, found: String, allowed: &str| {
         Err(Problem::new(Code::StudyDesign, file, found, allowed).on_key(key))
@@ -318,7 +350,7 @@ fn qualifiable(
         return refuse("input.choice", quoted(other), &allowed);
     }
     if kind != QUALIFICATION {
-        return Ok(());
+        return Ok(&[]);
     }
     if limits.is_empty() {
         let allowed = "a [[limit]] in the study or its scenario is needed: else nothing is judged";
@@ -326,7 +358,7 @@ fn qualifiable(
     }
     let own = limits.iter().filter_map(|limit| limit.case.as_ref());
     match own.clone().find(|case| !chosen.contains(case)) {
-        None => Ok(()),
+        None => Ok(chosen),
         Some(other) => {
             let found = format!("a limit of the case {}, which is left out", quoted(other));
             let allowed = format!("one of the cases {} is needed", chosen.join(", "));

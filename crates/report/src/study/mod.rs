@@ -5,12 +5,15 @@
 
 mod bars;
 mod cells;
+mod document;
 mod page;
 mod parallel;
 mod part;
+mod qualify;
 mod ranking;
 mod summary;
 
+pub use qualify::{Qualified, Wish};
 pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
@@ -126,6 +129,17 @@ impl Directory {
     /// # Errors
     /// What cannot be written, and parts that cannot be read.
     pub fn run(&self, options: &Options, progress: &(dyn Fn(f64) + Sync)) -> Result<Done> {
+        self.compute(options, progress, &mut || Ok(()))?;
+        self.finish(options)
+    }
+
+    /// Computes what is missing, part by part; `after` is called whenever parts were written.
+    fn compute(
+        &self,
+        options: &Options,
+        progress: &(dyn Fn(f64) + Sync),
+        after: &mut dyn FnMut() -> Result<()>,
+    ) -> Result<()> {
         let open = self.open_parts()?;
         let threads = options.threads.map_or_else(host::threads, bounded);
         let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
@@ -164,8 +178,9 @@ impl Directory {
                 break;
             }
             progress(done as f64);
+            after()?;
         }
-        self.finish(options)
+        Ok(())
     }
 
     /// Parts of which members are not there.

@@ -240,7 +240,7 @@ fn figure(svg: &str) -> String {
 
 const HEIGHT: f64 = 300.0;
 
-fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
+pub(super) fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
     Panel {
         left: 78.0,
         top: 32.0,

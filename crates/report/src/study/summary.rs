@@ -67,12 +67,16 @@ fn quantity(unit: &str, spread: Option<&Spread>) -> Value {
     }
 }
 
+/// Paths with their values.
+pub(super) fn values_json(values: &[(String, String)]) -> Map<String, Value> {
+    let all = values.iter();
+    all.map(|(path, value)| (path.clone(), Value::String(value.clone())))
+        .collect()
+}
+
 fn candidate(one: &Candidate) -> Value {
-    let values: Map<String, Value> = (one.values.iter())
-        .map(|(path, value)| (path.clone(), Value::String(value.clone())))
-        .collect();
     json!({
-        "candidate": values,
+        "candidate": values_json(&one.values),
         "verdict": one.verdict.word(),
         "quantile_95_percent": one.quantile,
         "mean": one.mean,
@@ -149,8 +153,5 @@ fn sensitivities(study: &Study, of: &Sensitivity) -> Value {
 
 /// What a member drew, as an override has it.
 fn drawn(study: &Study, member: usize) -> Map<String, Value> {
-    let drawn = study.drawn(member).values.into_iter();
-    drawn
-        .map(|(path, value)| (path, Value::String(value)))
-        .collect()
+    values_json(&study.drawn(member).values)
 }

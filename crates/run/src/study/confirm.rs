@@ -67,7 +67,7 @@ impl Study {
     }
 
     /// What a limit holds, of each member: a result, or whether a warning came.
-    pub(super) fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
+    pub fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
         match &limit.forbids {
             Some(forbids) => {
                 let declared: Vec<_> = crate::warnings::declared().collect();

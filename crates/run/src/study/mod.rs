@@ -7,9 +7,17 @@
 //! | [`selection`] | candidates judged by their limits and ranked |
 //! | [`confirm`] | members near a limit, once more at design accuracy |
 //! | [`answer`] | spread, limits and sensitivity from that table |
+//! | [`little_known`] | what verdicts of a qualification owe to the inputs that are known least |
+//! | [`failure_modes`] | ways in which bearings fail, with the results that show them |
+//! | [`in_a_row`] | drops in a row, with the wear of those before |
+//! | [`predicted`] | signals of a test with their bands |
 
 pub mod answer;
 pub mod confirm;
+pub mod failure_modes;
+pub mod in_a_row;
+pub mod little_known;
+pub mod predicted;
 pub mod selection;
 pub mod table;
 
@@ -163,6 +171,14 @@ impl Study {
         self.file.design.members().unwrap_or(0)
     }
 
+    /// Draws of each case of a qualification; 1 of other designs.
+    pub fn draws(&self) -> usize {
+        match self.file.design {
+            statistics::design::Design::Selection(_, draws) => draws,
+            _ => 1,
+        }
+    }
+
     /// What member k draws.
     pub fn drawn(&self, k: usize) -> Drawn {
         let file = &self.file;
@@ -189,7 +205,7 @@ impl Study {
     }
 
     /// The case that happens in member k; none of what has no cases.
-    pub(super) fn case_of(&self, k: usize) -> Option<String> {
+    pub fn case_of(&self, k: usize) -> Option<String> {
         let mut drawn = self.drawn(k).values.into_iter();
         let drawn = drawn.find(|(path, _)| path == CASE).map(|(_, case)| case);
         let cases = self.file.scenario.system.cases();

@@ -232,7 +232,7 @@ results! {
         "kinetic_energy_change": number "J", BALANCE, "change of the kinetic energy" => run.change(|(content, _)| content.translation + content.spin);
         "potential_energy_change": number "J", BALANCE, "change of the potential energy" => run.change(|(content, _)| content.potential);
         "energy_balance_residual": number "J", BALANCE, "residual of the energy ledger" => run.finished.whole_balance().energy_residual() / run.planes();
-        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in machine_tile "Energy residual" in bound "AB1006" => residuals(run).0;
+        "energy_residual": number "1" headline, RESIDUAL, "residual of the energy ledger over what is turned over" in machine_tile "Energy residual" in bound "AB1006" in document "residual" => residuals(run).0;
         "angular_momentum_residual": number "1", RESIDUAL, "residual of the angular momentum over that of the inner races" => residuals(run).1;
     }
 }

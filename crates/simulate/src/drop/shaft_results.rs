@@ -48,14 +48,14 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
 results! {
     fn place(node: &Named, peak: &f64) {
         "node.*.largest_displacement": number "m", DISPLACEMENT, "largest displacement of the shaft at this node" => *peak;
-        "node.*.least_distance": number "m", DISTANCE, "least distance left of the clearance at this node", unless {
+        "node.*.least_distance": number "m", DISTANCE, "least distance left of the clearance at this node" in document "clearance", unless {
             not_given("rotor.node.clearance", node.clearance)
         } => node.clearance.unwrap_or(f64::NAN) - *peak;
     }
     /// What the modes are.
     fn basis(setup: &(), bent: &Bent) {
         "rotor_mass": number "kg", BASIS, "mass of the rotor" in rotor_line "rotor" => rotor::properties(&bent.given.model.rotor).mass;
-        "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" in rotor_line "bends at" => {
+        "first_bending_frequency": number "rad/s", BASIS, "frequency of the first bending mode of the free rotor" in rotor_line "bends at" in document "bending" => {
             let mut bends = bent.frequencies().filter(|omega| *omega > 0.0);
             bends.next().ok_or_else(|| "the rotor does not bend".to_string())
         };

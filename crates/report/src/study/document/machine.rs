@@ -1,0 +1,250 @@
+//! What the machine is: architecture, rotordynamics, environment, and the events that let its rotor touch.
+
+use super::{Document, note, paragraph, words};
+use crate::page::escape_text as plain;
+use crate::study::cells::{amount, rows};
+use outcome::{Severity, Value};
+
+/// What a table of the bearings says of each, by the paths of the keys.
+const OF_BEARINGS: [(&str, &str); 8] = [
+    ("bearing", "bearing.name"),
+    ("type", "bearing.type"),
+    ("bore", "contact.bore_diameter"),
+    ("radial air clearance", "contact.radial_air_clearance"),
+    ("friction of the landing", "contact.friction_coefficient"),
+    ("mount stiffness", "mount.stiffness"),
+    ("mount damping", "mount.damping"),
+    ("stands on", "mount.on"),
+];
+
+impl Document<'_> {
+    pub(super) fn architecture(&self) -> String {
+        let resolved = &self.study.file.scenario.resolved;
+        let mut names: Vec<String> = Vec::new();
+        for value in &resolved.values {
+            names.extend(
+                value
+                    .bearing
+                    .iter()
+                    .filter(|name| !names.contains(name))
+                    .cloned()
+                    .collect::<Vec<_>>(),
+            );
+        }
+        if names.is_empty() {
+            names.push(String::new());
+        }
+        let cell = |name: &String, path: &str| {
+            let value = resolved.of_bearing(name, path);
+            let text = value.and_then(|value| value.text.clone());
+            let mark =
+                value.filter(|value| value.provenance.mark() == "assumed" && value.text.is_some());
+            let mark = mark.map_or("", |_| " <span class=\"assumed\">assumed</span>");
+            format!(
+                "{}{mark}",
+                text.map_or("–".to_string(), |text| plain(&text))
+            )
+        };
+        let mut head = vec![""];
+        head.extend(names.iter().map(String::as_str));
+        let body = OF_BEARINGS.iter().map(|(words, path)| {
+            let mut row = vec![words.to_string()];
+            row.extend(names.iter().map(|name| cell(name, path)));
+            row
+        });
+        let drawing = match self.rotor {
+            Some(_) => {
+                "<figure><div class=\"rotor-drawing\"></div><figcaption><span>The rotor to scale, with what it carries and what stands around it.</span></figcaption></figure>\n"
+            }
+            None => "",
+        };
+        format!("{drawing}{}", rows(&head, &body.collect::<Vec<_>>()))
+    }
+
+    /// The rotor on its magnets and on its auxiliary bearings: the results that are looked at first, and what warns.
+    pub(super) fn rotordynamics(&self) -> String {
+        let Some((rotor, _)) = self.rotor else {
+            return paragraph(
+                "<b class=\"open\">Not shown</b>: the rotor is rigid in this model, or its analysis failed.",
+            );
+        };
+        let first = rotor.quantities.iter().filter(|own| own.headline);
+        let first = first.filter(|own| !own.name.contains("response."));
+        let cells = first.filter_map(|own| match &own.value {
+            Value::Number(value) => Some(vec![
+                words(&own.name),
+                plain(&amount(*value, own.unit)).replace(' ', "\u{a0}"),
+            ]),
+            Value::Text(text) => Some(vec![words(&own.name), plain(text)]),
+            _ => None,
+        });
+        let cells: Vec<Vec<String>> = cells.collect();
+        // two results a line
+        let half = cells.len().div_ceil(2);
+        let blank = vec![String::new(), String::new()];
+        let body: Vec<Vec<String>> = (0..half)
+            .map(|k| {
+                [
+                    cells[k].clone(),
+                    cells.get(k + half).unwrap_or(&blank).clone(),
+                ]
+                .concat()
+            })
+            .collect();
+        let severe = rotor
+            .warnings
+            .iter()
+            .filter(|own| own.severity <= Severity::Uncertain);
+        let list: String = severe
+            .map(|own| {
+                format!(
+                    "<li><code>{}</code> {}</li>\n",
+                    own.code,
+                    plain(&own.to_string())
+                )
+            })
+            .collect();
+        let list = if list.is_empty() {
+            list
+        } else {
+            format!("<ul class=\"small\">\n{list}</ul>\n")
+        };
+        format!(
+            "{}{}{list}",
+            rows(&["result", "", "result", ""], &body),
+            note(
+                "Zones of levitated vibration after ISO 14839-3, limits from memory. \"On auxiliary bearings\": the rotor that rolls on them through its whole coast-down. \
+                 Responses, modes and diagrams stand in the page of <code>auxbear rotor</code> of the same file."
+            )
+        )
+    }
+
+    pub(super) fn environment(&self) -> String {
+        match &self.study.file.document.environment {
+            Some(text) => paragraph(&plain(text)),
+            None => paragraph(
+                "<b class=\"open\">Not given</b>: gas or vacuum, temperature, lubricant and dirt about the bearings decide friction, heat and wear.",
+            ),
+        }
+    }
+
+    /// Each case with what happens in it, and how often it is expected.
+    pub(super) fn events(&self) -> String {
+        let toml = self.study.file.scenario.resolved.toml();
+        let happens = tables_of(&toml);
+        let document = &self.study.file.document;
+        let none = || "<b class=\"open\">not given</b>".to_string();
+        let body = self.cases().into_iter().map(|case| {
+            let own = happens
+                .iter()
+                .filter(|(of, _)| of.as_ref().is_none_or(|of| *of == case));
+            let texts: Vec<&str> = own.map(|(_, text)| text.as_str()).collect();
+            let said = document.case(&case);
+            let expected = said.and_then(|said| said.expected.as_ref());
+            vec![
+                plain(&case),
+                plain(&texts.join("; ")),
+                expected.map_or_else(none, |text| plain(text)),
+                said.map_or(1, |said| said.drops).to_string(),
+            ]
+        });
+        let body: Vec<Vec<String>> = body.collect();
+        let head = [
+            "case",
+            "what happens",
+            "how often it is expected",
+            "drops in a row",
+        ];
+        let levels = self
+            .study
+            .file
+            .inputs
+            .iter()
+            .filter(|input| input.levels > 0 && input.vary.path != scenario::CASE);
+        let levels: Vec<String> = levels
+            .map(|input| {
+                format!(
+                    "<code>{}</code> {}",
+                    plain(&input.vary.path),
+                    plain(&input.written)
+                )
+            })
+            .collect();
+        let levels = match levels.is_empty() {
+            true => String::new(),
+            false => format!(" at each level of {}", levels.join(", ")),
+        };
+        format!(
+            "{}{}",
+            rows(&head, &body),
+            paragraph(&format!(
+                "Each case runs{levels}, with {} draws of what is not certain; all cases meet the same draws. Faults that no case names are not shown.",
+                self.study.draws()
+            ))
+        )
+    }
+}
+
+/// Events and the motion of the base as a resolved file has them: the case that each is of, and its keys in a line.
+fn tables_of(toml: &str) -> Vec<(Option<String>, String)> {
+    let heads = ["[[event]]", "[base]"];
+    let mut found: Vec<(Option<String>, String)> = Vec::new();
+    let mut inside = false;
+    for line in toml.lines() {
+        if line.starts_with('[') {
+            inside = heads.contains(&line);
+            if inside {
+                found.push((None, String::new()));
+            }
+            continue;
+        }
+        let (Some(last), true) = (found.last_mut(), inside && !line.starts_with('#')) else {
+            continue;
+        };
+        let Some((key, value)) = line.split_once(" = ") else {
+            continue;
+        };
+        // a value with its origin is a table
+        let value = value.trim_start_matches("{ value = ");
+        let value = value.split(", source =").next().unwrap_or(value);
+        if value.contains("from = \"default\"") {
+            continue;
+        }
+        let value = value
+            .split(", assumed =")
+            .next()
+            .unwrap_or(value)
+            .trim_matches('"');
+        match key {
+            "case" => last.0 = Some(value.to_string()),
+            "name" => {}
+            _ => {
+                let comma = if last.1.is_empty() { "" } else { ", " };
+                last.1
+                    .push_str(&format!("{comma}{} {value}", key.replace('_', " ")));
+            }
+        }
+    }
+    found.retain(|(_, text)| !text.is_empty());
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_of_a_resolved_file_are_told_with_their_cases() {
+        let text = "[[event]]\nname = \"a\"\ncase = \"one\"\ndo = \"power lost\"\nat = { value = \"50 ms\", source = \"plan\" }\n\n[run]\nduration = \"1 s\"\n\n[[event]]\ndo = \"brake\"\nat = \"1 s\"\n";
+        let found = tables_of(text);
+        assert_eq!(
+            found[0],
+            (
+                Some("one".to_string()),
+                "do power lost, at 50 ms".to_string()
+            )
+        );
+        assert_eq!(found[1], (None, "do brake, at 1 s".to_string()));
+        assert_eq!(found.len(), 2);
+    }
+}

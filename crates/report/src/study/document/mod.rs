@@ -1,0 +1,497 @@
+//! The document of a qualification: what is required, what was found, what was assumed, how it is tested; one HTML text that prints to pages.
+//!
+//! | page | sections |
+//! |---|---|
+//! | here | the first page: verdict of each requirement; frame of the document |
+//! | [`machine`] | architecture, rotordynamics, environment, events |
+//! | [`findings`] | failure modes, simulation, assumptions and what verdicts owe to them, drops in a row, verdicts of the cases |
+//! | [`test`] | plan of a test, its signals with bands, monitoring, close clearances |
+//!
+//! A requirement is met, not met or not shown; nothing is said of the machine as a whole.
+
+mod findings;
+mod machine;
+mod test;
+
+use super::cells::{amount, bound, rows, short};
+use super::summary::values_json;
+use crate::page::{self, PageRun, escape_text as plain};
+use outcome::{Judged, Outcome, Severity, Verdict};
+use problem::explain;
+use run::study::Study;
+use run::study::answer::Answer;
+use run::study::in_a_row::InARow;
+use run::study::little_known::{LittleKnown, Owed};
+use run::study::selection::Candidate;
+use run::study::table::{Column, Table};
+use scenario::{CASE, Forbidden, Limit};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Severe warnings that the first page names.
+const NAMED: usize = 6;
+
+/// What a document is made of.
+pub(super) struct Document<'a> {
+    pub study: &'a Study,
+    pub table: &'a Table,
+    pub answer: &'a Answer,
+    /// Inputs that are known least, with what limits owe to them.
+    pub known: &'a [LittleKnown],
+    pub owed: &'a [Owed],
+    /// Drops in a row.
+    pub rows: &'a [InARow],
+    pub drops: &'a Table,
+    /// Signals of the test; none before they were computed.
+    pub predicted: &'a [Column],
+    /// The rotor on its magnets and on its auxiliary bearings.
+    pub rotor: Option<(&'a Outcome, &'a PageRun)>,
+    /// The day on which it was made.
+    pub date: &'a str,
+    /// Hash of study and scenario.
+    pub hash: &'a str,
+    /// Whether every member has run.
+    pub complete: bool,
+}
+
+/// A requirement with its verdict.
+pub(super) struct Requirement<'a> {
+    pub limit: &'a Limit,
+    /// The case at its level that is nearest to it or the farthest beyond.
+    pub worst: Option<(&'a Candidate, &'a Judged, Option<usize>)>,
+    /// Met, not met or not shown.
+    pub verdict: Verdict,
+    /// Why it is not shown.
+    pub why: String,
+}
+
+/// The verdict of a requirement.
+fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "met",
+        Verdict::Fail => "not met",
+        Verdict::Undecided => "not shown",
+    }
+}
+
+/// The verdict of a requirement in its colour.
+pub(super) fn shown(verdict: Verdict) -> String {
+    let class = match verdict {
+        Verdict::Pass => "met",
+        Verdict::Fail => "failed",
+        Verdict::Undecided => "open",
+    };
+    format!("<b class=\"{class}\">{}</b>", verdict_word(verdict))
+}
+
+/// Words of a case with its levels.
+pub(super) fn of_values(values: &[(String, String)]) -> String {
+    let texts: Vec<&str> = values.iter().map(|(_, value)| value.as_str()).collect();
+    plain(&texts.join(", "))
+}
+
+/// Words of a result.
+pub(super) fn words(name: &str) -> String {
+    plain(&name.replace(['_', '.'], " "))
+}
+
+fn section(number: usize, title: &str, body: &str) -> String {
+    format!("<section>\n<h2>{number} {title}</h2>\n{body}</section>\n")
+}
+
+pub(super) fn paragraph(text: &str) -> String {
+    format!("<p>{text}</p>\n")
+}
+
+pub(super) fn note(text: &str) -> String {
+    format!("<p class=\"small\">{text}</p>\n")
+}
+
+/// A figure of two a line.
+pub(super) fn figure(svg: &str) -> String {
+    format!("<figure>{svg}</figure>\n")
+}
+
+impl Document<'_> {
+    /// The document as one self-contained text.
+    pub(super) fn html(&self) -> String {
+        let (title, front) = self.front();
+        let sections = [
+            ("Architecture", self.architecture()),
+            ("Requirements", self.requirements_table()),
+            ("Rotordynamics", self.rotordynamics()),
+            ("Environment", self.environment()),
+            ("Events", self.events()),
+            ("Failure modes", self.failure_modes()),
+            ("Simulation", self.simulation()),
+            ("Test plan", self.test_plan()),
+            ("Predicted signals of the test", self.predicted_signals()),
+            ("Monitoring in service", self.monitoring()),
+            ("Close clearances", self.close_clearances()),
+            ("Verdicts of the cases", self.verdicts()),
+        ];
+        let mut body = front;
+        for (k, (title, text)) in sections.iter().enumerate() {
+            body.push_str(&section(k + 1, title, text));
+        }
+        let drawing = self
+            .rotor
+            .map_or(String::new(), |(_, run)| page::drawing(run));
+        format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">\n\
+             <title>{}</title>\n<style>\n{}\n{}\n</style>\n</head>\n<body class=\"document\">\n<main>\n{body}</main>\n{drawing}</body>\n</html>\n",
+            plain(&title),
+            page::STYLE.concat(),
+            include_str!("document.css"),
+        )
+    }
+
+    /// The requirements in the order of their files.
+    pub(super) fn requirements(&self) -> Vec<Requirement<'_>> {
+        let limits = self.study.file.limits.iter();
+        limits.map(|limit| self.requirement(limit)).collect()
+    }
+
+    fn requirement<'a>(&'a self, limit: &'a Limit) -> Requirement<'a> {
+        let judged = self.answer.ranking.iter().flat_map(|one| {
+            let own = one.limits.iter().zip(&one.worst);
+            let own = own.filter(|(judged, _)| judged.limit == *limit);
+            own.map(move |(judged, worst)| (one, judged, *worst))
+        });
+        let all: Vec<_> = judged.collect();
+        let any = |verdict| all.iter().find(|(_, judged, _)| judged.verdict == verdict);
+        let lacking = all
+            .iter()
+            .find(|(one, ..)| one.open.is_some() || one.draws[1] > 0);
+        let named = |one: &Candidate, why: &str| format!("{}: {why}", of_values(&one.values));
+        let (verdict, why) = match (any(Verdict::Fail), any(Verdict::Undecided), lacking) {
+            _ if all.is_empty() => (Verdict::Undecided, "no case was judged by it".to_string()),
+            (Some((one, judged, _)), ..) => (Verdict::Fail, named(one, &plain(&judged.why))),
+            (_, Some((one, judged, _)), _) => (Verdict::Undecided, named(one, &plain(&judged.why))),
+            (.., Some((one, ..))) => {
+                let failed = format!("{} of {} draws failed", one.draws[1], one.draws[0]);
+                let why = one.open.clone().unwrap_or(failed);
+                (Verdict::Undecided, named(one, &plain(&why)))
+            }
+            _ => (Verdict::Pass, String::new()),
+        };
+        let margin = |judged: &Judged| judged.margin().unwrap_or(f64::INFINITY);
+        let worst = all
+            .into_iter()
+            .min_by(|a, b| margin(a.1).total_cmp(&margin(b.1)));
+        Requirement {
+            limit,
+            worst,
+            verdict,
+            why,
+        }
+    }
+
+    fn count(&self, requirements: &[Requirement], verdict: Verdict) -> usize {
+        let own = requirements
+            .iter()
+            .filter(|one| one.verdict == verdict)
+            .count();
+        match verdict {
+            Verdict::Undecided => own + self.study.file.document.requirements.len(),
+            _ => own,
+        }
+    }
+
+    /// Requirements met, not met, not shown.
+    pub(super) fn tally(&self) -> [usize; 3] {
+        let requirements = self.requirements();
+        [Verdict::Pass, Verdict::Fail, Verdict::Undecided]
+            .map(|verdict| self.count(&requirements, verdict))
+    }
+
+    /// Title and first page.
+    fn front(&self) -> (String, String) {
+        let file = &self.study.file;
+        let document = &file.document;
+        let machine = document.machine.as_deref().or(file.title.as_deref());
+        let machine = machine.unwrap_or("Machine without a name");
+        let title = format!("Qualification of the auxiliary bearings: {machine}");
+        let requirements = self.requirements();
+        let [met, not, open] = self.tally();
+        let mut out = format!("<h1>{}</h1>\n", plain(&title));
+        if let (Some(title), Some(_)) = (&file.title, &document.machine) {
+            let _ = writeln!(out, "<p class=\"subtitle\">{}</p>", plain(title));
+        }
+        let missing = "<span class=\"blank\"></span>".to_string();
+        let given =
+            |text: &Option<String>| text.as_ref().map_or(missing.clone(), |text| plain(text));
+        let facts = [
+            ("Author", given(&document.author)),
+            ("Revision", given(&document.revision)),
+            ("Date", plain(self.date)),
+            ("Program", format!("auxbear {}", env!("CARGO_PKG_VERSION"))),
+            ("Inputs (SHA-256)", format!("<code>{}</code>", self.hash)),
+            ("Reviewed by", missing.clone()),
+        ];
+        let facts: String = facts
+            .iter()
+            .map(|(head, text)| format!("<tr><th>{head}</th><td>{text}</td></tr>\n"))
+            .collect();
+        let _ = write!(out, "<table class=\"facts\">{facts}</table>\n");
+        let _ = writeln!(
+            out,
+            "<div class=\"tally {}\"><b>{met} of {} requirements met, {not} not met, {open} not shown.</b>{}</div>",
+            if not > 0 { "bad" } else { "" },
+            met + not + open,
+            match self.complete {
+                true => String::new(),
+                false => format!(
+                    " Interim: {} of {} runs are there.",
+                    self.answer.members, self.answer.asked
+                ),
+            }
+        );
+        out.push_str(&self.gravest());
+        out.push_str(&self.first_table(&requirements));
+        out.push_str(&note(
+            "Met: every run of every case in which it is required holds the bound. Not shown: the runs do not decide, or no result answers it. The margin is the distance to the bound as a \
+             share of the bound. Verdicts hold for the inputs of this hash alone: when one of them changes, run again. Motion is planar: forces and motion along the shaft \
+             are not in any result, so no requirement on them is met by this document.",
+        ));
+        (title, out)
+    }
+
+    /// The gravest of what the runs warn of.
+    fn gravest(&self) -> String {
+        let all = self.table.members.len();
+        let warned = self.table.warned();
+        let severe: Vec<_> = warned
+            .iter()
+            .filter(|own| own.severity() <= Severity::Invalid)
+            .collect();
+        let row = |own: &&run::study::table::Warned| {
+            let (code, title, share) = (plain(&own.code), plain(&own.title), own.share(all));
+            format!("<li class=\"grave\"><code>{code}</code> {title}: {share}</li>\n")
+        };
+        let list: String = severe.iter().take(NAMED).map(row).collect();
+        let more = match severe.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!("<li>{more} more in section 7</li>\n"),
+        };
+        match list.is_empty() {
+            true => list,
+            false => format!(
+                "<div class=\"warnings\"><strong>What counts against these results</strong><ul>\n{list}{more}</ul></div>\n"
+            ),
+        }
+    }
+
+    fn first_table(&self, requirements: &[Requirement]) -> String {
+        let row = |(k, one): (usize, &Requirement)| {
+            let unit = one.worst.map_or("", |(_, judged, _)| judged.unit);
+            let judged = one.worst.map(|(_, judged, _)| judged);
+            let value = judged.and_then(|judged| judged.value);
+            let margin =
+                judged
+                    .and_then(Judged::margin)
+                    .map(|margin| match one.limit.bound == 0.0 {
+                        true => plain(&amount(margin, unit)),
+                        false => format!("{} %", short(100.0 * margin)),
+                    });
+            let place = one.worst.map_or("–".to_string(), |(candidate, _, member)| {
+                let member = member.map_or(String::new(), |member| format!(", run {member}"));
+                format!("{}{member}", of_values(&candidate.values))
+            });
+            vec![
+                format!("R{}", k + 1),
+                self.requirement_words(one.limit, judged),
+                shown(one.verdict),
+                value.map_or("–".to_string(), |value| {
+                    plain(&amount(value, unit)).replace(' ', "\u{a0}")
+                }),
+                margin.unwrap_or("–".to_string()).replace(' ', "\u{a0}"),
+                match one.verdict {
+                    Verdict::Undecided => one.why.clone(),
+                    Verdict::Fail => place,
+                    Verdict::Pass => format!("{place}{}", self.breaks_with(k)),
+                },
+            ]
+        };
+        let mut body: Vec<Vec<String>> = requirements.iter().enumerate().map(row).collect();
+        let own = self.study.file.document.requirements.iter().enumerate();
+        body.extend(own.map(|(k, own)| {
+            let dash = "–".to_string();
+            vec![
+                format!("R{}", requirements.len() + k + 1),
+                plain(&own.text),
+                shown(Verdict::Undecided),
+                dash.clone(),
+                dash,
+                plain(&own.why),
+            ]
+        }));
+        rows(
+            &[
+                "",
+                "requirement",
+                "verdict",
+                "worst value",
+                "margin",
+                "where, or why not shown",
+            ],
+            &body,
+        )
+    }
+
+    /// The requirements as `qualification.json` has them.
+    pub(super) fn json(&self) -> String {
+        let of = |(k, one): (usize, &Requirement)| {
+            let judged = one.worst.map(|(_, judged, _)| judged);
+            let owed = self.owed.iter().find(|owed| owed.limit == k);
+            let breaks = |input: usize| {
+                let ends = owed.map_or([None; 2], |owed| owed.ends[input]);
+                let known = &self.known[input];
+                let both = ends.into_iter().zip(known.ends);
+                let broken = both.filter(|(value, _)| {
+                    value.is_some_and(|value| !one.limit.side.holds(value, one.limit.bound))
+                });
+                let at: Vec<f64> = broken.map(|(_, end)| end).collect();
+                (!at.is_empty()).then(|| json!({"input": known.path, "at": at, "unit": known.unit}))
+            };
+            json!({
+                "number": k + 1,
+                "quantity": one.limit.quantity,
+                "side": one.limit.side.word(),
+                "bound": one.limit.bound,
+                "unit": judged.map(|judged| judged.unit),
+                "case": one.limit.case,
+                "source": one.limit.source,
+                "verdict": verdict_word(one.verdict),
+                "worst_value": judged.and_then(|judged| judged.value),
+                "margin": judged.and_then(Judged::margin),
+                "worst_case": one.worst.map(|(candidate, ..)| values_json(&candidate.values)),
+                "member": one.worst.and_then(|(.., member)| member),
+                "why": one.why,
+                "broken_with": (0..self.known.len()).filter_map(breaks).collect::<Vec<_>>(),
+            })
+        };
+        let requirements = self.requirements();
+        let mut all: Vec<Value> = requirements.iter().enumerate().map(of).collect();
+        let others = self.study.file.document.requirements.iter().enumerate();
+        all.extend(others.map(|(k, own)| {
+            json!({"number": requirements.len() + k + 1, "text": own.text, "source": own.source, "verdict": verdict_word(Verdict::Undecided), "why": own.why})
+        }));
+        let all = json!({
+            "format": "auxbear.qualification/1",
+            "version": env!("CARGO_PKG_VERSION"),
+            "date": self.date,
+            "inputs_sha256": self.hash,
+            "complete": self.complete,
+            "requirements": all,
+        });
+        format!("{all:#}\n")
+    }
+
+    /// The little known inputs that break a requirement at their low or high value, though every run holds it.
+    fn breaks_with(&self, limit: usize) -> String {
+        let owed = self.owed.iter().find(|owed| owed.limit == limit);
+        let of = &self.study.file.limits[limit];
+        let ends = owed
+            .into_iter()
+            .flat_map(|owed| owed.ends.iter().zip(self.known));
+        let ends = ends
+            .flat_map(|(values, known)| values.iter().zip(known.ends).map(move |own| (own, known)));
+        let broken = ends.filter_map(|((value, end), known)| {
+            let value = (*value)?;
+            let at = plain(&amount(end, &known.unit));
+            (!of.side.holds(value, of.bound)).then(|| {
+                format!(
+                    "<br><b class=\"failed\">broken with {} of {at}</b>",
+                    words(&known.path)
+                )
+            })
+        });
+        broken.collect()
+    }
+
+    /// A requirement in words.
+    pub(super) fn requirement_words(&self, limit: &Limit, judged: Option<&Judged>) -> String {
+        let case = limit
+            .case
+            .as_ref()
+            .map_or(String::new(), |case| format!(", {} alone", plain(case)));
+        match &limit.forbids {
+            Some(Forbidden::Code(code)) => {
+                return format!(
+                    "no warning <code>{code}</code> ({}){case}",
+                    plain(explain::title(code))
+                );
+            }
+            Some(Forbidden::Severity(severity)) => {
+                return format!("no warning that is {} or worse{case}", severity.word());
+            }
+            None => {}
+        }
+        let share = match limit.share {
+            1.0 => String::new(),
+            share => format!(" in {} %", short(100.0 * share)),
+        };
+        let bound = judged.map_or(format!("{} {}", limit.side.word(), limit.text), bound);
+        format!(
+            "{}: {}{share}{case}",
+            words(&limit.quantity),
+            plain(&bound).replace(' ', "\u{a0}")
+        )
+    }
+
+    fn requirements_table(&self) -> String {
+        let none = "<b class=\"open\">no source is given</b>".to_string();
+        let source = |text: &Option<String>| text.as_ref().map_or(none.clone(), |text| plain(text));
+        let limits = self.study.file.limits.iter().map(|limit| {
+            let judged = self
+                .answer
+                .ranking
+                .iter()
+                .flat_map(|one| &one.limits)
+                .find(|judged| judged.limit == *limit);
+            (self.requirement_words(limit, judged), source(&limit.source))
+        });
+        let others = self.study.file.document.requirements.iter();
+        let others = others.map(|own| (plain(&own.text), source(&own.source)));
+        let all = limits.chain(others).enumerate();
+        let body: Vec<Vec<String>> = all
+            .map(|(k, (text, source))| vec![format!("R{}", k + 1), text, source])
+            .collect();
+        rows(&["", "requirement", "source of its number"], &body)
+    }
+
+    /// The values of a case and its levels, those of the tested case where they are asked for.
+    pub(super) fn case_words(&self, member: usize) -> String {
+        let of = |one: &&Candidate| (one.member..one.member + self.study.draws()).contains(&member);
+        let candidate = self.answer.ranking.iter().find(of);
+        candidate.map_or(String::new(), |one| of_values(&one.values))
+    }
+
+    /// The results that the document asks for by a word, such as the highest frequency of the model.
+    pub(super) fn results_of(&self, word: &str) -> impl Iterator<Item = &outcome::Quantity> {
+        let known = self.study.known.iter();
+        known.filter(move |own| own.words_in("document") == Some(word))
+    }
+
+    /// The values of a result over all runs.
+    pub(super) fn values_of(&self, result: &outcome::Quantity) -> impl Iterator<Item = f64> {
+        self.table.values(&result.name).into_iter().flatten()
+    }
+
+    /// Names of the cases that run.
+    pub(super) fn cases(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for one in &self.answer.ranking {
+            let case = one.values.iter().find(|(path, _)| path == CASE);
+            names.extend(
+                case.map(|(_, name)| name.clone())
+                    .filter(|name| !names.contains(name))
+                    .into_iter()
+                    .collect::<Vec<_>>(),
+            );
+        }
+        names
+    }
+}
