@@ -101,6 +101,7 @@ fn a_document_judges_requirements_and_says_what_they_owe_to_inputs() {
     let mut sets: Vec<String> = (study.drawn(member).values.iter())
         .map(|(path, value)| format!("{path}={value}"))
         .collect();
+    sets.retain(|set| !set.contains("friction_coefficient"));
     sets.push(format!("contact.friction_coefficient={high}"));
     let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
     let alone = number(&ran(&machine(), &sets), "drive_end.peak_contact_force");
@@ -129,7 +130,8 @@ fn drops_in_a_row_carry_the_wear_of_those_before() {
         .position(|member| *member == rows[0].member)
         .unwrap();
     assert_eq!(drops.values(force)[0], table.values(force)[place]);
-    assert_eq!(run(drops.part(0..1)).unwrap(), drops);
+    let again = run(drops.part(0..1)).unwrap();
+    assert!(format!("{again:?}") == format!("{drops:?}"));
     // the third by hand
     let worn = |name: &str| {
         drops.values(&format!("{name}.wear_depth"))[..2]

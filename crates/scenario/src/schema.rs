@@ -36,7 +36,6 @@ const FRACTION: &str = r"^\s*[+\-]?\d*\.?\d*\s*(/\s*[+\-]?\d+\s*)?$";
 /// The JSON Schema (draft 2020-12) of the files of a system; `None` for a kind that is not built yet.
 pub fn schema(kind: &str) -> Option<String> {
     if kind == super::template::STUDY {
-        // its limits are those of a scenario
         let limits = format!("\"limit\": {}", limits(SystemName::Machine));
         return Some(include_str!("study_schema.json").replace("\"limit\": true", &limits));
     }
@@ -161,16 +160,15 @@ fn parts(kind: &PartKind, system: SystemName) -> Value {
 /// The array of what results must hold.
 fn limits(system: SystemName) -> Value {
     let mut one = object("A limit that a result must hold; the verdict stands among the results.");
-    let bound =
-        json!({ "anyOf": [{ "type": "string", "pattern": QUANTITY }, { "type": "number" }] });
-    let with = |words: &str| {
-        let mut bound = bound.clone();
-        bound["description"] = json!(words);
-        bound
-    };
-    let name = "Name of a result, as in summary.json.";
+    let numbers = json!([{ "type": "string", "pattern": QUANTITY }, { "type": "number" }]);
+    let with = |words: &str| json!({ "anyOf": numbers, "description": words });
+    let text = |words: &str| json!({ "type": "string", "description": words });
     let mut keys = vec![
-        ("quantity", json!({ "type": "string", "description": name })),
+        ("quantity", text("Name of a result, as in summary.json.")),
+        (
+            "source",
+            text("Where the bound comes from: a standard, a drawing, a contract."),
+        ),
         ("most", with("Bound that the result must not exceed.")),
         ("least", with("Bound that the result must not fall below.")),
         (
@@ -190,11 +188,11 @@ fn limits(system: SystemName) -> Value {
         keys.push(("share", share));
     }
     if system == SystemName::Machine {
-        let words = "Name of the case in which it must hold; in each without.";
-        keys.push(("case", json!({ "type": "string", "description": words })));
+        keys.push((
+            "case",
+            text("Name of the case in which it must hold; in each without."),
+        ));
     }
-    let words = "Where the bound comes from: a standard, a drawing, a contract.";
-    keys.push(("source", json!({ "type": "string", "description": words })));
     for (key, schema) in keys {
         properties(&mut one, "").insert(key.to_string(), schema);
     }

@@ -111,10 +111,7 @@ impl Study {
             return drawn;
         }
         let angle = TAU * uniform(self.file.seed ^ ANGLES, k as u64, drop as u64);
-        drawn.values.retain(|(path, _)| path != UNBALANCE_ANGLE);
-        drawn
-            .values
-            .push((UNBALANCE_ANGLE.to_string(), format!("{angle} rad")));
+        drawn.set(UNBALANCE_ANGLE.to_string(), format!("{angle} rad"));
         let place = self
             .file
             .inputs
@@ -146,19 +143,15 @@ impl Study {
                 .sum();
             let clearance = first.resolved.of_bearing(name, CLEARANCE);
             if let (true, Some(clearance)) = (worn > 0.0, clearance.and_then(|own| own.value_si)) {
-                drawn
-                    .values
-                    .push((key(CLEARANCE), format!("{} m", clearance + worn)));
+                drawn.set(key(CLEARANCE), format!("{} m", clearance + worn));
             }
             let left = GREASE
                 .map(|(result, path)| Some((path, at(&format!("{before}{result}"), drop - 1)?)));
             if let [Some(one), Some(other)] = left {
-                drawn
-                    .values
-                    .push((key("bearing.lubricant_state.start"), "given".to_string()));
-                drawn
-                    .values
-                    .extend([one, other].map(|(path, value)| (key(path), value.to_string())));
+                drawn.set(key("bearing.lubricant_state.start"), "given".to_string());
+                for (path, value) in [one, other] {
+                    drawn.set(key(path), value.to_string());
+                }
             }
         }
         drawn

@@ -191,9 +191,9 @@ impl Study {
         let drawn = |row: &usize| {
             let (at, input, end) = (row / 2 / known.len(), row / 2 % known.len(), row % 2);
             let mut drawn = self.drawn(deciding[at]);
-            drawn
-                .values
-                .extend(known[input].values[end].iter().cloned());
+            for (path, value) in known[input].values[end].iter().cloned() {
+                drawn.set(path, value);
+            }
             drawn
         };
         let drawn: Vec<super::Drawn> = rows.iter().map(drawn).collect();

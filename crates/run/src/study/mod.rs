@@ -89,6 +89,14 @@ pub struct Drawn {
     pub numbers: Vec<f64>,
 }
 
+impl Drawn {
+    /// Gives a path another value.
+    fn set(&mut self, path: String, value: String) {
+        self.values.retain(|(own, _)| *own != path);
+        self.values.push((path, value));
+    }
+}
+
 impl Study {
     /// Checks that the scenario can be run and has the results that are asked for.
     ///
