@@ -51,7 +51,9 @@ fn qualified(folder: &Path, out: &str, until: &str) -> (Directory, Qualified) {
     let wish = Wish {
         date: "2026-11-28",
         due: &|| false,
-        progress: &|stage, _, _| interrupt.store(stage == until, Ordering::Relaxed),
+        progress: &|stage, _, _| {
+            interrupt.fetch_or(stage == until, Ordering::Relaxed);
+        },
     };
     let qualified = directory.qualify(&options, &wish).unwrap();
     (directory, qualified)

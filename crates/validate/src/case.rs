@@ -17,6 +17,11 @@
 //! value = "2.518829e10 N/m^1.5"
 //! tolerance = 2e-7       # share of the value; or absolute with a unit: "0.2 us"
 //! reason = "seven printed digits"
+//!
+//! [[results]]            # what is known of one side alone
+//! quantity = "peak_shear"
+//! most = "1 GPa"         # or least
+//! reason = "no yield was seen"
 //! ```
 //!
 //! The kinds, their inputs and their quantities stand in [`kinds`]. Unknown keys, missing inputs and
@@ -59,8 +64,10 @@ struct Source {
 #[serde(deny_unknown_fields)]
 struct Expected {
     quantity: String,
-    value: Raw,
-    tolerance: Raw,
+    value: Option<Raw>,
+    tolerance: Option<Raw>,
+    least: Option<Raw>,
+    most: Option<Raw>,
     reason: String,
 }
 
@@ -103,37 +110,69 @@ fn read(text: &str, simulator: &dyn Simulator) -> Result<Vec<Row>, String> {
 
 fn row(expected: Expected, computed: &[Computed]) -> Result<Row, String> {
     let name = &expected.quantity;
-    let Some(ours) = computed.iter().find(|known| known.quantity == name) else {
-        let known: Vec<_> = computed.iter().map(|known| known.quantity).collect();
+    // where nothing was run there are no names
+    if let [
+        Computed {
+            quantity,
+            value: Err(why),
+            ..
+        },
+    ] = computed
+        && quantity.is_empty()
+    {
+        return Ok(Row::not_run(why.clone()).of(name.clone(), ""));
+    }
+    let Some(ours) = computed.iter().find(|known| known.quantity == *name) else {
+        let known: Vec<&str> = computed
+            .iter()
+            .map(|known| known.quantity.as_str())
+            .collect();
         return Err(format!(
             "results: quantity \"{name}\" is not known; this kind has {}",
             known.join(", ")
         ));
     };
-    let (reference, unit, factor) = amount(&expected.value, ours.dimension)
+    let given = [&expected.value, &expected.least, &expected.most];
+    let mut given = given.into_iter().flatten();
+    let (Some(bound), None) = (given.next(), given.next()) else {
+        return Err(format!(
+            "results of {name}: one of value, least and most is needed"
+        ));
+    };
+    let (reference, unit, factor) = amount(bound, ours.dimension)
         .map_err(|error| format!("results, value of {name}: {error}"))?;
-    let tolerance = match &expected.tolerance {
-        Raw::Number(share) => Tolerance::Relative(*share),
-        text => {
+    let value = match &ours.value {
+        Ok(value) => value / factor,
+        Err(why) => {
+            return Ok(Row {
+                reference: Some(reference),
+                ..Row::not_run(why.clone()).of(name.clone(), unit)
+            });
+        }
+    };
+    let tolerance = match (&expected.tolerance, &expected.value) {
+        (None, None) if expected.most.is_some() => Tolerance::Most,
+        (None, None) => Tolerance::Least,
+        (Some(Raw::Number(share)), Some(_)) => Tolerance::Relative(*share),
+        (Some(text), Some(_)) => {
             let (value, _, own) = amount(text, ours.dimension)
                 .map_err(|error| format!("results, tolerance of {name}: {error}"))?;
             Tolerance::Absolute(value * own / factor)
         }
+        _ => {
+            return Err(format!(
+                "results of {name}: tolerance belongs to a value, and a value has one"
+            ));
+        }
     };
-    Ok(match &ours.value {
-        Ok(value) => Row::compared(
-            name.clone(),
-            unit,
-            reference,
-            value / factor,
-            tolerance,
-            expected.reason,
-        ),
-        Err(why) => Row {
-            reference: Some(reference),
-            ..Row::not_run(why.clone()).of(name.clone(), unit)
-        },
-    })
+    Ok(Row::compared(
+        name.clone(),
+        unit,
+        reference,
+        value,
+        tolerance,
+        expected.reason,
+    ))
 }
 
 #[cfg(test)]

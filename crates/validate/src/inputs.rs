@@ -111,7 +111,7 @@ fn missing(key: &str) -> String {
 /// What a kind computed under one name.
 pub struct Computed {
     /// Name of the quantity.
-    pub quantity: &'static str,
+    pub quantity: String,
     /// Its dimension.
     pub dimension: Dimension,
     /// Its value in SI, or why it could not be computed.
@@ -143,7 +143,7 @@ pub(super) fn amount(raw: &Raw, dimension: Dimension) -> Result<(f64, String, f6
 
 pub(super) fn law(quantity: &'static str, dimension: Dimension, value: f64) -> Computed {
     Computed {
-        quantity,
+        quantity: quantity.to_string(),
         dimension,
         value: Ok(value),
     }

@@ -9,11 +9,12 @@
 //! | `skf_friction`, `palmgren_factors`, `oil_viscosity` | see `crates/validate/src/friction_kinds.rs` | |
 //! | `film_thickness` | see `crates/validate/src/film_kinds.rs` | |
 //! | `free_fall` | `clearance`, `gravity` | `time_to_first_contact` (simulated), `closed_form_time` |
+//! | `scenario` | see `crates/validate/src/scenario_kind.rs` | |
 //! | `elastic_bounce` | `mass`, `stiffness`, `clearance`, `gravity` | `peak_contact_force` (simulated), `closed_form_force` |
 
 use super::inputs::{Computed, Inputs, ball_on_race, law, length, positive, ratio};
 use super::simulator::{ElasticBounce, FreeFall, Simulator};
-use super::{film_kinds, friction_kinds};
+use super::{film_kinds, friction_kinds, scenario_kind};
 use crate::compare::told;
 use physics::hertz::{PointContact, maximum_pressure};
 use physics::kinematics::BallSet;
@@ -24,7 +25,7 @@ use physics::rolling::RollingSet;
 use units::Dimension;
 
 /// Names of all kinds.
-pub const NAMES: [&str; 10] = [
+pub const NAMES: [&str; 11] = [
     "hertz_point_contact",
     "bearing_kinematics",
     "rolling_moments",
@@ -35,6 +36,7 @@ pub const NAMES: [&str; 10] = [
     "film_thickness",
     "free_fall",
     "elastic_bounce",
+    "scenario",
 ];
 
 /// Computes a case; `None` for an unknown kind.
@@ -54,6 +56,7 @@ pub fn compute(
         "film_thickness" => film_kinds::film_thickness(inputs),
         "free_fall" => free_fall(inputs, simulator),
         "elastic_bounce" => elastic_bounce(inputs, simulator),
+        "scenario" => scenario_kind::scenario(inputs, simulator),
         _ => return Ok(None),
     }
     .map(Some)
@@ -171,7 +174,7 @@ fn free_fall(inputs: &mut Inputs, simulator: &dyn Simulator) -> Result<Vec<Compu
             (2.0 * case.clearance / case.gravity).sqrt(),
         ),
         Computed {
-            quantity: "time_to_first_contact",
+            quantity: "time_to_first_contact".to_string(),
             dimension: Dimension::TIME,
             value: simulator.free_fall(&case),
         },
@@ -197,7 +200,7 @@ fn elastic_bounce(inputs: &mut Inputs, simulator: &dyn Simulator) -> Result<Vec<
     Ok(vec![
         law("closed_form_force", Dimension::FORCE, force),
         Computed {
-            quantity: "peak_contact_force",
+            quantity: "peak_contact_force".to_string(),
             dimension: Dimension::FORCE,
             value: simulator.elastic_bounce(&case),
         },

@@ -25,6 +25,7 @@ mod machines;
 mod points;
 pub mod reference;
 mod rotors;
+mod scenario_kind;
 mod shipped;
 mod simulation;
 

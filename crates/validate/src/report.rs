@@ -36,6 +36,10 @@ pub enum Tolerance {
     Relative(f64),
     /// In the unit of the row.
     Absolute(f64),
+    /// On one side of the reference: not below it.
+    Least,
+    /// Not above it.
+    Most,
 }
 
 /// One quantity compared.
@@ -81,8 +85,14 @@ impl Row {
         };
         let deviation = (ours - reference).abs() / scale;
         let allowed = match tolerance {
-            Tolerance::Relative(share) => share,
-            Tolerance::Absolute(value) => value / scale,
+            Tolerance::Relative(share) => Some(share),
+            Tolerance::Absolute(value) => Some(value / scale),
+            Tolerance::Least | Tolerance::Most => None,
+        };
+        let holds = match tolerance {
+            Tolerance::Least => ours >= reference,
+            Tolerance::Most => ours <= reference,
+            _ => allowed.is_some_and(|allowed| deviation <= allowed),
         };
         Row {
             quantity: quantity.into(),
@@ -90,12 +100,8 @@ impl Row {
             reference: Some(reference),
             ours: Some(ours),
             deviation: Some(deviation),
-            tolerance: Some(allowed),
-            verdict: if deviation <= allowed {
-                Verdict::Pass
-            } else {
-                Verdict::Fail
-            },
+            tolerance: allowed,
+            verdict: if holds { Verdict::Pass } else { Verdict::Fail },
             ..Row::not_run(why)
         }
     }

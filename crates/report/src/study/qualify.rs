@@ -82,21 +82,22 @@ impl Directory {
         let done = self.finish(options)?;
         let table = table_of(&self.path, &self.study)?;
         let mut besides = Besides::default();
-        let mut complete = done.complete && !options.interrupt.load(Ordering::Relaxed);
+        let goes_on = || !options.interrupt.load(Ordering::Relaxed);
+        let mut complete = done.complete && goes_on();
         if complete {
             (besides.known, besides.ends) = self.ends(&table, options, wish)?;
             let asked = self.study.deciding(&table).len() * besides.known.len() * 2;
-            complete = besides.ends.members.len() == asked;
+            complete = besides.ends.members.len() == asked && goes_on();
         }
         if complete {
             (besides.rows, besides.drops) = self.drops(&table, options, wish)?;
             let asked: usize = besides.rows.iter().map(|row| row.drops).sum();
-            complete = besides.drops.members.len() == asked;
+            complete = besides.drops.members.len() == asked && goes_on();
         }
         if complete {
             besides.predicted = self.predicted(options, wish)?;
+            complete = goes_on();
         }
-        complete &= !options.interrupt.load(Ordering::Relaxed);
         let tally = self.document(&table, &besides, wish)?;
         let place = confirmed_path(&self.path);
         let confirmed = if place.exists() {
@@ -149,16 +150,12 @@ impl Directory {
         }
         let missing: Vec<usize> = (0..all).filter(|row| !kept.members.contains(row)).collect();
         let threads = options.threads.map_or_else(host::threads, bounded);
+        let told = |done: f64| (wish.progress)("runs with other inputs", done, all);
         for some in missing.chunks(A_THREAD * threads) {
             let done = kept.members.len() as f64;
+            told(done);
             let plan = Options {
-                progress: &|share| {
-                    (wish.progress)(
-                        "runs with other inputs",
-                        done + share * some.len() as f64,
-                        all,
-                    )
-                },
+                progress: &|share| told(done + share * some.len() as f64),
                 ..*options
             };
             kept.append(study.with_ends(&deciding, &known, some, &plan));
