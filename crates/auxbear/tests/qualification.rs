@@ -198,10 +198,26 @@ fn a_case_whose_event_never_comes_is_undecided() {
     let directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
     let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
     let verdicts: Vec<Verdict> = done.answer.ranking.iter().map(|one| one.verdict).collect();
-    let pass = Verdict::Pass;
-    assert_eq!(verdicts, [pass, Verdict::Undecided, pass, pass]);
-    let why = done.answer.ranking[1].open.as_deref().unwrap();
-    assert!(why.contains("AB2083"), "{why}");
+    let (pass, open) = (Verdict::Pass, Verdict::Undecided);
+    assert_eq!(verdicts, [open, open, pass, pass]);
+    let why = |case: usize| done.answer.ranking[case].open.as_deref().unwrap();
+    assert!(why(1).contains("AB2083"), "{}", why(1));
+    // the rotor has landed, and slips still when its run ends
+    assert!(why(0).starts_with("1 of 1 runs end before"), "{}", why(0));
+    let (folder, study) = study_of(
+        &machine(),
+        &format!("set = [\"run.duration=8 ms\"]\n{QUALIFIED}{FORCE}"),
+    )
+    .unwrap();
+    let directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
+    let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
+    let falling = &done.answer.ranking[0];
+    assert_eq!(falling.verdict, open);
+    assert!(
+        falling.open.as_deref().unwrap().contains("not landed"),
+        "{:?}",
+        falling.open
+    );
 
     let other = "set = [\"run.case=blade lost\"]\n[design]\nkind = \"monte carlo\"\nmembers = 2\n[[input]]\npath = \"contact.friction_coefficient\"\nlognormal = 0.1\n\
         [[limit]]\ncase = \"axis lost\"\nquantity = \"drive_end.contact_count\"\nmost = 0\n";

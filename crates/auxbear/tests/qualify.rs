@@ -237,6 +237,11 @@ fn what_a_document_cannot_be_is_refused() {
         ("drops = 3", "drops = 1", "case.drops"),
         ("why = \"no axial motion\"", "", "requirement.why"),
         (
+            "why = \"no axial motion\"",
+            "why = \" \"",
+            "requirement.why",
+        ),
+        (
             "[design]",
             "[[case]]\nname = \"power lost\"\n[design]",
             "each case once",

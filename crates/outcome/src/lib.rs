@@ -350,15 +350,15 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// How far the value that decides stays from the bound, as a share of the bound; of a bound of 0 in its unit. Negative beyond it; none
-    /// where it has no value.
+    /// How far the value that decides stays from the bound, as a share of the bound. Negative beyond it; none where it has no value or the
+    /// bound is 0.
     pub fn margin(&self) -> Option<f64> {
         let apart = match self.limit.side {
             scenario::Side::Most => self.limit.bound - self.value?,
             scenario::Side::Least => self.value? - self.limit.bound,
         };
-        let size = self.limit.bound.abs();
-        Some(if size > 0.0 { apart / size } else { apart })
+        let margin = apart / self.limit.bound.abs();
+        margin.is_finite().then_some(margin)
     }
 }
 

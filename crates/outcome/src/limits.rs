@@ -206,9 +206,11 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
 /// Unbalance angles from which on a run that saw no whirl says something.
 const ANGLES_FOR_WHIRL: usize = 8;
 const WHIRL: &str = "whirl_turns";
+/// The result that tells when slip of rotor and race ends.
+pub const SPIN_UP: &str = "inner_race_time_to_95_percent";
 
 /// Whether a name is that of such a result.
-pub(crate) fn is_of(name: &str, result: &str) -> bool {
+pub fn is_of(name: &str, result: &str) -> bool {
     name.rsplit('.').next() == Some(result)
 }
 
@@ -236,10 +238,9 @@ pub fn spin_up_times<'a>(
     limit: &Limit,
     known: &'a [Quantity],
 ) -> impl Iterator<Item = &'a Quantity> {
-    const TIME: &str = "inner_race_time_to_95_percent";
-    let name = limit.quantity.replace(WHIRL, TIME);
+    let name = limit.quantity.replace(WHIRL, SPIN_UP);
     let all = limit.forbids.is_some();
-    let asked = move |own: &&Quantity| own.name == name || all && is_of(&own.name, TIME);
+    let asked = move |own: &&Quantity| own.name == name || all && is_of(&own.name, SPIN_UP);
     known.iter().filter(asked)
 }
 
@@ -312,15 +313,21 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
     }
 }
 
+/// What a limit bounds of a value: turns of whirl have a sense, and at most so many is meant of either.
+pub fn sized(limit: &Limit, value: f64) -> f64 {
+    match limit.side == Side::Most && limit.bound >= 0.0 && is_of(&limit.quantity, WHIRL) {
+        true => value.abs(),
+        false => value,
+    }
+}
+
 /// Judges the values of all members, of which those not known are none; `why` says why they are not, or of the only one why it
 /// is infinite.
 pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &str) -> Judged {
     let members = values.len();
     let holds = |value: &f64| limit.side.holds(*value, limit.bound);
-    // turns of whirl have a sense: at most so many is meant of either
-    let both = limit.side == Side::Most && limit.bound >= 0.0 && is_of(&limit.quantity, WHIRL);
-    let sized = |value: f64| if both { value.abs() } else { value };
-    let known: Vec<f64> = values.iter().flatten().copied().map(sized).collect();
+    let known = values.iter().flatten();
+    let known: Vec<f64> = known.map(|value| sized(limit, *value)).collect();
     let hold = known.iter().filter(|value| holds(value)).count();
     let open = members - known.len();
     let late = known.iter().filter(|value| value.is_infinite()).count();

@@ -70,6 +70,25 @@ impl Resolved {
         let assumed = self.parts.iter().flat_map(|(_, assumed)| assumed);
         assumed.map(String::as_str)
     }
+    /// What is assumed of the parts of a flexible rotor: path, value and reason.
+    pub fn assumed_values_of_parts(&self) -> impl Iterator<Item = (&str, &str, &str)> {
+        let parts = self.parts.iter();
+        parts.flat_map(|(text, paths)| {
+            paths.iter().map(move |path| {
+                let key = path.rsplit('.').next().unwrap_or(path);
+                let mut lines = text.lines();
+                let line =
+                    lines.find_map(|line| line.strip_prefix(key)?.strip_prefix(" = { value = "));
+                let told = line.and_then(|line| line.split_once(", assumed = "));
+                let (value, why) = told.unwrap_or_default();
+                (
+                    path.as_str(),
+                    value.trim_matches('"'),
+                    why.trim_end_matches(" }").trim_matches('"'),
+                )
+            })
+        })
+    }
     /// The same with what results must hold, each limit as a file has it.
     pub fn limited(mut self, limits: Vec<String>) -> Resolved {
         self.limits = limits;

@@ -96,7 +96,7 @@ impl StudyDocument {
     /// # Errors
     /// Sections beside another design, and cases that are not run.
     pub(super) fn of(file: &str, sections: &Sections, cases: &[String]) -> Result<StudyDocument> {
-        let read = |name: &'static str, keys, written| {
+        let read = |name: &'static str, keys: &'static [Key], written| {
             let head = (name.to_string(), name);
             let table: Table = Table::read(file, head, keys, written, &[])?;
             if cases.is_empty() {
@@ -104,7 +104,16 @@ impl StudyDocument {
                 let allowed = "it is used only with [design] kind = \"qualification\"";
                 return table.refuse(Code::UnusedKey, "", found, allowed);
             }
-            Ok(table)
+            let mut texts = keys.iter().map(Key::name);
+            match texts.find(|key| table.text(key).is_some_and(|text| text.trim().is_empty())) {
+                None => Ok(table),
+                Some(key) => table.refuse(
+                    Code::UnknownWord,
+                    key,
+                    "a text without letters",
+                    "a text is needed",
+                ),
+            }
         };
         let known = |table: &Table, key: &str| match table.text(key) {
             Some(case) if !cases.iter().any(|known| known == case) => {
@@ -116,8 +125,11 @@ impl StudyDocument {
         };
         let text = |table: &Table, key: &str| table.text(key).map(str::to_string);
         let mut document = StudyDocument::default();
-        if let Some(written) = sections.all("document").first() {
+        for (k, written) in sections.all("document").iter().enumerate() {
             let table = read("document", HEAD, written)?;
+            if k > 0 {
+                return table.refuse(Code::Conflict, "", "a second [document]", "one is needed");
+            }
             document = StudyDocument {
                 machine: text(&table, "machine"),
                 author: text(&table, "author"),

@@ -64,9 +64,28 @@ pub(super) fn bound(judged: &Judged) -> String {
     format!("{} {bound}", judged.limit.side.word())
 }
 
-/// A number with its unit, or a dash.
+/// A number with its unit, or a dash; an instant that did not come is infinite.
 pub(super) fn known(value: Option<f64>, unit: &str) -> String {
-    value.map_or("–".to_string(), |value| amount(value, unit))
+    match value {
+        None => "–".to_string(),
+        Some(value) if value.is_infinite() => "after the end of the run".to_string(),
+        Some(value) => amount(value, unit),
+    }
+}
+
+/// The same as markup, which does not break between number and unit.
+pub(super) fn cell(value: Option<f64>, unit: &str) -> String {
+    plain(&known(value, unit)).replace(' ', "\u{a0}")
+}
+
+/// A share in percent.
+pub(super) fn percent(share: f64) -> String {
+    format!("{}\u{a0}%", short(100.0 * share))
+}
+
+/// A table of rows that are computed one by one.
+pub(super) fn table(head: &[&str], body: impl IntoIterator<Item = Vec<String>>) -> String {
+    rows(head, &body.into_iter().collect::<Vec<_>>())
 }
 
 /// A number with its unit, for people.

@@ -10,11 +10,14 @@ use super::document::Document;
 use super::{A_THREAD, Directory, Done, confirmed_path, headed, part, table_of, text_file};
 use crate::directory::{aside, io_error, page_run};
 use crate::history::{self, View};
+use crate::picture::orbit_svg;
 use outcome::host::{self, bounded};
 use problem::{Result, open_file};
 use run::Options;
+use run::study::answer::Answer;
 use run::study::in_a_row::InARow;
 use run::study::little_known::LittleKnown;
+use run::study::selection::Candidate;
 use run::study::table::{Column, Table};
 use sha2::{Digest, Sha256};
 use std::path::PathBuf;
@@ -58,6 +61,7 @@ struct Besides {
     rows: Vec<InARow>,
     drops: Table,
     predicted: Vec<Column>,
+    complete: bool,
 }
 
 impl Directory {
@@ -70,13 +74,11 @@ impl Directory {
         let members = self.study.members();
         let progress = |done: f64| (wish.progress)("runs", done, members);
         self.compute(options, &progress, &mut || match (wish.due)() {
-            true => self
-                .document(
-                    &table_of(&self.path, &self.study)?,
-                    &Besides::default(),
-                    wish,
-                )
-                .map(|_| ()),
+            true => {
+                let table = table_of(&self.path, &self.study)?;
+                self.document(&table, &Besides::default(), wish, options)
+                    .map(|_| ())
+            }
             false => Ok(()),
         })?;
         let done = self.finish(options)?;
@@ -98,7 +100,8 @@ impl Directory {
             besides.predicted = self.predicted(options, wish)?;
             complete = goes_on();
         }
-        let tally = self.document(&table, &besides, wish)?;
+        besides.complete = complete;
+        let tally = self.document(&table, &besides, wish, options)?;
         let place = confirmed_path(&self.path);
         let confirmed = if place.exists() {
             part::count(&place)?
@@ -223,27 +226,17 @@ impl Directory {
         aside(&place, |file| {
             history::write_table(file, "predicted", &views, Vec::new()).map_err(io_error)
         })?;
-        let head = columns
-            .iter()
-            .map(|own| format!("{} [{}]", own.name, own.unit));
-        let mut text = head.collect::<Vec<_>>().join(",") + "\n";
-        for row in 0..columns[0].values.len() {
-            let cells = columns.iter().map(|own| own.values[row]);
-            let cells = cells.map(|value| {
-                if value.is_finite() {
-                    value.to_string()
-                } else {
-                    String::new()
-                }
-            });
-            text.push_str(&(cells.collect::<Vec<_>>().join(",") + "\n"));
-        }
-        text_file(&self.path.join(PREDICTED), &text)?;
         Ok(columns)
     }
 
     /// Writes the document of what is there: requirements met, not met, not shown.
-    fn document(&self, table: &Table, besides: &Besides, wish: &Wish) -> Result<[usize; 3]> {
+    fn document(
+        &self,
+        table: &Table,
+        besides: &Besides,
+        wish: &Wish,
+        options: &Options,
+    ) -> Result<[usize; 3]> {
         let study = &self.study;
         let answer = study.answer(table);
         let scenario = study.file.scenario.resolved.toml();
@@ -262,13 +255,19 @@ impl Directory {
             .rotor_alone()
             .and_then(std::result::Result::ok);
         let rotor = alone.and_then(|alone| {
-            let outcome = run::run(&alone, &Options::unwatched(&never)).ok()?;
+            let mut outcome = run::run(&alone, &Options::unwatched(&never)).ok()?;
+            // a document is the same however long it took
+            outcome.work.seconds = 0.0;
             let page = page_run("rotor", &alone, &outcome).ok()?;
             Some((outcome, page))
         });
-        let owed = match besides.ends.members.is_empty() {
-            true => Vec::new(),
-            false => study.owed(table, &besides.known, &besides.ends),
+        let owed = match besides.complete {
+            true => study.owed(table, &besides.known, &besides.ends),
+            false => Vec::new(),
+        };
+        let worst_run = match besides.complete {
+            true => self.worst_run(&answer, options),
+            false => None,
         };
         let document = Document {
             study,
@@ -282,10 +281,56 @@ impl Directory {
             rotor: rotor.as_ref().map(|(outcome, page)| (outcome, page)),
             date: wish.date,
             hash: &hash,
-            complete: answer.members == answer.asked,
+            worst_run: worst_run
+                .as_ref()
+                .map(|(member, svg)| (*member, svg.as_str())),
+            complete: besides.complete,
         };
         text_file(&self.path.join(DOCUMENT), &document.html())?;
         text_file(&self.path.join(REQUIREMENTS), &document.json())?;
+        if !besides.predicted.is_empty() {
+            text_file(&self.path.join(PREDICTED), &csv(&besides.predicted))?;
+        }
         Ok(document.tally())
     }
+
+    /// The run nearest to a requirement, with its orbit, forces and speeds.
+    fn worst_run(&self, answer: &Answer, options: &Options) -> Option<(usize, String)> {
+        let all = answer.ranking.iter().filter_map(Candidate::nearest);
+        let (.., member) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let scenario = self.study.scenario(member).ok()?;
+        let quiet = Options {
+            progress: &|_| {},
+            ..*options
+        };
+        let outcome = run::run(&scenario, &quiet).ok()?;
+        let page = page_run("", &scenario, &outcome).ok()?;
+        Some((member, orbit_svg(&page)))
+    }
+}
+
+/// Columns as text: names with units in the first line, an empty cell where there is nothing.
+fn csv(columns: &[Column]) -> String {
+    let line = |cells: Vec<String>| cells.join(",") + "\n";
+    let mut text = line(
+        columns
+            .iter()
+            .map(|own| format!("{} [{}]", own.name, own.unit))
+            .collect(),
+    );
+    for row in 0..columns[0].values.len() {
+        let cells = columns.iter().map(|own| own.values[row]);
+        text.push_str(&line(
+            cells
+                .map(|value| {
+                    if value.is_finite() {
+                        value.to_string()
+                    } else {
+                        String::new()
+                    }
+                })
+                .collect(),
+        ));
+    }
+    text
 }

@@ -3,9 +3,9 @@
 use super::Study;
 use super::table::{Column, LATE, Table};
 use crate::Options;
-use outcome::Value;
 use outcome::forbidden::not_evaluated;
 use outcome::list::NOT_GIVEN;
+use outcome::{Value, limits};
 use scenario::Limit;
 
 /// What columns of results at design accuracy begin with.
@@ -92,7 +92,8 @@ impl Study {
                 // a member that ended as planned without a contact has none of its loads
                 let untouched = known.filter(|known| known.of_contacts).map(|_| 0.0);
                 let of = |(value, member): (Option<f64>, &usize)| {
-                    value.or(untouched.filter(|_| !table.failed.contains_key(member)))
+                    let untouched = untouched.filter(|_| !table.failed.contains_key(member));
+                    value.or(untouched).map(|value| limits::sized(limit, value))
                 };
                 values.zip(&table.members).map(of).collect()
             }

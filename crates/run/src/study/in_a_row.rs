@@ -46,11 +46,8 @@ impl Study {
         let of = |one: super::selection::Candidate| {
             let name = self.case_of(one.member)?;
             let drops = self.file.document.case(&name)?.drops;
-            let nearest = one.limits.iter().zip(&one.worst);
-            let nearest = nearest.filter_map(|(judged, worst)| Some((judged.margin()?, (*worst)?)));
-            let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
             (drops > 1).then(|| InARow {
-                member: nearest.map_or(one.member, |(_, member)| member),
+                member: one.nearest().map_or(one.member, |(.., member)| member),
                 values: one.values,
                 drops,
             })

@@ -70,6 +70,30 @@ impl LittleKnown {
     }
 }
 
+impl LittleKnown {
+    /// Half and double of a value of a part of the rotor.
+    fn of_part(path: String, given: &str, origin: String) -> Option<LittleKnown> {
+        let quantity = units::parse_quantity(given).ok()?;
+        let ends = [0.5, 2.0].map(|factor| factor * quantity.value_si);
+        let text = |value_si| {
+            units::Quantity {
+                value_si,
+                ..quantity.clone()
+            }
+            .to_string()
+        };
+        Some(LittleKnown {
+            values: ends.map(|end| vec![(path.clone(), text(end))]),
+            path,
+            given: given.to_string(),
+            ends,
+            unit: quantity.dimension.si_unit(),
+            origin,
+            drawn: false,
+        })
+    }
+}
+
 impl Study {
     /// What is merely assumed and not drawn: its path, value and reason; what the user marked comes first.
     pub fn assumed(&self) -> Vec<(String, String, String)> {
@@ -93,15 +117,10 @@ impl Study {
                 }
             }
             if by_user {
-                let parts = resolved
-                    .assumed_of_parts()
-                    .filter(|path| !drawn.iter().any(|own| own == path));
-                found.extend(parts.map(|path| {
-                    (
-                        path.to_string(),
-                        String::new(),
-                        "of a part of the rotor".to_string(),
-                    )
+                let parts = resolved.assumed_values_of_parts();
+                let parts = parts.filter(|(path, ..)| !drawn.iter().any(|own| own == path));
+                found.extend(parts.map(|(path, value, why)| {
+                    (path.to_string(), value.to_string(), why.to_string())
                 }));
             }
         }
@@ -133,23 +152,21 @@ impl Study {
             if !has_unit && !path.ends_with("coefficient") {
                 return None;
             }
+            let Some(_) = value else {
+                return LittleKnown::of_part(path, &given, reason);
+            };
             let vary = scenario.varied(&path, &deviation, Place::Whole).ok()?;
             let given = (!given.is_empty()).then_some(given);
             Some(LittleKnown::of(&vary, given, reason, false))
         };
         let possible = |own: &LittleKnown| {
             // of a zero there is no half
-            let mut ends = own
-                .values
-                .iter()
-                .filter(|_| own.ends[0] != own.ends[1])
-                .peekable();
-            ends.peek().is_some()
-                && ends.all(|values| {
-                    scenario
-                        .with(values)
-                        .is_ok_and(|scenario| crate::build(&scenario).is_ok())
-                })
+            let apart = own.ends[0] != own.ends[1];
+            apart
+                && own
+                    .values
+                    .iter()
+                    .all(|values| scenario.with(values).is_ok())
         };
         let assumed = self.assumed().into_iter().filter_map(scaled);
         let all = drawn.into_iter().chain(assumed);

@@ -4,6 +4,7 @@ use super::Study;
 use super::table::Column;
 use crate::Options;
 use outcome::{Spread, host};
+use scenario::CASE;
 use std::sync::atomic::Ordering;
 
 /// Rows of a predicted signal.
@@ -24,12 +25,37 @@ const MEASURED: [&str; 7] = [
 pub const BAND: [&str; 3] = [".5_percent", ".median", ".95_percent"];
 
 impl Study {
-    /// The first member of the case that is to be tested, at the first level of each input.
+    /// The first member of the case that is to be tested, at the levels that are the values of the scenario, else at the last ones.
     pub fn tested(&self) -> usize {
-        let wanted = self.file.document.test_case.as_ref();
-        let all = 0..self.members();
-        let of = |member: &usize| wanted.is_none() || self.case_of(*member).as_ref() == wanted;
-        all.clone().find(of).unwrap_or(0)
+        let wanted = self
+            .file
+            .document
+            .test_case
+            .clone()
+            .or_else(|| self.case_of(0));
+        let firsts = (0..self.members()).step_by(self.draws());
+        let of_case: Vec<usize> = firsts
+            .filter(|member| self.case_of(*member) == wanted)
+            .collect();
+        let scenario = &self.file.scenario.resolved;
+        let levels = || {
+            self.file
+                .inputs
+                .iter()
+                .filter(|input| input.levels > 0 && input.vary.path != CASE)
+        };
+        let as_given = |member: &&usize| {
+            let drawn = self.drawn(**member).values;
+            levels().all(|input| {
+                let level = drawn.iter().find(|(path, _)| *path == input.vary.path);
+                let given = scenario
+                    .get(&input.vary.path)
+                    .and_then(|value| value.text.as_ref());
+                level.map(|(_, text)| text) == given
+            })
+        };
+        let given = of_case.iter().find(as_given);
+        given.or(of_case.last()).copied().unwrap_or(0)
     }
 
     /// Time, then three columns a signal, over the draws of the tested case; nothing where this was interrupted or no draw ends as planned.

@@ -5,7 +5,7 @@
 //! hold their limits.
 
 use super::Study;
-use super::table::Table;
+use super::table::{LATE, Table};
 use outcome::limits;
 use outcome::{Judged, Verdict};
 use scenario::notes::NO_QUALIFICATION;
@@ -15,6 +15,8 @@ use statistics::random::below;
 
 /// Warnings of events that did not happen, and of a motion of the base that the run cuts off.
 const NEVER: [&str; 2] = ["AB2083", "AB2085"];
+/// Contacts of a bearing.
+const CONTACTS: &str = "contact_count";
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;
 /// Apart from the numbers of the design.
@@ -50,6 +52,14 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// The limit whose bound is nearest, as a share of it, or farthest exceeded, with that share and its member.
+    pub fn nearest(&self) -> Option<(&Judged, f64, usize)> {
+        let all = self.limits.iter().zip(&self.worst);
+        let known = all.filter(|(judged, _)| judged.limit.share >= 1.0);
+        let known = known.filter_map(|(judged, worst)| Some((judged, judged.margin()?, (*worst)?)));
+        known.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The limits that it does not hold.
     pub fn broken(&self) -> impl Iterator<Item = &Judged> {
         let limits = self.limits.iter();
@@ -152,7 +162,8 @@ impl Study {
                 .iter()
                 .zip(&values)
                 .filter_map(|(row, value)| Some((*row, (*value)?)));
-            let worst = known.max_by(|a, b| size(a.1).total_cmp(&size(b.1)));
+            // of equal ones the first
+            let worst = known.rev().max_by(|a, b| size(a.1).total_cmp(&size(b.1)));
             (judged, worst.map(|(row, _)| table.members[row]))
         });
         let (limits, worst): (Vec<Judged>, Vec<Option<usize>>) = judged.unzip();
@@ -197,6 +208,9 @@ impl Study {
         if unlimited {
             return Some("no limit is of this case".to_string());
         }
+        if let Some(why) = self.cut_short(rows, table) {
+            return Some(why);
+        }
         let mut never = NEVER.iter().filter_map(|code| {
             let warned = table.warned_of(&Forbidden::Code(code.to_string()));
             let some = rows.iter().filter(|row| warned[**row] == Some(1.0)).count();
@@ -204,6 +218,50 @@ impl Study {
                 .then(|| format!("what should happen did not in {some} of {draws} draws ({code})"))
         });
         never.next()
+    }
+
+    /// Why what follows a loss of all power is not in these runs: the rotor has not landed when they end, or slips still.
+    fn cut_short(&self, rows: &[usize], table: &Table) -> Option<String> {
+        let named = |last: &str| -> Vec<&str> {
+            let known = self.known.iter().map(|known| known.name.as_str());
+            known.filter(|name| limits::is_of(name, last)).collect()
+        };
+        let first = |last: &str| {
+            named(last)
+                .first()
+                .map_or(vec![None; table.members.len()], |name| table.values(name))
+        };
+        let (lost, held) = (first("power_lost_at"), first("relevitation_held"));
+        let all: Vec<(Vec<Option<f64>>, Vec<Option<f64>>)> = (named(CONTACTS).into_iter())
+            .map(|name| {
+                let late = format!("{LATE}{}", name.replace(CONTACTS, limits::SPIN_UP));
+                (table.values(name), table.values(&late))
+            })
+            .collect();
+        let released = |row: &&usize| lost[**row].is_some() && held[**row].is_none();
+        let rows: Vec<usize> = rows.iter().filter(released).copied().collect();
+        let touched = |row: usize| {
+            all.iter()
+                .filter(move |(contacts, _)| contacts[row] > Some(0.0))
+        };
+        let falls = rows
+            .iter()
+            .filter(|row| touched(**row).count() == 0)
+            .count();
+        let slips = rows
+            .iter()
+            .filter(|row| touched(**row).any(|(_, late)| late[**row].is_some()))
+            .count();
+        let of = rows.len();
+        match (falls, slips) {
+            (0, 0) => None,
+            (0, _) => Some(format!(
+                "{slips} of {of} runs end before the inner races reach 95 % of the speed"
+            )),
+            _ => Some(format!(
+                "the rotor has not landed when {falls} of {of} runs end"
+            )),
+        }
     }
 
     /// How often each candidate that holds its limits comes first when the draws are drawn with repetition.

@@ -3,89 +3,106 @@
 
 use super::{Document, note, of_values, paragraph, words};
 use crate::page::escape_text as plain;
-use crate::study::cells::{amount, known, marked, rows, short};
-use outcome::{Severity, Verdict};
+use crate::study::cells::{cell, marked, percent, short, table};
+use outcome::Severity;
 use run::study::Study;
 use run::study::failure_modes::{FAILURE_MODES, FailureMode};
+use run::study::in_a_row::InARow;
 use run::study::little_known::Owed;
+use run::study::selection::Candidate;
+use scenario::Limit;
 use statistics::share::wilson;
 
 /// Values of assumptions that were not tried, at most.
 const MOST_ASSUMED: usize = 40;
 
 impl Document<'_> {
-    /// How each failure mode is excluded: the worst of its results, the requirement that bounds it, and runs that warn of it.
+    /// How each failure mode is excluded: the worst of its results, the requirements that bound it in every case, and runs that warn of it.
     pub(super) fn failure_modes(&self) -> String {
         let requirements = self.requirements();
         let row = |mode: &FailureMode| {
             let worst = self.study.worst_of(mode, self.table);
-            let bounded = requirements.iter().enumerate().filter(|(_, one)| {
-                let forbidden = mode
+            let bounds = |limit: &Limit| {
+                let forbids = mode
                     .warnings
                     .iter()
-                    .any(|code| one.limit.quantity.ends_with(code));
-                forbidden
-                    || worst
-                        .iter()
-                        .any(|own| same_result(&one.limit.quantity, &own.result.name))
-            });
+                    .any(|code| limit.quantity.ends_with(code));
+                limit.case.is_none()
+                    && (forbids || worst.iter().any(|own| own.result.name == limit.quantity))
+            };
+            let bounded = requirements
+                .iter()
+                .enumerate()
+                .filter(|(_, one)| bounds(one.limit));
             let bounded: Vec<String> = bounded
                 .map(|(k, one)| format!("R{} {}", k + 1, super::shown(one.verdict)))
                 .collect();
             let values = worst.iter().map(|own| {
-                let value = plain(&known(own.value, own.result.unit)).replace(' ', "\u{a0}");
                 let member = own
                     .member
                     .map_or(String::new(), |member| format!(" (run {member})"));
-                format!("{} {value}{member}", words(&own.result.name))
+                format!(
+                    "{} {}{member}",
+                    words(&own.result.name),
+                    cell(own.value, own.result.unit)
+                )
             });
             let values: Vec<String> = values.collect();
+            let or = |list: Vec<String>, none: &str| match list.is_empty() {
+                true => none.to_string(),
+                false => list.join("<br>"),
+            };
             vec![
                 mode.name.to_string(),
-                if values.is_empty() {
-                    "no result".to_string()
-                } else {
-                    values.join("<br>")
-                },
-                match bounded.is_empty() {
-                    true => "<b class=\"open\">no requirement</b>".to_string(),
-                    false => bounded.join("<br>"),
-                },
+                or(values, "no result"),
+                or(bounded, "<b class=\"open\">no requirement</b>"),
                 self.share_of(mode),
             ]
         };
-        let body: Vec<Vec<String>> = FAILURE_MODES.iter().map(row).collect();
         format!(
             "{}{}",
-            rows(
+            table(
                 &[
                     "failure mode",
                     "worst value of all runs",
-                    "bounded by",
-                    "runs that warn of it"
+                    "bounded in every case by",
+                    "warnings: most often in a case at a level"
                 ],
-                &body
+                FAILURE_MODES.iter().map(row)
             ),
             note(
-                "A failure mode that no requirement bounds is not excluded by this document, whatever its value. The list is not complete by any standard."
+                "A failure mode that no requirement bounds is not excluded by this document, whatever its value. Shares have their 95 % interval. The list is not complete by any standard."
             )
         )
     }
 
-    /// Shares of the runs that warn of a failure mode, with their 95 % interval.
+    /// Where a failure mode is warned of most often, with the 95 % interval of that share.
     fn share_of(&self, mode: &FailureMode) -> String {
-        let all = self.table.members.len();
         let warned = self.table.warned();
-        let own = mode.warnings.iter().filter_map(|code| {
-            let found = warned.iter().find(|own| own.code == *code)?;
-            let [low, high] = wilson(found.members, all).map(|share| short(100.0 * share));
-            let share = short(100.0 * found.members as f64 / all.max(1) as f64);
-            Some(format!(
-                "<code>{code}</code> {}: {share}\u{a0}% ({low} to {high}\u{a0}%)",
-                plain(&found.title)
-            ))
-        });
-        let mut told: Vec<String> = own.collect();
+        let of = |code: &str, one: &Candidate| {
+            let rows = self.table.members.iter().enumerate();
+            let own = rows.filter(|(_, member)| {
+                (one.member..one.member + self.study.draws()).contains(member)
+            });
+            let column = self.table.column(&format!("warning.{code}"));
+            own.filter(|(row, _)| column.is_some_and(|column| !column.values[*row].is_nan()))
+                .count()
+        };
+        let mut told: Vec<String> = Vec::new();
+        for code in mode.warnings {
+            let Some(found) = warned.iter().find(|own| own.code == **code) else {
+                continue;
+            };
+            let most = self.answer.ranking.iter().max_by_key(|one| of(code, one));
+            let Some(one) = most else { continue };
+            let (count, all) = (of(code, one), one.draws[0]);
+            let [low, high] = wilson(count, all).map(percent);
+            told.push(format!(
+                "<code>{code}</code> {}: {count} of {all} runs ({low} to {high}) of {}",
+                plain(&found.title),
+                of_values(&one.values)
+            ));
+        }
         let rotor = self
             .rotor
             .into_iter()
@@ -99,7 +116,7 @@ impl Document<'_> {
             )
         }));
         match told.is_empty() {
-            true => "none".to_string(),
+            true => format!("none of {} runs", self.table.members.len()),
             false => told.join("<br>"),
         }
     }
@@ -107,31 +124,25 @@ impl Document<'_> {
     pub(super) fn simulation(&self) -> String {
         let file = &self.study.file;
         let resolved = &file.scenario.resolved;
-        let of = |path: &str| {
-            resolved
-                .get(path)
-                .and_then(|value| value.text.clone())
-                .unwrap_or_default()
-        };
-        let design = file.confirm > 0;
+        let of = |path: &str| resolved.get(path).and_then(|value| value.text.clone());
+        let of = |path: &str| plain(&of(path).unwrap_or_default());
         let residual = self
             .results_of("residual")
             .flat_map(|own| self.values_of(own));
         let residual = residual.map(f64::abs).reduce(f64::max);
+        let confirmed = match file.confirm {
+            0 => String::new(),
+            count => format!(
+                "The {count} nearest to each limit were run again at design accuracy, which decides; what verdicts owe to inputs, drops in a row and predicted signals are at {}. ",
+                of("run.accuracy")
+            ),
+        };
         let mut out = paragraph(&format!(
-            "{} runs of {} each at {} accuracy{}, seed {}. Every ball, the races, the cage, the mounts and the bending rotor are integrated together; laws, sources and ranges \
-             of validity stand with each result in the page of a run. {}",
+            "{} runs of {} each at {} accuracy, seed {}. {confirmed}Every ball, the races, the cage, the mounts and the bending rotor are integrated together; laws, sources and \
+             ranges of validity stand with each result in the page of a run, and what the program was compared with in its book (Validation, Published tests). {}",
             self.answer.members,
-            plain(&of("run.duration")),
-            plain(&of("run.accuracy")),
-            if design {
-                format!(
-                    ", of which the {} nearest to each limit were run again at design accuracy, which decides",
-                    file.confirm
-                )
-            } else {
-                String::new()
-            },
+            of("run.duration"),
+            of("run.accuracy"),
             file.seed,
             residual.map_or(String::new(), |value| format!(
                 "Largest residual of the energy ledger: {} of what is turned over.",
@@ -142,26 +153,15 @@ impl Document<'_> {
             "Impacts are chaotic: a single late value of a single run means little, so requirements are judged over draws, and by the worst of them. Limits of the model: \
              motion is planar (no axial drop, no tilt of the rings); dents do not change later motion; lubricant and surface are those of the inputs.",
         ));
-        out.push_str("<h3>What the runs warn of</h3>\n");
         let all = self.table.members.len();
-        let warned = self
-            .table
-            .warned()
-            .into_iter()
-            .filter(|own| own.severity() < Severity::Note);
-        let body: Vec<Vec<String>> = warned
-            .map(|own| {
-                vec![
-                    own.severity().word().to_string(),
-                    format!("<code>{}</code> {}", plain(&own.code), plain(&own.title)),
-                    own.share(all),
-                ]
-            })
-            .collect();
-        match body.is_empty() {
-            true => out.push_str(&paragraph("Nothing.")),
-            false => out.push_str(&rows(&["severity", "warning", "runs"], &body)),
-        }
+        let warned = self.table.warned().into_iter();
+        let warned = warned.filter(|own| own.severity() < Severity::Note);
+        let body = warned.map(|own| {
+            let code = format!("<code>{}</code> {}", plain(&own.code), plain(&own.title));
+            vec![own.severity().word().to_string(), code, own.share(all)]
+        });
+        out.push_str("<h3>What the runs warn of</h3>\n");
+        out.push_str(&table(&["severity", "warning", "runs"], body));
         out.push_str(&self.assumptions());
         out
     }
@@ -169,39 +169,27 @@ impl Document<'_> {
     /// Inputs that are little known by their effect on the requirements, then what is assumed and was not tried.
     fn assumptions(&self) -> String {
         let limits = &self.study.file.limits;
+        // what an input takes of the margin; where a run failed all of it
         let effect = |owed: &Owed, input: usize| -> Option<f64> {
+            let limit = &limits[owed.limit];
             let value = owed.value?;
+            let margin = (limit.bound - value).abs();
             let apart = owed.ends[input]
                 .iter()
-                .flatten()
-                .map(|end| (end - value).abs());
-            // of a bound of 0 as a share of the value
-            let size = Some(limits[owed.limit].bound.abs()).filter(|bound| *bound > 0.0);
-            let size = size.unwrap_or(value.abs());
-            Some(apart.reduce(f64::max)? / size).filter(|effect| effect.is_finite())
+                .map(|end| end.map_or(margin, |end| (end - value).abs()));
+            Some(apart.fold(0.0, f64::max) / margin)
+                .filter(|share| share.is_finite() && limit.bound != 0.0)
         };
-        let mut ranked: Vec<(usize, f64)> = (0..self.known.len())
-            .map(|input| {
-                (
-                    input,
-                    self.owed
-                        .iter()
-                        .filter_map(|owed| effect(owed, input))
-                        .fold(0.0, f64::max),
-                )
-            })
-            .collect();
+        let of = |input: usize| {
+            let all = self.owed.iter().filter_map(|owed| effect(owed, input));
+            (input, all.fold(0.0, f64::max))
+        };
+        let mut ranked: Vec<(usize, f64)> = (0..self.known.len()).map(of).collect();
         ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
         let mut out = "<h3>Assumptions by their effect, and what each verdict owes to them</h3>\n"
             .to_string();
-        if self.known.is_empty() {
-            out.push_str(&paragraph(
-                "Nothing is drawn or assumed that could be tried at a low and a high value.",
-            ));
-        } else if self.owed.is_empty() {
-            out.push_str(&paragraph(
-                "Not computed yet: every member has to run first.",
-            ));
+        if self.owed.is_empty() {
+            out.push_str(&paragraph("Not computed yet, or nothing is drawn or assumed that could be tried at a low and a high value."));
         } else {
             let body = ranked.iter().map(|(input, effect)| {
                 let own = &self.known[*input];
@@ -213,88 +201,73 @@ impl Document<'_> {
                 vec![
                     format!("<code>{}</code>", plain(&own.path)),
                     plain(&own.given),
-                    own.ends
-                        .map(|end| plain(&amount(end, &own.unit)).replace(' ', "\u{a0}"))
-                        .join(" / "),
+                    own.ends.map(|end| cell(Some(end), &own.unit)).join(" / "),
                     format!("{kind}{}", plain(&own.origin)),
-                    format!("{}\u{a0}%", short(100.0 * effect)),
+                    percent(*effect),
                 ]
             });
-            let head = [
-                "input",
-                "as given",
-                "low / high",
-                "origin",
-                "largest effect on a requirement",
-            ];
-            out.push_str(&rows(&head, &body.collect::<Vec<_>>()));
+            out.push_str(&table(
+                &[
+                    "input",
+                    "as given",
+                    "low / high",
+                    "origin",
+                    "most that it takes of a margin",
+                ],
+                body,
+            ));
             out.push_str(&self.owed_table(&ranked));
         }
         let tried = |path: &str| self.known.iter().any(|own| own.path == path);
         let assumed = self.study.assumed();
         let rest: Vec<_> = assumed.iter().filter(|(path, ..)| !tried(path)).collect();
         if !rest.is_empty() {
-            let named = rest.iter().take(MOST_ASSUMED);
-            let body = named.map(|(path, value, why)| {
+            let body = rest.iter().take(MOST_ASSUMED).map(|(path, value, why)| {
                 vec![
                     format!("<code>{}</code>", plain(path)),
                     plain(value),
                     plain(why),
                 ]
             });
-            let body: Vec<Vec<String>> = body.collect();
-            out.push_str(&format!(
-                "<h3>Assumed, and their effect not tried: {}</h3>\n",
-                rest.len()
-            ));
-            out.push_str(&format!(
-                "<div class=\"fine\">{}</div>",
-                rows(&["input", "value", "why"], &body)
-            ));
+            let listed = table(&["input", "value", "why"], body);
+            let count = rest.len();
+            out.push_str(&format!("<h3>Assumed, and their effect not tried: {count}</h3>\n<div class=\"fine\">{listed}</div>"));
         }
         out
     }
 
     /// The worst value of each requirement with each input at its low and at its high value.
     fn owed_table(&self, ranked: &[(usize, f64)]) -> String {
-        let limits = &self.study.file.limits;
-        let unit = |limit: usize| {
-            let judged = self.answer.ranking.iter().flat_map(|one| &one.limits);
-            judged
-                .clone()
-                .find(|judged| judged.limit == limits[limit])
-                .map_or("", |judged| judged.unit)
-        };
         let body = self.owed.iter().map(|owed| {
-            let limit = &limits[owed.limit];
+            let limit = &self.study.file.limits[owed.limit];
             let value = |value: Option<f64>| match value {
-                None => "failed".to_string(),
-                Some(value) => {
-                    let text = plain(&amount(value, unit(owed.limit))).replace(' ', "\u{a0}");
-                    match limit.side.holds(value, limit.bound) {
-                        true => text,
-                        false => format!("<b class=\"failed\">{text}</b>"),
-                    }
+                Some(value) if limit.side.holds(value, limit.bound) => {
+                    cell(Some(value), self.unit_of(limit))
                 }
+                Some(value) => format!(
+                    "<b class=\"failed\">{}</b>",
+                    cell(Some(value), self.unit_of(limit))
+                ),
+                None => "<b class=\"failed\">does not run</b>".to_string(),
             };
-            let mut row = vec![
-                format!("R{} (run {})", owed.limit + 1, owed.member),
-                value(owed.value),
-            ];
-            row.extend(
-                ranked
-                    .iter()
-                    .map(|(input, _)| owed.ends[*input].map(value).join(" / ")),
-            );
-            row
+            let first = format!("R{} (run {})", owed.limit + 1, owed.member);
+            let ends = ranked
+                .iter()
+                .map(|(input, _)| owed.ends[*input].map(value).join(" / "));
+            [first, value(owed.value)].into_iter().chain(ends).collect()
         });
-        let mut head = vec!["worst run".to_string(), "as drawn".to_string()];
-        let inputs = ranked.iter().map(|(input, _)| &self.known[*input].path);
-        head.extend(inputs.map(|path| path.replace(['_', '.'], " ")));
+        let inputs = ranked
+            .iter()
+            .map(|(input, _)| self.known[*input].path.replace(['_', '.'], " "));
+        let head: Vec<String> = ["worst run", "as drawn"]
+            .map(str::to_string)
+            .into_iter()
+            .chain(inputs)
+            .collect();
         let head: Vec<&str> = head.iter().map(String::as_str).collect();
         format!(
             "{}{}",
-            rows(&head, &body.collect::<Vec<_>>()),
+            table(&head, body),
             note(
                 "The run nearest to a requirement, or the farthest beyond it, again with one input at its low / high value and all others as it drew them; what breaks the bound is \
                  red. Of what is drawn these are the values that 5 % of the draws fall below and exceed, of what is merely assumed half and double."
@@ -302,148 +275,141 @@ impl Document<'_> {
         )
     }
 
+    /// Values of a limit in the drops of a row, in their order; none of those that did not run.
+    pub(super) fn of_row(&self, k: usize, row: &InARow, limit: &Limit) -> Vec<Option<f64>> {
+        let values = self.study.limited(self.drops, limit);
+        let place = |drop| {
+            self.drops
+                .members
+                .binary_search(&Study::drop_of_row(k, drop))
+                .ok()
+        };
+        (0..row.drops)
+            .map(|drop| place(drop).and_then(|at| values[at]))
+            .collect()
+    }
+
     /// Drops in a row: what wear leaves, and what requirements say of each.
-    pub(super) fn in_a_row(&self) -> String {
+    fn in_a_row(&self) -> String {
+        let asked = self
+            .study
+            .file
+            .document
+            .cases
+            .iter()
+            .any(|case| case.drops > 1);
         if self.rows.is_empty() {
-            return paragraph(
-                "No case asks for drops in a row (<code>[[case]] drops = 10</code>): every run begins as new.",
-            );
+            return paragraph(match asked {
+                true => "<b class=\"open\">Not computed yet.</b>",
+                false => {
+                    "No case asks for drops in a row (<code>[[case]] drops = 10</code>): every run begins as new."
+                }
+            });
         }
         let mut out = String::new();
         for (k, row) in self.rows.iter().enumerate() {
-            let places: Vec<Option<usize>> = (0..row.drops)
-                .map(|drop| {
-                    self.drops
-                        .members
-                        .binary_search(&Study::drop_of_row(k, drop))
-                        .ok()
-                })
-                .collect();
-            let done = places.iter().flatten().count();
-            let case = row
-                .values
-                .iter()
-                .find(|(path, _)| path == scenario::CASE)
-                .map(|(_, name)| name);
             let limits = self.study.file.limits.iter();
-            let limits: Vec<_> = limits
-                .filter(|limit| limit.case.is_none() || limit.case.as_ref() == case)
-                .collect();
-            let names = self
+            let limits = limits.filter(|limit| {
+                limit.case.is_none() || limit.case == self.study.case_of(row.member)
+            });
+            let ends = |values: &[Option<f64>], unit: &str| {
+                [values.first(), values.last()].map(|end| cell(end.copied().flatten(), unit))
+            };
+            let bounded = limits.map(|limit| {
+                let values = self.of_row(k, row, limit);
+                let [first, last] = ends(&values, self.unit_of(limit));
+                let broken = values
+                    .iter()
+                    .flatten()
+                    .filter(|value| !limit.side.holds(**value, limit.bound))
+                    .count();
+                let told = format!("{broken} of {} beyond", values.iter().flatten().count());
+                let told = if broken > 0 {
+                    format!("<b class=\"failed\">{told}</b>")
+                } else {
+                    told
+                };
+                vec![self.requirement_words(limit, None), first, last, told]
+            });
+            let added = self
                 .study
                 .known
                 .iter()
                 .filter(|own| own.words_in("added_up").is_some());
-            let sums = names.map(|own| {
+            let added = added.map(|own| {
                 let values = self.drops.values(&own.name);
+                let place = |drop| {
+                    self.drops
+                        .members
+                        .binary_search(&Study::drop_of_row(k, drop))
+                        .ok()
+                };
                 let own_values: Vec<Option<f64>> =
-                    places.iter().map(|place| values[(*place)?]).collect();
-                (own, own_values)
-            });
-            let number =
-                |value: Option<f64>, unit: &str| plain(&known(value, unit)).replace(' ', "\u{a0}");
-            let mut body: Vec<Vec<String>> = limits
-                .iter()
-                .map(|limit| {
-                    let unit = self
-                        .study
-                        .known
-                        .iter()
-                        .find(|own| own.name == limit.quantity)
-                        .map_or("", |own| own.unit);
-                    let values = self.study.limited(self.drops, limit);
-                    let of = |place: &Option<usize>| place.and_then(|place| values[place]);
-                    let all: Vec<Option<f64>> = places.iter().map(of).collect();
-                    let broken = all
-                        .iter()
-                        .flatten()
-                        .filter(|value| !limit.side.holds(**value, limit.bound))
-                        .count();
-                    let known = all.iter().flatten().count();
-                    let verdict = match (broken, known == row.drops) {
-                        (0, true) => Verdict::Pass,
-                        (0, false) => Verdict::Undecided,
-                        _ => Verdict::Fail,
-                    };
-                    let end = |value: Option<&Option<f64>>| number(value.copied().flatten(), unit);
-                    vec![
-                        self.requirement_words(limit, None),
-                        end(all.first()),
-                        end(all.last()),
-                        format!("{} ({broken} of {known} beyond)", marked(verdict)),
-                    ]
-                })
-                .collect();
-            body.extend(sums.map(|(own, values)| {
-                let first = number(values.first().copied().flatten(), own.unit);
-                let last = number(values.last().copied().flatten(), own.unit);
-                let sum = values.iter().copied().sum::<Option<f64>>();
+                    (0..row.drops).map(|drop| values[place(drop)?]).collect();
+                let [first, last] = ends(&own_values, own.unit);
+                let sum = own_values.iter().copied().sum::<Option<f64>>();
                 vec![
                     words(&own.name),
                     first,
                     last,
-                    format!("sum {}", number(sum, own.unit)),
+                    format!("sum {}", cell(sum, own.unit)),
                 ]
-            }));
+            });
             out.push_str(&format!(
-                "<h3>{}: {done} of {} drops</h3>\n",
+                "<h3>{}: {} drops</h3>\n",
                 of_values(&row.values),
                 row.drops
             ));
-            out.push_str(&rows(&["result", "drop 1", "last drop", "of all"], &body));
+            out.push_str(&table(
+                &["result", "drop 1", "last drop", "of all"],
+                bounded.chain(added),
+            ));
         }
         out.push_str(&note(
             "Drop 1 is the run nearest to a requirement. Each later one has the radial clearance widened by the wear of those before (where <code>contact.surface.wear_coefficient</code> is given), \
-             the grease as they left it, and another angle of the unbalance. Dents do not change later motion in this model.",
+             the grease as they left it, and another angle of the unbalance. Dents do not change later motion in this model. That no drop is beyond a bound shows nothing more than that.",
         ));
         out
     }
 
     /// Each case at each level with its verdict.
     pub(super) fn verdicts(&self) -> String {
-        let all = &self.answer.ranking;
-        let body = all.iter().map(|one| {
-            let broken: Vec<String> = (one.broken())
-                .map(|judged| {
-                    format!(
-                        "{} {}",
-                        marked(judged.verdict),
-                        self.requirement_words(&judged.limit, Some(judged))
-                    )
-                })
-                .collect();
-            let mut why = broken.join("<br>");
-            for text in one
+        let body = self.answer.ranking.iter().map(|one| {
+            let broken = one.broken().map(|judged| {
+                format!(
+                    "{} {}",
+                    marked(judged.verdict),
+                    self.requirement_words(&judged.limit, Some(judged))
+                )
+            });
+            let why = one
                 .open
                 .iter()
-                .chain(one.why.iter().filter(|_| one.draws[1] > 0))
-            {
-                why.push_str(&format!("<br>{}", plain(text)));
-            }
-            let nearest = one.limits.iter().zip(&one.worst);
-            let nearest =
-                nearest.filter_map(|(judged, worst)| Some((judged.margin()?, judged, (*worst)?)));
-            let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
+                .chain(one.why.iter().filter(|_| one.draws[1] > 0));
+            let told: Vec<String> = broken.chain(why.map(|text| plain(text))).collect();
+            let nearest = one
+                .nearest()
+                .map_or("–".to_string(), |(judged, margin, member)| {
+                    format!(
+                        "{}: {} (run {member})",
+                        words(&judged.limit.quantity),
+                        percent(margin)
+                    )
+                });
             vec![
                 of_values(&one.values),
                 marked(one.verdict),
                 one.draws[0].to_string(),
-                nearest.map_or("–".to_string(), |(margin, judged, member)| {
-                    format!(
-                        "{}: {}\u{a0}% (run {member})",
-                        words(&judged.limit.quantity),
-                        short(100.0 * margin)
-                    )
-                }),
-                why.trim_start_matches("<br>").to_string(),
+                nearest,
+                told.join("<br>"),
             ]
         });
-        let body: Vec<Vec<String>> = body.collect();
-        let draws = all.iter().map(|one| one.draws[0]).min().unwrap_or(0).max(1);
-        let rare = short(100.0 * (1.0 - 0.05f64.powf(1.0 / draws as f64)));
+        let figure = self.worst_run.map_or(String::new(), |(member, svg)| {
+            format!("<figure>{svg}<figcaption><span>Run {member}, the nearest to a requirement or the farthest beyond.</span></figcaption></figure>\n")
+        });
         format!(
-            "{}{}<h3>Drops in a row</h3>\n{}",
-            rows(
+            "{}{}{figure}<h3>Drops in a row</h3>\n{}",
+            table(
                 &[
                     "case",
                     "verdict",
@@ -451,17 +417,12 @@ impl Document<'_> {
                     "nearest limit and its margin",
                     "not held, or not decided"
                 ],
-                &body
+                body
             ),
-            note(&format!(
-                "That {draws} draws hold a limit leaves room for up to {rare} % that do not (95 % confidence). A run is shown in full by <code>auxbear study FILE --member N</code>."
-            )),
+            note(
+                "A run is shown in full by <code>auxbear study FILE --member N</code>, at the accuracy of the study."
+            ),
             self.in_a_row()
         )
     }
-}
-
-/// Whether a limit is of a result, whichever bearing or node has it.
-fn same_result(limit: &str, name: &str) -> bool {
-    limit.rsplit('.').next() == name.rsplit('.').next()
 }

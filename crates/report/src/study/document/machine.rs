@@ -178,7 +178,7 @@ impl Document<'_> {
             "{}{}",
             rows(&head, &body),
             paragraph(&format!(
-                "Each case runs{levels}, with {} draws of what is not certain; all cases meet the same draws. Faults that no case names are not shown.",
+                "Each case runs{levels}, with {} draws of what is not certain; all cases meet the same draws. Other faults, and speeds between the levels, are not shown.",
                 self.study.draws()
             ))
         )

@@ -13,7 +13,7 @@ mod findings;
 mod machine;
 mod test;
 
-use super::cells::{amount, bound, rows, short};
+use super::cells::{bound, cell, percent, rows, short};
 use super::summary::values_json;
 use crate::page::{self, PageRun, escape_text as plain};
 use outcome::{Judged, Outcome, Severity, Verdict};
@@ -24,7 +24,7 @@ use run::study::in_a_row::InARow;
 use run::study::little_known::{LittleKnown, Owed};
 use run::study::selection::Candidate;
 use run::study::table::{Column, Table};
-use scenario::{CASE, Forbidden, Limit};
+use scenario::{CASE, Forbidden, Limit, Side};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -50,7 +50,9 @@ pub(super) struct Document<'a> {
     pub date: &'a str,
     /// Hash of study and scenario.
     pub hash: &'a str,
-    /// Whether every member has run.
+    /// The run nearest to a requirement, with its picture.
+    pub worst_run: Option<(usize, &'a str)>,
+    /// Whether every member has run, and all that is computed besides.
     pub complete: bool,
 }
 
@@ -161,25 +163,50 @@ impl Document<'_> {
         });
         let all: Vec<_> = judged.collect();
         let any = |verdict| all.iter().find(|(_, judged, _)| judged.verdict == verdict);
-        let lacking = all
+        // what is missing says more than what is not known for lack of it
+        let open = all
             .iter()
-            .find(|(one, ..)| one.open.is_some() || one.draws[1] > 0);
-        let named = |one: &Candidate, why: &str| format!("{}: {why}", of_values(&one.values));
-        let (verdict, why) = match (any(Verdict::Fail), any(Verdict::Undecided), lacking) {
-            _ if all.is_empty() => (Verdict::Undecided, "no case was judged by it".to_string()),
-            (Some((one, judged, _)), ..) => (Verdict::Fail, named(one, &plain(&judged.why))),
-            (_, Some((one, judged, _)), _) => (Verdict::Undecided, named(one, &plain(&judged.why))),
-            (.., Some((one, ..))) => {
-                let failed = format!("{} of {} draws failed", one.draws[1], one.draws[0]);
-                let why = one.open.clone().unwrap_or(failed);
-                (Verdict::Undecided, named(one, &plain(&why)))
-            }
-            _ => (Verdict::Pass, String::new()),
+            .find_map(|(one, ..)| Some((one, one.open.clone()?)));
+        let failed = all.iter().find(|(one, ..)| one.draws[1] > 0);
+        let failed = failed.map(|(one, ..)| {
+            (
+                one,
+                format!("{} of {} draws failed", one.draws[1], one.draws[0]),
+            )
+        });
+        let undecided = any(Verdict::Undecided).map(|(one, judged, _)| (one, judged.why.clone()));
+        let named = |(one, why): (&&Candidate, String)| {
+            format!("{}: {}", of_values(&one.values), plain(&why))
         };
-        let margin = |judged: &Judged| judged.margin().unwrap_or(f64::INFINITY);
+        let rows = self.rows.iter().enumerate();
+        let rows = rows.filter(|(_, row)| {
+            limit.case.is_none() || limit.case == self.study.case_of(row.member)
+        });
+        let in_a_row = rows.clone().find_map(|(k, row)| {
+            let values = self.of_row(k, row, limit);
+            let broken = values.iter().position(|value| {
+                value.is_some_and(|value| !limit.side.holds(value, limit.bound))
+            })?;
+            Some(format!(
+                "{}: drop {} in a row",
+                of_values(&row.values),
+                broken + 1
+            ))
+        });
+        let (verdict, why) = match (any(Verdict::Fail), open.or(failed).or(undecided)) {
+            _ if all.is_empty() => (Verdict::Undecided, "no case was judged by it".to_string()),
+            (Some((one, judged, _)), _) => (Verdict::Fail, named((one, judged.why.clone()))),
+            (None, _) if in_a_row.is_some() => (Verdict::Fail, in_a_row.unwrap_or_default()),
+            (None, Some(lacking)) => (Verdict::Undecided, named(lacking)),
+            (None, None) => (Verdict::Pass, String::new()),
+        };
+        let side = |judged: &Judged| match limit.side {
+            Side::Most => judged.value.map_or(f64::INFINITY, |value| -value),
+            Side::Least => judged.value.unwrap_or(f64::INFINITY),
+        };
         let worst = all
             .into_iter()
-            .min_by(|a, b| margin(a.1).total_cmp(&margin(b.1)));
+            .min_by(|a, b| side(a.1).total_cmp(&side(b.1)));
         Requirement {
             limit,
             worst,
@@ -227,26 +254,52 @@ impl Document<'_> {
             ("Revision", given(&document.revision)),
             ("Date", plain(self.date)),
             ("Program", format!("auxbear {}", env!("CARGO_PKG_VERSION"))),
-            ("Inputs (SHA-256)", format!("<code>{}</code>", self.hash)),
-            ("Reviewed by", missing.clone()),
+            (
+                "Inputs",
+                format!(
+                    "SHA-256 of <code>study.toml</code> and <code>scenario.toml</code> beside this document: <code>{}</code>",
+                    self.hash
+                ),
+            ),
+            ("Reviewed, date", missing.clone()),
+            ("Approved, date", missing.clone()),
         ];
         let facts: String = facts
             .iter()
             .map(|(head, text)| format!("<tr><th>{head}</th><td>{text}</td></tr>\n"))
             .collect();
         let _ = write!(out, "<table class=\"facts\">{facts}</table>\n");
+        let weak = (0..requirements.len()).filter(|k| {
+            requirements[*k].verdict == Verdict::Pass && !self.breaks_with(*k).is_empty()
+        });
+        let weak = match weak.count() {
+            0 => String::new(),
+            count => {
+                format!(" {count} of those met are broken with an input at its low or high value.")
+            }
+        };
+        let draws = self
+            .answer
+            .ranking
+            .iter()
+            .map(|one| one.draws[0])
+            .min()
+            .unwrap_or(0)
+            .max(1);
+        let rare = percent(1.0 - 0.05f64.powf(1.0 / draws as f64));
+        let interim = match self.complete {
+            true => String::new(),
+            false => format!(
+                "<br><b>Interim: {} of {} runs, and not all that is computed besides.</b>",
+                self.answer.members, self.answer.asked
+            ),
+        };
         let _ = writeln!(
             out,
-            "<div class=\"tally {}\"><b>{met} of {} requirements met, {not} not met, {open} not shown.</b>{}</div>",
-            if not > 0 { "bad" } else { "" },
+            "<div class=\"tally {}\"><b>{met} of {} requirements met, {not} not met, {open} not shown.</b>{weak} {draws} draws of each case at each level that all hold leave room for up to \
+             {rare} of such runs that do not (95 % confidence).{interim}</div>",
+            if not > 0 || !self.complete { "bad" } else { "" },
             met + not + open,
-            match self.complete {
-                true => String::new(),
-                false => format!(
-                    " Interim: {} of {} runs are there.",
-                    self.answer.members, self.answer.asked
-                ),
-            }
         );
         out.push_str(&self.gravest());
         out.push_str(&self.first_table(&requirements));
@@ -285,33 +338,34 @@ impl Document<'_> {
 
     fn first_table(&self, requirements: &[Requirement]) -> String {
         let row = |(k, one): (usize, &Requirement)| {
-            let unit = one.worst.map_or("", |(_, judged, _)| judged.unit);
             let judged = one.worst.map(|(_, judged, _)| judged);
-            let value = judged.and_then(|judged| judged.value);
-            let margin =
-                judged
-                    .and_then(Judged::margin)
-                    .map(|margin| match one.limit.bound == 0.0 {
-                        true => plain(&amount(margin, unit)),
-                        false => format!("{} %", short(100.0 * margin)),
-                    });
-            let place = one.worst.map_or("–".to_string(), |(candidate, _, member)| {
-                let member = member.map_or(String::new(), |member| format!(", run {member}"));
-                format!("{}{member}", of_values(&candidate.values))
-            });
+            let margin = judged
+                .and_then(Judged::margin)
+                .map_or("–".to_string(), percent);
+            let place = one
+                .worst
+                .map_or("–".to_string(), |(candidate, judged, member)| {
+                    // of a share the run farthest beyond is not the one that decides
+                    let member = member.filter(|_| judged.limit.share >= 1.0);
+                    let member = member.map_or(String::new(), |member| format!(", run {member}"));
+                    format!("{}{member}", of_values(&candidate.values))
+                });
+            let why = match one.verdict {
+                Verdict::Undecided => one.why.clone(),
+                Verdict::Fail if one.why.ends_with("in a row") => one.why.clone(),
+                Verdict::Fail => place,
+                Verdict::Pass => format!("{place}{}", self.breaks_with(k)),
+            };
             vec![
                 format!("R{}", k + 1),
                 self.requirement_words(one.limit, judged),
                 shown(one.verdict),
-                value.map_or("–".to_string(), |value| {
-                    plain(&amount(value, unit)).replace(' ', "\u{a0}")
-                }),
-                margin.unwrap_or("–".to_string()).replace(' ', "\u{a0}"),
-                match one.verdict {
-                    Verdict::Undecided => one.why.clone(),
-                    Verdict::Fail => place,
-                    Verdict::Pass => format!("{place}{}", self.breaks_with(k)),
-                },
+                cell(
+                    judged.and_then(|judged| judged.value),
+                    self.unit_of(one.limit),
+                ),
+                margin,
+                why,
             ]
         };
         let mut body: Vec<Vec<String>> = requirements.iter().enumerate().map(row).collect();
@@ -350,7 +404,8 @@ impl Document<'_> {
                 let known = &self.known[input];
                 let both = ends.into_iter().zip(known.ends);
                 let broken = both.filter(|(value, _)| {
-                    value.is_some_and(|value| !one.limit.side.holds(value, one.limit.bound))
+                    owed.is_some()
+                        && value.is_none_or(|value| !one.limit.side.holds(value, one.limit.bound))
                 });
                 let at: Vec<f64> = broken.map(|(_, end)| end).collect();
                 (!at.is_empty()).then(|| json!({"input": known.path, "at": at, "unit": known.unit}))
@@ -362,12 +417,13 @@ impl Document<'_> {
                 "bound": one.limit.bound,
                 "unit": judged.map(|judged| judged.unit),
                 "case": one.limit.case,
+                "share": one.limit.share,
                 "source": one.limit.source,
                 "verdict": verdict_word(one.verdict),
                 "worst_value": judged.and_then(|judged| judged.value),
                 "margin": judged.and_then(Judged::margin),
                 "worst_case": one.worst.map(|(candidate, ..)| values_json(&candidate.values)),
-                "member": one.worst.and_then(|(.., member)| member),
+                "member": one.worst.and_then(|(.., member)| member).filter(|_| one.limit.share >= 1.0),
                 "why": one.why,
                 "broken_with": (0..self.known.len()).filter_map(breaks).collect::<Vec<_>>(),
             })
@@ -389,7 +445,7 @@ impl Document<'_> {
         format!("{all:#}\n")
     }
 
-    /// The little known inputs that break a requirement at their low or high value, though every run holds it.
+    /// The little known inputs that break a requirement at their low or high value, or with which its run does not run, though every run holds it.
     fn breaks_with(&self, limit: usize) -> String {
         let owed = self.owed.iter().find(|owed| owed.limit == limit);
         let of = &self.study.file.limits[limit];
@@ -399,14 +455,16 @@ impl Document<'_> {
         let ends = ends
             .flat_map(|(values, known)| values.iter().zip(known.ends).map(move |own| (own, known)));
         let broken = ends.filter_map(|((value, end), known)| {
-            let value = (*value)?;
-            let at = plain(&amount(end, &known.unit));
-            (!of.side.holds(value, of.bound)).then(|| {
-                format!(
-                    "<br><b class=\"failed\">broken with {} of {at}</b>",
-                    words(&known.path)
-                )
-            })
+            let told = match value {
+                Some(value) if of.side.holds(*value, of.bound) => return None,
+                Some(_) => "broken",
+                None => "does not run",
+            };
+            Some(format!(
+                "<br><b class=\"failed\">{told} with {} of {}</b>",
+                words(&known.path),
+                cell(Some(end), &known.unit)
+            ))
         });
         broken.collect()
     }
@@ -460,6 +518,16 @@ impl Document<'_> {
             .map(|(k, (text, source))| vec![format!("R{}", k + 1), text, source])
             .collect();
         rows(&["", "requirement", "source of its number"], &body)
+    }
+
+    /// SI unit of what a limit bounds.
+    pub(super) fn unit_of(&self, limit: &Limit) -> &'static str {
+        let known = self
+            .study
+            .known
+            .iter()
+            .find(|own| own.name == limit.quantity);
+        known.map_or("", |own| own.unit)
     }
 
     /// The values of a case and its levels, those of the tested case where they are asked for.

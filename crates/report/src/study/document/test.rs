@@ -4,7 +4,7 @@ use super::{Document, figure, note, paragraph, words};
 use crate::page::escape_text as plain;
 use crate::picture::Panel;
 use crate::study::bars::{WIDTH, picture, room};
-use crate::study::cells::{amount, known, rows, scaled, short};
+use crate::study::cells::{amount, cell, scaled, short, table};
 use outcome::Spread;
 use run::study::failure_modes::CloseClearances;
 use run::study::predicted::BAND;
@@ -25,15 +25,19 @@ impl Document<'_> {
 
     pub(super) fn test_plan(&self) -> String {
         let (case, member) = self.tested();
-        let document = &self.study.file.document;
-        let name = self.study.case_of(member).unwrap_or_default();
-        let drops = document.case(&name).map_or(1, |own| own.drops);
+        let name = self.study.case_of(member);
+        let said = name
+            .as_ref()
+            .and_then(|name| self.study.file.document.case(name));
+        let drops = match said.map_or(1, |own| own.drops) {
+            1 => "one drop".to_string(),
+            several => format!("{several} drops"),
+        };
         let bends = self
             .results_of("bending")
-            .flat_map(|own| self.values_of(own))
-            .reduce(f64::max);
-        let speed = self.predicted_speed();
-        let fastest = (10.0 * speed).max(3.0 * bends.unwrap_or(0.0)) / TAU;
+            .flat_map(|own| self.values_of(own));
+        let bends = bends.fold(0.0, f64::max);
+        let fastest = (10.0 * self.predicted_speed()).max(3.0 * bends) / TAU;
         let bandwidth = match fastest > 0.0 {
             true => format!(
                 " of {} Hz or more (ten times the speed, three times the first bending mode)",
@@ -41,21 +45,11 @@ impl Document<'_> {
             ),
             false => String::new(),
         };
-        let shown = self.requirements();
-        let abort: Vec<String> = shown
-            .iter()
-            .enumerate()
-            .map(|(k, one)| {
-                format!("R{}", k + 1)
-                    + if one.limit.forbids.is_some() {
-                        " (by its signals)"
-                    } else {
-                        ""
-                    }
-            })
-            .collect();
+        let limits = self.study.file.limits.iter().enumerate();
+        let here = limits.filter(|(_, limit)| limit.case.is_none() || limit.case == name);
+        let abort: Vec<String> = here.map(|(k, _)| format!("R{}", k + 1)).collect();
         let items = [
-            ("condition", format!("{}: {drops} drops, each with speed, temperature and clearance noted before it", case)),
+            ("condition", format!("{case}: {drops}, with speed, temperature and clearance noted before each")),
             ("before", "clearance check (lift the rotor, read the sensors), run-down by hand, zero of every sensor with the rotor levitated".to_string()),
             ("displacement", format!("x and y at each auxiliary bearing and close clearance, with a bandwidth{bandwidth}")),
             ("speeds", "rotor: one mark a turn or more; inner races and cages where they can be seen: section 9 tells how quickly they come to speed".to_string()),
@@ -64,11 +58,10 @@ impl Document<'_> {
             ("stop when", format!("a bound is passed ({}), a signal leaves its band of section 9 for good, or backward whirl lasts", abort.join(", "))),
             ("between drops", "clearance check against section 12 (drops in a row); turn by hand; look at both landing surfaces after the first and the last drop".to_string()),
         ];
-        let body: Vec<Vec<String>> = items
-            .iter()
-            .map(|(head, text)| vec![head.to_string(), text.clone()])
-            .collect();
-        rows(&["", "planned test"], &body)
+        table(
+            &["", "planned test"],
+            items.map(|(head, text)| vec![head.to_string(), text]),
+        )
     }
 
     /// Largest speed of the rotor in the test, rad/s; 0 before the signals were computed.
@@ -105,7 +98,8 @@ impl Document<'_> {
     pub(super) fn monitoring(&self) -> String {
         let (case, first) = self.tested();
         let tested = first..first + self.study.draws();
-        let own: Vec<usize> = (self.table.members.iter().enumerate())
+        let rows = self.table.members.iter().enumerate();
+        let own: Vec<usize> = rows
             .filter(|(_, member)| tested.contains(member))
             .map(|(row, _)| row)
             .collect();
@@ -117,25 +111,26 @@ impl Document<'_> {
             .filter_map(|result| {
                 let values = self.table.values(&result.name);
                 let values: Vec<f64> = own.iter().filter_map(|row| values[*row]).collect();
-                let known = values.len();
-                let spread = Spread::of(values)?;
                 // the others have it later, or not at all
-                let of = match known < own.len() {
+                let of = match values.len() < own.len() {
                     true => format!(
-                        " <b class=\"open\">(the {known} of {} draws that have it)</b>",
+                        " <b class=\"open\">(the {} of {} draws that have it)</b>",
+                        values.len(),
                         own.len()
                     ),
                     false => String::new(),
                 };
-                let mut row = vec![format!("{}{of}", words(&result.name))];
-                row.extend(
-                    spread
-                        .quantiles
-                        .map(|value| plain(&amount(value, result.unit)).replace(' ', "\u{a0}")),
-                );
-                Some(row)
+                let spread = Spread::of(values)?
+                    .quantiles
+                    .map(|value| cell(Some(value), result.unit));
+                Some(
+                    [
+                        vec![format!("{}{of}", words(&result.name))],
+                        spread.to_vec(),
+                    ]
+                    .concat(),
+                )
             });
-        let body: Vec<Vec<String>> = body.collect();
         format!(
             "{}{}{}",
             paragraph(
@@ -143,9 +138,9 @@ impl Document<'_> {
                  Compare drop n with drop 1: a longer spin-up or spin-down, a larger clearance or a band that is left means another bearing than the one of this document. \
                  Replace the bearings when the sum of a result of section 12 comes to its bound, or the clearance check leaves what a requirement needs."
             ),
-            rows(
+            table(
                 &[&format!("drop 1 of: {case}"), "5 %", "median", "95 %"],
-                &body
+                body
             ),
             note(
                 "Results of the first drop of the test over its draws; each has its law, source and range of validity in the page of a run."
@@ -157,28 +152,37 @@ impl Document<'_> {
         let Some(asked) = self.rotor.and_then(|(rotor, _)| CloseClearances::of(rotor)) else {
             return paragraph("<b class=\"open\">Not shown</b>: the rotor was not analysed.");
         };
-        let rpm = |speed: f64| known(Some(speed), "rad/s");
-        let body = self.results_of("clearance").map(|own| {
-            let least = self.values_of(own).reduce(f64::min);
-            vec![
-                words(&own.name),
-                plain(&known(least, own.unit)).replace(' ', "\u{a0}"),
-            ]
-        });
-        let body: Vec<Vec<String>> = body.collect();
-        let table = match body.is_empty() {
+        // where it lands is no close clearance
+        let resolved = &self.study.file.scenario.resolved.values;
+        let landing = resolved
+            .iter()
+            .filter(|value| value.path == "contact.node")
+            .filter_map(|value| value.text.as_deref());
+        let landing: Vec<&str> = landing.collect();
+        let nodes = self
+            .results_of("clearance")
+            .filter(|own| !own.name.split('.').any(|part| landing.contains(&part)));
+        let body: Vec<Vec<String>> = nodes
+            .map(|own| {
+                vec![
+                    words(&own.name),
+                    cell(self.values_of(own).reduce(f64::min), own.unit),
+                ]
+            })
+            .collect();
+        let close = match body.is_empty() {
             true => paragraph(
                 "No node has a <code>clearance</code>: distances to seals and stators are not shown.",
             ),
-            false => rows(&["close clearance", "least over all runs"], &body),
+            false => table(&["close clearance", "least over all runs"], body),
         };
         format!(
-            "{}{table}{}",
+            "{}{close}{}",
             paragraph(&format!(
                 "At the rated speed of {} API 617 (9th edition) allows a vibration of {} peak to peak; clearances are checked with an unbalance of {}.",
-                plain(&rpm(asked.speed)),
-                plain(&amount(asked.vibration, "m")),
-                plain(&amount(asked.unbalance, "kg m"))
+                cell(Some(asked.speed), "rad/s"),
+                cell(Some(asked.vibration), "m"),
+                cell(Some(asked.unbalance), "kg m")
             )),
             note(
                 "These numbers were quoted second hand; the text of the standard was not at hand."
