@@ -47,11 +47,26 @@ pub fn pages(repository: &Repository) -> Outcome {
     quiet((command.args(words.split(' '))).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
-/// Every crate that is published can be packed: its manifest says what a registry asks for.
+/// Every crate that is published can be packed: its manifest says what a registry asks for, and the texts of its licences are with it.
 pub fn packages(repository: &Repository) -> Outcome {
     let but = "--exclude auxbear-python --exclude xtask";
     let words = format!("package --quiet --workspace {but} --no-verify --allow-dirty");
-    done(repository, &words)
+    let mut outcome = done(repository, &words);
+    let manifests = repository.below("", "/Cargo.toml");
+    let published = manifests.filter(|file| {
+        let text = repository.text(file).unwrap_or_default();
+        text.contains("publish.workspace = true")
+    });
+    for manifest in published {
+        for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
+            let file = manifest.replace("Cargo.toml", licence);
+            if repository.text(&file) != repository.text(licence) {
+                let finding = format!("{file}: is not a link to {licence}, which is packed");
+                outcome.findings.push(finding);
+            }
+        }
+    }
+    outcome
 }
 
 /// The examples inside the documentation compile and run.

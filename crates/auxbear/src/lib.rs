@@ -115,6 +115,7 @@
 //! | `files` | scenarios are texts; measurements and rotors of other programs are not read |
 //! | `parallel` | one thread does everything, with the same numbers, and nobody measures the time |
 //! | `report` | no run directories, pages and exports |
+//! | `uff`, `wav` | no measurements of these formats |
 //! | `xlsx` | no workbooks |
 //!
 //! Without any of them nothing asks for a file, a thread, a clock or the environment.

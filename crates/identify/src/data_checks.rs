@@ -32,18 +32,23 @@ pub struct CheckSettings {
 
 /// One doubt.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Doubt {
+pub struct Doubt {
+    /// Name of the test that it is about; none where it is about all.
+    pub test: Option<String>,
+    /// What is doubted.
+    pub finding: Finding,
+}
+
+/// What is doubted of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
     /// A bearing that would drive: the reading has the wrong sign.
     Reversed {
-        /// Name of the test.
-        test: String,
         /// Mean torque along the rotation at steady speed, N m.
         moment: Uncertain,
     },
     /// A torque that no bearing of this size has: the reading has the wrong unit.
     WrongUnit {
-        /// Name of the test.
-        test: String,
         /// Mean torque along the rotation at steady speed, N m.
         moment: f64,
         /// What the law has there from its least to its largest, N m.
@@ -51,8 +56,6 @@ pub enum Doubt {
     },
     /// A test never reaches the speed at which it is to be analysed.
     NeverReaches {
-        /// Name of the test.
-        test: String,
         /// Its fastest speed, rad/s.
         reached: f64,
         /// The speed that is wanted, rad/s.
@@ -60,8 +63,6 @@ pub enum Doubt {
     },
     /// The speed of a test leaves the curve of the steady moment.
     OutsideMoment {
-        /// Name of the test.
-        test: String,
         /// Part of its time while turning, 1.
         part: f64,
         /// Part of its time above the speeds of the curve by 3 % and more, 1.
@@ -71,8 +72,6 @@ pub enum Doubt {
     },
     /// The settled torque is not that of the slow tests: another bearing, load, temperature or state of the lubricant.
     ForeignSteadyMoment {
-        /// Name of the test.
-        test: String,
         /// Speed, rad/s.
         speed: f64,
         /// Settled torque minus M, N m.
@@ -82,8 +81,6 @@ pub enum Doubt {
     },
     /// The slow tests were at another load.
     LoadOfSteadyMoment {
-        /// Name of the test.
-        test: String,
         /// Its load, N.
         load: f64,
         /// Load of the steady moment, N.
@@ -96,8 +93,6 @@ pub enum Doubt {
     },
     /// The cage settles at another ratio than rolling, as it would if the balls had been counted wrongly.
     WrongBallCount {
-        /// Name of the test.
-        test: String,
         /// Balls that the signal was made with.
         stated: u32,
         /// Count that would make it roll.
@@ -107,15 +102,11 @@ pub enum Doubt {
     },
     /// The cage settles at a ratio that neither rolling nor another count explains.
     CageNeverRolls {
-        /// Name of the test.
-        test: String,
         /// Measured ω_c over that of rolling, 1.
         ratio: Uncertain,
     },
     /// The rise of temperature can explain the whole difference to M by viscosity.
     TemperatureExplains {
-        /// Name of the test.
-        test: String,
         /// Rise from the start, K.
         rise: f64,
         /// Change of the torque that is expected of it, from the least to the largest, N m.
@@ -125,8 +116,6 @@ pub enum Doubt {
     },
     /// The torque still changes at the end of the steady speed.
     NotSettled {
-        /// Name of the test.
-        test: String,
         /// Change from the last but one to the last quarter of the hold, N m.
         change: Uncertain,
         /// Between the middles of both, s.
@@ -134,8 +123,6 @@ pub enum Doubt {
     },
     /// The record is too short.
     TooShort {
-        /// Name of the test.
-        test: String,
         /// Duration of the steady speed after the spin-up, s.
         lasts: f64,
         /// Duration that is needed, s.
@@ -173,38 +160,40 @@ pub fn doubts(
         return Ok(found);
     };
     if tests.iter().any(|test| !same_load(test.load, first.load)) {
-        found.push(Doubt::MixedLoads {
-            loads: tests.iter().map(|t| (t.name.clone(), t.load)).collect(),
+        let loads = tests.iter().map(|t| (t.name.clone(), t.load)).collect();
+        found.push(Doubt {
+            test: None,
+            finding: Finding::MixedLoads { loads },
         });
     }
     for test in tests {
+        let mut own = Vec::new();
         let top = test.fastest();
         if let Some(wanted) = settings.wanted_speed
             && top < wanted.abs()
         {
-            found.push(Doubt::NeverReaches {
-                test: test.name.clone(),
+            own.push(Finding::NeverReaches {
                 reached: top,
                 wanted: wanted.abs(),
             });
         }
         if let Some(steady) = steady {
             if !same_load(test.load, steady.load) {
-                found.push(Doubt::LoadOfSteadyMoment {
-                    test: test.name.clone(),
+                own.push(Finding::LoadOfSteadyMoment {
                     load: test.load,
                     steady_load: steady.load,
                 });
             }
-            outside(test, steady, &mut found);
+            outside(test, steady, &mut own);
         }
-        cage(test, set, settings, &mut found);
-        hold(test, steady, settings, &mut found);
+        cage(test, set, settings, &mut own);
+        hold(test, steady, settings, &mut own);
+        found.extend(own.into_iter().map(|finding| Doubt::of(test, finding)));
     }
     Ok(found)
 }
 
-fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
+fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Finding>) {
     let top = test.fastest();
     // by time: rows lie closer where the speed bends
     let turning: Vec<(f64, f64)> = (test.speed.iter().zip(trapezoid(&test.time)))
@@ -221,8 +210,7 @@ fn outside(test: &Measurement, steady: &SteadyMoment, found: &mut Vec<Doubt>) {
     let above = share(&|speed| speed > ABOVE * high);
     // a spin-up through the lowest speeds is not worth a word
     if part > 0.02 {
-        found.push(Doubt::OutsideMoment {
-            test: test.name.clone(),
+        found.push(Finding::OutsideMoment {
             part,
             above,
             range: (low, high),
@@ -235,7 +223,7 @@ fn cage(
     test: &Measurement,
     set: &RollingSet<f64>,
     settings: &CheckSettings,
-    found: &mut Vec<Doubt>,
+    found: &mut Vec<Finding>,
 ) {
     let (start, end) = held(test);
     let middle = 0.5 * (start + end);
@@ -257,8 +245,7 @@ fn cage(
         let fits = (ratio.value * f64::from(stated)).round();
         let target = fits / f64::from(stated);
         if (1.0..1000.0).contains(&fits) && fits != f64::from(stated) && !apart(target, 0.0) {
-            found.push(Doubt::WrongBallCount {
-                test: test.name.clone(),
+            found.push(Finding::WrongBallCount {
                 stated,
                 fits: fits as u32,
                 ratio,
@@ -266,10 +253,7 @@ fn cage(
             return;
         }
     }
-    found.push(Doubt::CageNeverRolls {
-        test: test.name.clone(),
-        ratio,
-    });
+    found.push(Finding::CageNeverRolls { ratio });
 }
 
 /// Speed of the cage over that of a rolling one between two times, s: the median where the shaft turns fast and without quick
@@ -320,7 +304,7 @@ fn hold(
     test: &Measurement,
     steady: Option<&SteadyMoment>,
     settings: &CheckSettings,
-    found: &mut Vec<Doubt>,
+    found: &mut Vec<Finding>,
 ) {
     if spin_up_window(test).is_err() {
         return;
@@ -328,8 +312,7 @@ fn hold(
     let (start, end) = held(test);
     let lasts = end - start;
     if lasts < SHORTEST_HOLD {
-        found.push(Doubt::TooShort {
-            test: test.name.clone(),
+        found.push(Finding::TooShort {
             lasts,
             needed: SHORTEST_HOLD,
         });
@@ -341,8 +324,7 @@ fn hold(
     };
     let change = Uncertain::new(last.0 - before.0, last.1.hypot(before.1));
     if change.value.abs() > APART * change.deviation {
-        found.push(Doubt::NotSettled {
-            test: test.name.clone(),
+        found.push(Finding::NotSettled {
             change,
             over: quarter,
         });
@@ -365,8 +347,7 @@ fn hold(
     if difference.value.abs() <= APART * difference.deviation {
         return;
     }
-    found.push(Doubt::ForeignSteadyMoment {
-        test: test.name.clone(),
+    found.push(Finding::ForeignSteadyMoment {
         speed,
         difference,
         ratio: last.0 / moment.value,
@@ -387,8 +368,7 @@ fn hold(
     let same_way = difference.value * (expected.0 + expected.1) > 0.0;
     let most = expected.0.abs().max(expected.1.abs());
     if same_way && most >= difference.value.abs() - 2.0 * difference.deviation {
-        found.push(Doubt::TemperatureExplains {
-            test: test.name.clone(),
+        found.push(Finding::TemperatureExplains {
             rise,
             expected,
             difference,

@@ -4,7 +4,7 @@ use crate::Real;
 
 /// Constants written for one machine that can be gathered from one machine per lane.
 ///
-/// Derived by [`constants!`](crate::constants) for structs. Enums implement it by hand: all lanes share the variant.
+/// Derived by [`constants!`](crate::constants) for structs and by [`variants!`](crate::variants) for enums.
 pub trait Gather<R: Real> {
     /// The same constants over `R`.
     type Out;
@@ -95,6 +95,25 @@ macro_rules! constants {
             type Out = $Name<R>;
             fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> $Name<R> where Self: 'a {
                 $Name { $( $field: $crate::Gather::<R>::gather(&|lane| &machine(lane).$field) ),* }
+            }
+        }
+    };
+}
+
+/// [`Gather`] of an enum of constants, each variant of which holds one value or, named first, none: all lanes share the variant.
+#[macro_export]
+macro_rules! variants {
+    ($Name:ident, $what:literal: $($Empty:ident)?; $($Variant:ident),+) => {
+        impl<R: $crate::Real> $crate::Gather<R> for $Name<f64> {
+            type Out = $Name<R>;
+            fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> $Name<R> where Self: 'a {
+                match machine(0) {
+                    $($Name::$Empty => $Name::$Empty,)?
+                    $($Name::$Variant(_) => $Name::$Variant($crate::Gather::<R>::gather(&|lane| match machine(lane) {
+                        $Name::$Variant(own) => own,
+                        _ => panic!(concat!("lanes share the ", $what)),
+                    }))),+
+                }
             }
         }
     };

@@ -1,10 +1,10 @@
 //! Forward derivatives.
 
+use crate::operators::operators;
 use crate::scalar::group_of_one;
 #[cfg(target_arch = "x86_64")]
 use crate::{Level, x86};
 use crate::{Real, Vectorized};
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A number with `K` partial derivatives, over `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,55 +47,17 @@ impl<const K: usize> Dual<K> {
     }
 }
 
-impl<const K: usize> Add for Dual<K> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.blend(other, self.value + other.value, 1.0, 1.0)
-    }
-}
-impl<const K: usize> Sub for Dual<K> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.blend(other, self.value - other.value, 1.0, -1.0)
-    }
-}
-impl<const K: usize> Mul for Dual<K> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.blend(other, self.value * other.value, other.value, self.value)
-    }
-}
-impl<const K: usize> Div for Dual<K> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        self.blend(other, value, 1.0 / other.value, -value / other.value)
-    }
-}
-impl<const K: usize> Neg for Dual<K> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        self.chain(-self.value, -1.0)
-    }
-}
-macro_rules! assign {
-    ($Trait:ident, $method:ident, $op:tt) => {
-        impl<const K: usize> $Trait for Dual<K> {
-            #[inline(always)]
-            fn $method(&mut self, other: Self) {
-                *self = *self $op other;
-            }
-        }
-    };
-}
-assign!(AddAssign, add_assign, +);
-assign!(SubAssign, sub_assign, -);
-assign!(MulAssign, mul_assign, *);
+operators!(
+    [const K: usize] Dual<K>, |x, y|
+    x.blend(y, x.value + y.value, 1.0, 1.0),
+    x.blend(y, x.value - y.value, 1.0, -1.0),
+    x.blend(y, x.value * y.value, y.value, x.value),
+    {
+        let value = x.value / y.value;
+        x.blend(y, value, 1.0 / y.value, -value / y.value)
+    },
+    x.chain(-x.value, -1.0)
+);
 
 impl<const K: usize> Real for Dual<K> {
     type Mask = bool;

@@ -82,45 +82,11 @@ pub(crate) const ONE_BITS: u64 = 1023 << 52;
 /// The sign.
 pub(crate) const SIGN_BIT: u64 = 1 << 63;
 
-/// `ROUNDING` arithmetic for one `f64`.
-#[inline(always)]
-pub(crate) fn round_f64(x: f64) -> f64 {
-    (x + ROUNDING) - ROUNDING
-}
-#[inline(always)]
-pub(crate) fn exp2_shifted_f64(shifted: f64) -> f64 {
-    f64::from_bits((shifted.to_bits() << 52).wrapping_add(ONE_BITS))
-}
-#[inline(always)]
-pub(crate) fn mantissa_exponent_f64(x: f64) -> (f64, f64) {
-    let bits = x.to_bits();
-    let mantissa = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) | ONE_BITS);
-    // 2^52 + biased exponent, as a number, without an integer conversion.
-    let exponent = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - LOW_EXPONENT - 1023.0;
-    (mantissa, exponent)
-}
 /// The upper 44 bits of a positive number count exponent and mantissa, nearly its logarithm in 2^-32: a third of it, turned
 /// over, is that of the root. `LOW_EXPONENT` makes them a number and back.
 pub(crate) const ROOT_SLOPE: f64 = -1.0 / 3.0;
 /// What makes 2^52 + n, times the slope, 2^52 + 0x553ef0ff289 - n/3: the offset with the least error (from memory).
 pub(crate) const ROOT_OFFSET: f64 = 0x0553_ef0f_f289_u64 as f64 + LOW_EXPONENT * (4.0 / 3.0);
-#[inline(always)]
-pub(crate) fn near_inverse_cube_root_f64(x: f64) -> f64 {
-    let logarithm = f64::from_bits((x.to_bits() >> 20) | LOW_EXPONENT_BITS);
-    f64::from_bits((logarithm * ROOT_SLOPE + ROOT_OFFSET).to_bits() << 20)
-}
-#[inline(always)]
-pub(crate) fn odd_shifted_f64(shifted: f64) -> bool {
-    shifted.to_bits() & 1 == 1
-}
-#[inline(always)]
-pub(crate) fn negated_where_negative_f64(x: f64, other: f64) -> f64 {
-    f64::from_bits(x.to_bits() ^ (other.to_bits() & SIGN_BIT))
-}
-#[inline(always)]
-pub(crate) fn negated_by_bit_one_f64(x: f64, shifted: f64) -> f64 {
-    f64::from_bits(x.to_bits() ^ ((shifted.to_bits() << 62) & SIGN_BIT))
-}
 
 /// Polynomial a\[0\] + a\[1\] x + … by splitting into even and odd powers: half the latency of Horner's form.
 #[inline(always)]

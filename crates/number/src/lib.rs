@@ -54,6 +54,7 @@ mod constants;
 mod dual;
 pub mod elementary;
 mod level;
+mod operators;
 #[cfg(target_arch = "x86_64")]
 mod pair;
 mod real;

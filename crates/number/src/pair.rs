@@ -4,68 +4,25 @@
 //! chains side by side keep the vector unit busy.
 
 use crate::elementary::{Bits, elementary_functions};
+use crate::operators::{mask_operators, operators};
 use crate::real::Vectorized;
 use crate::scalar::group_of_one;
 use crate::{Mask, Real};
-use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
 /// Two numbers, or two masks, side by side: the lanes of the first, then those of the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair<V>(pub V, pub V);
 
-macro_rules! operator {
-    ($Trait:ident, $method:ident, $op:tt) => {
-        impl<V: Real> $Trait for Pair<V> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Pair(self.0 $op other.0, self.1 $op other.1)
-            }
-        }
-    };
-    ($Trait:ident, $method:ident, $Assign:ident, $assign:ident, $op:tt) => {
-        operator!($Trait, $method, $op);
-        impl<V: Real> $Assign for Pair<V> {
-            #[inline(always)]
-            fn $assign(&mut self, other: Self) {
-                *self = *self $op other;
-            }
-        }
-    };
-}
-operator!(Add, add, AddAssign, add_assign, +);
-operator!(Sub, sub, SubAssign, sub_assign, -);
-operator!(Mul, mul, MulAssign, mul_assign, *);
-operator!(Div, div, /);
-impl<V: Real> Neg for Pair<V> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Pair(-self.0, -self.1)
-    }
-}
+operators!(
+    [V: Real] Pair<V>, |x, y|
+    Pair(x.0 + y.0, x.1 + y.1),
+    Pair(x.0 - y.0, x.1 - y.1),
+    Pair(x.0 * y.0, x.1 * y.1),
+    Pair(x.0 / y.0, x.1 / y.1),
+    Pair(-x.0, -x.1)
+);
+mask_operators!([M: Mask] Pair<M>, |x, y| Pair(x.0 & y.0, x.1 & y.1), Pair(x.0 | y.0, x.1 | y.1), Pair(!x.0, !x.1));
 
-impl<M: Mask> BitAnd for Pair<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Pair(self.0 & other.0, self.1 & other.1)
-    }
-}
-impl<M: Mask> BitOr for Pair<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Pair(self.0 | other.0, self.1 | other.1)
-    }
-}
-impl<M: Mask> Not for Pair<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        Pair(!self.0, !self.1)
-    }
-}
 impl<M: Mask> Mask for Pair<M> {
     const LANES: usize = 2 * M::LANES;
     #[inline(always)]

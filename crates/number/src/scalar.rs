@@ -1,6 +1,6 @@
 //! Plain `f64`, and what its wrappers share with it.
 
-use crate::elementary::{self, Bits};
+use crate::elementary::*;
 use crate::{Mask, Real};
 
 impl Mask for bool {
@@ -77,7 +77,7 @@ macro_rules! scalar_real {
             #[inline(always)]
             fn round(self) -> Self {
                 let $x = self;
-                $make(elementary::round_f64($get))
+                $make(($get + ROUNDING) - ROUNDING)
             }
             $crate::elementary::elementary_functions!();
             #[inline(always)]
@@ -93,34 +93,32 @@ macro_rules! scalar_real {
         impl $(<$V: $Bound>)? Bits for $Type {
             #[inline(always)]
             fn exp2_shifted(self) -> Self {
-                $make(elementary::exp2_shifted_f64(self.lane(0)))
+                $make(f64::from_bits((self.lane(0).to_bits() << 52).wrapping_add(ONE_BITS)))
             }
             #[inline(always)]
             fn mantissa_exponent(self) -> (Self, Self) {
-                let (mantissa, exponent) = elementary::mantissa_exponent_f64(self.lane(0));
+                let bits = self.lane(0).to_bits();
+                let mantissa = f64::from_bits((bits & 0x000f_ffff_ffff_ffff) | ONE_BITS);
+                // 2^52 + biased exponent, as a number, without an integer conversion
+                let exponent = f64::from_bits((bits >> 52) | LOW_EXPONENT_BITS) - LOW_EXPONENT - 1023.0;
                 ($make(mantissa), $make(exponent))
             }
             #[inline(always)]
             fn near_inverse_cube_root(self) -> Self {
-                $make(elementary::near_inverse_cube_root_f64(self.lane(0)))
+                let logarithm = f64::from_bits((self.lane(0).to_bits() >> 20) | LOW_EXPONENT_BITS);
+                $make(f64::from_bits((logarithm * ROOT_SLOPE + ROOT_OFFSET).to_bits() << 20))
             }
             #[inline(always)]
             fn odd_shifted(self) -> bool {
-                elementary::odd_shifted_f64(self.lane(0))
+                self.lane(0).to_bits() & 1 == 1
             }
             #[inline(always)]
             fn negated_where_negative(self, other: Self) -> Self {
-                $make(elementary::negated_where_negative_f64(
-                    self.lane(0),
-                    other.lane(0),
-                ))
+                $make(f64::from_bits(self.lane(0).to_bits() ^ (other.lane(0).to_bits() & SIGN_BIT)))
             }
             #[inline(always)]
             fn negated_by_bit_one(self, shifted: Self) -> Self {
-                $make(elementary::negated_by_bit_one_f64(
-                    self.lane(0),
-                    shifted.lane(0),
-                ))
+                $make(f64::from_bits(self.lane(0).to_bits() ^ ((shifted.lane(0).to_bits() << 62) & SIGN_BIT)))
             }
         }
     };

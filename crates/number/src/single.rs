@@ -1,12 +1,12 @@
 //! One machine whose equal parts are computed several at a time.
 
 use crate::Real;
-use crate::elementary::{self, Bits};
+use crate::elementary::*;
+use crate::operators::operators;
 use crate::pair::Pair;
 use crate::real::Vectorized;
 use crate::scalar::scalar_real;
 use std::marker::PhantomData;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A vector that holds one part of a machine per lane.
 pub trait Parts: Bits {
@@ -64,37 +64,14 @@ impl<V> Clone for Single<V> {
 }
 impl<V> Copy for Single<V> {}
 
-macro_rules! operator {
-    ($Trait:ident, $method:ident, $op:tt) => {
-        impl<V> $Trait for Single<V> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Single::new(self.0 $op other.0)
-            }
-        }
-    };
-    ($Trait:ident, $method:ident, $Assign:ident, $assign:ident, $op:tt) => {
-        operator!($Trait, $method, $op);
-        impl<V> $Assign for Single<V> {
-            #[inline(always)]
-            fn $assign(&mut self, other: Self) {
-                self.0 = self.0 $op other.0;
-            }
-        }
-    };
-}
-operator!(Add, add, AddAssign, add_assign, +);
-operator!(Sub, sub, SubAssign, sub_assign, -);
-operator!(Mul, mul, MulAssign, mul_assign, *);
-operator!(Div, div, /);
-impl<V> Neg for Single<V> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Single::new(-self.0)
-    }
-}
+operators!(
+    [V] Single<V>, |x, y|
+    Single::new(x.0 + y.0),
+    Single::new(x.0 - y.0),
+    Single::new(x.0 * y.0),
+    Single::new(x.0 / y.0),
+    Single::new(-x.0)
+);
 
 scalar_real!(impl [V: Parts] for Single<V>, |x| x.0, Single::new, {
     type Group = V;

@@ -1,7 +1,8 @@
 //! Vectors of the plane.
 
 use crate::Real;
-use std::ops::{Add, AddAssign, Mul, Neg, Sub};
+use crate::operators::operator;
+use std::ops::Mul;
 
 /// A vector of the plane: x to the right, y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,33 +46,9 @@ impl<R: Real> Vec2<R> {
     }
 }
 
-impl<R: Real> Add for Vec2<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Vec2::new(self.x + other.x, self.y + other.y)
-    }
-}
-impl<R: Real> AddAssign for Vec2<R> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-impl<R: Real> Sub for Vec2<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Vec2::new(self.x - other.x, self.y - other.y)
-    }
-}
-impl<R: Real> Neg for Vec2<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Vec2::new(-self.x, -self.y)
-    }
-}
+operator!([R: Real] Vec2<R>, Add::add, AddAssign::add_assign, |a, b| Vec2::new(a.x + b.x, a.y + b.y));
+operator!([R: Real] Vec2<R>, Sub::sub, |a, b| Vec2::new(a.x - b.x, a.y - b.y));
+operator!([R: Real] Vec2<R>, Neg::neg, |a| Vec2::new(-a.x, -a.y));
 impl<R: Real> Mul<R> for Vec2<R> {
     type Output = Self;
     #[inline(always)]

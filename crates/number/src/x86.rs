@@ -5,15 +5,15 @@
 //! intrinsics below sound. Their methods are inlined into functions compiled for the unit ([`Real::vectorized`]).
 
 use crate::elementary::{
-    Bits, LOW_EXPONENT, LOW_EXPONENT_BITS, ONE_BITS, ROOT_OFFSET, ROOT_SLOPE, ROUNDING, SIGN_BIT,
+    Bits, LOW_EXPONENT, LOW_EXPONENT_BITS, ONE_BITS, ROOT_OFFSET, ROOT_SLOPE, ROUNDING,
     elementary_functions,
 };
+use crate::operators::{mask_operators, operators};
 use crate::real::Vectorized;
 use crate::scalar::group_of_one;
 use crate::single::Parts;
 use crate::{Mask, Real};
 use std::arch::x86_64::*;
-use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
 /// Four machines side by side, or four parts of one: AVX2.
 #[derive(Clone, Copy, Debug)]
@@ -31,132 +31,148 @@ pub struct Eight(__m512d);
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub struct EightMask(__mmask8);
+
+/// The instructions of each unit, under one name.
+mod avx2 {
+    pub(super) use std::arch::x86_64::{
+        _mm256_add_epi64 as add_bits, _mm256_add_pd as add, _mm256_and_pd as and,
+        _mm256_and_si256 as and_bits, _mm256_andnot_pd as andnot, _mm256_castpd_si256 as to_bits,
+        _mm256_castsi256_pd as from_bits, _mm256_div_pd as div, _mm256_max_pd as max,
+        _mm256_min_pd as min, _mm256_mul_pd as mul, _mm256_or_si256 as or_bits,
+        _mm256_set1_epi64x as set_bits, _mm256_set1_pd as set, _mm256_slli_epi64 as left,
+        _mm256_sqrt_pd as sqrt, _mm256_srli_epi64 as right, _mm256_sub_pd as sub,
+        _mm256_xor_pd as xor,
+    };
+}
+mod avx512 {
+    pub(super) use std::arch::x86_64::{
+        _mm512_add_epi64 as add_bits, _mm512_add_pd as add, _mm512_and_pd as and,
+        _mm512_and_si512 as and_bits, _mm512_andnot_pd as andnot, _mm512_castpd_si512 as to_bits,
+        _mm512_castsi512_pd as from_bits, _mm512_div_pd as div, _mm512_max_pd as max,
+        _mm512_min_pd as min, _mm512_mul_pd as mul, _mm512_or_si512 as or_bits,
+        _mm512_set1_epi64 as set_bits, _mm512_set1_pd as set, _mm512_slli_epi64 as left,
+        _mm512_sqrt_pd as sqrt, _mm512_srli_epi64 as right, _mm512_sub_pd as sub,
+        _mm512_xor_pd as xor,
+    };
+}
+
+/// Numbers of one width: what both units have alike, and in braces what they do not.
 // SAFETY of every block below: the types are reachable only on machines with the instructions, see the module.
-macro_rules! binary {
-    ($Type:ident, $Trait:ident, $method:ident, $Assign:ident, $assign:ident, $intrinsic:ident) => {
-        impl $Trait for $Type {
-            type Output = Self;
+macro_rules! vector {
+    ($Type:ident($Vector:ty) by $unit:ident, $level:ident, lanes $lanes:literal, mask $Mask:ident, { $($own:tt)* }, { $($bits:tt)* }) => {
+        operators!(
+            [] $Type, |x, y|
+            $Type(unsafe { $unit::add(x.0, y.0) }),
+            $Type(unsafe { $unit::sub(x.0, y.0) }),
+            $Type(unsafe { $unit::mul(x.0, y.0) }),
+            $Type(unsafe { $unit::div(x.0, y.0) }),
+            // -0 - x, not a flip of the sign bit: the compiler knows it and folds it into sums
+            $Type::splat(-0.0) - x
+        );
+        impl Real for $Type {
+            type Mask = $Mask;
+            const LANES: usize = $lanes;
+            group_of_one!();
             #[inline(always)]
-            fn $method(self, other: Self) -> Self {
+            fn splat(value: f64) -> Self {
                 // SAFETY: see the module.
-                $Type(unsafe { $intrinsic(self.0, other.0) })
+                $Type(unsafe { $unit::set(value) })
             }
-        }
-        impl $Assign for $Type {
             #[inline(always)]
-            fn $assign(&mut self, other: Self) {
-                *self = $Trait::$method(*self, other);
+            fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
+                let array: [f64; $lanes] = std::array::from_fn(lane);
+                // SAFETY: an array of as many f64 has the size and the bits of the vector.
+                $Type(unsafe { std::mem::transmute::<[f64; $lanes], $Vector>(array) })
             }
-        }
-    };
-}
-macro_rules! operators {
-    ($Type:ident, $add:ident, $sub:ident, $mul:ident, $div:ident) => {
-        binary!($Type, Add, add, AddAssign, add_assign, $add);
-        binary!($Type, Sub, sub, SubAssign, sub_assign, $sub);
-        binary!($Type, Mul, mul, MulAssign, mul_assign, $mul);
-        impl Div for $Type {
-            type Output = Self;
             #[inline(always)]
-            fn div(self, other: Self) -> Self {
+            fn lane(self, index: usize) -> f64 {
+                // SAFETY: as in `from_lanes`.
+                let array: [f64; $lanes] = unsafe { std::mem::transmute(self.0) };
+                array[index]
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
                 // SAFETY: see the module.
-                $Type(unsafe { $div(self.0, other.0) })
+                $Type(unsafe { $unit::sqrt(self.0) })
             }
-        }
-        impl Neg for $Type {
-            type Output = Self;
             #[inline(always)]
-            fn neg(self) -> Self {
-                // -0 - x, not a flip of the sign bit: the compiler knows it and folds it into sums
-                $Type::splat(-0.0) - self
+            fn abs(self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $unit::andnot($unit::set(-0.0), self.0) })
             }
+            // the instructions return their second operand where the two do not compare or are both zero, as promised
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $unit::max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $unit::min(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn round(self) -> Self {
+                (self + Self::splat(ROUNDING)) - Self::splat(ROUNDING)
+            }
+            elementary_functions!();
+            #[inline(always)]
+            fn vectorized<T: Vectorized>(task: T) -> T::Output {
+                // SAFETY: see the module.
+                unsafe { $level(task) }
+            }
+            $($own)*
+        }
+        impl Bits for $Type {
+            #[inline(always)]
+            fn exp2_shifted(self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe {
+                    let exponent = $unit::left::<52>($unit::to_bits(self.0));
+                    $unit::from_bits($unit::add_bits(exponent, $unit::set_bits(ONE_BITS as i64)))
+                })
+            }
+            #[inline(always)]
+            fn mantissa_exponent(self) -> (Self, Self) {
+                // SAFETY: see the module.
+                let (mantissa, exponent) = unsafe {
+                    let bits = $unit::to_bits(self.0);
+                    let fraction = $unit::and_bits(bits, $unit::set_bits(0x000f_ffff_ffff_ffff));
+                    let mantissa = $unit::or_bits(fraction, $unit::set_bits(ONE_BITS as i64));
+                    let low = $unit::set_bits(LOW_EXPONENT_BITS as i64);
+                    let exponent = $unit::or_bits($unit::right::<52>(bits), low);
+                    ($Type($unit::from_bits(mantissa)), $Type($unit::from_bits(exponent)))
+                };
+                (mantissa, exponent - Self::splat(LOW_EXPONENT) - Self::splat(1023.0))
+            }
+            #[inline(always)]
+            fn near_inverse_cube_root(self) -> Self {
+                // SAFETY: see the module.
+                let logarithm = $Type(unsafe {
+                    let upper = $unit::right::<20>($unit::to_bits(self.0));
+                    $unit::from_bits($unit::or_bits(upper, $unit::set_bits(LOW_EXPONENT_BITS as i64)))
+                });
+                let root = logarithm * Self::splat(ROOT_SLOPE) + Self::splat(ROOT_OFFSET);
+                // SAFETY: see the module.
+                $Type(unsafe { $unit::from_bits($unit::left::<20>($unit::to_bits(root.0))) })
+            }
+            #[inline(always)]
+            fn negated_where_negative(self, other: Self) -> Self {
+                // SAFETY: see the module.
+                $Type(unsafe { $unit::xor(self.0, $unit::and(other.0, $unit::set(-0.0))) })
+            }
+            #[inline(always)]
+            fn negated_by_bit_one(self, shifted: Self) -> Self {
+                // SAFETY: see the module.
+                let bit = $Type(unsafe { $unit::from_bits($unit::left::<62>($unit::to_bits(shifted.0))) });
+                self.negated_where_negative(bit)
+            }
+            $($bits)*
         }
     };
 }
-operators!(
-    Four,
-    _mm256_add_pd,
-    _mm256_sub_pd,
-    _mm256_mul_pd,
-    _mm256_div_pd
-);
-operators!(
-    Eight,
-    _mm512_add_pd,
-    _mm512_sub_pd,
-    _mm512_mul_pd,
-    _mm512_div_pd
-);
 
-/// The methods of `Real` that are the same for both widths.
-macro_rules! shared_methods {
-    ($Type:ident, $Vector:ty, $Array:ty, $set:ident, $sqrt:ident, $andnot:ident, $max:ident, $min:ident, $level:ident) => {
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            // SAFETY: see the module.
-            $Type(unsafe { $set(value) })
-        }
-        #[inline(always)]
-        fn from_lanes(lane: impl FnMut(usize) -> f64) -> Self {
-            let array: $Array = std::array::from_fn(lane);
-            // SAFETY: an array of as many f64 has the size and the bits of the vector.
-            $Type(unsafe { std::mem::transmute::<$Array, $Vector>(array) })
-        }
-        #[inline(always)]
-        fn lane(self, index: usize) -> f64 {
-            // SAFETY: as in `from_lanes`.
-            let array: $Array = unsafe { std::mem::transmute(self.0) };
-            array[index]
-        }
-        #[inline(always)]
-        fn sqrt(self) -> Self {
-            // SAFETY: see the module.
-            $Type(unsafe { $sqrt(self.0) })
-        }
-        #[inline(always)]
-        fn abs(self) -> Self {
-            // SAFETY: see the module.
-            $Type(unsafe { $andnot($set(-0.0), self.0) })
-        }
-        // the instructions return their second operand where the two do not compare or are both zero, as promised
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            // SAFETY: see the module.
-            $Type(unsafe { $max(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            // SAFETY: see the module.
-            $Type(unsafe { $min(self.0, other.0) })
-        }
-        #[inline(always)]
-        fn round(self) -> Self {
-            (self + Self::splat(ROUNDING)) - Self::splat(ROUNDING)
-        }
-        elementary_functions!();
-        #[inline(always)]
-        fn vectorized<T: Vectorized>(task: T) -> T::Output {
-            // SAFETY: see the module.
-            unsafe { $level(task) }
-        }
-    };
-}
-
-impl Real for Four {
-    type Mask = FourMask;
-    const LANES: usize = 4;
-    group_of_one!();
-    shared_methods!(
-        Four,
-        __m256d,
-        [f64; 4],
-        _mm256_set1_pd,
-        _mm256_sqrt_pd,
-        _mm256_andnot_pd,
-        _mm256_max_pd,
-        _mm256_min_pd,
-        for_avx2
-    );
+vector!(Four(__m256d) by avx2, for_avx2, lanes 4, mask FourMask, {
     #[inline(always)]
     fn greater(self, other: Self) -> FourMask {
         // SAFETY: see the module.
@@ -167,100 +183,38 @@ impl Real for Four {
         // SAFETY: see the module.
         Four(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
     }
-}
-
-impl Bits for Four {
-    #[inline(always)]
-    fn exp2_shifted(self) -> Self {
-        // SAFETY: see the module.
-        Four(unsafe {
-            let exponent = _mm256_slli_epi64::<52>(_mm256_castpd_si256(self.0));
-            let one = _mm256_set1_epi64x(ONE_BITS as i64);
-            _mm256_castsi256_pd(_mm256_add_epi64(exponent, one))
-        })
-    }
-    #[inline(always)]
-    fn mantissa_exponent(self) -> (Self, Self) {
-        // SAFETY: see the module.
-        unsafe {
-            let bits = _mm256_castpd_si256(self.0);
-            let fraction = _mm256_and_si256(bits, _mm256_set1_epi64x(0x000f_ffff_ffff_ffff));
-            let mantissa = _mm256_or_si256(fraction, _mm256_set1_epi64x(ONE_BITS as i64));
-            let exponent = _mm256_or_si256(
-                _mm256_srli_epi64::<52>(bits),
-                _mm256_set1_epi64x(0x4330_0000_0000_0000),
-            );
-            (
-                Four(_mm256_castsi256_pd(mantissa)),
-                Four(_mm256_castsi256_pd(exponent))
-                    - Self::splat(LOW_EXPONENT)
-                    - Self::splat(1023.0),
-            )
-        }
-    }
-    #[inline(always)]
-    fn near_inverse_cube_root(self) -> Self {
-        // SAFETY: see the module.
-        unsafe {
-            let upper = _mm256_srli_epi64::<20>(_mm256_castpd_si256(self.0));
-            let logarithm = _mm256_or_si256(upper, _mm256_set1_epi64x(LOW_EXPONENT_BITS as i64));
-            let root = Four(_mm256_castsi256_pd(logarithm)) * Self::splat(ROOT_SLOPE)
-                + Self::splat(ROOT_OFFSET);
-            Four(_mm256_castsi256_pd(_mm256_slli_epi64::<20>(
-                _mm256_castpd_si256(root.0),
-            )))
-        }
-    }
+}, {
     #[inline(always)]
     fn odd_shifted(self) -> FourMask {
         // SAFETY: see the module.
-        FourMask(unsafe {
-            _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(self.0)))
-        })
+        FourMask(unsafe { avx2::from_bits(avx2::left::<63>(avx2::to_bits(self.0))) })
+    }
+});
+vector!(Eight(__m512d) by avx512, for_avx512, lanes 8, mask EightMask, {
+    #[inline(always)]
+    fn greater(self, other: Self) -> EightMask {
+        // SAFETY: see the module.
+        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0) })
     }
     #[inline(always)]
-    fn negated_where_negative(self, other: Self) -> Self {
+    fn select(mask: EightMask, yes: Self, no: Self) -> Self {
         // SAFETY: see the module.
-        Four(unsafe {
-            let sign = _mm256_and_pd(other.0, _mm256_set1_pd(-0.0));
-            _mm256_xor_pd(self.0, sign)
-        })
+        Eight(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
+}, {
     #[inline(always)]
-    fn negated_by_bit_one(self, shifted: Self) -> Self {
+    fn odd_shifted(self) -> EightMask {
         // SAFETY: see the module.
-        Four(unsafe {
-            let bit = _mm256_slli_epi64::<62>(_mm256_castpd_si256(shifted.0));
-            let sign = _mm256_and_si256(bit, _mm256_set1_epi64x(SIGN_BIT as i64));
-            _mm256_xor_pd(self.0, _mm256_castsi256_pd(sign))
-        })
+        EightMask(unsafe { _mm512_test_epi64_mask(avx512::to_bits(self.0), avx512::set_bits(1)) })
     }
-}
+});
 
-impl BitAnd for FourMask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        // SAFETY: see the module.
-        FourMask(unsafe { _mm256_and_pd(self.0, other.0) })
-    }
-}
-impl BitOr for FourMask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        // SAFETY: see the module.
-        FourMask(unsafe { _mm256_or_pd(self.0, other.0) })
-    }
-}
-impl Not for FourMask {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        // SAFETY: see the module.
-        FourMask(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
-    }
-}
+mask_operators!(
+    [] FourMask, |x, y|
+    FourMask(unsafe { _mm256_and_pd(x.0, y.0) }),
+    FourMask(unsafe { _mm256_or_pd(x.0, y.0) }),
+    FourMask(unsafe { _mm256_xor_pd(x.0, _mm256_set1_pd(-0.0)) })
+);
 impl Mask for FourMask {
     const LANES: usize = 4;
     #[inline(always)]
@@ -278,122 +232,7 @@ impl Mask for FourMask {
     }
 }
 
-impl Real for Eight {
-    type Mask = EightMask;
-    const LANES: usize = 8;
-    group_of_one!();
-    shared_methods!(
-        Eight,
-        __m512d,
-        [f64; 8],
-        _mm512_set1_pd,
-        _mm512_sqrt_pd,
-        _mm512_andnot_pd,
-        _mm512_max_pd,
-        _mm512_min_pd,
-        for_avx512
-    );
-    #[inline(always)]
-    fn greater(self, other: Self) -> EightMask {
-        // SAFETY: see the module.
-        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn select(mask: EightMask, yes: Self, no: Self) -> Self {
-        // SAFETY: see the module.
-        Eight(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
-    }
-}
-
-impl Bits for Eight {
-    #[inline(always)]
-    fn exp2_shifted(self) -> Self {
-        // SAFETY: see the module.
-        Eight(unsafe {
-            let exponent = _mm512_slli_epi64::<52>(_mm512_castpd_si512(self.0));
-            let one = _mm512_set1_epi64(ONE_BITS as i64);
-            _mm512_castsi512_pd(_mm512_add_epi64(exponent, one))
-        })
-    }
-    #[inline(always)]
-    fn mantissa_exponent(self) -> (Self, Self) {
-        // SAFETY: see the module.
-        unsafe {
-            let bits = _mm512_castpd_si512(self.0);
-            let fraction = _mm512_and_si512(bits, _mm512_set1_epi64(0x000f_ffff_ffff_ffff));
-            let mantissa = _mm512_or_si512(fraction, _mm512_set1_epi64(ONE_BITS as i64));
-            let exponent = _mm512_or_si512(
-                _mm512_srli_epi64::<52>(bits),
-                _mm512_set1_epi64(0x4330_0000_0000_0000),
-            );
-            (
-                Eight(_mm512_castsi512_pd(mantissa)),
-                Eight(_mm512_castsi512_pd(exponent))
-                    - Self::splat(LOW_EXPONENT)
-                    - Self::splat(1023.0),
-            )
-        }
-    }
-    #[inline(always)]
-    fn near_inverse_cube_root(self) -> Self {
-        // SAFETY: see the module.
-        unsafe {
-            let upper = _mm512_srli_epi64::<20>(_mm512_castpd_si512(self.0));
-            let logarithm = _mm512_or_si512(upper, _mm512_set1_epi64(LOW_EXPONENT_BITS as i64));
-            let root = Eight(_mm512_castsi512_pd(logarithm)) * Self::splat(ROOT_SLOPE)
-                + Self::splat(ROOT_OFFSET);
-            Eight(_mm512_castsi512_pd(_mm512_slli_epi64::<20>(
-                _mm512_castpd_si512(root.0),
-            )))
-        }
-    }
-    #[inline(always)]
-    fn odd_shifted(self) -> EightMask {
-        // SAFETY: see the module.
-        EightMask(unsafe {
-            _mm512_test_epi64_mask(_mm512_castpd_si512(self.0), _mm512_set1_epi64(1))
-        })
-    }
-    #[inline(always)]
-    fn negated_where_negative(self, other: Self) -> Self {
-        // SAFETY: see the module.
-        Eight(unsafe {
-            let sign = _mm512_and_pd(other.0, _mm512_set1_pd(-0.0));
-            _mm512_xor_pd(self.0, sign)
-        })
-    }
-    #[inline(always)]
-    fn negated_by_bit_one(self, shifted: Self) -> Self {
-        // SAFETY: see the module.
-        Eight(unsafe {
-            let bit = _mm512_slli_epi64::<62>(_mm512_castpd_si512(shifted.0));
-            let sign = _mm512_and_si512(bit, _mm512_set1_epi64(SIGN_BIT as i64));
-            _mm512_xor_pd(self.0, _mm512_castsi512_pd(sign))
-        })
-    }
-}
-
-impl BitAnd for EightMask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        EightMask(self.0 & other.0)
-    }
-}
-impl BitOr for EightMask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        EightMask(self.0 | other.0)
-    }
-}
-impl Not for EightMask {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        EightMask(!self.0)
-    }
-}
+mask_operators!([] EightMask, |x, y| EightMask(x.0 & y.0), EightMask(x.0 | y.0), EightMask(!x.0));
 impl Mask for EightMask {
     const LANES: usize = 8;
     #[inline(always)]

@@ -19,7 +19,7 @@ use crate::moment_curve::MomentCurve;
 pub use crate::moment_parts::MomentParts;
 use crate::palmgren::{Palmgren, PalmgrenCombined};
 use crate::skf::SkfMoment;
-use number::{Gather, Real};
+use number::Real;
 
 /// The laws of the steady friction moment a bearing can be built with.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,30 +101,7 @@ impl Friction<f64> {
     }
 }
 
-impl<R: Real> Gather<R> for Friction<f64> {
-    type Out = Friction<R>;
-    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> Friction<R>
-    where
-        Self: 'a,
-    {
-        macro_rules! variant {
-            ($Variant:ident) => {
-                Friction::$Variant(Gather::<R>::gather(&|lane| match machine(lane) {
-                    Friction::$Variant(law) => law,
-                    _ => panic!("lanes share the friction law"),
-                }))
-            };
-        }
-        match machine(0) {
-            Friction::None => Friction::None,
-            Friction::Palmgren(_) => variant!(Palmgren),
-            Friction::PalmgrenPrinted(_) => variant!(PalmgrenPrinted),
-            Friction::PalmgrenCombined(_) => variant!(PalmgrenCombined),
-            Friction::Skf(_) => variant!(Skf),
-            Friction::Curve(_) => variant!(Curve),
-        }
-    }
-}
+number::variants!(Friction, "friction law": None; Palmgren, PalmgrenPrinted, PalmgrenCombined, Skf, Curve);
 
 #[cfg(test)]
 mod tests {
@@ -132,6 +109,7 @@ mod tests {
     use crate::bearing_6005::{PALMGREN, SKF, SKF_GREASE};
     use crate::palmgren::viscous_moment;
     use crate::skf_constants::SkfLubricant;
+    use number::Gather;
     use number::{Level, Task};
     use proptest::prelude::*;
 

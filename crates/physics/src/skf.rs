@@ -24,7 +24,7 @@
 use crate::moment_parts::MomentParts;
 use crate::palmgren::{fading, viscosity_times_speed_mm2_s_rpm};
 use crate::power::power_from_zero;
-use number::{Gather, Real};
+use number::Real;
 use std::f64::consts::PI;
 
 number::constants! {
@@ -94,27 +94,7 @@ pub enum SkfContacts<R> {
     SphericalRoller(SkfSphericalRoller<R>),
 }
 
-impl<R: Real> Gather<R> for SkfContacts<f64> {
-    type Out = SkfContacts<R>;
-    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> SkfContacts<R>
-    where
-        Self: 'a,
-    {
-        macro_rules! variant {
-            ($Variant:ident) => {
-                SkfContacts::$Variant(Gather::<R>::gather(&|lane| match machine(lane) {
-                    SkfContacts::$Variant(contacts) => contacts,
-                    _ => panic!("lanes share the bearing type"),
-                }))
-            };
-        }
-        match machine(0) {
-            SkfContacts::DeepGroove(_) => variant!(DeepGroove),
-            SkfContacts::AngularContact(_) => variant!(AngularContact),
-            SkfContacts::SphericalRoller(_) => variant!(SphericalRoller),
-        }
-    }
-}
+number::variants!(SkfContacts, "bearing type": ; DeepGroove, AngularContact, SphericalRoller);
 
 number::constants! {
     /// Constants of the SKF moment of one bearing with its lubricant.
@@ -354,7 +334,7 @@ impl<R: Real> SkfSphericalRoller<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use number::{Dual, Level, Task};
+    use number::{Dual, Gather, Level, Task};
     use proptest::prelude::*;
 
     fn with(contacts: SkfContacts<f64>) -> SkfMoment<f64> {

@@ -8,7 +8,7 @@
 
 use crate::lubricant_traction::LubricantTraction;
 pub use crate::sliding_contact::SlidingContact;
-use number::{Gather, Real, constants};
+use number::{Real, constants};
 
 /// A traction law of a ball between two races.
 pub trait TractionLaw<R: Real> {
@@ -265,28 +265,7 @@ impl Traction<f64> {
     }
 }
 
-impl<R: Real> Gather<R> for Traction<f64> {
-    type Out = Traction<R>;
-    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> Traction<R>
-    where
-        Self: 'a,
-    {
-        macro_rules! variant {
-            ($Variant:ident) => {
-                Traction::$Variant(Gather::<R>::gather(&|lane| match machine(lane) {
-                    Traction::$Variant(law) => law,
-                    _ => panic!("lanes share the traction law"),
-                }))
-            };
-        }
-        match machine(0) {
-            Traction::Tanh(_) => variant!(Tanh),
-            Traction::FourParameter(_) => variant!(FourParameter),
-            Traction::Dry(_) => variant!(Dry),
-            Traction::Lubricated(_) => variant!(Lubricated),
-        }
-    }
-}
+number::variants!(Traction, "traction law": ; Tanh, FourParameter, Dry, Lubricated);
 
 #[cfg(test)]
 mod tests {

@@ -91,8 +91,7 @@ pub use file::open;
 /// Opens no file: formats are read by the feature `files`.
 #[cfg(not(feature = "files"))]
 pub fn open(path: &Path) -> Result<Box<dyn Recording>, FileError> {
-    let needed = "a build with the feature files is needed";
-    Err(FileError::new(path, "", "a file", needed))
+    Err(FileError::without(path, "measurement", "files"))
 }
 
 /// Something a reader found wrong with a file, or repaired, or left out.
@@ -193,6 +192,13 @@ impl FileError {
             needed: needed.into(),
         }
     }
+
+    /// An error where this build has no reader of such a file.
+    pub(crate) fn without(path: &Path, format: &str, feature: &str) -> FileError {
+        let found = format!("is a {format} file, which this build does not read");
+        let needed = format!("a build with the feature {feature} is needed");
+        FileError::new(path, "", found, needed)
+    }
 }
 
 impl fmt::Display for FileError {
@@ -210,3 +216,17 @@ impl fmt::Display for FileError {
 }
 
 impl std::error::Error for FileError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_format_that_is_not_built_in_names_its_feature() {
+        let refused = FileError::without(Path::new("a.wav"), "WAV", "wav").to_string();
+        assert_eq!(
+            refused,
+            "a.wav: is a WAV file, which this build does not read; a build with the feature wav is needed"
+        );
+    }
+}

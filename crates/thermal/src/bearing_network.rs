@@ -16,7 +16,7 @@
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::network::{self, Ground, Link, Network, NetworkError};
+use crate::network::{self, Ground, Link, Network};
 use crate::passage::Passage;
 use physics::heat_conduction::{STEEL_HEAT, ThermalMaterial};
 use physics::heat_exchange::{ContactConductance, stream_transfer};
@@ -175,7 +175,7 @@ impl BearingNetwork {
     ///
     /// # Errors
     /// A capacity or conductance that is none.
-    pub fn at(&self, operation: Operation<'_>) -> Result<Network, NetworkError> {
+    pub fn at(&self, operation: Operation<'_>) -> Result<Network, String> {
         together(&[(self, operation)], &[])
     }
 
@@ -312,7 +312,7 @@ impl BearingNetwork {
 pub fn together(
     parts: &[(&BearingNetwork, Operation<'_>)],
     held: &[bool],
-) -> Result<Network, NetworkError> {
+) -> Result<Network, String> {
     let (capacities, links, grounds) = joined(parts);
     Network::holding(&capacities, &links, &grounds, held)
 }

@@ -26,7 +26,7 @@ const FIRST: f64 = 1e-4;
 /// Largest growth of ln(1/r) from a step to the next.
 const GROWTH: f64 = 3.0;
 /// Temperature that counts as an error of 1, K.
-const SCALE: f64 = 50.0;
+pub const TEMPERATURE_SCALE: f64 = 50.0;
 /// Most steps of a coast-down.
 const MOST_STEPS: usize = 50_000;
 
@@ -218,7 +218,7 @@ impl<L: Losses> CoastDown<L> {
         next.time += time;
         next.speed = after;
         let apart = next.temperatures.iter().zip(&predicted);
-        let apart = apart.map(|(ours, euler)| (ours - euler).abs() / SCALE);
+        let apart = apart.map(|(ours, euler)| (ours - euler).abs() / TEMPERATURE_SCALE);
         let error = apart.fold((time - quick).abs() / (state.time + run_out), f64::max);
         Ok(Attempt { state: next, error })
     }

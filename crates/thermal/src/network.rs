@@ -9,7 +9,6 @@
 //! its temperature is a ground of its neighbours, and what reaches it is taken away.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use std::fmt;
 
 /// A conductance between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,35 +28,6 @@ pub struct Ground {
     pub conductance: f64,
     /// The temperature outside, in the scale of the nodes.
     pub temperature: f64,
-}
-
-/// Why a network cannot be built.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NetworkError {
-    /// The capacity of a node is not a positive number.
-    Capacity(usize),
-    /// A conductance is negative or not a number; the position among links, then grounds.
-    Conductance(usize),
-    /// A link or ground names a node that does not exist, or a link joins a node with itself.
-    Node(usize),
-}
-
-impl fmt::Display for NetworkError {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Self::Capacity(node) => write!(f, "the capacity of node {node} must be above 0 J/K"),
-            Self::Conductance(at) => {
-                write!(
-                    f,
-                    "conductance {at} (links, then grounds) must be 0 W/K or more"
-                )
-            }
-            Self::Node(at) => write!(
-                f,
-                "link or ground {at} needs nodes of the network, a link two different ones"
-            ),
-        }
-    }
 }
 
 /// C⁻¹ (grounds − G T): rate of change of the temperatures without powers, K/s.
@@ -94,12 +64,8 @@ pub struct Network {
 }
 
 impl Network {
-    /// A network of nodes with capacities in J/K.
-    pub fn new(
-        capacities: &[f64],
-        links: &[Link],
-        grounds: &[Ground],
-    ) -> Result<Self, NetworkError> {
+    /// A network of nodes with capacities in J/K; an error says which value makes none.
+    pub fn new(capacities: &[f64], links: &[Link], grounds: &[Ground]) -> Result<Self, String> {
         Network::holding(capacities, links, grounds, &[])
     }
 
@@ -109,11 +75,11 @@ impl Network {
         links: &[Link],
         grounds: &[Ground],
         marks: &[bool],
-    ) -> Result<Self, NetworkError> {
+    ) -> Result<Self, String> {
         let n = capacities.len();
         let positive = |value: f64| value > 0.0 && value.is_finite();
         if let Some(node) = capacities.iter().position(|&value| !positive(value)) {
-            return Err(NetworkError::Capacity(node));
+            return Err(format!("the capacity of node {node} must be above 0 J/K"));
         }
         let conductances = links
             .iter()
@@ -123,13 +89,18 @@ impl Network {
             .into_iter()
             .position(|value| !(value >= 0.0 && value.is_finite()))
         {
-            return Err(NetworkError::Conductance(at));
+            return Err(format!(
+                "conductance {at} (links, then grounds) must be 0 W/K or more"
+            ));
         }
+        let no_node = |at: usize| {
+            format!("link or ground {at} needs nodes of the network, a link two different ones")
+        };
         let mut matrix = DMatrix::<f64>::zeros(n, n);
         for (at, link) in links.iter().enumerate() {
             let [a, b] = link.nodes;
             if a >= n || b >= n || a == b {
-                return Err(NetworkError::Node(at));
+                return Err(no_node(at));
             }
             matrix[(a, a)] += link.conductance;
             matrix[(b, b)] += link.conductance;
@@ -138,7 +109,7 @@ impl Network {
         }
         for (at, ground) in grounds.iter().enumerate() {
             if ground.node >= n {
-                return Err(NetworkError::Node(links.len() + at));
+                return Err(no_node(links.len() + at));
             }
             matrix[(ground.node, ground.node)] += ground.conductance;
         }
@@ -427,11 +398,8 @@ mod tests {
     fn what_cannot_be_a_network_is_named() {
         let link = |nodes, conductance| Link { nodes, conductance };
         let error = |c: &[f64], l: &[Link]| Network::new(c, l, &[]).unwrap_err();
-        assert_eq!(error(&[1.0, 0.0], &[]), NetworkError::Capacity(1));
-        assert_eq!(
-            error(&[1.0, 1.0], &[link([0, 1], -1.0)]),
-            NetworkError::Conductance(0)
-        );
-        assert_eq!(error(&[1.0], &[link([0, 1], 1.0)]), NetworkError::Node(0));
+        assert!(error(&[1.0, 0.0], &[]).starts_with("the capacity of node 1 "));
+        assert!(error(&[1.0, 1.0], &[link([0, 1], -1.0)]).starts_with("conductance 0 "));
+        assert!(error(&[1.0], &[link([0, 1], 1.0)]).starts_with("link or ground 0 "));
     }
 }

@@ -16,32 +16,27 @@ pub(crate) struct Symbol {
     pub(crate) offset: f64,
 }
 
-const fn decimal(text: &'static str, dimension: Dimension, ten: i32) -> Symbol {
-    ratio(text, dimension, ten, 1.0, 1.0)
-}
-
-const fn ratio(
-    text: &'static str,
-    dimension: Dimension,
-    ten: i32,
-    numerator: f64,
-    denominator: f64,
-) -> Symbol {
+/// A symbol by its power of ten and, where it is not decimal, numerator, denominator and offset.
+const fn symbol(text: &'static str, dimension: Dimension, ten: i32, rest: &[f64]) -> Symbol {
+    let (numerator, denominator, offset) = match *rest {
+        [numerator, denominator] => (numerator, denominator, 0.0),
+        [numerator, denominator, offset] => (numerator, denominator, offset),
+        _ => (1.0, 1.0, 0.0),
+    };
     Symbol {
         text,
         dimension,
         ten,
         numerator,
         denominator,
-        offset: 0.0,
+        offset,
     }
 }
 
-const fn celsius(text: &'static str) -> Symbol {
-    Symbol {
-        offset: 273.15,
-        ..decimal(text, Dimension::TEMPERATURE, 0)
-    }
+macro_rules! symbols {
+    ($($dimension:expr => $($text:literal ($ten:expr $(, $rest:expr)*)),+;)+) => {
+        &[$($(symbol($text, $dimension, $ten, &[$($rest),*])),+),+]
+    };
 }
 
 /// 1 lbf · 1 in in 1e-17 N m: a torque, whose pound is one of force.
@@ -49,124 +44,42 @@ const INCH_POUND: f64 = 44_482_216_152_605.0 * 254.0;
 
 /// Every symbol that is understood; one with a stroke or a dash stands alone. The US units follow the international yard and pound of 1959:
 /// 1 in = 25.4 mm and 1 lbm = 0.45359237 kg exactly, 1 lbf = 1 lbm · 9.80665 m/s² (NIST SP 811, appendix B).
-pub(crate) const SYMBOLS: &[Symbol] = &[
-    decimal("%", Dimension::NONE, -2),
-    decimal("m", Dimension::LENGTH, 0),
-    decimal("km", Dimension::LENGTH, 3),
-    decimal("dm", Dimension::LENGTH, -1),
-    decimal("cm", Dimension::LENGTH, -2),
-    decimal("mm", Dimension::LENGTH, -3),
-    decimal("um", Dimension::LENGTH, -6),
-    decimal("µm", Dimension::LENGTH, -6),
-    decimal("μm", Dimension::LENGTH, -6),
-    decimal("nm", Dimension::LENGTH, -9),
-    ratio("in", Dimension::LENGTH, -4, 254.0, 1.0),
-    ratio("inch", Dimension::LENGTH, -4, 254.0, 1.0),
-    ratio("mil", Dimension::LENGTH, -7, 254.0, 1.0),
-    ratio("ft", Dimension::LENGTH, -4, 3048.0, 1.0),
-    decimal("t", Dimension::MASS, 3),
-    decimal("kg", Dimension::MASS, 0),
-    decimal("g", Dimension::MASS, -3),
-    decimal("mg", Dimension::MASS, -6),
-    ratio("gn", Dimension::ACCELERATION, -5, 980_665.0, 1.0),
-    ratio("lbm", Dimension::MASS, -8, 45_359_237.0, 1.0),
-    decimal("s", Dimension::TIME, 0),
-    decimal("ms", Dimension::TIME, -3),
-    decimal("us", Dimension::TIME, -6),
-    decimal("µs", Dimension::TIME, -6),
-    decimal("μs", Dimension::TIME, -6),
-    decimal("ns", Dimension::TIME, -9),
-    ratio("min", Dimension::TIME, 0, 60.0, 1.0),
-    ratio("h", Dimension::TIME, 0, 3600.0, 1.0),
-    decimal("K", Dimension::TEMPERATURE, 0),
-    celsius("degC"),
-    celsius("°C"),
-    decimal("rad", Dimension::ANGLE, 0),
-    decimal("mrad", Dimension::ANGLE, -3),
-    ratio("deg", Dimension::ANGLE, 0, PI, 180.0),
-    ratio("°", Dimension::ANGLE, 0, PI, 180.0),
-    ratio("rev", Dimension::ANGLE, 0, 2.0 * PI, 1.0),
-    ratio("rpm", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
-    ratio("RPM", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
-    ratio("r/min", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
-    ratio("U/min", Dimension::ANGULAR_SPEED, 0, PI, 30.0),
-    ratio("krpm", Dimension::ANGULAR_SPEED, 3, PI, 30.0),
-    ratio("rps", Dimension::ANGULAR_SPEED, 0, 2.0 * PI, 1.0),
-    ratio("r/s", Dimension::ANGULAR_SPEED, 0, 2.0 * PI, 1.0),
-    decimal("Hz", Dimension::FREQUENCY, 0),
-    decimal("kHz", Dimension::FREQUENCY, 3),
-    decimal("MHz", Dimension::FREQUENCY, 6),
-    decimal("A", Dimension::CURRENT, 0),
-    decimal("mA", Dimension::CURRENT, -3),
-    decimal("V", Dimension::VOLTAGE, 0),
-    decimal("mV", Dimension::VOLTAGE, -3),
-    decimal("kV", Dimension::VOLTAGE, 3),
-    decimal("ohm", Dimension::RESISTANCE, 0),
-    decimal("Ω", Dimension::RESISTANCE, 0),
-    decimal("H", Dimension::INDUCTANCE, 0),
-    decimal("mH", Dimension::INDUCTANCE, -3),
-    decimal("N", Dimension::FORCE, 0),
-    decimal("mN", Dimension::FORCE, -3),
-    decimal("uN", Dimension::FORCE, -6),
-    decimal("µN", Dimension::FORCE, -6),
-    decimal("μN", Dimension::FORCE, -6),
-    decimal("kN", Dimension::FORCE, 3),
-    decimal("MN", Dimension::FORCE, 6),
-    ratio("lbf", Dimension::FORCE, -13, 44_482_216_152_605.0, 1.0),
-    ratio("ozf", Dimension::FORCE, -13, 44_482_216_152_605.0, 16.0),
-    decimal("Pa", Dimension::PRESSURE, 0),
-    decimal("mPa", Dimension::PRESSURE, -3), // before a second alone
-    decimal("kPa", Dimension::PRESSURE, 3),
-    decimal("MPa", Dimension::PRESSURE, 6),
-    decimal("GPa", Dimension::PRESSURE, 9),
-    decimal("TPa", Dimension::PRESSURE, 12),
-    decimal("bar", Dimension::PRESSURE, 5),
-    decimal("mbar", Dimension::PRESSURE, 2),
-    ratio(
-        "psi",
-        Dimension::PRESSURE,
-        -5,
-        44_482_216_152_605.0,
-        64_516.0,
-    ),
-    ratio(
-        "ksi",
-        Dimension::PRESSURE,
-        -2,
-        44_482_216_152_605.0,
-        64_516.0,
-    ),
-    decimal("J", Dimension::TORQUE, 0),
-    decimal("mJ", Dimension::TORQUE, -3),
-    decimal("uJ", Dimension::TORQUE, -6),
-    decimal("µJ", Dimension::TORQUE, -6),
-    decimal("μJ", Dimension::TORQUE, -6),
-    decimal("kJ", Dimension::TORQUE, 3),
-    decimal("MJ", Dimension::TORQUE, 6),
-    decimal("Nm", Dimension::TORQUE, 0),
-    decimal("mNm", Dimension::TORQUE, -3),
-    decimal("Nmm", Dimension::TORQUE, -3),
-    decimal("Ncm", Dimension::TORQUE, -2),
-    decimal("kNm", Dimension::TORQUE, 3),
-    ratio("in-lb", Dimension::TORQUE, -17, INCH_POUND, 1.0),
-    ratio("in-lbf", Dimension::TORQUE, -17, INCH_POUND, 1.0),
-    ratio("lb-in", Dimension::TORQUE, -17, INCH_POUND, 1.0),
-    ratio("lbf-in", Dimension::TORQUE, -17, INCH_POUND, 1.0),
-    ratio("in-oz", Dimension::TORQUE, -17, INCH_POUND, 16.0),
-    ratio("oz-in", Dimension::TORQUE, -17, INCH_POUND, 16.0),
-    ratio("ozf-in", Dimension::TORQUE, -17, INCH_POUND, 16.0),
-    ratio("ft-lb", Dimension::TORQUE, -17, 12.0 * INCH_POUND, 1.0),
-    ratio("lbf-ft", Dimension::TORQUE, -17, 12.0 * INCH_POUND, 1.0),
-    decimal("W", Dimension::POWER, 0),
-    decimal("mW", Dimension::POWER, -3),
-    decimal("kW", Dimension::POWER, 3),
-    decimal("MW", Dimension::POWER, 6),
-    decimal("St", Dimension::KINEMATIC_VISCOSITY, -4),
-    decimal("cSt", Dimension::KINEMATIC_VISCOSITY, -6),
-    ratio("gn", Dimension::ACCELERATION, -5, 980_665.0, 1.0),
-    decimal("P", Dimension::of([-1, 1, -1, 0, 0]), -1),
-    decimal("cP", Dimension::of([-1, 1, -1, 0, 0]), -3),
-];
+pub(crate) const SYMBOLS: &[Symbol] = symbols! {
+    Dimension::NONE => "%" (-2);
+    Dimension::LENGTH => "m" (0), "km" (3), "dm" (-1), "cm" (-2), "mm" (-3), "um" (-6), "µm" (-6),
+        "μm" (-6), "nm" (-9), "in" (-4, 254.0, 1.0), "inch" (-4, 254.0, 1.0),
+        "mil" (-7, 254.0, 1.0), "ft" (-4, 3048.0, 1.0);
+    Dimension::MASS => "t" (3), "kg" (0), "g" (-3), "mg" (-6);
+    Dimension::ACCELERATION => "gn" (-5, 980_665.0, 1.0);
+    Dimension::MASS => "lbm" (-8, 45_359_237.0, 1.0);
+    Dimension::TIME => "s" (0), "ms" (-3), "us" (-6), "µs" (-6), "μs" (-6), "ns" (-9),
+        "min" (0, 60.0, 1.0), "h" (0, 3600.0, 1.0);
+    Dimension::TEMPERATURE => "K" (0), "degC" (0, 1.0, 1.0, 273.15), "°C" (0, 1.0, 1.0, 273.15);
+    Dimension::ANGLE => "rad" (0), "mrad" (-3), "deg" (0, PI, 180.0), "°" (0, PI, 180.0),
+        "rev" (0, 2.0 * PI, 1.0);
+    Dimension::ANGULAR_SPEED => "rpm" (0, PI, 30.0), "RPM" (0, PI, 30.0), "r/min" (0, PI, 30.0),
+        "U/min" (0, PI, 30.0), "krpm" (3, PI, 30.0), "rps" (0, 2.0 * PI, 1.0),
+        "r/s" (0, 2.0 * PI, 1.0);
+    Dimension::FREQUENCY => "Hz" (0), "kHz" (3), "MHz" (6);
+    Dimension::CURRENT => "A" (0), "mA" (-3);
+    Dimension::VOLTAGE => "V" (0), "mV" (-3), "kV" (3);
+    Dimension::RESISTANCE => "ohm" (0), "Ω" (0);
+    Dimension::INDUCTANCE => "H" (0), "mH" (-3);
+    Dimension::FORCE => "N" (0), "mN" (-3), "uN" (-6), "µN" (-6), "μN" (-6), "kN" (3), "MN" (6),
+        "lbf" (-13, 44_482_216_152_605.0, 1.0), "ozf" (-13, 44_482_216_152_605.0, 16.0);
+    Dimension::PRESSURE => "Pa" (0), "mPa" (-3), "kPa" (3), "MPa" (6), "GPa" (9), "TPa" (12),
+        "bar" (5), "mbar" (2), "psi" (-5, 44_482_216_152_605.0, 64_516.0),
+        "ksi" (-2, 44_482_216_152_605.0, 64_516.0);
+    Dimension::TORQUE => "J" (0), "mJ" (-3), "uJ" (-6), "µJ" (-6), "μJ" (-6), "kJ" (3), "MJ" (6),
+        "Nm" (0), "mNm" (-3), "Nmm" (-3), "Ncm" (-2), "kNm" (3), "in-lb" (-17, INCH_POUND, 1.0),
+        "in-lbf" (-17, INCH_POUND, 1.0), "lb-in" (-17, INCH_POUND, 1.0),
+        "lbf-in" (-17, INCH_POUND, 1.0), "in-oz" (-17, INCH_POUND, 16.0),
+        "oz-in" (-17, INCH_POUND, 16.0), "ozf-in" (-17, INCH_POUND, 16.0),
+        "ft-lb" (-17, 12.0 * INCH_POUND, 1.0), "lbf-ft" (-17, 12.0 * INCH_POUND, 1.0);
+    Dimension::POWER => "W" (0), "mW" (-3), "kW" (3), "MW" (6);
+    Dimension::KINEMATIC_VISCOSITY => "St" (-4), "cSt" (-6);
+    Dimension::of([-1, 1, -1, 0, 0]) => "P" (-1), "cP" (-3);
+};
 
 /// The symbol with this text.
 pub(crate) fn find(text: &str) -> Option<&'static Symbol> {

@@ -178,8 +178,10 @@ impl Found {
             .filter_map(|test| reading(test, &set, wish.viscosity))
             .collect();
         let against = |test: &str| {
-            let of = readings.iter().find(|doubt| doubt.test() == Some(test));
-            of.map(Doubt::finding)
+            let of = readings
+                .iter()
+                .find(|doubt| doubt.test.as_deref() == Some(test));
+            of.map(|doubt| doubt.finding.to_string())
         };
         if let Some(why) = coast_downs.iter().find_map(|test| against(&test.name)) {
             moment = Err(why);
@@ -313,7 +315,7 @@ impl Found {
             lines.push(of_test(IdentifyWarning::Unused { why }, name));
         }
         lines.extend(doubts.iter().map(|doubt| {
-            let (finding, test) = (doubt.finding(), doubt.test());
+            let (finding, test) = (doubt.finding.to_string(), doubt.test.as_deref());
             let warning = match test.is_some() && readings.contains(doubt) {
                 true => IdentifyWarning::Reading { finding },
                 false => IdentifyWarning::Doubt { finding },
@@ -357,8 +359,8 @@ fn no_comparison(moment: &Moment, doubts: &[Doubt]) -> Option<String> {
         .filter(|unequal| unequal.forbids_comparison())
         .map(|unequal| unequal.finding());
     let doubted = (doubts.iter())
-        .filter(|doubt| doubt.forbids_comparison())
-        .map(Doubt::finding);
+        .filter(|doubt| doubt.finding.forbids_comparison())
+        .map(|doubt| doubt.finding.to_string());
     unequal.chain(doubted).next()
 }
 

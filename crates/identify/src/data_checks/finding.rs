@@ -1,6 +1,7 @@
 //! What a doubt says, whom it is about, and whether an explanation may be sought in spite of it.
 
-use super::Doubt;
+use super::{Doubt, Finding};
+use crate::measurement::Measurement;
 use std::fmt;
 
 /// Settled torque over M, or M over it, from which M is not of the same bearing, load and temperature: what lubricants, slip
@@ -11,54 +12,44 @@ const FOREIGN: f64 = 2.0;
 const MOSTLY: f64 = 0.05;
 
 impl Doubt {
+    pub(super) fn of(test: &Measurement, finding: Finding) -> Doubt {
+        let test = Some(test.name.clone());
+        Doubt { test, finding }
+    }
+
+    /// The same where a slip of the cage is known: then its count of balls is not what makes it look slow.
+    pub fn beside_a_slip(mut self) -> Doubt {
+        if let Finding::WrongBallCount { ratio, .. } = self.finding {
+            self.finding = Finding::CageNeverRolls { ratio };
+        }
+        self
+    }
+}
+
+impl Finding {
     /// Whether no explanation may be sought with this M: a torque that settles below half of it or above twice it would be
     /// called a sensor's fault; and so would one at speeds that the slow tests never reached.
     pub fn forbids_comparison(&self) -> bool {
         match self {
-            Doubt::Reversed { .. } | Doubt::WrongUnit { .. } => true,
-            Doubt::OutsideMoment { above, .. } => *above > MOSTLY,
-            Doubt::ForeignSteadyMoment { ratio, .. } => *ratio < 1.0 / FOREIGN || *ratio > FOREIGN,
+            Finding::Reversed { .. } | Finding::WrongUnit { .. } => true,
+            Finding::OutsideMoment { above, .. } => *above > MOSTLY,
+            Finding::ForeignSteadyMoment { ratio, .. } => {
+                *ratio < 1.0 / FOREIGN || *ratio > FOREIGN
+            }
             _ => false,
         }
     }
+}
 
-    /// The same where a slip of the cage is known: then its count of balls is not what makes it look slow.
-    pub fn beside_a_slip(self) -> Doubt {
-        match self {
-            Doubt::WrongBallCount { test, ratio, .. } => Doubt::CageNeverRolls { test, ratio },
-            other => other,
-        }
-    }
-
-    /// Name of the test that it is about; none where it is about all.
-    pub fn test(&self) -> Option<&str> {
-        match self {
-            Doubt::Reversed { test, .. }
-            | Doubt::WrongUnit { test, .. }
-            | Doubt::NeverReaches { test, .. }
-            | Doubt::OutsideMoment { test, .. }
-            | Doubt::ForeignSteadyMoment { test, .. }
-            | Doubt::LoadOfSteadyMoment { test, .. }
-            | Doubt::WrongBallCount { test, .. }
-            | Doubt::CageNeverRolls { test, .. }
-            | Doubt::TemperatureExplains { test, .. }
-            | Doubt::NotSettled { test, .. }
-            | Doubt::TooShort { test, .. } => Some(test),
-            Doubt::MixedLoads { .. } => None,
-        }
-    }
-
-    /// What is doubted, without the name of the test.
-    pub fn finding(&self) -> String {
-        match self {
-            Doubt::Reversed { moment, .. } => format!(
+impl fmt::Display for Finding {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let words = match self {
+            Finding::Reversed { moment } => format!(
                 "at steady speed the torque is {:.4} ± {:.4} N mm along the rotation, by which the bearing would drive the shaft: the sign of the reading is reversed (signals.torque.scale = \"-1 N mm\" for a channel in N mm)",
                 1e3 * moment.value,
                 1e3 * moment.deviation
             ),
-            Doubt::WrongUnit {
-                moment, expected, ..
-            } => {
+            Finding::WrongUnit { moment, expected } => {
                 let middle = (expected.0 * expected.1).sqrt();
                 let (word, bound) = match *moment > middle {
                     true => ("most", expected.1),
@@ -71,33 +62,28 @@ impl Doubt {
                     10_f64.powf(3.0 * ((moment / middle).log10() / 3.0).round())
                 )
             }
-            Doubt::NeverReaches {
-                reached, wanted, ..
-            } => format!(
+            Finding::NeverReaches { reached, wanted } => format!(
                 "it reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
             ),
-            Doubt::OutsideMoment { part, range, .. } => format!(
+            Finding::OutsideMoment { part, range, .. } => format!(
                 "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is reported there",
                 range.0,
                 range.1,
                 100.0 * part
             ),
-            Doubt::ForeignSteadyMoment {
+            Finding::ForeignSteadyMoment {
                 speed,
                 difference,
                 ratio,
-                ..
             } => format!(
                 "the torque settles at {ratio:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
                 1e3 * difference.value,
                 1e3 * difference.deviation
             ),
-            Doubt::LoadOfSteadyMoment {
-                load, steady_load, ..
-            } => format!(
+            Finding::LoadOfSteadyMoment { load, steady_load } => format!(
                 "it was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
             ),
-            Doubt::MixedLoads { loads } => {
+            Finding::MixedLoads { loads } => {
                 let each: Vec<String> = (loads.iter())
                     .map(|(test, load)| format!("{test} {load} N"))
                     .collect();
@@ -106,26 +92,24 @@ impl Doubt {
                     each.join("; ")
                 )
             }
-            Doubt::WrongBallCount {
+            Finding::WrongBallCount {
                 stated,
                 fits,
                 ratio,
-                ..
             } => format!(
                 "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll, or {:.3} times the marks per revolution that are stated",
                 ratio.value,
                 ratio.deviation,
                 1.0 / ratio.value
             ),
-            Doubt::CageNeverRolls { ratio, .. } => format!(
+            Finding::CageNeverRolls { ratio } => format!(
                 "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii, contact angle or marks per revolution are wrong",
                 ratio.value, ratio.deviation
             ),
-            Doubt::TemperatureExplains {
+            Finding::TemperatureExplains {
                 rise,
                 expected,
                 difference,
-                ..
             } => format!(
                 "the outer race warmed by {rise:.2} K, which changes the moment by {:.2} to {:.2} N mm and explains all of its {:.2} ± {:.2} N mm",
                 1e3 * expected.0,
@@ -133,23 +117,24 @@ impl Doubt {
                 1e3 * difference.value,
                 1e3 * difference.deviation
             ),
-            Doubt::NotSettled { change, over, .. } => format!(
+            Finding::NotSettled { change, over } => format!(
                 "the torque still changes at the end of the hold: by {:.3} ± {:.3} N mm within {over:.2} s",
                 1e3 * change.value,
                 1e3 * change.deviation
             ),
-            Doubt::TooShort { lasts, needed, .. } => format!(
+            Finding::TooShort { lasts, needed } => format!(
                 "it holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
             ),
-        }
+        };
+        out.write_str(&words)
     }
 }
 
 impl fmt::Display for Doubt {
     fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        match self.test() {
-            Some(test) => write!(out, "{test}: {}", self.finding()),
-            None => out.write_str(&self.finding()),
+        match &self.test {
+            Some(test) => write!(out, "{test}: {}", self.finding),
+            None => self.finding.fmt(out),
         }
     }
 }

@@ -5,7 +5,7 @@
 //!   M_min/30 < M < 30 M_max                 M of Palmgren's law with f0 from 0.7 to 12, and M1 of 0 to 0.003 F d_m
 //! ```
 
-use super::{APART, Doubt, set_free_mean};
+use super::{APART, Doubt, Finding, set_free_mean};
 use crate::Measurement;
 use crate::moment::{LEAST_SPEED, SLOW_ACCELERATION};
 use crate::series::trapezoid;
@@ -50,16 +50,16 @@ pub fn reading(test: &Measurement, set: &RollingSet<f64>, viscosity: Option<f64>
     let (low, high) = (FACTORS.0 * low / time, FACTORS.1 * high / time);
     let load = LOAD_PART * test.load * pitch_diameter;
     // of no slow part nothing compares
-    if moment.value < -APART * moment.deviation {
-        return Some(Doubt::Reversed {
-            test: test.name.clone(),
-            moment,
-        });
-    }
     let wrong = moment.value > BEYOND * (high + load) || moment.value < low / BEYOND;
-    (wrong && moment.value > APART * moment.deviation).then(|| Doubt::WrongUnit {
-        test: test.name.clone(),
-        moment: moment.value,
-        expected: (low, high + load),
-    })
+    let finding = if moment.value < -APART * moment.deviation {
+        Finding::Reversed { moment }
+    } else if wrong && moment.value > APART * moment.deviation {
+        Finding::WrongUnit {
+            moment: moment.value,
+            expected: (low, high + load),
+        }
+    } else {
+        return None;
+    };
+    Some(Doubt::of(test, finding))
 }

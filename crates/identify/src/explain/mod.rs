@@ -77,7 +77,7 @@ pub use explanation::Explanation;
 pub use next_test::{Candidate, Proposal, next_test};
 pub use prediction_errors::{PredictionErrors, with_prediction_errors};
 pub use settings::{LEAST_FIT, LEAST_SLIP, Settings};
-pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, TorqueMean, Verdict};
+pub use verdict::{Assessment, Conclusion, Estimate, Fit, TorqueMean, Verdict};
 
 /// Which explanation the tests of one bearing support.
 ///
@@ -87,13 +87,13 @@ pub use verdict::{Assessment, Conclusion, Estimate, Fit, Refusal, TorqueMean, Ve
 /// - `set`: masses and radii of balls and cage
 ///
 /// # Errors
-/// A [`Refusal`] where tests, curve or settings cannot be used.
+/// Where tests, curve or settings cannot be used: why.
 pub fn explain(
     tests: &[Measurement],
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
     settings: &Settings,
-) -> Result<Verdict, Refusal> {
+) -> Result<Verdict, String> {
     let bearing = bearing(tests, steady, set, settings)?;
     let records: Vec<Trial> = (tests.iter())
         .map(|test| Trial::measured(test, &bearing.table, set.outer_inertia()))
@@ -115,8 +115,8 @@ pub fn explain(
         let assessments = assessments.into_iter().map(|(assessment, _)| assessment);
         Some((observed, assessments.collect()))
     };
-    pass().ok_or(Refusal::BadCurve)?;
-    let (observed, mut assessments) = pass().ok_or(Refusal::BadCurve)?;
+    pass().ok_or(BAD_CURVE)?;
+    let (observed, mut assessments) = pass().ok_or(BAD_CURVE)?;
     let logs: Vec<f64> = assessments.iter().map(|a| a.log_evidence).collect();
     let weights: Vec<f64> = (assessments.iter().zip(limited(&logs, effective)))
         .map(|(a, log)| a.prior_probability.ln() + log)
@@ -186,28 +186,30 @@ fn bearing<'a>(
     steady: &'a SteadyMoment,
     set: &'a RollingSet<f64>,
     settings: &'a Settings,
-) -> Result<Bearing<'a>, Refusal> {
+) -> Result<Bearing<'a>, String> {
     refuse(tests, steady, settings)?;
     let top_speed = (tests.iter().flat_map(|test| &test.speed)).fold(0.0_f64, |a, b| a.max(*b));
     if top_speed <= 0.0 {
-        return Err(Refusal::BadTest(tests[0].name.clone()));
+        return Err(bad_test(&tests[0]));
     }
     let repeated = tests.iter().any(|test| test.rest_before.is_some());
     Ok(Bearing::new(steady, top_speed, set, settings, repeated))
 }
 
-fn refuse(
-    tests: &[Measurement],
-    steady: &SteadyMoment,
-    settings: &Settings,
-) -> Result<(), Refusal> {
-    let first = tests.first().ok_or(Refusal::NoTests)?;
+/// Why a curve of the steady moment cannot be used.
+const BAD_CURVE: &str = "the steady moment needs rising positive speeds, positive moments and a covariance of as many rows";
+
+fn refuse(tests: &[Measurement], steady: &SteadyMoment, settings: &Settings) -> Result<(), String> {
+    let first = tests.first().ok_or("no test was given")?;
     for test in tests {
         if !usable(test) {
-            return Err(Refusal::BadTest(test.name.clone()));
+            return Err(bad_test(test));
         }
         if (test.load - first.load).abs() > 0.02 * first.load.abs() {
-            return Err(Refusal::OtherLoad(test.name.clone()));
+            return Err(format!(
+                "test \"{}\" ran at another load than the first: tests of one load are compared with one M(Ω)",
+                test.name
+            ));
         }
     }
     let size = steady.speed.len();
@@ -221,11 +223,19 @@ fn refuse(
         && (steady.covariance.iter())
             .all(|row| row.len() == size && row.iter().all(|c| c.is_finite()));
     if !curve {
-        return Err(Refusal::BadCurve);
+        return Err(BAD_CURVE.to_string());
     }
-    settings
-        .fault()
-        .map_or(Ok(()), |name| Err(Refusal::BadSetting(name)))
+    match settings.fault() {
+        Some(name) => Err(format!("setting \"{name}\" is out of its range")),
+        None => Ok(()),
+    }
+}
+
+fn bad_test(test: &Measurement) -> String {
+    format!(
+        "test \"{}\": at least ten values, rising times, equal lengths, numbers and positive deviations are needed",
+        test.name
+    )
 }
 
 fn usable(test: &Measurement) -> bool {

@@ -24,7 +24,7 @@ use super::noise::Observed;
 use super::prior::{RECOVERY_TIME, Range};
 use super::record::{LeastWidth, Past, Trial};
 use super::steady::Table;
-use super::{Refusal, Settings, Verdict, bearing};
+use super::{BAD_CURVE, Settings, Verdict, bearing};
 
 /// A test that could be made next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,14 +136,14 @@ impl Proposal {
 /// Where one explanation is certain nothing is left to learn: all informations are near 0.
 ///
 /// # Errors
-/// A [`Refusal`] where the arguments cannot be used.
+/// Where the arguments cannot be used: why.
 pub fn next_test(
     verdict: &Verdict,
     tests: &[Measurement],
     steady: &SteadyMoment,
     set: &RollingSet<f64>,
     settings: &Settings,
-) -> Result<Vec<Candidate>, Refusal> {
+) -> Result<Vec<Candidate>, String> {
     let bearing = bearing(tests, steady, set, settings)?;
     let table = &bearing.table;
     let rig = Rig::of(&tests[tests.len() - 1], table, set.outer_inertia());
@@ -155,9 +155,7 @@ pub fn next_test(
             test: rig.plan(proposal, table),
             bearing: &bearing,
         };
-        let (information, entropy) = trial
-            .information(verdict, &mut random)
-            .ok_or(Refusal::BadCurve)?;
+        let (information, entropy) = trial.information(verdict, &mut random).ok_or(BAD_CURVE)?;
         candidates.push(Candidate {
             proposal,
             information,

@@ -5,7 +5,7 @@ use super::bench::{
 };
 use model::bearing::{BearingConstants, SteadyMoment};
 use model::system::rig::layout::{ACCELERATION, CAGE_SLIP, FLYWHEEL, SHAFT};
-use model::system::rig::{Action, Clutch, Drag, Engagement, Program, engagement_ramp};
+use model::system::rig::{Action, Clutch, Drag, Engagement, Program, Start, engagement_ramp};
 use physics::traction::{TanhTraction, Traction};
 
 #[test]
@@ -172,7 +172,11 @@ fn a_test_is_repeated_after_rest() {
         rate: 50.0,
         largest: 3.0,
     };
-    let program = Program::repeat_after_rest(SPEED, 0.01, engagement, 0.1, 1.2);
+    let mut program = Program::spin_up(SPEED, 0.01, engagement, true);
+    program.actions.extend([
+        (0.11, Action::Disengage),
+        (1.31, Action::Engage(engagement)),
+    ]);
     let run = run(
         concentric(BearingConstants::Rolling(rolls()), program),
         1.5,
@@ -206,13 +210,18 @@ fn a_motor_brings_the_flywheel_to_speed_first() {
         rate: 50.0,
         largest: 3.0,
     };
-    let program = Program::motored_spin_up(SPEED, 50.0, 3.5, engagement, false);
-    assert!(
-        program
-            .actions
-            .iter()
-            .any(|(_, action)| *action == Action::MotorOff)
-    );
+    let to_speed = Action::MotorTo {
+        speed: SPEED,
+        rate: 50.0,
+    };
+    let program = Program {
+        start: Start::REST,
+        actions: vec![
+            (0.0, to_speed),
+            (3.5, Action::MotorOff),
+            (3.5, Action::Engage(engagement)),
+        ],
+    };
     let mut c = concentric(BearingConstants::Rolling(rolls()), program);
     if let BearingConstants::Rolling(bearing) = &mut c.bearing {
         bearing.moment = SteadyMoment::None;

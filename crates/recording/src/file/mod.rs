@@ -88,7 +88,9 @@ mod number;
 pub mod parquet;
 pub mod source;
 pub mod tdms;
+#[cfg(feature = "uff")]
 pub mod uff;
+#[cfg(feature = "wav")]
 pub mod wav;
 mod writer;
 
@@ -169,39 +171,74 @@ impl fmt::Display for Format {
 /// Opens a file, which the path names in messages.
 type Open = fn(File, &Path) -> Result<Box<dyn Recording>, FileError>;
 
-/// One format: how it is recognised by its first bytes, and how a file of it is opened.
+/// One format: how it is recognised by its first bytes, and how a file of it is opened, or which feature is missing for that.
 struct Row {
     format: Format,
     recognise: fn(&[u8]) -> bool,
-    open: Open,
+    open: Result<Open, &'static str>,
 }
 
-/// The row of a format, whose reader has its name.
+/// The row of a format, whose reader has its name; a build without the feature of the reader refuses its files.
 macro_rules! row {
-    ($Format:ident, $module:ident, $recognise:ident) => {
+    ($Format:ident, $module:ident, $recognise:path $(, $feature:tt)?) => {
         Row {
             format: Format::$Format,
-            recognise: $module::$recognise,
-            open: |file, path| Ok(Box::new($module::$Format::from_source(file, path)?)),
+            recognise: $recognise,
+            $(#[cfg(feature = $feature)])?
+            open: Ok(|file, path| Ok(Box::new($module::$Format::from_source(file, path)?))),
+            $(
+                #[cfg(not(feature = $feature))]
+                open: Err($feature),
+            )?
         }
     };
 }
 
 /// The formats that can be read, the most certain signature first; text, which has none, is last.
 const FORMATS: &[Row] = &[
-    row!(Tdms, tdms, is_tdms),
-    row!(Hdf5, hdf5, is_hdf5),
-    row!(Parquet, parquet, is_parquet),
-    row!(Mat5, mat5, is_mat5),
-    row!(Wav, wav, is_wav),
-    row!(Uff, uff, is_uff),
-    row!(Csv, csv, is_csv),
+    row!(Tdms, tdms, tdms::is_tdms),
+    row!(Hdf5, hdf5, hdf5::is_hdf5),
+    row!(Parquet, parquet, parquet::is_parquet),
+    row!(Mat5, mat5, mat5::is_mat5),
+    row!(Wav, wav, is_wav, "wav"),
+    row!(Uff, uff, is_uff, "uff"),
+    row!(Csv, csv, csv::is_csv),
 ];
 
 /// The names of the formats that can be read, for messages.
 fn readable() -> String {
-    let names: Vec<&str> = FORMATS.iter().map(|row| row.format.name()).collect();
+    let rows = FORMATS.iter().filter(|row| row.open.is_ok());
+    let names: Vec<&str> = rows.map(|row| row.format.name()).collect();
     format!("files of these formats can be read: {}", names.join(", "))
+}
+
+/// Whether a file begins as WAV.
+fn is_wav(head: &[u8]) -> bool {
+    let names: [&[u8]; 4] = [b"RIFF", b"RIFX", b"RF64", b"BW64"];
+    names.iter().any(|name| head.starts_with(name)) && head.get(8..12) == Some(b"WAVE")
+}
+
+/// Whether a file begins as one of universal sets.
+fn is_uff(head: &[u8]) -> bool {
+    let mut lines = head
+        .split(|byte| *byte == b'\n')
+        .filter(|line| !line.trim_ascii().is_empty());
+    // Both stand in the first six columns, at their right end: so a table of whole numbers is not taken for one.
+    let indented = |line: &&[u8]| line.starts_with(b"  ");
+    let opens = lines.next().filter(indented).is_some_and(is_uff_mark);
+    let kind = lines
+        .next()
+        .filter(indented)
+        .map_or(&[][..], |line| line.trim_ascii_start());
+    let digits = kind.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    opens
+        && (1..=5).contains(&digits)
+        && matches!(kind.get(digits), None | Some(b' ' | b'\r' | b'b' | b'B'))
+}
+
+/// Whether a line opens or closes a set.
+fn is_uff_mark(line: &[u8]) -> bool {
+    line.trim_ascii() == b"-1"
 }
 
 /// Whether the bytes look like text of one byte a letter: no zero byte, and few control characters.
@@ -242,7 +279,8 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
         let needed = format!("rename it if it is a table; {}", readable());
         return Err(FileError::new(path, "", found, needed));
     }
-    (row.open)(source.into_inner(), path)
+    let without = |feature| FileError::without(path, row.format.name(), feature);
+    row.open.map_err(without)?(source.into_inner(), path)
 }
 
 /// Starts a file of the channels; the extension of its name decides the format.

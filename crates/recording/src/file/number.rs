@@ -18,41 +18,8 @@ pub(crate) fn signed(bits: u64, size: usize) -> i64 {
 /// The floating-point number that bits of 2, 4 or 8 bytes are.
 pub(crate) fn float(bits: u64, size: usize) -> f64 {
     match size {
-        2 => half(bits as u16),
+        2 => half::f16::from_bits(bits as u16).to_f64(),
         4 => f64::from(f32::from_bits(bits as u32)),
         _ => f64::from_bits(bits),
-    }
-}
-
-/// A number of half precision, IEEE 754 binary16.
-pub(crate) fn half(bits: u16) -> f64 {
-    let (exponent, fraction) = (i32::from(bits >> 10 & 0x1f), f64::from(bits & 0x3ff));
-    let value = match exponent {
-        0 => fraction * 2f64.powi(-24),
-        31 if fraction == 0.0 => f64::INFINITY,
-        31 => f64::NAN,
-        _ => (1024.0 + fraction) * 2f64.powi(exponent - 25),
-    };
-    if bits >> 15 == 1 { -value } else { value }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_precision_by_its_standard() {
-        // Examples of IEEE 754 binary16: one, smallest subnormal, largest, minus two, infinity.
-        let cases = [
-            (0x3c00, 1.0),
-            (0x0001, 5.960_464_477_539_063e-8),
-            (0x7bff, 65504.0),
-            (0xc000, -2.0),
-            (0x7c00, f64::INFINITY),
-        ];
-        for (bits, value) in cases {
-            assert_eq!(half(bits), value);
-        }
-        assert!(half(0x7e00).is_nan());
     }
 }

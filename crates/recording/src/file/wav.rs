@@ -14,14 +14,8 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use super::source::{Source, WINDOW};
-use super::{keep_note, number};
+use super::{is_wav, keep_note, number};
 use crate::{Channel, Clock, FileError, Note, Recording};
-
-/// Whether a file begins as WAV.
-pub fn is_wav(head: &[u8]) -> bool {
-    let names: [&[u8]; 4] = [b"RIFF", b"RIFX", b"RF64", b"BW64"];
-    names.iter().any(|name| head.starts_with(name)) && head.get(8..12) == Some(b"WAVE")
-}
 
 /// The type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

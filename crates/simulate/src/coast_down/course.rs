@@ -10,7 +10,7 @@ use thermal::bearing_network::{
 use thermal::coast_down::{CoastDown as Coast, Coasting, Endless};
 use thermal::held::Held;
 use thermal::losses::{Losses, moments};
-use thermal::network::{Network, NetworkError};
+use thermal::network::Network;
 use thermal::steady_speed::SteadySpeed;
 use thermal::warm_machine::{OF_BEARING, by_kind};
 
@@ -213,7 +213,7 @@ fn landing(built: &Built, speed: f64, bearing: usize) -> Landing {
 }
 
 /// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
-fn network(built: &Built, at: (f64, &[f64]), held: &[bool]) -> Result<Network, NetworkError> {
+fn network(built: &Built, at: (f64, &[f64]), held: &[bool]) -> Result<Network, String> {
     operating(built, at, |all| together(all, held))
 }
 
@@ -263,11 +263,11 @@ fn lying<T>(
     act(&all)
 }
 
-fn no_network(why: NetworkError) -> Box<Problem> {
+fn no_network(why: String) -> Box<Problem> {
     use problem::Code;
     use scenario::problem_at;
     let needed = "finite capacities and conductances are needed";
-    problem_at(Code::Impossible, "heat", why.to_string(), needed)
+    problem_at(Code::Impossible, "heat", why, needed)
 }
 
 fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {

@@ -4,9 +4,7 @@
 //! |---|---|---|
 //! | [`Program::coast_down`] | turning | nothing: motor off, clutch open, or locked to the flywheel |
 //! | [`Program::spin_up`] | flywheel at speed, shaft at rest | the clutch engages; the motor holds its speed or is off |
-//! | [`Program::motored_spin_up`] | at rest | the motor brings the flywheel to speed, then the clutch engages |
 //! | [`Program::ramp_and_hold`] | at rest, locked | the motor ramps to a speed and holds it |
-//! | [`Program::repeat_after_rest`] | flywheel at speed, shaft at rest | engage, disengage, come to rest, engage again |
 //!
 //! Any other program is a list of actions.
 
@@ -112,25 +110,6 @@ impl Program {
                 .collect(),
         }
     }
-    /// From rest: the motor brings the flywheel to a speed (rad/s) at a rate (rad/s²) from time 0; the clutch engages at a
-    /// time (s), and the motor goes on, or is off from then.
-    pub fn motored_spin_up(
-        speed: f64,
-        rate: f64,
-        engage_at: f64,
-        engagement: Engagement,
-        motor_holds: bool,
-    ) -> Self {
-        let mut actions = vec![(0.0, Action::MotorTo { speed, rate })];
-        if !motor_holds {
-            actions.push((engage_at, Action::MotorOff));
-        }
-        actions.push((engage_at, Action::Engage(engagement)));
-        Program {
-            start: Start::REST,
-            actions,
-        }
-    }
     /// From rest, the clutch locked by its largest capacity (N m): the motor ramps to a speed (rad/s) at a rate (rad/s²) and
     /// holds it.
     pub fn ramp_and_hold(speed: f64, rate: f64, largest: f64) -> Self {
@@ -141,22 +120,6 @@ impl Program {
                 (0.0, Action::MotorTo { speed, rate }),
             ],
         }
-    }
-    /// A spin-up as [`spin_up`](Self::spin_up) with the motor on; the clutch opens after `run` (s) and engages again after
-    /// `rest` (s) more, in which the shaft comes to rest.
-    pub fn repeat_after_rest(
-        speed: f64,
-        engage_at: f64,
-        engagement: Engagement,
-        run: f64,
-        rest: f64,
-    ) -> Self {
-        let mut program = Program::spin_up(speed, engage_at, engagement, true);
-        program.actions.extend([
-            (engage_at + run, Action::Disengage),
-            (engage_at + run + rest, Action::Engage(engagement)),
-        ]);
-        program
     }
 
     /// Refuses what has no meaning.

@@ -8,8 +8,6 @@ use parquet::data_type::{DataType, FixedLenByteArray, Int96};
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
-use crate::file::number::half;
-
 /// What the values of a column are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
@@ -192,7 +190,7 @@ impl Cursor {
                 full,
                 values,
                 |value: &FixedLenByteArray| match value.data().first_chunk() {
-                    Some(bytes) => half(u16::from_le_bytes(*bytes)),
+                    Some(bytes) => half::f16::from_le_bytes(*bytes).to_f64(),
                     None => f64::NAN,
                 },
             ),

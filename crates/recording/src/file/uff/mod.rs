@@ -19,31 +19,13 @@ mod text;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use super::number;
 use super::source::{Source, WINDOW};
+use super::{is_uff, is_uff_mark, number};
 use crate::{Channel, Clock, FileError, Recording};
 use header::{Names, date, si_unit};
 use scan::Contents;
 use set::{Axis, Body, Set};
-use text::{Numbers, is_mark, line, value};
-
-/// Whether a file begins as one of universal sets.
-pub fn is_uff(head: &[u8]) -> bool {
-    let mut lines = head
-        .split(|byte| *byte == b'\n')
-        .filter(|line| !line.trim_ascii().is_empty());
-    // Both stand in the first six columns, at their right end: so a table of whole numbers is not taken for one.
-    let indented = |line: &&[u8]| line.starts_with(b"  ");
-    let opens = lines.next().filter(indented).is_some_and(is_mark);
-    let kind = lines
-        .next()
-        .filter(indented)
-        .map_or(&[][..], |line| line.trim_ascii_start());
-    let digits = kind.iter().take_while(|byte| byte.is_ascii_digit()).count();
-    opens
-        && (1..=5).contains(&digits)
-        && matches!(kind.get(digits), None | Some(b' ' | b'\r' | b'b' | b'B'))
-}
+use text::{Numbers, line, value};
 
 /// Which numbers of a set a channel is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -220,7 +202,7 @@ fn numbers<S: Read + Seek>(
     let mut values = values.iter_mut();
     let mut slot = values.next();
     while let Some((text, next)) = line(source, at)? {
-        if slot.is_none() || is_mark(text) {
+        if slot.is_none() || is_uff_mark(text) {
             break;
         }
         let mut here = number;

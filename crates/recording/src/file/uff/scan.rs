@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::io::{Read, Seek};
 
 use super::header::{Header, header};
+use super::is_uff_mark;
 use super::set::{Body, Set};
-use super::text::{Numbers, columns, decoded, is_mark, is_plain, line, value};
+use super::text::{Numbers, columns, decoded, is_plain, line, value};
 use crate::file::keep_note;
 use crate::file::source::{Source, WINDOW};
 use crate::{FileError, Note};
@@ -40,7 +41,7 @@ impl Contents {
         let mut skipped: BTreeMap<String, u64> = BTreeMap::new();
         let mut at = 0;
         while let Some((text, next)) = line(source, at)? {
-            let (mark, blank) = (is_mark(text), text.trim_ascii().is_empty());
+            let (mark, blank) = (is_uff_mark(text), text.trim_ascii().is_empty());
             at = next;
             if !mark {
                 if !blank {
@@ -51,7 +52,7 @@ impl Contents {
             let Some((text, next)) = line(source, at)? else {
                 break;
             };
-            if is_mark(text) {
+            if is_uff_mark(text) {
                 // The mark that closes the set before is missing, or there are two: this one opens a set.
                 continue;
             }
@@ -83,7 +84,7 @@ impl Contents {
         let mut number = 0;
         while let Some((text, next)) = line(source, at)? {
             at = next;
-            if is_mark(text) {
+            if is_uff_mark(text) {
                 break;
             }
             if number == 0 && kind == "164" {
@@ -115,7 +116,7 @@ impl Contents {
             let Some((text, next)) = line(source, at)? else {
                 break;
             };
-            if is_mark(text) {
+            if is_uff_mark(text) {
                 break;
             }
             let (text, foreign) = decoded(text);
@@ -173,7 +174,7 @@ impl Contents {
         let mut places = vec![(0, at)];
         let (mut numbers, mut wrong, mut first_wrong, mut closed) = (0u64, 0u64, at, false);
         while let Some((text, next)) = line(source, at)? {
-            if is_mark(text) {
+            if is_uff_mark(text) {
                 (at, closed) = (next, true);
                 break;
             }
@@ -294,7 +295,7 @@ fn closes<S: Read + Seek>(source: &mut Source<S>, mut at: u64) -> Result<bool, F
         match line(source, at)? {
             None => return Ok(false),
             Some((text, next)) if text.trim_ascii().is_empty() => at = next,
-            Some((text, _)) => return Ok(is_mark(text)),
+            Some((text, _)) => return Ok(is_uff_mark(text)),
         }
     }
     Ok(false)

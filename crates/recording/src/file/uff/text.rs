@@ -35,11 +35,6 @@ pub fn line<S: Read + Seek>(
     )))
 }
 
-/// Whether a line opens or closes a set.
-pub fn is_mark(line: &[u8]) -> bool {
-    line.trim_ascii() == b"-1"
-}
-
 /// A text of unknown encoding: UTF-8 where it is that, else Latin-1; and whether it was the latter.
 pub fn decoded(bytes: &[u8]) -> (String, bool) {
     match std::str::from_utf8(bytes) {

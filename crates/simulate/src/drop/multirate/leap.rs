@@ -8,8 +8,6 @@ use std::f64::consts::LN_2;
 
 /// Largest jump of the logarithm of the speed in the motion: a lightly damped resonance of a mount is a few percent wide, and so steps on it.
 pub(super) const JUMP: f64 = 0.04;
-/// Longest leap, ln of the speeds: loads and way of a sweep are not looked at more coarsely.
-const LONGEST: f64 = 0.223;
 /// From how far above a natural frequency to how far below it is passed in jumps: a motion that leaves its race softens, and drags its resonance down.
 const NEAR: [f64; 2] = [1.1, 0.7];
 /// Contact force over that before, or over the load at rest, from which on a motion is another one: at 2 a sinusoidal one leaves its race.
@@ -76,7 +74,7 @@ pub(super) struct Pace {
 /// The pace that natural frequencies allow from a speed, rad/s.
 pub(super) fn pace(modes: &[Mode], speed: f64) -> Pace {
     let free = Pace {
-        leap: LONGEST,
+        leap: f64::INFINITY,
         jump: JUMP,
         dwell: 0.0,
     };

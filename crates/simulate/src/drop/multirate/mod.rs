@@ -16,8 +16,8 @@
 //!                     e = max(|Δt_again − Δt|/(t + t_r), |T_again − T|/50 K),   t_r = I Ω/M
 //!                   where e > ε a leap of more than 4 % of speed is taken back and repeated with 0.5 to 0.9 of its length
 //!   3 leap          the next step, in the logarithm of the speed
-//!                     h = min(0.9 √(ε/e) h_before, ln 1.25, what a natural frequency allows, the speed of an event),   and in time
-//!                     σ Δt ≤ ε (t + t_r),   λ Δt ≤ ln 2,   |ṡ| Δt ≤ 4 %
+//!                     h = min(0.9 √(ε/e) h_before, what a natural frequency allows, the speed of an event),   and in time
+//!                     Δt ≤ t_r/2,   σ Δt ≤ ε (t + t_r),   λ Δt ≤ ln 2,   |ṡ| Δt ≤ 4 %
 //!                   The motion comes down with it in jumps of 4 % of speed at most, and ends the leap where it presses harder than before.
 //!   4 or not        where Δt is less than the interval took, the motion itself goes on: 1 again, with more batches.
 //! ```
@@ -56,11 +56,10 @@ use macro_step::{Ahead, fading, step};
 pub(super) use series::IntervalSeries;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::NODES;
+use thermal::coast_down::TEMPERATURE_SCALE;
 
 /// Most batches that one estimate takes, in intervals: what was longer ago belongs to another speed.
 const LONGEST_ESTIMATE: usize = 4;
-/// Temperature that counts as an error of 1, K: as in the quasi-steady integration.
-const TEMPERATURE_SCALE: f64 = 50.0;
 
 /// A leap that is not closed yet.
 struct Leap<'a> {
