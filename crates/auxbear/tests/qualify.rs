@@ -19,7 +19,7 @@ const ASKED: &str = "format = \"auxbear.study/1\"\nscenario = \"machine.toml\"\n
     [design]\nkind = \"qualification\"\ndraws = 2\n\
     [[input]]\npath = \"run.case\"\nchoice = [\"power lost\", \"shock\"]\n\
     [[input]]\npath = \"contact.friction_coefficient\"\nuniform = [0.1, 0.3]\n\
-    [[limit]]\nquantity = \"drive_end.peak_contact_force\"\nmost = \"1 MN\"\nsource = \"drawing 4711\"\n\
+    [[limit]]\ncase = \"shock\"\nquantity = \"drive_end.peak_contact_force\"\nmost = \"1 MN\"\nsource = \"drawing 4711\"\n\
     [[limit]]\ncase = \"shock\"\nquantity = \"node.seal.least_distance\"\nleast = \"0.39 mm\"\n\
     [[requirement]]\ntext = \"Thrust is carried\"\nwhy = \"no axial motion\"\n";
 
