@@ -118,6 +118,23 @@ fn events_by_time_come_before_the_coast_down() {
     }
 }
 
+/// A brake that stops the rotor within the first interval: the mean speed of a race over that of rolling is no mean of ratios, which are anything
+/// where the rotor stands. No ball carries more than by Stribeck, 5 F/Z.
+#[test]
+fn an_interval_in_which_the_rotor_stops_loads_no_ball_more() {
+    let keys = ["rotor.spin=braked", "rotor.brake_torque=5 N m"];
+    let loads = ["0.3 s", "0.5 s"].map(|end| {
+        let when = ["rotor.brake_start=0.1 s", &format!("run.duration={end}")];
+        let run = ran(&coasting(), &[keys, when].concat());
+        let [ball, force] = ["peak_ball_load", "peak_contact_force"]
+            .map(|name| number(&run, &format!("a.coast_down.{name}")));
+        // the 6005 has ten
+        assert!(ball < 0.5 * force, "{end}: {ball} {force}");
+        ball
+    });
+    near(loads[0], loads[1], 0.05);
+}
+
 #[test]
 fn what_a_coast_down_cannot_follow_is_refused() {
     let event = |lines: &str| format!("[[event]]\n{lines}\n");

@@ -227,7 +227,8 @@ fn mean(batches: &[&Batch]) -> Batch {
             peak_force: largest(|own| own.peak_force),
             peak_rise: largest(|own| own.peak_rise),
             drag_factor: mean(|own| own.drag_factor),
-            spin: mean(|own| own.spin),
+            // of races over rotor: in batches in which it stands their ratio says nothing
+            spin: over(&|batch| batch.speed * batch.bearings[k].spin) / over(&|batch| batch.speed),
             landing: Landing {
                 force: mean(|own| own.landing.force),
                 slides: mean(|own| own.landing.slides),
