@@ -3,6 +3,7 @@
 use crate::rotor::RotorModel;
 use ::rotor::{C64, Place, properties};
 use physics::heat_conduction::STEEL_HEAT;
+use physics::support::weight_share;
 use problem::{Code, Problem};
 use scenario::several::path_of;
 use scenario::{Body, RigidBody, problem_at};
@@ -155,22 +156,11 @@ fn conflict(bearing: &str, key: &str, found: &str, needed: &str) -> Box<Problem>
     problem_at(Code::Conflict, path_of(of, key), found, needed)
 }
 
-/// Shares of the weight: 1/n and what balances the moment about the middle of the rows.
+/// Shares of the weight on one row of each bearing.
 fn shares(model: &RotorModel, nodes: &[usize], drop: &scenario::Drop) -> Vec<f64> {
-    let places: Vec<f64> = nodes.iter().map(|node| model.rotor.nodes[*node]).collect();
-    let over_rows = |of: &dyn Fn(f64) -> f64| -> f64 {
-        let each = drop.auxiliary_bearings.iter().zip(&places);
-        each.map(|(part, z)| part.planes * of(*z)).sum()
-    };
-    let count = drop.rows();
-    let middle = over_rows(&|z| z) / count;
-    let spread = over_rows(&|z| (z - middle).powi(2));
-    let lever = properties(&model.rotor).centre - middle;
-    places
-        .iter()
-        .map(|z| match spread > 0.0 {
-            true => 1.0 / count + lever * (z - middle) / spread,
-            false => 1.0 / count,
-        })
-        .collect()
+    let place = |node: &usize| model.rotor.nodes[*node];
+    let parts = drop.auxiliary_bearings.iter().zip(nodes);
+    let rows = parts.map(|(part, node)| (place(node), part.planes));
+    let share = weight_share(rows, properties(&model.rotor).centre);
+    nodes.iter().map(|node| share(place(node))).collect()
 }
