@@ -49,8 +49,14 @@ fn rows_share_the_weight_by_levers() {
     let (rows, centre) = ([(-0.1, 1.0), (0.2, 2.0), (0.7, 1.0)], 0.3);
     let share = weight_share(rows.into_iter(), centre);
     let sum: f64 = rows.iter().map(|(z, rows)| rows * share(*z)).sum();
-    let moment: f64 = rows.iter().map(|(z, rows)| rows * share(*z) * (z - centre)).sum();
-    assert!((sum - 1.0).abs() < 1e-15 && moment.abs() < 1e-15, "{sum} {moment}");
+    let moment: f64 = rows
+        .iter()
+        .map(|(z, rows)| rows * share(*z) * (z - centre))
+        .sum();
+    assert!(
+        (sum - 1.0).abs() < 1e-15 && moment.abs() < 1e-15,
+        "{sum} {moment}"
+    );
     let one = weight_share([(0.5, 2.0), (0.5, 2.0)].into_iter(), 0.1);
     assert_eq!(one(0.5), 0.25);
 }

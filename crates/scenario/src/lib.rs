@@ -163,6 +163,13 @@ impl System {
         }
     }
 
+    fn drop(&self) -> Option<&Drop> {
+        match self {
+            System::Drop(drop) => Some(drop),
+            _ => None,
+        }
+    }
+
     /// The typed values of a document's system, checked; several auxiliary bearings have values each.
     fn of(
         document: &document::Document,
@@ -265,10 +272,7 @@ pub struct Scenario {
 impl Scenario {
     /// The drop of a rotor, rigid or flexible, where it is one.
     pub fn drop(&self) -> Option<&Drop> {
-        match &self.system {
-            System::Drop(drop) => Some(drop),
-            _ => None,
-        }
+        self.system.drop()
     }
 
     /// The limits of the case that happens.
@@ -425,10 +429,13 @@ impl Scenario {
     ) -> Result<Scenario> {
         let name = &document.file.clone();
         let documents = document.of_each_bearing();
-        let values = (documents.iter().enumerate())
+        let mut values = (documents.iter().enumerate())
             .map(|(k, document)| values::Values::resolve(document, bearings, before.get(k)))
             .collect::<Result<Vec<_>, _>>()?;
         let system = System::of(&documents[0], &values, bearings, name)?;
+        if system.drop().is_some_and(Drop::loses_power_by_events) {
+            values[0].known.remove(drop::LOST_AT);
+        }
         let vary = match &system {
             System::Drop(drop) => vary::of_drop(&drop.repeat, &document.vary, &values)?,
             _ => Vec::new(),
