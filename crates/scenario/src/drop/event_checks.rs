@@ -114,7 +114,7 @@ fn line(line: Option<usize>) -> String {
 }
 
 /// Refuses what a coast-down until the standstill cannot follow: its quasi-steady part begins after the last known event, of a rotor without
-/// power, drive and loads, and lands on speeds at which a brake comes.
+/// power and drive, and lands on speeds at which a brake, an unbalance or a load comes.
 pub(super) fn until_standstill(
     parts: &[&Part],
     events: &[Event],
@@ -140,7 +140,6 @@ pub(super) fn until_standstill(
     for (part, event) in parts.iter().zip(events) {
         let of_magnets = event.what.axes().is_some();
         let (key, found) = match (&event.what, event.when) {
-            (Happens::Load { .. } | Happens::Unbalance { .. }, _) => ("do", "a load or unbalance"),
             (_, When::Speed { .. }) if of_magnets => ("do", "an event of magnets by a speed"),
             (_, When::Speed { delay, .. }) if delay > 0.0 => ("delay", "a delay after a speed"),
             (Happens::Drive(torque), when)
@@ -153,7 +152,7 @@ pub(super) fn until_standstill(
             _ => continue,
         };
         let found = format!("{found} beside run.until = \"standstill\"");
-        let allowed = "run.until = \"duration\" is needed for it: after run.duration quasi-steady steps follow, without power, drive and loads; they land on speeds of brakes and drives that end";
+        let allowed = "run.until = \"duration\" is needed for it: after run.duration quasi-steady steps follow, without power and drive; they land on speeds of brakes, drives that end, loads and unbalances";
         return part.refuse(Code::Conflict, key, found, allowed);
     }
     Ok(())

@@ -71,7 +71,12 @@ pub(super) fn ahead(
     )
 }
 
-/// The torques that brake such a rotor: those that came, and those whose time or speed is to come.
+/// Whether a rotor goes on as another one, or under another load.
+pub(super) fn changes(event: &Event) -> bool {
+    matches!(event, Event::Load(..) | Event::Unbalance(_))
+}
+
+/// The torques that brake such a rotor: those that came, and those whose time or speed is to come; loads and unbalances that come have none.
 pub(super) fn coming(machine: &MachineConstants, reached: &[f64], speed: f64) -> Vec<Brake> {
     let (known, mut yet) = ahead(machine, reached, speed);
     yet.sort_by(|a, b| b.speed.total_cmp(&a.speed));
@@ -81,11 +86,12 @@ pub(super) fn coming(machine: &MachineConstants, reached: &[f64], speed: f64) ->
     let yet = yet
         .iter()
         .flat_map(|own| own.then.iter().map(|then| (0.0, own.speed, then.1)));
-    let mut now = [0.0; 2];
+    let mut now = [0.0; 3];
     let brakes = known.chain(yet).filter_map(|(from, below, event)| {
         let (kind, torque) = match event {
             Event::Brake(share) => (0, share * machine.rotor.brake_torque),
             Event::Drive(more) => (1, -more),
+            _ if changes(&event) => (2, 0.0),
             _ => return None,
         };
         let torque = torque - std::mem::replace(&mut now[kind], torque);

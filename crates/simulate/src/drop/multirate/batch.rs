@@ -81,6 +81,8 @@ impl Batch {
 #[derive(Clone, Debug)]
 pub(super) struct Interval {
     pub batches: Vec<Batch>,
+    /// From which of them on an unbalance or a load has come.
+    pub changed: Option<usize>,
     /// Of the balls of each bearing.
     pub balls: Vec<Option<Arc<BallsSeen>>>,
     /// Largest displacement of the rotor in each bearing from the line of levitation, and of its mount, m.
