@@ -89,43 +89,8 @@ pub enum When {
 /// What happens.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Happens {
-    /// Axes lose their power; their currents decay in this time, s.
-    Lost {
-        /// The axes, two of each magnet in turn.
-        axes: Vec<usize>,
-        /// Time to 1/e, s.
-        decay_time: f64,
-    },
-    /// Sensors keep showing what they show.
-    SensorStuck(Vec<usize>),
-    /// Sensors show nothing.
-    SensorDead(Vec<usize>),
-    /// Sensors show so much more, m.
-    SensorOffset(Vec<usize>, f64),
-    /// Sensors show normal values besides, each for a while.
-    SensorNoise {
-        /// The axes.
-        axes: Vec<usize>,
-        /// Standard deviation, m.
-        deviation: f64,
-        /// Time from a value to the next, s.
-        period: f64,
-        /// Seed of the values.
-        seed: u64,
-    },
-    /// Commands keep their value.
-    ControllerFrozen(Vec<usize>),
-    /// Limits of amplifiers, where they change.
-    AmplifierLimit {
-        /// The axes.
-        axes: Vec<usize>,
-        /// Largest current of a coil, A.
-        largest_current: Option<f64>,
-        /// Largest rate of a current, A/s.
-        slew: Option<f64>,
-    },
-    /// All magnets hold the rotor again.
-    Relevitate(Relevitation),
+    /// Something happens to axes of magnets, two of each in turn.
+    Magnets(Vec<usize>, MagnetEvent),
     /// A torque of this size brakes the rotor, N m.
     Brake(f64),
     /// The drive has this torque, N m, in the place of `rotor.drive_torque`.
@@ -146,6 +111,39 @@ pub enum Happens {
         /// Angle on the rotor, rad.
         phase: f64,
     },
+}
+
+/// What happens to axes of magnets, their sensors and their controllers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MagnetEvent {
+    /// They lose their power; their currents decay to 1/e in this time, s.
+    Lost(f64),
+    /// Sensors keep showing what they show.
+    SensorStuck,
+    /// Sensors show nothing.
+    SensorDead,
+    /// Sensors show so much more, m.
+    SensorOffset(f64),
+    /// Sensors show normal values besides, each for a while.
+    SensorNoise {
+        /// Standard deviation, m.
+        deviation: f64,
+        /// Time from a value to the next, s.
+        period: f64,
+        /// Seed of the values.
+        seed: u64,
+    },
+    /// Commands keep their value.
+    ControllerFrozen,
+    /// Limits of amplifiers, where they change.
+    AmplifierLimit {
+        /// Largest current of a coil, A.
+        largest_current: Option<f64>,
+        /// Largest rate of a current, A/s.
+        slew: Option<f64>,
+    },
+    /// They hold the rotor again, all of them.
+    Relevitated(Relevitation),
 }
 
 /// How a rotor is levitated again.
@@ -174,49 +172,26 @@ impl Happens {
     /// The axes of the magnets that it is of; none of what is not of magnets.
     pub fn axes(&self) -> Option<&[usize]> {
         match self {
-            Happens::Lost { axes, .. }
-            | Happens::SensorNoise { axes, .. }
-            | Happens::AmplifierLimit { axes, .. } => Some(axes),
-            Happens::SensorStuck(axes)
-            | Happens::SensorDead(axes)
-            | Happens::SensorOffset(axes, _)
-            | Happens::ControllerFrozen(axes) => Some(axes),
-            Happens::Relevitate(_) => Some(&[]),
-            Happens::Brake(_)
-            | Happens::Drive(_)
-            | Happens::Load { .. }
-            | Happens::Unbalance { .. } => None,
+            Happens::Magnets(axes, _) => Some(axes),
+            _ => None,
         }
     }
-    /// Whether both change the same thing.
+    /// Whether both change the same thing; unbalances add up.
     pub(super) fn conflicts(&self, other: &Happens) -> bool {
-        let kind = |of: &Happens| match of {
-            Happens::Lost { .. } | Happens::Relevitate(_) => 0,
-            Happens::SensorStuck(_) | Happens::SensorDead(_) => 1,
-            Happens::SensorOffset(..) => 2,
-            Happens::ControllerFrozen(_) => 3,
-            Happens::AmplifierLimit { .. } => 4,
-            Happens::Brake(_) => 5,
-            Happens::Unbalance { .. } => 6,
-            Happens::Drive(_) => 7,
-            Happens::SensorNoise { .. } => 8,
-            Happens::Load { node, .. } => 9 + *node,
+        use MagnetEvent::{Lost, Relevitated, SensorDead, SensorStuck};
+        let kind = |of: &MagnetEvent| match of {
+            Relevitated(_) => std::mem::discriminant(&Lost(0.0)),
+            SensorDead => std::mem::discriminant(&SensorStuck),
+            own => std::mem::discriminant(own),
         };
-        let all = |of: &Happens| {
-            matches!(
-                of,
-                Happens::Relevitate(_)
-                    | Happens::Brake(_)
-                    | Happens::Drive(_)
-                    | Happens::Load { .. }
-            )
-        };
-        let shared = |a: &[usize], b: &[usize]| a.iter().any(|axis| b.contains(axis));
-        let axes = |of: &Happens| of.axes().unwrap_or_default().to_vec();
-        let add_up = matches!(self, Happens::Unbalance { .. });
-        kind(self) == kind(other)
-            && !add_up
-            && (all(self) || all(other) || shared(&axes(self), &axes(other)))
+        match (self, other) {
+            (Happens::Magnets(a, one), Happens::Magnets(b, two)) => {
+                kind(one) == kind(two) && a.iter().any(|axis| b.contains(axis))
+            }
+            (Happens::Load { node, .. }, Happens::Load { node: other, .. }) => node == other,
+            (Happens::Brake(_), Happens::Brake(_)) | (Happens::Drive(_), Happens::Drive(_)) => true,
+            _ => false,
+        }
     }
 }
 
@@ -299,17 +274,18 @@ fn of_case<'a>(
         events.push(Event {
             name: POWER_LOST.to_string(),
             when: When::At(values.number(LOST_AT).unwrap_or_default()),
-            what: Happens::Lost {
-                axes: (0..2 * held.magnets.len()).collect(),
-                decay_time: values.number("levitation.decay_time").unwrap_or_default(),
-            },
+            what: Happens::Magnets(
+                (0..2 * held.magnets.len()).collect(),
+                MagnetEvent::Lost(values.number("levitation.decay_time").unwrap_or_default()),
+            ),
             by_key: true,
         });
     }
     relevitated(parts, &events, magnets)?;
     let end = values.number("run.duration").unwrap_or(f64::INFINITY);
     for (part, event) in parts.iter().zip(&events) {
-        if let (Happens::Relevitate(again), When::At(time)) = (&event.what, event.when)
+        if let (Happens::Magnets(_, MagnetEvent::Relevitated(again)), When::At(time)) =
+            (&event.what, event.when)
             && time < end
             && again.hold >= end - time
         {
@@ -372,18 +348,14 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         return part.refuse(Code::LevitationParts, "do", found, allowed);
     };
     let axes = axes(part, magnets)?;
-    let decay_time = || {
-        let usual = values.number("levitation.decay_time").unwrap_or_default();
-        part.number("decay_time").unwrap_or(usual)
-    };
-    Ok(match what {
-        Happening::PowerLost | Happening::MagnetLost | Happening::AxisLost => Happens::Lost {
-            axes,
-            decay_time: decay_time(),
-        },
-        Happening::SensorStuck => Happens::SensorStuck(axes),
-        Happening::SensorDead => Happens::SensorDead(axes),
-        Happening::SensorOffset => Happens::SensorOffset(axes, part.needed("offset")),
+    let what = match what {
+        Happening::PowerLost | Happening::MagnetLost | Happening::AxisLost => {
+            let usual = values.number("levitation.decay_time").unwrap_or_default();
+            MagnetEvent::Lost(part.number("decay_time").unwrap_or(usual))
+        }
+        Happening::SensorStuck => MagnetEvent::SensorStuck,
+        Happening::SensorDead => MagnetEvent::SensorDead,
+        Happening::SensorOffset => MagnetEvent::SensorOffset(part.needed("offset")),
         Happening::SensorNoise => {
             // a sampled controller sees one value a sample
             let sampled = match magnets.timing {
@@ -401,14 +373,13 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
                     format!("a period is needed of which a run has at most {MOST_VALUES:.0}");
                 return part.refuse(Code::OutOfRange, "period", found, allowed);
             }
-            Happens::SensorNoise {
-                axes,
+            MagnetEvent::SensorNoise {
                 deviation: part.needed("deviation"),
                 period,
                 seed: part.count("seed").unwrap_or(1) as u64,
             }
         }
-        Happening::ControllerFrozen => Happens::ControllerFrozen(axes),
+        Happening::ControllerFrozen => MagnetEvent::ControllerFrozen,
         Happening::AmplifierLimit => {
             let [largest_current, slew] =
                 ["largest_current", "slew_rate"].map(|key| part.number(key));
@@ -433,13 +404,12 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
                 let allowed = "largest_current or slew_rate is needed";
                 return part.refuse(Code::MissingKey, "largest_current", found, allowed);
             }
-            Happens::AmplifierLimit {
-                axes,
+            MagnetEvent::AmplifierLimit {
                 largest_current,
                 slew,
             }
         }
-        Happening::Relevitate => Happens::Relevitate(Relevitation {
+        Happening::Relevitate => MagnetEvent::Relevitated(Relevitation {
             bias_time: part.needed("bias_time"),
             reference_time: part.number("reference_time").unwrap_or(0.0),
             within: part.number("within").unwrap_or(0.5),
@@ -448,7 +418,8 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         Happening::Brake | Happening::Drive | Happening::Load | Happening::Unbalance => {
             unreachable!("it is of no magnet")
         }
-    })
+    };
+    Ok(Happens::Magnets(axes, what))
 }
 
 /// The place of what a key names among the parts of a table.

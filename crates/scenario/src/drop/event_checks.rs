@@ -1,6 +1,6 @@
 //! What events of a machine may not be together.
 
-use crate::drop::event::{Event, Happens, LOST_AT, When};
+use crate::drop::event::{Event, Happens, LOST_AT, MagnetEvent, When};
 use crate::drop::kinds::SpinKind;
 use crate::key::quoted;
 use crate::rotor::levitation::Magnets;
@@ -38,9 +38,7 @@ pub(super) fn check(parts: &[&Part], events: &[Event], values: &Values) -> Resul
             let found = format!("a brake beside rotor.brake_torque{}", line(place));
             return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
         }
-        if let (Happens::Lost { .. }, Some("power lost")) = (&event.what, part.word("do"))
-            && values.is_own(LOST_AT)
-        {
+        if part.word("do") == Some("power lost") && values.is_own(LOST_AT) {
             let place = values.place(LOST_AT).line();
             let found = format!("a loss of all power beside {LOST_AT}{}", line(place));
             return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
@@ -131,8 +129,8 @@ pub(super) fn until_standstill(
     let (mut lost, mut off) = (BTreeSet::<&usize>::new(), None);
     for event in known {
         match &event.what {
-            Happens::Lost { axes, .. } => lost.extend(axes),
-            Happens::Relevitate(_) => lost.clear(),
+            Happens::Magnets(axes, MagnetEvent::Lost(_)) => lost.extend(axes),
+            Happens::Magnets(_, MagnetEvent::Relevitated(_)) => lost.clear(),
             Happens::Drive(torque) => off = (*torque == 0.0).then_some(event.when),
             _ => {}
         }
@@ -174,13 +172,13 @@ pub(super) fn relevitated(
                 _ => true,
             });
         let lost = before.filter_map(|other| match &other.what {
-            Happens::Lost { axes, .. } => Some(axes),
+            Happens::Magnets(axes, MagnetEvent::Lost(_)) => Some(axes),
             _ => None,
         });
         lost.flatten().collect::<BTreeSet<_>>().len() == axes
     };
     for (part, event) in parts.iter().zip(events) {
-        let again = matches!(event.what, Happens::Relevitate(_));
+        let again = matches!(event.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)));
         if again && !lost_before(event) {
             let found = "a re-levitation before the loss of all power";
             let allowed = "an event with do = \"power lost\" before it, or levitation.power_lost_at, is needed";

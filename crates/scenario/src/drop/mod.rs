@@ -23,7 +23,7 @@ use crate::values::Values;
 pub use base::{Base, RecordFile, Shock, Spectrum};
 use case::Cases;
 pub(crate) use event::LOST_AT;
-pub use event::{Event, Happens, Relevitation, When};
+pub use event::{Event, Happens, MagnetEvent, Relevitation, When};
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
 use physics::heat_conduction::ThermalMaterial;

@@ -10,7 +10,7 @@ use levitation::response::Loaded;
 use model::system::machine::record::Levitated;
 use outcome::Warning;
 use outcome::list::{List, origins, results};
-use scenario::{Event, Happens, Relevitation, When};
+use scenario::{Event, Happens, MagnetEvent, Relevitation, When};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ fn relevitations(drop: &Drop) -> impl Iterator<Item = (&Event, Relevitation)> + 
     shaft
         .flat_map(|own| &own.events)
         .filter_map(|event| match event.what {
-            Happens::Relevitate(own) => Some((event, own)),
+            Happens::Magnets(_, MagnetEvent::Relevitated(own)) => Some((event, own)),
             _ => None,
         })
 }
@@ -53,19 +53,23 @@ pub(super) fn growths(
 ) -> Result<Vec<(String, f64)>, levitation::Refused> {
     let mut all = Vec::new();
     for event in events {
-        let cut = match &event.what {
-            Happens::Lost { axes, .. } => (axes, 0.0),
-            Happens::SensorStuck(axes) | Happens::SensorDead(axes) => (axes, 1.0),
-            Happens::ControllerFrozen(axes) => (axes, 1.0),
+        let Happens::Magnets(axes, what) = &event.what else {
+            continue;
+        };
+        let left = match what {
+            MagnetEvent::Lost(_) => 0.0,
+            MagnetEvent::SensorStuck | MagnetEvent::SensorDead | MagnetEvent::ControllerFrozen => {
+                1.0
+            }
             _ => continue,
         };
         // without any magnet it falls
-        if cut.0.len() == loaded.rest.slopes.len() && cut.1 == 0.0 {
+        if axes.len() == loaded.rest.slopes.len() && left == 0.0 {
             continue;
         }
         let mut slopes = loaded.rest.slopes.clone();
-        for axis in cut.0 {
-            slopes[*axis] = (0.0, cut.1 * slopes[*axis].1);
+        for axis in axes {
+            slopes[*axis] = (0.0, left * slopes[*axis].1);
         }
         let plant = loaded.closed.plant().clone();
         let poles = ClosedLoop::about(plant, &model.levitation, slopes)?.poles()?;
@@ -248,7 +252,7 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     let mut list = Vec::new();
     for event in events(given) {
         let time = time_of(event.when, context);
-        let again = matches!(event.what, Happens::Relevitate(_));
+        let again = matches!(event.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)));
         let lost = context.finished.record.lost;
         let why = match (time, event.when) {
             (Some(time), _)
@@ -269,7 +273,7 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
         list.push(ShaftWarning::EventNever { name, why }.into());
     }
     let lost = (given.events.iter()).filter_map(|event| match &event.what {
-        Happens::Lost { axes, .. } => Some(axes),
+        Happens::Magnets(axes, MagnetEvent::Lost(_)) => Some(axes),
         _ => None,
     });
     let lost = lost.flatten().collect::<BTreeSet<_>>().len();

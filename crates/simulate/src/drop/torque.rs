@@ -8,7 +8,7 @@ use model::rotor::TorqueTables;
 use model::schedule::Schedule;
 use model::system::machine::{AtSpeed, Event, MachineConstants};
 use model::table::Table;
-use scenario::{Happens, Spin, When};
+use scenario::{Happens, MagnetEvent, Spin, When};
 
 /// Torque of the rotor's drive or load over speed and time.
 pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
@@ -30,7 +30,9 @@ pub(super) fn brakes(drop: &Drop, at_speeds: &mut Vec<AtSpeed>) -> (f64, Vec<(f6
     let axes = drop.shaft.iter().flat_map(|own| &own.rotor.levitation);
     let axes: usize = axes.map(|own| 2 * own.magnets.len()).sum();
     let release = |event: &scenario::Event| match (event.when, &event.what) {
-        (When::At(time), Happens::Lost { axes: lost, .. }) if lost.len() == axes => Some(time),
+        (When::At(time), Happens::Magnets(lost, MagnetEvent::Lost(_))) if lost.len() == axes => {
+            Some(time)
+        }
         _ => None,
     };
     let released = events.clone().filter_map(release).reduce(f64::min);
