@@ -92,7 +92,7 @@ fn a_case_stands_apart_from_the_others() {
     };
     assert!(!resolved("shock").contains("power_lost_at"));
     let (plain, _) = machine.split_once("[[event]]").unwrap();
-    let plain = parsed(plain, &["run.case=shock"]).unwrap();
+    let plain = parsed(plain, &[]).unwrap();
     assert!(plain.resolved.toml().contains("power_lost_at"));
     let run = ran(&machine, &["run.case=shock"]);
     assert!(run.title.ends_with(": case shock"), "{}", run.title);
