@@ -35,6 +35,49 @@ fn a_rotor_is_levitated_again_where_its_coils_have_the_current() {
     assert!(coil > 2.57 && coil < 2.58, "{coil}");
 }
 
+/// Each of two re-levitations is judged until the next loss of power; names without an event are those of the last.
+#[test]
+fn each_re_levitation_has_a_verdict() {
+    let event = |name: &str, what: &str, at: &str| {
+        format!("[[event]]\nname = \"{name}\"\ndo = \"{what}\"\nat = \"{at}\"\n")
+    };
+    let again = |name: &str, at: &str| {
+        event(name, "re-levitate", at) + "bias_time = \"20 ms\"\nreference_time = \"50 ms\"\n"
+    };
+    let limit = |name: &str, at: &str, most: &str| {
+        event(name, "amplifier limit", at) + &format!("largest_current = \"{most}\"\n")
+    };
+    let events = event("lost", "power lost", "20 ms")
+        + &limit("strong", "20 ms", "5 A")
+        + &again("first", "0.3 s")
+        + &event("lost_again", "power lost", "0.6 s")
+        + &limit("weak", "0.6 s", "2.5 A")
+        + &again("second", "0.88 s");
+    let run = ran(&with_events(AGAIN, &events), &["run.duration=1.2 s"]);
+    let of = |name: &str| {
+        ["first", "second"].map(|event| number(&run, &format!("event.{event}.{name}")))
+    };
+    assert_eq!(of("held"), [1.0, 0.0]);
+    assert_eq!(number(&run, "relevitation_held"), 0.0);
+    let [strong, weak] = of("largest_current");
+    assert!(
+        strong > 2.5 && strong <= 5.001 && weak > 2.4 && weak < 2.501,
+        "{strong} {weak}"
+    );
+    let [first, second] = of("last_contact");
+    assert!(
+        (0.3..0.5).contains(&first) && second > 1.0,
+        "{first} {second}"
+    );
+    assert_eq!(number(&run, "relevitation_last_contact"), second);
+    let after = number(&run, "event.first.held_after");
+    assert!((0.0..0.2).contains(&after), "{after}");
+    assert_eq!(
+        codes(&run).iter().filter(|code| **code == "AB2082").count(),
+        1
+    );
+}
+
 /// Its brake takes 2 N m off the spin, and the bearing a little more once the rotor lies in it.
 #[test]
 fn an_event_waits_for_its_speed_and_others_for_it() {

@@ -2,6 +2,7 @@
 
 use crate::machine::{parsed, ran};
 use crate::outcomes::number;
+use auxbear::outcome::Value;
 
 const CASING: &str = include_str!("../../../scenarios/machine_casing.toml");
 
@@ -149,6 +150,11 @@ fn distances_on_a_casing_are_against_it() {
         "run.duration=0.12 s",
     ];
     let run = ran(CASING, &sets);
+    // the drawing frames what stands on it: bearings, then magnets
+    let of = |name: &str| run.quantity(name).map(|own| own.value.clone());
+    let places = Value::List(vec![0.06, 0.54, 0.12, 0.48]);
+    assert_eq!(of("housed_positions"), Some(places));
+    assert_eq!(of("housed_on"), Some(Value::Text(["casing"; 4].join("\n"))));
     assert!(run.stop.complete(), "{}", run.stop.text);
     assert!(number(&run, "housing.casing.largest_displacement") > 8e-4);
     // 400 um of clearance, 200 um of it in the bearings

@@ -67,7 +67,7 @@ fn a_load_acts_from_its_instant_and_the_next_takes_its_place() {
 #[test]
 fn loads_by_speed_in_lanes_are_those_alone() {
     let text = free().replace("duration = \"15 ms\"", "duration = \"6 ms\"")
-        + "[[rotor.force]]\nat = \"0.15 m\"\ntimes = [\"1 ms\", \"3 ms\", \"4 ms\"]\nx = [\"0 N\", \"70 N\", \"-30 N\"]\n[[event]]\ndo = \"brake\"\nat = \"0.5 ms\"\ntorque = \"20 N m\"\n[[event]]\nname = \"push\"\ndo = \"load\"\nbelow_speed = \"8850 rpm\"\nnode = \"right\"\nforce_y = \"90 N\"\n";
+        + "[[rotor.force]]\nat = \"0.15 m\"\ntimes = [\"1 ms\", \"3 ms\", \"4 ms\"]\nx = [\"0 N\", \"70 N\", \"-30 N\"]\ntorque = [\"0 N m\", \"-3 N m\", \"2 N m\"]\n[[event]]\ndo = \"brake\"\nat = \"0.5 ms\"\ntorque = \"20 N m\"\n[[event]]\nname = \"push\"\ndo = \"load\"\nbelow_speed = \"8850 rpm\"\nnode = \"right\"\nforce_y = \"90 N\"\n";
     let speeds = ["8900 rpm", "8895 rpm", "8880 rpm", "8860 rpm"];
     let scenarios = speeds.map(|speed| parsed(&text, &[&format!("rotor.speed={speed}")]).unwrap());
     let never = AtomicBool::new(false);
@@ -128,7 +128,11 @@ fn a_force_comes_from_a_file() {
         missing.contains("impact") && missing.contains("machine.toml:"),
         "{missing}"
     );
-    assert!(read("").unwrap_err().contains("channel_x or channel_y"));
+    assert!(
+        read("")
+            .unwrap_err()
+            .contains("channel_x, channel_y or channel_torque")
+    );
     let both = read("channel_x = \"impact\"\ntimes = [\"0 s\"]\nx = [\"1 N\"]").unwrap_err();
     assert!(both.contains("one of the two"), "{both}");
     // rounding makes its times one, and there is no force in this run
@@ -136,12 +140,43 @@ fn a_force_comes_from_a_file() {
     assert!(last(&far, "a.rotor.x") < 0.5 * last(&struck, "a.rotor.x"));
     write("time (ms),impact (N)\n0,0\n1,1e300\n2,0\n");
     let large = read("channel_x = \"impact\"").unwrap_err();
-    assert!(large.contains("is no number"), "{large}");
+    assert!(
+        large.contains("is no number") && large.contains("in every row"),
+        "{large}"
+    );
     write("time (ms),impact\n0,0\n1,250\n2,0\n");
     let unit = read("channel_x = \"impact\"").unwrap_err();
     assert!(unit.contains("without a unit"), "{unit}");
     let nothing = parsed(&(free() + "[[rotor.force]]\nat = \"0.15 m\"\n"), &[]).unwrap_err();
-    assert!(nothing.contains("times with x or y, or file"), "{nothing}");
+    assert!(
+        nothing.contains("times with x, y or torque, or file"),
+        "{nothing}"
+    );
+}
+
+/// A torque over time turns a rotor that touches nothing by ∫T dt/I, from a table as from a file.
+#[test]
+fn a_torque_over_time_turns_the_rotor() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("brake.csv");
+    fs::write(&file, "time (ms),brake (kN mm)\n0,0\n1,25\n2,0\n").unwrap();
+    let force = |lines: &str| format!("{}[[rotor.force]]\nat = \"0.15 m\"\n{lines}\n", free());
+    let rows =
+        "times = [\"1 ms\", \"2 ms\", \"3 ms\"]\ntorque = [\"0 N m\", \"-50 N m\", \"0 N m\"]";
+    let table = ran(&force(rows), &["run.duration=4 ms"]);
+    let read = format!(
+        "file = \"{}\"\nchannel_torque = \"brake\"\nstart = \"1 ms\"\nscale = -2.0",
+        file.display()
+    );
+    let read = ran(&force(&read), &["run.duration=4 ms"]);
+    let inertia = 0.01 + 100.0 * 0.3 * PI * 0.04_f64.powi(4) / 32.0;
+    for run in [&table, &read] {
+        let slower = 300.0 * PI - number(run, "rotor_final_speed");
+        near(slower, 50.0 * 1e-3 / inertia, 1e-6);
+        assert!(number(run, "energy_residual").abs() < 1e-6);
+    }
+    let held = parsed(&force(rows), &["rotor.spin=held"]).unwrap_err();
+    assert!(held.contains("a torque beside rotor.spin"), "{held}");
 }
 
 /// A drive brings the rotor above the speed, and a brake below it again: T t = I ΔΩ says when. Without a drive it never comes there.
@@ -162,7 +197,9 @@ fn a_run_up_reaches_a_speed_from_above_where_it_falls_to_it() {
     near(number(&run, "event.falls.time"), expected, 1e-5);
     assert!(number(&run, "energy_residual").abs() < 1e-6);
     let never = ran(&format!("{}{begun}{falls}", free()), &sets);
-    assert!(never.warnings.iter().any(|own| own.code == "AB2083"));
+    let never = never.warnings.iter().find(|own| own.code == "AB2083");
+    let told = never.expect("an event that never happens").to_string();
+    assert!(told.contains("does not fall to 9010.0 rpm"), "{told}");
     let undriven = parsed(&(free() + &falls), &[]).unwrap_err();
     assert!(undriven.contains("from the start on"), "{undriven}");
 }

@@ -68,6 +68,36 @@ fn a_case_that_is_none_is_refused_and_so_is_one_that_contradicts_itself() {
     assert!(told.contains("event"), "{told}");
 }
 
+/// An event waits for one of its own case; a case without a loss of power has no instant of it, and a page says which case it shows.
+#[test]
+fn a_case_stands_apart_from_the_others() {
+    let machine = machine();
+    let waits = |after: &str| {
+        let event = format!(
+            "\n[[event]]\ncase = \"shock\"\ndo = \"brake\"\ntorque = \"1 N m\"\nafter = \"{after}\"\n"
+        );
+        parsed(&(machine.clone() + &event), &[]).unwrap_err()
+    };
+    let told = waits("blade");
+    assert!(
+        told.contains("in the case \"blade lost\" alone") && told.contains("of the same case"),
+        "{told}"
+    );
+    // no key says when the power is lost where an event of any case does
+    let told = waits("power_lost");
+    assert!(told.contains("there is none"), "{told}");
+    let resolved = |case: &str| {
+        let scenario = parsed(&machine, &[&format!("run.case={case}")]).unwrap();
+        scenario.resolved.toml()
+    };
+    assert!(!resolved("shock").contains("power_lost_at"));
+    let (plain, _) = machine.split_once("[[event]]").unwrap();
+    let plain = parsed(plain, &[]).unwrap();
+    assert!(plain.resolved.toml().contains("power_lost_at"));
+    let run = ran(&machine, &["run.case=shock"]);
+    assert!(run.title.ends_with(": case shock"), "{}", run.title);
+}
+
 #[test]
 fn a_limit_of_a_case_is_judged_in_it_alone_and_no_contact_is_no_force() {
     let limits = "\n[[limit]]\nquantity = \"drive_end.peak_contact_force\"\nmost = \"1 N\"\n\

@@ -1,21 +1,22 @@
-//! A force from outside on the rotor at a node, over time: its table says it, whatever the rotor does.
+//! A force from outside on the rotor at a node, and a torque about its axis, over time: tables say them, whatever the rotor does.
 //!
 //! ```text
-//!   F = (F_x(t), F_y(t)) at the geometric centre C; straight between its points, constant beyond them
+//!   F = (F_x(t), F_y(t)) at the geometric centre C, T(t); straight between their points, constant beyond them
 //! ```
-//! Its points are landed. A load that comes on the way is constant from its instant on. Its work F·Ċ is a signed source; about the mass centre it has the moment of its arm.
+//! Its points are landed. A load that comes on the way is constant from its instant on. Its work F·Ċ is a signed source; about the mass centre it
+//! has the moment of its arm. The torque is one of those that drive the rotor, T Ω a part of that source.
 
 use crate::rotor::Node;
 use crate::table::Table;
 use number::{Real, Vec2};
 
-/// A force at a node of the rotor.
+/// A force at a node of the rotor, and a torque.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceConstants {
     /// Row φ of the node.
     pub node: Vec<f64>,
-    /// Along x and along y over time, N over s.
-    pub over_time: [Table; 2],
+    /// Along x and along y over time, N over s; the torque, N m over s.
+    pub over_time: [Table; 3],
 }
 
 impl ForceConstants {
@@ -31,16 +32,17 @@ impl ForceConstants {
 pub struct Force<R> {
     /// Its node.
     pub node: Node<R>,
-    /// Along x and along y, of each lane: records have points of their own and many of them.
-    pub over_time: Vec<[Table; 2]>,
+    /// Along x, along y and about the axis, of each lane: records have points of their own and many of them.
+    pub over_time: Vec<[Table; 3]>,
 }
 
 impl<R: Real> Force<R> {
-    /// The force at a time, N.
+    /// The force, N, and the torque, N m, at a time.
     #[inline(always)]
-    pub fn at(&self, time: R) -> Vec2<R> {
-        let along =
-            |axis: usize| R::from_lanes(|lane| self.over_time[lane][axis].value(time.lane(lane)));
-        Vec2::new(along(0), along(1))
+    pub fn at(&self, time: R) -> (Vec2<R>, R) {
+        let [x, y, torque] = std::array::from_fn(|k| {
+            R::from_lanes(|lane| self.over_time[lane][k].value(time.lane(lane)))
+        });
+        (Vec2::new(x, y), torque)
     }
 }

@@ -142,3 +142,27 @@ impl Coefficients {
         self.rows.iter().all(|(_, block)| block.turns())
     }
 }
+
+/// Share of a rigid rotor's weight on each of several equally stiff rows, over their position along the shaft.
+///
+/// Formula: s(z) = 1/n + (z_G − z̄)(z − z̄)/Σ(z_i − z̄)²,   z̄ = Σ z_i/n; 1/n where all are at one place
+///
+/// - `rows`: positions z_i, m, each with the number of its rows, n in all; `centre` z_G of mass, m
+///
+/// Source: derived; equilibrium of forces and of moments about z̄.
+/// Valid: statics; deflections of the shaft small against those of the rows; negative where a row would hold the rotor down.
+pub fn weight_share(
+    rows: impl Iterator<Item = (f64, f64)> + Clone,
+    centre: f64,
+) -> impl Fn(f64) -> f64 {
+    let over_rows =
+        |of: &dyn Fn(f64) -> f64| -> f64 { rows.clone().map(|(z, rows)| rows * of(z)).sum() };
+    let count = over_rows(&|_| 1.0);
+    let middle = over_rows(&|z| z) / count;
+    let spread = over_rows(&|z| (z - middle).powi(2));
+    let lever = centre - middle;
+    move |z| match spread > 0.0 {
+        true => 1.0 / count + lever * (z - middle) / spread,
+        false => 1.0 / count,
+    }
+}

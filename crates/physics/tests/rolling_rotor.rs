@@ -1,6 +1,7 @@
 //! The rotor that rolls in a bore under its weight, and the unbalance that it has.
 
 use physics::rolling_rotor::{contact_stiffness, pendulum_stiffness, penetration};
+use physics::support::weight_share;
 use physics::unbalance::{residual, shares};
 
 #[test]
@@ -38,4 +39,24 @@ fn grade_of_the_standard() {
     assert_eq!(shares([0.0, 1.0], 0.25), Some([0.75, 0.25]));
     assert_eq!(shares([1.0, 0.0], 0.25), Some([0.25, 0.75]));
     assert_eq!(shares([0.0, 1.0], 1.5), None);
+}
+
+/// Of two rows the weight is shared by levers; of three, one with two rows, forces and moments balance, and rows at one place share alike.
+#[test]
+fn rows_share_the_weight_by_levers() {
+    let two = weight_share([(0.0, 1.0), (0.4, 1.0)].into_iter(), 0.1);
+    assert!((two(0.0) - 0.75).abs() < 1e-15 && (two(0.4) - 0.25).abs() < 1e-15);
+    let (rows, centre) = ([(-0.1, 1.0), (0.2, 2.0), (0.7, 1.0)], 0.3);
+    let share = weight_share(rows.into_iter(), centre);
+    let sum: f64 = rows.iter().map(|(z, rows)| rows * share(*z)).sum();
+    let moment: f64 = rows
+        .iter()
+        .map(|(z, rows)| rows * share(*z) * (z - centre))
+        .sum();
+    assert!(
+        (sum - 1.0).abs() < 1e-15 && moment.abs() < 1e-15,
+        "{sum} {moment}"
+    );
+    let one = weight_share([(0.5, 2.0), (0.5, 2.0)].into_iter(), 0.1);
+    assert_eq!(one(0.5), 0.25);
 }

@@ -59,8 +59,8 @@ pub use drop::case::{CASE, Cases};
 pub use drop::event_checks::{MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES};
 pub use drop::{
     AuxiliaryBearing, Base, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
-    Levitation, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor, STANDARD_GRAVITY, Shaft,
-    Shock, Spectrum, Spin, When,
+    Levitation, MagnetEvent, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor,
+    STANDARD_GRAVITY, Shaft, Shock, Spectrum, Spin, When,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
@@ -161,6 +161,13 @@ impl System {
             System::Identify(_) => SystemName::Identify,
             System::Rotor(_) => SystemName::Rotor,
             System::CoastDown(_) => SystemName::CoastDown,
+        }
+    }
+
+    fn drop(&self) -> Option<&Drop> {
+        match self {
+            System::Drop(drop) => Some(drop),
+            _ => None,
         }
     }
 
@@ -266,10 +273,7 @@ pub struct Scenario {
 impl Scenario {
     /// The drop of a rotor, rigid or flexible, where it is one.
     pub fn drop(&self) -> Option<&Drop> {
-        match &self.system {
-            System::Drop(drop) => Some(drop),
-            _ => None,
-        }
+        self.system.drop()
     }
 
     /// The limits of the case that happens.
@@ -426,10 +430,13 @@ impl Scenario {
     ) -> Result<Scenario> {
         let name = &document.file.clone();
         let documents = document.of_each_bearing();
-        let values = (documents.iter().enumerate())
+        let mut values = (documents.iter().enumerate())
             .map(|(k, document)| values::Values::resolve(document, bearings, before.get(k)))
             .collect::<Result<Vec<_>, _>>()?;
         let system = System::of(&documents[0], &values, bearings, name)?;
+        if system.drop().is_some_and(Drop::loses_power_by_events) {
+            values[0].known.remove(drop::LOST_AT);
+        }
         let vary = match &system {
             System::Drop(drop) => vary::of_drop(&drop.repeat, &document.vary, &values)?,
             _ => Vec::new(),

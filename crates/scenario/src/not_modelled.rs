@@ -45,10 +45,19 @@ pub fn of(path: &str, system: SystemName) -> Option<&'static Absent> {
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
     };
     let own = if system.bends() { MACHINE } else { &[] };
-    own.iter()
+    std::iter::once(&BASE)
+        .chain(own)
         .chain(TABLE)
         .find(|absent| absent.paths.split_whitespace().any(&asks))
 }
+
+/// Other motion of the base.
+const BASE: Absent = Absent {
+    paths: "base.shock_z base.record_z base.channel_z base.spectrum_z base.axial base.tilt base.angle base.rotation base.roll base.pitch base.yaw",
+    what: "the base translates in the plane of the bearings: its motion along the shaft and its rotation are not described",
+    point: 10,
+    instead: "Motion in the plane is record, channel, spectrum and shock of [base], each along x and along y",
+};
 
 /// What a machine lacks, or has under another name.
 const MACHINE: &[Absent] = &[
@@ -202,7 +211,7 @@ mod tests {
     #[test]
     fn every_point_stands_on_the_page_of_limits() {
         let page = include_str!("../../../book/src/limits.md");
-        for absent in TABLE {
+        for absent in TABLE.iter().chain([&BASE]) {
             assert!(
                 page.contains(&format!("\n{}. ", absent.point)),
                 "{}",
@@ -247,8 +256,10 @@ mod tests {
             ("levitation.relevitation", "comes back"),
             ("levitation.sensor.1.noise", "noise"),
             ("seismic.acceleration", "motion of the base"),
+            ("base.shock_z", "along the shaft"),
             ("contact.tilt", "landing sleeve"),
             ("bearing.arrangement", "one node"),
+            ("base.tilt", "plane of the bearings"),
         ] {
             let absent = of(path, SystemName::Machine).expect(path);
             let text = format!("{} {}", absent.what, absent.instead);

@@ -4,7 +4,7 @@ use crate::rotor::RotorModel;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use rotor::{Layer, Place};
-use scenario::rotor::{Disk, Unbalance};
+use scenario::rotor::{Disk, FlexibleRotor, Unbalance};
 
 origins! {
     /// What the scenario says.
@@ -16,9 +16,9 @@ origins! {
         valid "a permissible value: a rotor may have less, and in other directions";
 }
 
-/// Positions, diameters and names of all parts.
-pub fn name(list: &mut List, model: &RotorModel) {
-    parts(list, model, Some(&Drawn(model)));
+/// Positions, diameters and names of all parts; of auxiliary bearings on housings which, and where.
+pub fn name(list: &mut List, model: &RotorModel, bearings: &[(usize, f64)]) {
+    parts(list, model, Some(&Drawn(model, bearings)));
     let balanced = |at: f64| (model.balance_planes.iter()).any(|own| own.at.contains(&at));
     for plane in model.unbalance.iter().filter(|own| balanced(own.at)) {
         list.named(&[&plane.name], |list| balance(list, plane, Some(plane)));
@@ -47,6 +47,8 @@ results! {
         "named_node_positions": list "m", GIVEN, "positions of the named nodes" in named_places "place" => run.at(run.named.iter().copied());
         "magnet_positions": list "m", GIVEN, "positions of the magnets" in magnets "place" => run.at(run.magnets().map(|(_, magnet, _)| *magnet));
         "sensor_positions": list "m", GIVEN, "positions of their sensors" in sensors "place" => run.at(run.magnets().map(|(_, _, sensor)| *sensor));
+        "housed_positions": list "m", GIVEN, "positions of what stands on housings" in housed "place" => run.housed().map(|own| own.1).collect::<Vec<_>>();
+        "housed_on": text "", GIVEN, "the housing of each" in housed "name" => lines(run.housed().map(|own| own.0));
         "piece_materials": text "", GIVEN, "materials of the pieces" in pieces "material" => lines(run.pieces.iter().map(|piece| &piece.material));
         "piece_names": text "", GIVEN, "names of the pieces" in pieces "name" => lines(run.pieces.iter().map(|piece| &piece.name));
         "disk_names": text "", GIVEN, "names of the disks" in disks "name" => lines(run.disks.iter().map(|disk| &disk.name));
@@ -70,7 +72,7 @@ fn lines<'a>(names: impl Iterator<Item = &'a String>) -> String {
 }
 
 /// A rotor as it is drawn.
-struct Drawn<'a>(&'a RotorModel);
+struct Drawn<'a>(&'a RotorModel, &'a [(usize, f64)]);
 
 impl std::ops::Deref for Drawn<'_> {
     type Target = RotorModel;
@@ -100,6 +102,21 @@ impl Drawn<'_> {
 
     fn magnets(&self) -> impl Iterator<Item = &(String, usize, usize)> {
         self.levitation.iter().flat_map(|own| &own.magnets)
+    }
+
+    /// What stands on housings: the name of its housing, and where, m.
+    fn housed(&self) -> impl Iterator<Item = (&String, f64)> {
+        let mounts = self.supports.iter().filter(|own| own.at.is_none());
+        let names: Vec<&String> = mounts.map(|own| &own.name).collect();
+        let supports = self
+            .supports
+            .iter()
+            .filter_map(|own| Some((own.on?, own.at?)));
+        let given: &FlexibleRotor = self.0;
+        let magnets = given.levitation.iter().flat_map(|own| &own.magnets);
+        let magnets = magnets.filter_map(|own| Some((own.on?, own.at)));
+        let all = self.1.iter().copied().chain(magnets).chain(supports);
+        all.map(move |(on, at)| (names[on], at))
     }
 
     /// Names and nodes of supports, or of seals, that stand on a node.

@@ -112,8 +112,8 @@ pub struct Plan<'a> {
     pub taps: &'a [Tap],
     /// From when on a run ends once its rotor rolls, s.
     pub until_rolling: Option<f64>,
-    /// Share of the clearance within which a rotor that is levitated again must stay.
-    pub within: Option<f64>,
+    /// Shares of the clearance within which a rotor that is levitated again must stay, each time.
+    pub within: Vec<f64>,
     /// Stops everything when true.
     pub interrupt: &'a AtomicBool,
     /// Called with the fraction done.
@@ -201,7 +201,7 @@ impl<'a> Watched<'a> {
         let end = plan.settings.end;
         let interval = member.keep_rows.then_some(plan.interval);
         let record = Record::with_taps(&member.machine, end, interval, plan.taps);
-        let record = record.staying_within(plan.within);
+        let record = record.staying_within(plan.within.clone());
         Watched {
             record: match plan.until_rolling {
                 Some(from) => record.until_rolling(from),

@@ -150,7 +150,7 @@ fn simulate(
                 step_limit: 100_000_000,
             },
             until_rolling: None,
-            within: None,
+            within: Vec::new(),
             steps: Steps::Explicit,
             interval: duration,
             taps: &[],

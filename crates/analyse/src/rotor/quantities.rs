@@ -34,7 +34,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
         }
     }
     reduction(&mut list, asked, found);
-    drawing::name(&mut list, &asked.model);
+    drawing::name(&mut list, &asked.model, &[]);
     let own = found.and(asked.levitated.as_ref());
     levitated::name(&mut list, &asked.model, own);
     if let Some(model) = &asked.whirl {

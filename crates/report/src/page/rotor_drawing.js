@@ -10,6 +10,8 @@ const LANE_WORDS = 132;
 
 const rect = (x, y, width, height, fill) => drawing("rect", { x, y, width, height, fill });
 
+const housingFrame = (x, y, width, height) => drawing("rect", { x, y, width, height, rx: 3, fill: "#f4f6f8", stroke: "#aeb9c4" });
+
 // Symbols about a point of the surface, above it with side 1 and below it with -1.
 const SYMBOLS = {
   bearing: (x, y, side) => rect(x - 5, side > 0 ? y - 14 : y + 4, 10, 10, "#1f5fa8"),
@@ -22,13 +24,23 @@ const SYMBOLS = {
   disk: (x, y) => rect(x - 3, y - 10, 6, 12, "#8fa3b5"),
   sleeve: (x, y) => drawing("rect", { x: x - 6, y: y - 8, width: 12, height: 8, fill: STEEL_FILL, stroke: "#7b8894", "stroke-dasharray": "3 2" }),
   place: (x, y) => drawing("path", { d: `M${x - 3} ${y - 8}l6 6m0 -6l-6 6`, stroke: INK }),
+  housing: (x, y) => housingFrame(x - 7, y - 11, 14, 12),
 };
 const BOTH_SIDES = ["bearing", "magnet"];
 const BELOW = ["support", "seal"];
 // The drawing itself shows these as bodies, and of a named place there is nothing to see.
-const NOT_ON_SURFACE = ["disk", "sleeve", "place"];
+const NOT_ON_SURFACE = ["disk", "sleeve", "place", "housing"];
 
-const DRAWN = "Another colour for each other material; dashed: sleeves; light blue: disks, sized by their mass where the file gives no diameter; dots on the axis: nodes.";
+const DRAWN = "Another colour for each other material; dashed: sleeves; light blue: disks, sized by their mass where the file gives no diameter; dots on the axis: nodes; pale frames: housings with what stands on them.";
+
+// Housings: name, and from where to where parts stand on them.
+function housingsOf(run) {
+  const [names, places] = ["name", "place"].map(tableOf(run, "housed"));
+  return [...new Set(names)].map((name) => {
+    const own = places.filter((_, k) => names[k] === name);
+    return { words: wordsOf(name), from: Math.min(...own), to: Math.max(...own) };
+  });
+}
 
 // What a rotor carries and what stands around it: kind, words of its row, colour of its names, places [{at, words}].
 function rotorLanes(run, bearings) {
@@ -41,6 +53,7 @@ function rotorLanes(run, bearings) {
     ["bearing", "auxiliary bearings", "#1f5fa8", placed(tableOf(run, "bearings")("place"), bearings)],
     ["magnet", "magnets", "#a8480f", named("magnets")],
     ["sensor", "their sensors", INK, named("sensors")],
+    ["housing", "housings", "#55677a", housingsOf(run).map(({ words, from, to }) => ({ at: (from + to) / 2, words }))],
     ["support", "supports", "#23744a", named("supports")],
     ["seal", "seals", "#8a4fae", named("seals")],
     ["unbalance", "unbalances", "#b3261e", named("unbalances")],
@@ -89,8 +102,10 @@ function drawnLanes(lanes, toX, top, width) {
       drawing("text", { x: 24, y: first + 10, "font-size": 11.5, fill: INK }, words),
       names.map(({ x, words: name, row, anchor, text }) => {
         const base = first + LANE_ROW * row;
-        leads.push([x, base + 6]);
-        return [drawing("circle", { cx: x, cy: base + 6, r: 2.5, fill: colour }), drawing("text", { class: "lane-name", x: text, y: base + 10, "text-anchor": anchor, "font-size": LANE_TEXT, fill: colour }, name)];
+        // a housing is no place
+        const dot = kind === "housing" ? null : drawing("circle", { cx: x, cy: base + 6, r: 2.5, fill: colour });
+        if (dot) leads.push([x, base + 6]);
+        return [dot, drawing("text", { class: "lane-name", x: text, y: base + 10, "text-anchor": anchor, "font-size": LANE_TEXT, fill: colour }, name)];
       }),
     ];
   });
@@ -161,8 +176,9 @@ function rotorDrawing(run, overlays, bearings, width) {
     const path = values.map((value, k) => `${k ? "L" : "M"}${toX(z[k]).toFixed(1)} ${(middle - (value / largest) * (tall / 2) * 0.95).toFixed(1)}`);
     return drawing("path", { d: path.join(""), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash || null });
   });
+  const frames = lanes.length ? housingsOf(run).map(({ from, to }) => housingFrame(toX(from) - 16, margin.top - 8, (to - from) * scale + 32, tall + 16)) : [];
   const led = leads.map(([x, y]) => drawing("line", { x1: x, x2: x, y1: middle, y2: y, stroke: "#c9d0d7", "stroke-width": 0.8 }));
-  return drawing("svg", { class: "rotor", width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, led, axis, bodies, disks, around, nodes, lines, drawn);
+  return drawing("svg", { class: "rotor", width, height, viewBox: `0 0 ${width} ${height}`, role: "img" }, frames, led, axis, bodies, disks, around, nodes, lines, drawn);
 }
 
 function rotorPicture(run, overlays, bearings = []) {

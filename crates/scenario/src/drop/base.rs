@@ -1,6 +1,6 @@
 //! Motion of the base of a machine: a record of its acceleration, a record made of a response spectrum, a shock.
 
-use crate::drop::case::OF_BASE;
+use crate::drop::case::{Cases, OF_BASE};
 use crate::key::{Key, Kind, Range, Section};
 use crate::run::Until;
 use crate::system::{FALLING, MACHINE, SystemName};
@@ -117,8 +117,8 @@ pub struct Shock {
 }
 
 impl Base {
-    /// The motion of the base of a file, where there is any.
-    pub(crate) fn of(values: &Values) -> Result<Option<Base>> {
+    /// The motion of the base of a file in the case that happens, where there is any.
+    pub(crate) fn of(values: &Values, cases: &Cases) -> Result<Option<Base>> {
         let own = values.section("base");
         let record = ["record_x", "record_y"].map(|key| own.rows(key).unwrap_or_default());
         let path = values.text(FILE).map(PathBuf::from);
@@ -188,30 +188,39 @@ impl Base {
             return Ok(None);
         }
         base.check(values)?;
+        if !cases.happens(base.case.as_deref()) {
+            return Ok(None);
+        }
+        base.until_standstill(values)?;
         Ok(Some(base))
+    }
+
+    /// Refuses one beside a coast-down.
+    fn until_standstill(&self, values: &Values) -> Result<()> {
+        if values.chosen("run.until") != Some(Until::Standstill) {
+            return Ok(());
+        }
+        let keys = [
+            FILE,
+            SPECTRUM,
+            "base.record_x",
+            "base.record_y",
+            "base.shock_x",
+        ];
+        let key = keys.into_iter().find(|key| values.is_own(key));
+        let found = "a base that moves beside run.until = \"standstill\"";
+        let allowed =
+            "run.until = \"duration\" is needed: the coast-down knows no motion of the base";
+        values.refuse(
+            Code::Conflict,
+            key.unwrap_or("base.shock_y"),
+            found,
+            allowed,
+        )
     }
 
     /// Refuses a motion that is none.
     fn check(&self, values: &Values) -> Result<()> {
-        if values.chosen("run.until") == Some(Until::Standstill) {
-            let key = [
-                FILE,
-                SPECTRUM,
-                "base.record_x",
-                "base.record_y",
-                "base.shock_x",
-            ];
-            let key = key.into_iter().find(|key| values.is_own(key));
-            let found = "a base that moves beside run.until = \"standstill\"";
-            let allowed =
-                "run.until = \"duration\" is needed: the coast-down knows no motion of the base";
-            return values.refuse(
-                Code::Conflict,
-                key.unwrap_or("base.shock_y"),
-                found,
-                allowed,
-            );
-        }
         if let Some(file) = &self.file {
             if file.channels.iter().all(Option::is_none) {
                 let allowed = "base.channel_x or base.channel_y is needed";

@@ -89,43 +89,8 @@ pub enum When {
 /// What happens.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Happens {
-    /// Axes lose their power; their currents decay in this time, s.
-    Lost {
-        /// The axes, two of each magnet in turn.
-        axes: Vec<usize>,
-        /// Time to 1/e, s.
-        decay_time: f64,
-    },
-    /// Sensors keep showing what they show.
-    SensorStuck(Vec<usize>),
-    /// Sensors show nothing.
-    SensorDead(Vec<usize>),
-    /// Sensors show so much more, m.
-    SensorOffset(Vec<usize>, f64),
-    /// Sensors show normal values besides, each for a while.
-    SensorNoise {
-        /// The axes.
-        axes: Vec<usize>,
-        /// Standard deviation, m.
-        deviation: f64,
-        /// Time from a value to the next, s.
-        period: f64,
-        /// Seed of the values.
-        seed: u64,
-    },
-    /// Commands keep their value.
-    ControllerFrozen(Vec<usize>),
-    /// Limits of amplifiers, where they change.
-    AmplifierLimit {
-        /// The axes.
-        axes: Vec<usize>,
-        /// Largest current of a coil, A.
-        largest_current: Option<f64>,
-        /// Largest rate of a current, A/s.
-        slew: Option<f64>,
-    },
-    /// All magnets hold the rotor again.
-    Relevitate(Relevitation),
+    /// Something happens to axes of magnets, two of each in turn.
+    Magnets(Vec<usize>, MagnetEvent),
     /// A torque of this size brakes the rotor, N m.
     Brake(f64),
     /// The drive has this torque, N m, in the place of `rotor.drive_torque`.
@@ -148,6 +113,39 @@ pub enum Happens {
     },
 }
 
+/// What happens to axes of magnets, their sensors and their controllers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MagnetEvent {
+    /// They lose their power; their currents decay to 1/e in this time, s.
+    Lost(f64),
+    /// Sensors keep showing what they show.
+    SensorStuck,
+    /// Sensors show nothing.
+    SensorDead,
+    /// Sensors show so much more, m.
+    SensorOffset(f64),
+    /// Sensors show normal values besides, each for a while.
+    SensorNoise {
+        /// Standard deviation, m.
+        deviation: f64,
+        /// Time from a value to the next, s.
+        period: f64,
+        /// Seed of the values.
+        seed: u64,
+    },
+    /// Commands keep their value.
+    ControllerFrozen,
+    /// Limits of amplifiers, where they change.
+    AmplifierLimit {
+        /// Largest current of a coil, A.
+        largest_current: Option<f64>,
+        /// Largest rate of a current, A/s.
+        slew: Option<f64>,
+    },
+    /// They hold the rotor again, all of them.
+    Relevitated(Relevitation),
+}
+
 /// How a rotor is levitated again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relevitation {
@@ -165,7 +163,7 @@ pub struct Relevitation {
 const POWER_LOST: &str = "power_lost";
 /// Name of the event of `rotor.brake_start`.
 const BRAKE: &str = "brake";
-pub(super) const LOST_AT: &str = "levitation.power_lost_at";
+pub(crate) const LOST_AT: &str = "levitation.power_lost_at";
 
 /// Most values that a sensor with noise shows in a run.
 const MOST_VALUES: f64 = 2e5;
@@ -174,49 +172,26 @@ impl Happens {
     /// The axes of the magnets that it is of; none of what is not of magnets.
     pub fn axes(&self) -> Option<&[usize]> {
         match self {
-            Happens::Lost { axes, .. }
-            | Happens::SensorNoise { axes, .. }
-            | Happens::AmplifierLimit { axes, .. } => Some(axes),
-            Happens::SensorStuck(axes)
-            | Happens::SensorDead(axes)
-            | Happens::SensorOffset(axes, _)
-            | Happens::ControllerFrozen(axes) => Some(axes),
-            Happens::Relevitate(_) => Some(&[]),
-            Happens::Brake(_)
-            | Happens::Drive(_)
-            | Happens::Load { .. }
-            | Happens::Unbalance { .. } => None,
+            Happens::Magnets(axes, _) => Some(axes),
+            _ => None,
         }
     }
-    /// Whether both change the same thing.
+    /// Whether both change the same thing; unbalances add up.
     pub(super) fn conflicts(&self, other: &Happens) -> bool {
-        let kind = |of: &Happens| match of {
-            Happens::Lost { .. } | Happens::Relevitate(_) => 0,
-            Happens::SensorStuck(_) | Happens::SensorDead(_) => 1,
-            Happens::SensorOffset(..) => 2,
-            Happens::ControllerFrozen(_) => 3,
-            Happens::AmplifierLimit { .. } => 4,
-            Happens::Brake(_) => 5,
-            Happens::Unbalance { .. } => 6,
-            Happens::Drive(_) => 7,
-            Happens::SensorNoise { .. } => 8,
-            Happens::Load { node, .. } => 9 + *node,
+        use MagnetEvent::{Lost, Relevitated, SensorDead, SensorStuck};
+        let kind = |of: &MagnetEvent| match of {
+            Relevitated(_) => std::mem::discriminant(&Lost(0.0)),
+            SensorDead => std::mem::discriminant(&SensorStuck),
+            own => std::mem::discriminant(own),
         };
-        let all = |of: &Happens| {
-            matches!(
-                of,
-                Happens::Relevitate(_)
-                    | Happens::Brake(_)
-                    | Happens::Drive(_)
-                    | Happens::Load { .. }
-            )
-        };
-        let shared = |a: &[usize], b: &[usize]| a.iter().any(|axis| b.contains(axis));
-        let axes = |of: &Happens| of.axes().unwrap_or_default().to_vec();
-        let add_up = matches!(self, Happens::Unbalance { .. });
-        kind(self) == kind(other)
-            && !add_up
-            && (all(self) || all(other) || shared(&axes(self), &axes(other)))
+        match (self, other) {
+            (Happens::Magnets(a, one), Happens::Magnets(b, two)) => {
+                kind(one) == kind(two) && a.iter().any(|axis| b.contains(axis))
+            }
+            (Happens::Load { node, .. }, Happens::Load { node: other, .. }) => node == other,
+            (Happens::Brake(_), Happens::Brake(_)) | (Happens::Drive(_), Happens::Drive(_)) => true,
+            _ => false,
+        }
     }
 }
 
@@ -250,66 +225,80 @@ pub fn events(
     for other in cases.others() {
         of(Some(other))?;
     }
-    let events = of(cases.chosen())?;
+    let (own, events) = of(cases.chosen())?;
+    let axes = rotor.levitation.as_ref();
+    let axes = axes.map_or(0, |own| 2 * own.magnets.len());
+    until_standstill(&own.parts, &events, axes, values)?;
     Ok((cases, events))
 }
 
-fn of_case(
-    parts: &[Part],
+/// The events of a case, as tables.
+struct InCase<'a> {
+    parts: Vec<&'a Part>,
+    /// Those of all cases.
+    all: Vec<&'a Part>,
+    values: &'a Values,
+    /// Whether any of them is of magnets: by events alone the power is lost then, in all cases.
+    of_magnets: bool,
+}
+
+fn of_case<'a>(
+    parts: &'a [Part],
     (rotor, case): (&FlexibleRotor, Option<&str>),
-    values: &Values,
-) -> Result<Vec<Event>> {
+    values: &'a Values,
+) -> Result<(InCase<'a>, Vec<Event>)> {
     let magnets = rotor.levitation.as_ref();
-    let all = || parts.iter().filter(|part| part.kind.word == EVENT);
-    // the power is lost by events alone where any case has one of magnets
-    let of_magnets = all().any(|part| {
-        let what = part.word("do").and_then(Happening::of_word);
-        what.is_some_and(Happening::is_of_magnets)
-    });
-    let parts: Vec<&Part> = all()
-        .filter(|part| part.text("case").is_none_or(|own| Some(own) == case))
-        .collect();
+    let all: Vec<&Part> = parts.iter().filter(|own| own.kind.word == EVENT).collect();
+    let happens_here = |part: &&Part| part.text("case").is_none_or(|own| Some(own) == case);
+    let own = InCase {
+        parts: all.iter().copied().filter(happens_here).collect(),
+        of_magnets: all.iter().any(|part| {
+            let what = part.word("do").and_then(Happening::of_word);
+            what.is_some_and(Happening::is_of_magnets)
+        }),
+        all,
+        values,
+    };
+    let parts = &own.parts;
     let mut events = Vec::new();
-    for part in &parts {
+    for part in parts {
         events.push(Event {
             name: part.label.clone(),
-            when: when(part, &parts, values, 0)?,
+            when: own.when(part, 0)?,
             what: happens(part, rotor, values)?,
             by_key: false,
         });
     }
-    check(&parts, &events, values)?;
-    let given = values.is_own(LOST_AT);
-    if let Some(own) = magnets.filter(|_| given || !of_magnets) {
+    check(parts, &events, values)?;
+    if let Some(held) = magnets.filter(|_| own.lost_by_key()) {
         events.push(Event {
             name: POWER_LOST.to_string(),
             when: When::At(values.number(LOST_AT).unwrap_or_default()),
-            what: Happens::Lost {
-                axes: (0..2 * own.magnets.len()).collect(),
-                decay_time: values.number("levitation.decay_time").unwrap_or_default(),
-            },
+            what: Happens::Magnets(
+                (0..2 * held.magnets.len()).collect(),
+                MagnetEvent::Lost(values.number("levitation.decay_time").unwrap_or_default()),
+            ),
             by_key: true,
         });
     }
-    relevitated(&parts, &events, magnets)?;
-    let axes = magnets.map_or(0, |own| 2 * own.magnets.len());
-    until_standstill(&parts, &events, axes, values)?;
+    relevitated(parts, &events, magnets)?;
     let end = values.number("run.duration").unwrap_or(f64::INFINITY);
     for (part, event) in parts.iter().zip(&events) {
-        if let (Happens::Relevitate(own), When::At(time)) = (&event.what, event.when)
+        if let (Happens::Magnets(_, MagnetEvent::Relevitated(again)), When::At(time)) =
+            (&event.what, event.when)
             && time < end
-            && own.hold >= end - time
+            && again.hold >= end - time
         {
             let found = format!(
                 "{} s, and the run ends {} s after it",
-                number_text(own.hold),
+                number_text(again.hold),
                 number_text(end - time)
             );
             let allowed = "less than what is left of run.duration is needed";
             return part.refuse(Code::OutOfRange, "hold", found, allowed);
         }
     }
-    Ok(events)
+    Ok((own, events))
 }
 
 /// What happens.
@@ -359,18 +348,14 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         return part.refuse(Code::LevitationParts, "do", found, allowed);
     };
     let axes = axes(part, magnets)?;
-    let decay_time = || {
-        let usual = values.number("levitation.decay_time").unwrap_or_default();
-        part.number("decay_time").unwrap_or(usual)
-    };
-    Ok(match what {
-        Happening::PowerLost | Happening::MagnetLost | Happening::AxisLost => Happens::Lost {
-            axes,
-            decay_time: decay_time(),
-        },
-        Happening::SensorStuck => Happens::SensorStuck(axes),
-        Happening::SensorDead => Happens::SensorDead(axes),
-        Happening::SensorOffset => Happens::SensorOffset(axes, part.needed("offset")),
+    let what = match what {
+        Happening::PowerLost | Happening::MagnetLost | Happening::AxisLost => {
+            let usual = values.number("levitation.decay_time").unwrap_or_default();
+            MagnetEvent::Lost(part.number("decay_time").unwrap_or(usual))
+        }
+        Happening::SensorStuck => MagnetEvent::SensorStuck,
+        Happening::SensorDead => MagnetEvent::SensorDead,
+        Happening::SensorOffset => MagnetEvent::SensorOffset(part.needed("offset")),
         Happening::SensorNoise => {
             // a sampled controller sees one value a sample
             let sampled = match magnets.timing {
@@ -388,14 +373,13 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
                     format!("a period is needed of which a run has at most {MOST_VALUES:.0}");
                 return part.refuse(Code::OutOfRange, "period", found, allowed);
             }
-            Happens::SensorNoise {
-                axes,
+            MagnetEvent::SensorNoise {
                 deviation: part.needed("deviation"),
                 period,
                 seed: part.count("seed").unwrap_or(1) as u64,
             }
         }
-        Happening::ControllerFrozen => Happens::ControllerFrozen(axes),
+        Happening::ControllerFrozen => MagnetEvent::ControllerFrozen,
         Happening::AmplifierLimit => {
             let [largest_current, slew] =
                 ["largest_current", "slew_rate"].map(|key| part.number(key));
@@ -420,13 +404,12 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
                 let allowed = "largest_current or slew_rate is needed";
                 return part.refuse(Code::MissingKey, "largest_current", found, allowed);
             }
-            Happens::AmplifierLimit {
-                axes,
+            MagnetEvent::AmplifierLimit {
                 largest_current,
                 slew,
             }
         }
-        Happening::Relevitate => Happens::Relevitate(Relevitation {
+        Happening::Relevitate => MagnetEvent::Relevitated(Relevitation {
             bias_time: part.needed("bias_time"),
             reference_time: part.number("reference_time").unwrap_or(0.0),
             within: part.number("within").unwrap_or(0.5),
@@ -435,7 +418,8 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         Happening::Brake | Happening::Drive | Happening::Load | Happening::Unbalance => {
             unreachable!("it is of no magnet")
         }
-    })
+    };
+    Ok(Happens::Magnets(axes, what))
 }
 
 /// The place of what a key names among the parts of a table.
@@ -511,87 +495,100 @@ fn axes(part: &Part, magnets: &Magnets) -> Result<Vec<usize>> {
     })
 }
 
-/// When an event happens, by what it follows; `steps` are those on the way.
-fn when(part: &Part, all: &[&Part], values: &Values, steps: usize) -> Result<When> {
-    let words = ["at", "below_speed", "above_speed", "after"];
-    let given: Vec<&str> = words
-        .into_iter()
-        .filter(|key| part.known.contains_key(key))
-        .collect();
-    let speed = |rising, speed| When::Speed {
-        speed,
-        rising,
-        delay: 0.0,
-    };
-    let allowed = "exactly one of at, below_speed, above_speed and after is needed";
-    match given[..] {
-        ["at"] => Ok(When::At(part.needed("at"))),
-        ["below_speed"] => Ok(speed(false, part.needed("below_speed"))),
-        ["above_speed"] => Ok(speed(true, part.needed("above_speed"))),
-        ["after"] => {
-            let named = part.text("after").unwrap_or_default();
-            let delay = part.number("delay").unwrap_or(0.0);
-            if steps > all.len() {
-                let found = format!("{}, which follows it in turn", quoted(named));
-                let allowed = "events that do not wait for each other are needed";
-                return part.refuse(Code::Conflict, "after", found, allowed);
-            }
-            let base = match all.iter().find(|other| other.label == named) {
-                Some(other) => when(other, all, values, steps + 1)?,
-                None => of_key(part, named, all, values)?,
-            };
-            Ok(match base {
-                When::At(time) => When::At(time + delay),
-                When::Speed {
-                    speed,
-                    rising,
-                    delay: before,
-                } => When::Speed {
-                    speed,
-                    rising,
-                    delay: before + delay,
-                },
-            })
-        }
-        [] => part.refuse(
-            Code::MissingKey,
-            "at",
-            "an event that never happens",
-            allowed,
-        ),
-        [_, second, ..] => part.refuse(
-            Code::Conflict,
-            second,
-            format!("{} beside it", given[0]),
-            allowed,
-        ),
-        [other] => unreachable!("{other} is none of the words"),
+impl InCase<'_> {
+    /// Whether all power is lost by its key, or by the default of that.
+    fn lost_by_key(&self) -> bool {
+        self.values.is_own(LOST_AT) || !self.of_magnets
     }
-}
 
-/// When the event of a key happens that another one follows.
-fn of_key(part: &Part, named: &str, all: &[&Part], values: &Values) -> Result<When> {
-    let lost = values.number(LOST_AT).unwrap_or_default();
-    let start = values.number("rotor.brake_start");
-    // with events of magnets the key has no default, and the brake of its key follows what they say
-    let of_magnets = all.iter().any(|part| {
-        let own = part.word("do").and_then(Happening::of_word);
-        use Happening::{Brake, Drive, Load, Unbalance};
-        !matches!(own, Some(Brake | Drive | Load | Unbalance))
-    });
-    match (named, start) {
-        _ if of_magnets && !values.is_own(LOST_AT) => {}
-        (POWER_LOST, _) => return Ok(When::At(lost)),
-        (BRAKE, Some(start)) => return Ok(When::At(lost + start)),
-        _ => {}
+    /// When an event happens, by what it follows; `steps` are those on the way.
+    fn when(&self, part: &Part, steps: usize) -> Result<When> {
+        let words = ["at", "below_speed", "above_speed", "after"];
+        let given: Vec<&str> = words
+            .into_iter()
+            .filter(|key| part.known.contains_key(key))
+            .collect();
+        let speed = |rising, speed| When::Speed {
+            speed,
+            rising,
+            delay: 0.0,
+        };
+        let allowed = "exactly one of at, below_speed, above_speed and after is needed";
+        match given[..] {
+            ["at"] => Ok(When::At(part.needed("at"))),
+            ["below_speed"] => Ok(speed(false, part.needed("below_speed"))),
+            ["above_speed"] => Ok(speed(true, part.needed("above_speed"))),
+            ["after"] => {
+                let named = part.text("after").unwrap_or_default();
+                let delay = part.number("delay").unwrap_or(0.0);
+                if steps > self.parts.len() {
+                    let found = format!("{}, which follows it in turn", quoted(named));
+                    let allowed = "events that do not wait for each other are needed";
+                    return part.refuse(Code::Conflict, "after", found, allowed);
+                }
+                let mut others = self.parts.iter();
+                let base = match others.find(|other| other.label == named) {
+                    Some(other) => self.when(other, steps + 1)?,
+                    None => self.of_key(part, named)?,
+                };
+                Ok(match base {
+                    When::At(time) => When::At(time + delay),
+                    When::Speed {
+                        speed,
+                        rising,
+                        delay: before,
+                    } => When::Speed {
+                        speed,
+                        rising,
+                        delay: before + delay,
+                    },
+                })
+            }
+            [] => part.refuse(
+                Code::MissingKey,
+                "at",
+                "an event that never happens",
+                allowed,
+            ),
+            [_, second, ..] => part.refuse(
+                Code::Conflict,
+                second,
+                format!("{} beside it", given[0]),
+                allowed,
+            ),
+            [other] => unreachable!("{other} is none of the words"),
+        }
     }
-    let names = || {
-        all.iter()
-            .map(|part| part.label.as_str())
-            .filter(|name| *name != part.label)
-    };
-    let names: Vec<&str> = names().chain([POWER_LOST]).collect();
-    let allowed = format!("the name of another event is needed: {}", names.join(", "));
-    let problem = part.problem(Code::UnknownWord, "after", quoted(named), allowed);
-    Err(problem.with_hint(did_you_mean(named, names)))
+
+    /// When the event of a key happens that another one follows.
+    fn of_key(&self, part: &Part, named: &str) -> Result<When> {
+        let lost = self.values.number(LOST_AT).unwrap_or_default();
+        // the brake of the keys follows what they say
+        let start = self.values.number("rotor.brake_start");
+        match (named, start) {
+            _ if !self.lost_by_key() => {}
+            (POWER_LOST, _) => return Ok(When::At(lost)),
+            (BRAKE, Some(start)) => return Ok(When::At(lost + start)),
+            _ => {}
+        }
+        let own = self.parts.iter().map(|part| part.label.as_str());
+        let mut names: Vec<&str> = own.filter(|name| *name != part.label).collect();
+        names.extend(self.lost_by_key().then_some(POWER_LOST));
+        let other = self.all.iter().find(|other| other.label == named);
+        let found = match other.and_then(|other| other.text("case")) {
+            Some(case) => format!(
+                "{}, which happens in the case {} alone",
+                quoted(named),
+                quoted(case)
+            ),
+            None => quoted(named),
+        };
+        let others = match names.as_slice() {
+            [] => "; there is none".to_string(),
+            names => format!(": {}", names.join(", ")),
+        };
+        let allowed = format!("the name of another event of the same case is needed{others}");
+        let problem = part.problem(Code::UnknownWord, "after", found, allowed);
+        Err(problem.with_hint(did_you_mean(named, names)))
+    }
 }

@@ -1,6 +1,6 @@
 //! What events of a machine may not be together.
 
-use crate::drop::event::{Event, Happens, LOST_AT, When};
+use crate::drop::event::{Event, Happens, LOST_AT, MagnetEvent, When};
 use crate::drop::kinds::SpinKind;
 use crate::key::quoted;
 use crate::rotor::levitation::Magnets;
@@ -38,9 +38,7 @@ pub(super) fn check(parts: &[&Part], events: &[Event], values: &Values) -> Resul
             let found = format!("a brake beside rotor.brake_torque{}", line(place));
             return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
         }
-        if let (Happens::Lost { .. }, Some("power lost")) = (&event.what, part.word("do"))
-            && values.is_own(LOST_AT)
-        {
+        if part.word("do") == Some("power lost") && values.is_own(LOST_AT) {
             let place = values.place(LOST_AT).line();
             let found = format!("a loss of all power beside {LOST_AT}{}", line(place));
             return part.refuse(Code::Conflict, "do", found, "one of the two is needed");
@@ -114,7 +112,7 @@ fn line(line: Option<usize>) -> String {
 }
 
 /// Refuses what a coast-down until the standstill cannot follow: its quasi-steady part begins after the last known event, of a rotor without
-/// power, drive and loads, and lands on speeds at which a brake comes.
+/// power and drive, and lands on speeds at which a brake, an unbalance or a load comes.
 pub(super) fn until_standstill(
     parts: &[&Part],
     events: &[Event],
@@ -131,8 +129,8 @@ pub(super) fn until_standstill(
     let (mut lost, mut off) = (BTreeSet::<&usize>::new(), None);
     for event in known {
         match &event.what {
-            Happens::Lost { axes, .. } => lost.extend(axes),
-            Happens::Relevitate(_) => lost.clear(),
+            Happens::Magnets(axes, MagnetEvent::Lost(_)) => lost.extend(axes),
+            Happens::Magnets(_, MagnetEvent::Relevitated(_)) => lost.clear(),
             Happens::Drive(torque) => off = (*torque == 0.0).then_some(event.when),
             _ => {}
         }
@@ -140,7 +138,6 @@ pub(super) fn until_standstill(
     for (part, event) in parts.iter().zip(events) {
         let of_magnets = event.what.axes().is_some();
         let (key, found) = match (&event.what, event.when) {
-            (Happens::Load { .. } | Happens::Unbalance { .. }, _) => ("do", "a load or unbalance"),
             (_, When::Speed { .. }) if of_magnets => ("do", "an event of magnets by a speed"),
             (_, When::Speed { delay, .. }) if delay > 0.0 => ("delay", "a delay after a speed"),
             (Happens::Drive(torque), when)
@@ -153,7 +150,7 @@ pub(super) fn until_standstill(
             _ => continue,
         };
         let found = format!("{found} beside run.until = \"standstill\"");
-        let allowed = "run.until = \"duration\" is needed for it: after run.duration quasi-steady steps follow, without power, drive and loads; they land on speeds of brakes and drives that end";
+        let allowed = "run.until = \"duration\" is needed for it: after run.duration quasi-steady steps follow, without power and drive; they land on speeds of brakes, drives that end, loads and unbalances";
         return part.refuse(Code::Conflict, key, found, allowed);
     }
     Ok(())
@@ -175,13 +172,13 @@ pub(super) fn relevitated(
                 _ => true,
             });
         let lost = before.filter_map(|other| match &other.what {
-            Happens::Lost { axes, .. } => Some(axes),
+            Happens::Magnets(axes, MagnetEvent::Lost(_)) => Some(axes),
             _ => None,
         });
         lost.flatten().collect::<BTreeSet<_>>().len() == axes
     };
     for (part, event) in parts.iter().zip(events) {
-        let again = matches!(event.what, Happens::Relevitate(_));
+        let again = matches!(event.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)));
         if again && !lost_before(event) {
             let found = "a re-levitation before the loss of all power";
             let allowed = "an event with do = \"power lost\" before it, or levitation.power_lost_at, is needed";

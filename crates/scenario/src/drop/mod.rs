@@ -22,7 +22,8 @@ use crate::section::Section;
 use crate::values::Values;
 pub use base::{Base, RecordFile, Shock, Spectrum};
 use case::Cases;
-pub use event::{Event, Happens, Relevitation, When};
+pub(crate) use event::LOST_AT;
+pub use event::{Event, Happens, MagnetEvent, Relevitation, When};
 use kinds::{SpinKind, UnbalanceAngle};
 use mount::MountParts;
 use physics::heat_conduction::ThermalMaterial;
@@ -278,6 +279,14 @@ impl Drop {
         self.auxiliary_bearings.iter().map(|part| part.planes).sum()
     }
 
+    /// Whether the magnets of a machine lose their power by events alone, and not by the key, or its default.
+    pub(crate) fn loses_power_by_events(&self) -> bool {
+        let Body::Flexible(shaft) = &self.body else {
+            return false;
+        };
+        shaft.rotor.levitation.is_some() && !shaft.events.iter().any(|own| own.by_key)
+    }
+
     /// Of a document, with the values of each auxiliary bearing.
     pub(crate) fn of(document: &Document, all: &[Values]) -> Result<Drop, Box<Problem>> {
         let values = &all[0];
@@ -298,7 +307,6 @@ impl Drop {
             Body::Flexible(shaft) => shaft.cases.clone(),
             Body::Rigid(_) => Cases::default(),
         };
-        let moves = |base: &Base| cases.happens(base.case.as_deref());
         Ok(Drop {
             rotor: rotor(&values.section("rotor"), bends),
             body,
@@ -308,7 +316,7 @@ impl Drop {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),
             },
-            base: Base::of(values)?.filter(moves),
+            base: Base::of(values, &cases)?,
             levitation: Levitation {
                 stiffness: levitation("stiffness"),
                 damping: levitation("damping"),

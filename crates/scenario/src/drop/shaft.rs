@@ -4,6 +4,7 @@ use crate::document::Document;
 use crate::drop::case::Cases;
 use crate::drop::event::{self, Event};
 use crate::drop::keys_mount::ON;
+use crate::drop::kinds::SpinKind;
 use crate::key::quoted;
 use crate::rotor::tables::{self, Part};
 use crate::rotor::{FlexibleRotor, Node};
@@ -116,6 +117,17 @@ impl Shaft {
             let found = "a force beside run.until = \"standstill\"";
             let allowed =
                 "run.until = \"duration\" is needed: the coast-down knows no forces from outside";
+            return part.refuse(Code::Conflict, "", found, allowed);
+        }
+        let turned = |part: &&Part| {
+            ["torque", "channel_torque"]
+                .iter()
+                .any(|key| part.known.contains_key(key))
+        };
+        let held = values.chosen("rotor.spin") == Some(SpinKind::Held);
+        if let Some(part) = of("force").find(turned).filter(|_| held) {
+            let found = "a torque beside rotor.spin = \"held\"";
+            let allowed = "a rotor whose spin is not held is needed";
             return part.refuse(Code::Conflict, "", found, allowed);
         }
         let (cases, events) = event::events(&parts, &rotor, values)?;

@@ -137,13 +137,13 @@ pub struct BalancePlanes {
     pub seed: u64,
 }
 
-/// A force from outside over time.
+/// A force and torque from outside over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Force {
     /// Its position.
     pub at: f64,
-    /// Rows of time, s, and force along x, N; the same along y.
-    pub over_time: [Vec<[f64; 2]>; 2],
+    /// Rows of time, s, and force along x, N; the same along y, and of the torque, N m.
+    pub over_time: [Vec<[f64; 2]>; 3],
     /// A file that has them instead.
     pub record: Option<ForceRecord>,
 }
@@ -155,6 +155,8 @@ pub struct ForceRecord {
     pub name: String,
     /// The file.
     pub file: RecordFile,
+    /// Its channel with the torque.
+    pub torque: Option<String>,
     /// When the record begins, s.
     pub start: f64,
     /// Factor on it.

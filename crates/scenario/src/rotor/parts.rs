@@ -440,31 +440,34 @@ pub(super) fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
 
 /// A force from outside at a place.
 fn force(part: &Part, at: f64) -> Checked<Force> {
-    let channels = ["channel_x", "channel_y"].map(|key| part.text(key).map(str::to_string));
+    let [x, y, torque] =
+        ["channel_x", "channel_y", "channel_torque"].map(|key| part.text(key).map(str::to_string));
+    let none = x.as_ref().or(y.as_ref()).or(torque.as_ref()).is_none();
     let record = part.text("file").map(|path| ForceRecord {
         name: part.path.clone(),
         file: RecordFile {
             path: path.into(),
-            channels: channels.clone(),
+            channels: [x, y],
         },
+        torque,
         start: part.needed("start"),
         scale: part.needed("scale"),
     });
     if record.is_some() {
-        if channels == [None, None] {
+        if none {
             let found = "a file of which no channel is named";
-            let allowed = "channel_x or channel_y is needed";
+            let allowed = "channel_x, channel_y or channel_torque is needed";
             return part.refuse(Code::MissingKey, "file", found, allowed);
         }
         return Ok(Force {
             at,
-            over_time: [Vec::new(), Vec::new()],
+            over_time: Default::default(),
             record,
         });
     }
     let times = part.series("times").unwrap_or_default();
     if times.is_empty() {
-        let allowed = "times with x or y, or file, is needed";
+        let allowed = "times with x, y or torque, or file, is needed";
         return part.refuse(Code::MissingKey, "times", "a force without times", allowed);
     }
     if !times.windows(2).all(|pair| pair[0] < pair[1]) {
@@ -486,8 +489,11 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
         let rows = times.iter().zip(list.iter().cycle());
         Ok(rows.map(|(time, force)| [*time, *force]).collect())
     };
-    if part.series("x").or(part.series("y")).is_none() {
-        let allowed = "x or y is needed";
+    if ["x", "y", "torque"]
+        .iter()
+        .all(|key| part.series(key).is_none())
+    {
+        let allowed = "x, y or torque is needed";
         return part.refuse(
             Code::MissingKey,
             "x",
@@ -497,7 +503,7 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
     }
     Ok(Force {
         at,
-        over_time: [along("x")?, along("y")?],
+        over_time: [along("x")?, along("y")?, along("torque")?],
         record: None,
     })
 }

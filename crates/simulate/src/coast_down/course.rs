@@ -288,6 +288,7 @@ fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
         ];
         RowOfBearing {
             moment: all[OF_BEARING * k..][..OF_BEARING].iter().sum(),
+            load: part.zone.load,
             clearance,
             largest_pressure: part.largest_pressure(loads),
             largest_ball_loads: loads,

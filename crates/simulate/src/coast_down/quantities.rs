@@ -331,7 +331,8 @@ fn used(
     let passages = passages_per_turn(warm.ball_count as f64, gamma);
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
     let open = part.zone.clearance.at_reference.max(0.0);
-    let unpreloaded = mean(&part.zone.all_round(open, PLACES));
+    let mut zone_of_row = part.zone.clone();
+    let mut unpreloaded = mean(&zone_of_row.all_round(open, PLACES));
     // sums of cubes that pass each place, by laws from the load line on, by intervals as they have seen them
     let mut by_laws = [vec![0.0; PLACES], vec![0.0; PLACES]];
     let mut seen = [vec![0.0; PLACES], vec![0.0; PLACES]];
@@ -339,8 +340,12 @@ fn used(
         // balls pass with the race, which may slide under the rotor or stand
         let own = &row.bearings[k];
         let turned = turned * own.speed / row.speed;
-        let zone = part.zone.all_round(own.clearance, PLACES);
-        let pressing = warm.radial_load * mean(&zone) / unpreloaded;
+        if own.load != zone_of_row.load {
+            zone_of_row.load = own.load;
+            unpreloaded = mean(&zone_of_row.all_round(open, PLACES));
+        }
+        let zone = zone_of_row.all_round(own.clearance, PLACES);
+        let pressing = own.load * mean(&zone) / unpreloaded;
         let cubes = [0.0, part.network.centrifugal(own.speed)]
             .map(|more| -> Vec<f64> { zone.iter().map(|load| (load + more).powi(3)).collect() });
         // an interval is as closed as its bearing was then, and the laws know no impacts: the larger of both counts

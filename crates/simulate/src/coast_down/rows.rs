@@ -26,6 +26,8 @@ pub(crate) struct Row {
 pub(crate) struct RowOfBearing {
     /// M0 and M1 of all equal bearings together, N m.
     pub moment: f64,
+    /// Radial load of one of them, N.
+    pub load: f64,
     /// Diametral, m.
     pub clearance: f64,
     /// Of the most loaded ball at the inner and at the outer race, N.

@@ -52,11 +52,11 @@ pub(super) fn base(drop: &Drop) -> Result<Option<BaseConstants>> {
         vec![rows]
     });
     if let Some(file) = &given.file {
-        for (axis, rows) in record_file::read(file, "m/s^2", "base")?
-            .into_iter()
-            .enumerate()
-        {
-            records[axis].push(rows);
+        let [x, y] = &file.channels;
+        let channels = [(x, "x", "m/s^2"), (y, "y", "m/s^2")];
+        let read = record_file::read(&file.path, "base", channels)?;
+        for (record, rows) in records.iter_mut().zip(read) {
+            record.push(rows);
         }
     }
     if let Some(spectrum) = &given.spectrum {
@@ -130,7 +130,7 @@ pub(super) fn cut_off(constants: &MachineConstants, end: f64) -> Vec<Warning> {
     let all = [
         ("the record of the base", record),
         ("the shock of the base", shock),
-        ("a force from outside", force),
+        ("a force or torque from outside", force),
     ];
     all.into_iter()
         .filter_map(|(what, until)| {

@@ -2,7 +2,9 @@
 
 use crate::rotor::RotorModel;
 use ::rotor::{C64, Place, properties};
+use number::Vec2;
 use physics::heat_conduction::STEEL_HEAT;
+use physics::support::weight_share;
 use problem::{Code, Problem};
 use scenario::several::path_of;
 use scenario::{Body, RigidBody, problem_at};
@@ -81,6 +83,33 @@ impl Drop {
         self.body.mass * self.gravity.acceleration * self.share(bearing)
     }
 
+    /// Load on one row of each auxiliary bearing under the weight and forces at nodes of the model, by levers: its size, N, and its direction
+    /// from x, rad.
+    pub fn loads(&self, forces: &[(usize, Vec2<f64>)]) -> Vec<(f64, f64)> {
+        let (sine, cosine) = self.gravity.direction.sin_cos();
+        let of_bearing = |k: usize| {
+            let weight = (self.weight(k), self.gravity.direction);
+            let Some(shaft) = self.shaft.as_ref().filter(|_| !forces.is_empty()) else {
+                return weight;
+            };
+            let of_weight = self.body.mass * self.gravity.acceleration * shaft.shares[k];
+            let load =
+                forces
+                    .iter()
+                    .fold(Vec2::new(cosine, sine) * of_weight, |sum, (node, force)| {
+                        let share = shares(
+                            &shaft.model,
+                            &shaft.nodes,
+                            self,
+                            shaft.model.rotor.nodes[*node],
+                        );
+                        sum + *force * share[k]
+                    });
+            (load.length_squared().sqrt(), load.y.atan2(load.x))
+        };
+        (0..self.auxiliary_bearings.len()).map(of_bearing).collect()
+    }
+
     /// With the weight on each bearing that warms, and the rotor's part that warms with it.
     fn loaded(mut self) -> Result<Drop, Box<Problem>> {
         for k in 0..self.auxiliary_bearings.len() {
@@ -109,7 +138,7 @@ impl Shaft {
         let nodes: Vec<usize> = nodes.collect();
         lands(drop, &nodes, &model)?;
         Ok(Shaft {
-            shares: shares(&model, &nodes, drop),
+            shares: shares(&model, &nodes, drop, properties(&model.rotor).centre),
             given: given.clone(),
             model,
             nodes,
@@ -155,22 +184,11 @@ fn conflict(bearing: &str, key: &str, found: &str, needed: &str) -> Box<Problem>
     problem_at(Code::Conflict, path_of(of, key), found, needed)
 }
 
-/// Shares of the weight: 1/n and what balances the moment about the middle of the rows.
-fn shares(model: &RotorModel, nodes: &[usize], drop: &scenario::Drop) -> Vec<f64> {
-    let places: Vec<f64> = nodes.iter().map(|node| model.rotor.nodes[*node]).collect();
-    let over_rows = |of: &dyn Fn(f64) -> f64| -> f64 {
-        let each = drop.auxiliary_bearings.iter().zip(&places);
-        each.map(|(part, z)| part.planes * of(*z)).sum()
-    };
-    let count = drop.rows();
-    let middle = over_rows(&|z| z) / count;
-    let spread = over_rows(&|z| (z - middle).powi(2));
-    let lever = properties(&model.rotor).centre - middle;
-    places
-        .iter()
-        .map(|z| match spread > 0.0 {
-            true => 1.0 / count + lever * (z - middle) / spread,
-            false => 1.0 / count,
-        })
-        .collect()
+/// Shares of a load at a place along the shaft, m, on one row of each bearing.
+fn shares(model: &RotorModel, nodes: &[usize], drop: &scenario::Drop, at: f64) -> Vec<f64> {
+    let place = |node: &usize| model.rotor.nodes[*node];
+    let parts = drop.auxiliary_bearings.iter().zip(nodes);
+    let rows = parts.map(|(part, node)| (place(node), part.planes));
+    let share = weight_share(rows, at);
+    nodes.iter().map(|node| share(place(node))).collect()
 }

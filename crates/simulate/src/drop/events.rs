@@ -7,29 +7,32 @@ use crate::drop::{Drop, Shaft};
 use crate::rotor::LevitationModel;
 use levitation::ClosedLoop;
 use levitation::response::Loaded;
+use model::system::machine::record::Levitated;
 use outcome::Warning;
 use outcome::list::{List, origins, results};
-use scenario::{Event, Happens, Relevitation, When};
+use scenario::{Event, Happens, MagnetEvent, Relevitation, When};
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 
 /// The events of a machine besides a loss of power that its keys give.
 fn events(given: &Shaft) -> impl Iterator<Item = &Event> {
     given.events.iter().filter(|event| !event.by_key)
 }
 
-/// How and when a rotor is levitated again, each time.
-fn relevitations(drop: &Drop) -> impl DoubleEndedIterator<Item = (Relevitation, When)> + '_ {
-    let again = |event: &Event| match event.what {
-        Happens::Relevitate(own) => Some((own, event.when)),
-        _ => None,
-    };
+/// The events that levitate a rotor again.
+fn relevitations(drop: &Drop) -> impl Iterator<Item = (&Event, Relevitation)> + '_ {
     let shaft = drop.shaft.iter();
-    shaft.flat_map(|own| &own.events).filter_map(again)
+    shaft
+        .flat_map(|own| &own.events)
+        .filter_map(|event| match event.what {
+            Happens::Magnets(_, MagnetEvent::Relevitated(own)) => Some((event, own)),
+            _ => None,
+        })
 }
 
-/// Share of the clearance within which a rotor that is levitated again must stay.
-pub(super) fn within(drop: &Drop) -> Option<f64> {
-    relevitations(drop).map(|(own, _)| own.within).next_back()
+/// Shares of the clearance within which a rotor that is levitated again must stay, each time.
+pub(super) fn within(drop: &Drop) -> Vec<f64> {
+    relevitations(drop).map(|(_, own)| own.within).collect()
 }
 
 /// The last instant at which something known before the run happens, s.
@@ -50,19 +53,23 @@ pub(super) fn growths(
 ) -> Result<Vec<(String, f64)>, levitation::Refused> {
     let mut all = Vec::new();
     for event in events {
-        let cut = match &event.what {
-            Happens::Lost { axes, .. } => (axes, 0.0),
-            Happens::SensorStuck(axes) | Happens::SensorDead(axes) => (axes, 1.0),
-            Happens::ControllerFrozen(axes) => (axes, 1.0),
+        let Happens::Magnets(axes, what) = &event.what else {
+            continue;
+        };
+        let left = match what {
+            MagnetEvent::Lost(_) => 0.0,
+            MagnetEvent::SensorStuck | MagnetEvent::SensorDead | MagnetEvent::ControllerFrozen => {
+                1.0
+            }
             _ => continue,
         };
         // without any magnet it falls
-        if cut.0.len() == loaded.rest.slopes.len() && cut.1 == 0.0 {
+        if axes.len() == loaded.rest.slopes.len() && left == 0.0 {
             continue;
         }
         let mut slopes = loaded.rest.slopes.clone();
-        for axis in cut.0 {
-            slopes[*axis] = (0.0, cut.1 * slopes[*axis].1);
+        for axis in axes {
+            slopes[*axis] = (0.0, left * slopes[*axis].1);
         }
         let plant = loaded.closed.plant().clone();
         let poles = ClosedLoop::about(plant, &model.levitation, slopes)?.poles()?;
@@ -92,8 +99,9 @@ fn time_of(when: When, context: &Context) -> Option<f64> {
     }
 }
 
-/// A rotor after it was levitated again.
-struct Again {
+/// A rotor after an event that levitates it again.
+#[derive(Clone, Copy)]
+struct Again<'a> {
     /// When, s.
     time: f64,
     /// When it was last outside the share of a clearance, s.
@@ -102,39 +110,60 @@ struct Again {
     contact: Option<f64>,
     /// Whether it was held.
     held: bool,
+    /// End of the run, or the next loss of all power, s.
+    end: f64,
+    /// From that event, or an earlier one, on.
+    seen: &'a Levitated,
 }
 
-impl Again {
-    fn of(context: &Context) -> Option<Self> {
+impl<'a> Again<'a> {
+    /// After each that happened to a rotor without power, with the place of the event among them.
+    fn all(context: &'a Context) -> impl Iterator<Item = (usize, Self)> + 'a {
         let record = &context.finished.record;
-        let end = context.finished.ending.time;
-        // the last of those that happened to a rotor without power
-        let happened = relevitations(context.setup.drop()).filter_map(|(own, when)| {
-            let time = time_of(when, context).filter(|time| *time <= end)?;
-            record
-                .lost
-                .is_some_and(|(lost, _)| lost < time)
-                .then_some((own, time))
-        });
-        let (own, time) = happened.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let after = |last: Option<f64>| last.filter(|last| *last >= time);
-        let all = record.within.iter().flat_map(|(_, outside)| outside);
-        let outside = all.filter_map(|last| after(*last)).reduce(f64::max);
-        let contacts = record.bearings.iter().filter_map(|own| own.contacts.last());
-        let contact = contacts
-            .filter_map(|own| after(Some(own.end.unwrap_or(end))))
-            .reduce(f64::max);
-        let held = time < end - own.hold
-            && [outside, contact]
-                .iter()
+        let of_event = move |(place, (event, own)): (usize, (&Event, Relevitation))| {
+            let time = time_of(event.when, context)?;
+            // the magnets may have had their power again before
+            let seen = record.again.iter().rfind(|own| own.since <= time)?;
+            let end = seen.until.unwrap_or(context.finished.ending.time);
+            if time > end {
+                return None;
+            }
+            let outside = seen.outside[place].filter(|last| *last >= time);
+            let contacts = record.bearings.iter().flat_map(|own| &own.contacts);
+            let ends = contacts
+                .filter(|own| own.start <= end)
+                .map(|own| own.end.unwrap_or(end).min(end));
+            let contact = ends.filter(|last| *last >= time).reduce(f64::max);
+            let last = [outside, contact]
+                .into_iter()
                 .flatten()
-                .all(|last| *last < end - own.hold);
-        Some(Again {
-            time,
-            outside,
-            contact,
-            held,
-        })
+                .fold(time, f64::max);
+            let again = Again {
+                time,
+                outside,
+                contact,
+                held: last < end - own.hold,
+                end,
+                seen,
+            };
+            Some((place, again))
+        };
+        relevitations(context.setup.drop())
+            .enumerate()
+            .filter_map(of_event)
+    }
+
+    /// After the last of them.
+    fn last(context: &'a Context) -> Option<Self> {
+        let all = Self::all(context).map(|(_, own)| own);
+        all.max_by(|a, b| a.time.total_cmp(&b.time))
+    }
+
+    /// From the re-levitation until it stayed in the middle, s.
+    fn duration(&self) -> Option<f64> {
+        self.outside
+            .filter(|_| self.held)
+            .map(|last| last - self.time)
     }
 }
 
@@ -159,8 +188,14 @@ pub(super) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
             happened(list, &cuts, happened_at.as_ref())
         });
     }
-    if relevitations(setup.drop()).next().is_some() {
-        again(list, &(), run.map(Again::of).as_ref());
+    let mut any = false;
+    for (place, (event, _)) in relevitations(setup.drop()).enumerate() {
+        any = true;
+        let own = run.map(|run| Again::all(run).find(|own| own.0 == place).map(|own| own.1));
+        list.named(&[&event.name], |list| each(list, &(), own.as_ref()));
+    }
+    if any {
+        again(list, &(), run.map(Again::last).as_ref());
     }
 }
 
@@ -172,22 +207,40 @@ results! {
         "event.*.time": number "s", EVENT, "instant at which it happened" in instants "*" => run.0.ok_or_else(|| NEVER.to_string());
         "event.*.growth": number "1/s", GROWTH, "rate at which the rotor leaves the middle after it" when *cuts => run.1.unwrap_or(f64::NAN);
     }
-    /// Of a rotor that is levitated again.
-    fn again(setup: &(), run: &Option<Again>) {
+    /// Of a rotor that an event levitates again.
+    fn each(setup: &(), run: &Option<Again<'_>>) {
+        "event.*.held": number "", HELD, "1 where the rotor was held after it, else 0" => held(run.as_ref());
+        "event.*.held_after": number "s", OUTSIDE, "from this re-levitation until the rotor stayed in the middle of its bearings" => in_the_middle(run.as_ref());
+        "event.*.last_contact": number "s", CONTACT, "end of the last contact after this re-levitation" => last_contact(run.as_ref());
+        "event.*.largest_current": number "A", CURRENT, "largest current of a coil after this re-levitation" => {
+            run.as_ref().map(|own| own.seen.coil.value).ok_or_else(|| NEVER.to_string())
+        };
+    }
+    /// Of the last of them.
+    fn again(setup: &(), run: &Option<Again<'_>>) {
         "relevitation": text "", HELD, "whether the rotor was held again" in relevitation "state" => {
             let word = |own: &Again| ["not held", "held"][usize::from(own.held)].to_string();
             run.as_ref().map(word).ok_or_else(|| NEVER.to_string())
         };
-        "relevitation_held": number "" headline, HELD, "1 where the rotor was held again, else 0" => {
-            run.as_ref().map(|own| f64::from(u8::from(own.held))).ok_or_else(|| NEVER.to_string())
-        };
-        "relevitation_duration": number "s", OUTSIDE, "from the re-levitation until the rotor stayed in the middle of its bearings" in relevitation "in the middle after" => {
-            run.as_ref().filter(|own| own.held).and_then(|own| Some(own.outside? - own.time)).ok_or_else(|| "it was not held, or never outside after it".to_string())
-        };
-        "relevitation_last_contact": number "s", CONTACT, "end of the last contact after the re-levitation" in relevitation "last contact at" => {
-            run.as_ref().and_then(|own| own.contact).ok_or_else(|| "no contact after it".to_string())
-        };
+        "relevitation_held": number "" headline, HELD, "1 where the rotor was held again, else 0" => held(run.as_ref());
+        "relevitation_duration": number "s", OUTSIDE, "from the re-levitation until the rotor stayed in the middle of its bearings" in relevitation "in the middle after" => in_the_middle(run.as_ref());
+        "relevitation_last_contact": number "s", CONTACT, "end of the last contact after the re-levitation" in relevitation "last contact at" => last_contact(run.as_ref());
     }
+}
+
+fn held(run: Option<&Again>) -> Result<f64, String> {
+    let own = run.map(|own| f64::from(u8::from(own.held)));
+    own.ok_or_else(|| NEVER.to_string())
+}
+
+fn in_the_middle(run: Option<&Again>) -> Result<f64, String> {
+    let own = run.and_then(Again::duration);
+    own.ok_or_else(|| "it was not held, or never outside after it".to_string())
+}
+
+fn last_contact(run: Option<&Again>) -> Result<f64, String> {
+    let own = run.and_then(|own| own.contact);
+    own.ok_or_else(|| "no contact after it".to_string())
 }
 
 /// Events that never happened, and magnets that keep their power because others than its loss are given.
@@ -199,7 +252,7 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     let mut list = Vec::new();
     for event in events(given) {
         let time = time_of(event.when, context);
-        let again = matches!(event.what, Happens::Relevitate(_));
+        let again = matches!(event.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)));
         let lost = context.finished.record.lost;
         let why = match (time, event.when) {
             (Some(time), _)
@@ -208,8 +261,10 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
                 "the magnets have not lost their power before it".to_string()
             }
             (Some(time), _) if time <= end => continue,
-            (None, When::Speed { speed, .. }) => {
-                format!("the rotor does not come to {speed:.1} rad/s")
+            (None, When::Speed { speed, rising, .. }) => {
+                let way = if rising { "rise" } else { "fall" };
+                let rpm = speed * 30.0 / PI;
+                format!("the speed of the rotor does not {way} to {rpm:.1} rpm ({speed:.1} rad/s)")
             }
             (Some(time), _) => format!("it would at {time:.4} s, and the run ends at {end:.4} s"),
             (None, When::At(_)) => continue,
@@ -218,7 +273,7 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
         list.push(ShaftWarning::EventNever { name, why }.into());
     }
     let lost = (given.events.iter()).filter_map(|event| match &event.what {
-        Happens::Lost { axes, .. } => Some(axes),
+        Happens::Magnets(axes, MagnetEvent::Lost(_)) => Some(axes),
         _ => None,
     });
     let lost = lost.flatten().collect::<BTreeSet<_>>().len();
@@ -229,36 +284,34 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     list
 }
 
-/// A rotor that was not held when it was levitated again, graded by how long.
-pub(super) fn not_held(context: &Context) -> Option<(f64, Warning)> {
-    let own = Again::of(context).filter(|own| !own.held)?;
-    let end = context.finished.ending.time;
-    let last = [own.outside, own.contact]
-        .into_iter()
-        .flatten()
-        .fold(own.time, f64::max);
-    let given = context.setup.controlled()?;
-    let limits = context.finished.record.currents.iter().enumerate();
-    let limited = limits.filter_map(|(axis, peak)| {
-        let since = peak.limited_since;
-        Some((axis, since.first?, since.duration))
-    });
-    let first = limited.min_by(|a, b| a.1.total_cmp(&b.1));
-    let first = match first {
-        Some((axis, since, long)) => format!(
-            "{} was at its largest current first, at {since:.4} s, for {:.1} ms in all",
-            value_of(given, axis, "current"),
-            1e3 * long
-        ),
-        None => "no coil was at its largest current".to_string(),
+/// A rotor that was not held when it was levitated again, each time, graded by how long.
+pub(super) fn not_held(context: &Context) -> Vec<(f64, Warning)> {
+    let Some(given) = context.setup.controlled() else {
+        return Vec::new();
     };
-    let warning = ShaftWarning::NotHeldAgain {
-        time: own.time,
-        last,
-        end,
-        first,
-    };
-    Some((last - own.time, warning.into()))
+    let all = Again::all(context).filter(|(_, own)| !own.held);
+    all.map(|(_, own)| {
+        let last = [own.outside, own.contact].into_iter().flatten();
+        let last = last.fold(own.time, f64::max);
+        let limited = own.seen.limited.iter().enumerate();
+        let limited = limited.filter_map(|(axis, own)| Some((axis, own.first?, own.duration)));
+        let first = match limited.min_by(|a, b| a.1.total_cmp(&b.1)) {
+            Some((axis, since, long)) => format!(
+                "{} was at its largest current first, at {since:.4} s, for {:.1} ms in all",
+                value_of(given, axis, "current"),
+                1e3 * long
+            ),
+            None => "no coil was at its largest current".to_string(),
+        };
+        let warning = ShaftWarning::NotHeldAgain {
+            time: own.time,
+            last,
+            end: own.end,
+            first,
+        };
+        (last - own.time, warning.into())
+    })
+    .collect()
 }
 
 origins! {
@@ -268,13 +321,16 @@ origins! {
     GROWTH: law "largest real part of the eigenvalues of the machine after this event alone, about the steady state at the start: of a cut axis k_s stays, of a lost one neither k_i nor k_s",
         source "crates/levitation/src/closed_loop.rs with the slopes that the event leaves",
         valid "small displacements in the middle, speed of the start; zero, up to round-off, where the rotor falls freely";
-    HELD: law "1 where after the re-levitation the last contact and the last displacement beyond event.within of the clearance, in every bearing, are earlier than the end of the run less event.hold",
+    HELD: law "1 where after the re-levitation the last contact and the last displacement beyond event.within of the clearance, in every bearing, are earlier than the end of the run, or the next loss of all power, less event.hold",
         source "crates/simulate/src/drop/events.rs; the criterion of the user, event.within and event.hold",
         valid "limits of coils as given; without largest_current and slew_rate any controller lifts the rotor";
     OUTSIDE: law "instant at which the rotor's centre was last beyond event.within of the clearance from the middle of a bearing, at the ends of steps, less that of the re-levitation",
         source "crates/model/src/system/machine/record.rs",
         valid "as the run";
-    CONTACT: law "end of the last contact in any bearing",
+    CURRENT: law "largest current of one of the coils, of a linear magnet largest control current, at the ends of steps, until the end of the run or the next loss of all power",
+        source "crates/model/src/system/machine/record.rs",
+        valid "as the run";
+    CONTACT: law "end of the last contact in any bearing, until the end of the run or the next loss of all power",
         source "crates/model/src/contact.rs",
         valid "as the run";
 }

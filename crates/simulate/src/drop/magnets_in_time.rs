@@ -10,7 +10,7 @@ use model::magnets::{
 use model::system::machine::{AtSpeed, Event};
 use number::Vec2;
 use problem::{Code, Problem};
-use scenario::{Happens, When, problem_at};
+use scenario::{Happens, MagnetEvent, When, problem_at};
 use statistics::normal::quantile;
 use statistics::random::uniform;
 
@@ -103,10 +103,12 @@ pub(super) fn built(
     }
     let sensors: Vec<_> = all().map(sensor).collect();
     let axes = levitation.actuators().len();
-    let of_magnets_alone = shaft.events.iter().filter(|own| own.what.axes().is_some());
-    let happening: Vec<(When, Change)> = of_magnets_alone
-        .flat_map(|own| changes(own, axes, end))
-        .collect();
+    let of_magnets_alone = shaft.events.iter().filter_map(|own| match &own.what {
+        Happens::Magnets(axes, what) => Some((own.when, axes, what)),
+        _ => None,
+    });
+    let happening: Vec<(When, Change)> =
+        of_magnets_alone.flat_map(|own| changes(own, end)).collect();
     let start = sampled(levitation, &sensors, position, held.states.clone());
     let changes = happening.iter().map(|(_, change)| change.clone()).collect();
     let control = ControlConstants::new(levitation.clone(), sensors, start, changes);
@@ -168,7 +170,7 @@ fn lost_at_once(shaft: &Shaft, count: usize) -> Option<f64> {
         (
             Some(scenario::Event {
                 when: When::At(time),
-                what: Happens::Lost { decay_time, axes },
+                what: Happens::Magnets(axes, MagnetEvent::Lost(decay_time)),
                 ..
             }),
             None,
@@ -178,20 +180,19 @@ fn lost_at_once(shaft: &Shaft, count: usize) -> Option<f64> {
 }
 
 /// What an event changes, and when: noise changes again and again.
-fn changes(event: &scenario::Event, count: usize, end: f64) -> Vec<(When, Change)> {
-    let Happens::SensorNoise {
-        axes,
+fn changes((when, axes, what): (When, &Vec<usize>, &MagnetEvent), end: f64) -> Vec<(When, Change)> {
+    let MagnetEvent::SensorNoise {
         deviation,
         period,
         seed,
-    } = &event.what
+    } = what
     else {
-        return vec![(event.when, change(&event.what, count))];
+        return vec![(when, change(what, axes.clone()))];
     };
     let values = (end / period).ceil() as u64;
     let each = (0..=values).flat_map(|k| {
         let later = k as f64 * period;
-        let when = match event.when {
+        let when = match when {
             When::At(time) => When::At(time + later),
             When::Speed {
                 speed,
@@ -215,40 +216,29 @@ fn changes(event: &scenario::Event, count: usize, end: f64) -> Vec<(When, Change
 }
 
 /// A change of the model.
-fn change(what: &Happens, count: usize) -> Change {
+fn change(what: &MagnetEvent, axes: Vec<usize>) -> Change {
     // what decays or rises in no time does so at once
     let rate = |time: f64| 1.0 / time;
-    let axes = match what {
-        Happens::Relevitate(_) => (0..count).collect(),
-        own => own.axes().unwrap_or_default().to_vec(),
-    };
     let what = match what {
-        Happens::Lost { decay_time, .. } => What::Lost {
+        MagnetEvent::Lost(decay_time) => What::Lost {
             decay_rate: rate(*decay_time),
         },
-        Happens::SensorStuck(_) => What::Stuck,
-        Happens::SensorDead(_) => What::Dead,
-        Happens::SensorOffset(_, offset) => What::Offset(*offset),
-        Happens::ControllerFrozen(_) => What::Frozen,
-        Happens::AmplifierLimit {
+        MagnetEvent::SensorStuck => What::Stuck,
+        MagnetEvent::SensorDead => What::Dead,
+        MagnetEvent::SensorOffset(offset) => What::Offset(*offset),
+        MagnetEvent::ControllerFrozen => What::Frozen,
+        MagnetEvent::AmplifierLimit {
             largest_current,
             slew,
-            ..
         } => What::Limited {
             largest_current: *largest_current,
             slew: *slew,
         },
-        Happens::Relevitate(own) => What::Levitated {
+        MagnetEvent::Relevitated(own) => What::Levitated {
             bias_rate: rate(own.bias_time),
             reference_rate: rate(own.reference_time),
         },
-        Happens::SensorNoise { .. } => unreachable!("it changes again and again"),
-        Happens::Brake(_)
-        | Happens::Drive(_)
-        | Happens::Load { .. }
-        | Happens::Unbalance { .. } => {
-            unreachable!("it is of no magnet")
-        }
+        MagnetEvent::SensorNoise { .. } => unreachable!("it changes again and again"),
     };
     Change { what, axes }
 }

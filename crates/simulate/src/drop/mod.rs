@@ -37,6 +37,7 @@ use crate::drop::each::One;
 use crate::drop::multirate::results::{self as coast_down, After};
 use model::system::machine::RotorMachine;
 use outcome::{Column, Contact, Members, Outcome, Picture, Quantity, Work};
+use scenario::Scenario;
 
 /// The columns of its history, without values.
 pub fn columns(built: &Built) -> Vec<Column> {
@@ -68,8 +69,7 @@ pub(crate) fn outcome(one: &One, context: &Context, after: Option<&After>) -> Ou
     let work = &context.finished.ending.work;
     let mut outcome = Outcome {
         system: one.scenario.system.name().word(),
-        title: (one.scenario.title.clone())
-            .unwrap_or_else(|| "Drop of a levitated rotor".to_string()),
+        title: title(one.scenario),
         quantities,
         warnings: warnings::of(one.scenario, context, after.filter(|_| one.speaks())),
         stop,
@@ -93,6 +93,16 @@ pub(crate) fn outcome(one: &One, context: &Context, after: Option<&After>) -> Ou
         outcome.pictures = parts.map(|k| picture(context, k)).collect();
     }
     outcome
+}
+
+/// Title of a run, with the case that happens in it.
+fn title(scenario: &Scenario) -> String {
+    let own = scenario.title.as_deref();
+    let own = own.unwrap_or("Drop of a levitated rotor");
+    match scenario.system.cases().chosen() {
+        Some(case) => format!("{own}: case {case}"),
+        None => own.to_string(),
+    }
 }
 
 /// What pictures need of an auxiliary bearing.

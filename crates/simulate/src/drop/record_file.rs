@@ -5,7 +5,8 @@ use model::table::Table;
 use problem::{Code, Result};
 use recording::unit::si_factor;
 use recording::{Channel, Clock, FileError, Recording};
-use scenario::{Force, RecordFile, STANDARD_GRAVITY, problem_at};
+use scenario::{Force, STANDARD_GRAVITY, problem_at};
+use std::path::Path;
 
 /// Before and after a record there is nothing: what it records gets there in this time, s.
 const EDGE: f64 = 1e-6;
@@ -43,18 +44,28 @@ pub(super) fn sum(records: &[Vec<[f64; 2]>]) -> Table {
     }
 }
 
-/// A force from outside over time along x and along y, N.
-pub(super) fn force(given: &Force) -> Result<[Table; 2]> {
+/// A force from outside over time along x and along y, N, and a torque, N m.
+pub(super) fn force(given: &Force) -> Result<[Table; 3]> {
     let Some(record) = &given.record else {
         return Ok(given.over_time.each_ref().map(|rows| table(rows, 1.0)));
     };
     let placed = |[time, force]: &[f64; 2]| [time + record.start, record.scale * force];
-    let rows = read(&record.file, "N", &record.name)?;
+    let [x, y] = &record.file.channels;
+    let channels = [
+        (x, "x", "N"),
+        (y, "y", "N"),
+        (&record.torque, "torque", "N m"),
+    ];
+    let rows = read(&record.file.path, &record.name, channels)?;
     Ok(rows.map(|rows| sum(&[rows.iter().map(placed).collect()])))
 }
 
-/// The records of a file along x and along y, in a unit of SI; `table` is where a scenario names it, such as `base`.
-pub(super) fn read(file: &RecordFile, unit: &str, table: &str) -> Result<[Vec<[f64; 2]>; 2]> {
+/// The records of channels of a file, each with the end of its key and its unit of SI; `table` is where a scenario names them, such as `base`.
+pub(super) fn read<const N: usize>(
+    path: &Path,
+    table: &str,
+    channels: [(&Option<String>, &str, &str); N],
+) -> Result<[Vec<[f64; 2]>; N]> {
     let of_file = |error: FileError| {
         problem_at(
             Code::MeasurementUnreadable,
@@ -63,13 +74,13 @@ pub(super) fn read(file: &RecordFile, unit: &str, table: &str) -> Result<[Vec<[f
             "a file that can be read is needed",
         )
     };
-    let mut recording = recording::open(&file.path).map_err(of_file)?;
-    let mut records = [Vec::new(), Vec::new()];
-    let keys = ["x", "y"].map(|axis| format!("{table}.channel_{axis}"));
-    for ((name, key), rows) in file.channels.iter().zip(&keys).zip(&mut records) {
+    let mut recording = recording::open(path).map_err(of_file)?;
+    let mut records = std::array::from_fn(|_| Vec::new());
+    for ((name, key, unit), rows) in channels.iter().zip(&mut records) {
         let Some(name) = name else { continue };
+        let key = &format!("{table}.channel_{key}");
         let (index, channel) = recording::find(recording.as_ref(), name).map_err(|why| {
-            let found = format!("{}, {}", file.path.display(), why.found);
+            let found = format!("{}, {}", path.display(), why.found);
             problem_at(Code::UnknownChannel, key, found, why.needed).with_hint(why.hint)
         })?;
         let factor = factor_of(&channel, unit, key)?;
@@ -99,12 +110,12 @@ pub(super) fn read(file: &RecordFile, unit: &str, table: &str) -> Result<[Vec<[f
                 "channel \"{name}\", whose value {} is no number below 1e100",
                 row + 1
             );
-            let needed = "a record without gaps and without jumps of velocity is needed";
+            let needed = "a number in every row is needed";
             return Err(problem_at(Code::OutOfRange, key, found, needed));
         }
         if let Some(row) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
             let found = format!("channel \"{name}\", whose time {} does not rise", row + 2);
-            let needed = "times that rise are needed: two values at one time are a jump";
+            let needed = "times that rise from row to row are needed";
             return Err(problem_at(Code::TableOrder, key, found, needed));
         }
         if values.len() < 2 {

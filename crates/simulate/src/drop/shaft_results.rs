@@ -38,7 +38,10 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
         }),
     };
     basis(list, &(), run.map(|_| &bent));
-    drawing::name(list, &given.model);
+    let places = given.places.iter().zip(&given.nodes);
+    let z = &given.model.rotor.nodes;
+    let housed = places.filter_map(|(place, node)| Some((place.on?, z[*node])));
+    drawing::name(list, &given.model, &housed.collect::<Vec<_>>());
     positions(list, &(), run.map(|_| &bent));
     displacements(list, &(), run);
     clearances_along(list, &(), run.map(|_| &bent));

@@ -8,7 +8,7 @@ use model::rotor::TorqueTables;
 use model::schedule::Schedule;
 use model::system::machine::{AtSpeed, Event, MachineConstants};
 use model::table::Table;
-use scenario::{Happens, Spin, When};
+use scenario::{Happens, MagnetEvent, Spin, When};
 
 /// Torque of the rotor's drive or load over speed and time.
 pub(super) fn tables(drop: &Drop) -> Option<TorqueTables> {
@@ -30,7 +30,9 @@ pub(super) fn brakes(drop: &Drop, at_speeds: &mut Vec<AtSpeed>) -> (f64, Vec<(f6
     let axes = drop.shaft.iter().flat_map(|own| &own.rotor.levitation);
     let axes: usize = axes.map(|own| 2 * own.magnets.len()).sum();
     let release = |event: &scenario::Event| match (event.when, &event.what) {
-        (When::At(time), Happens::Lost { axes: lost, .. }) if lost.len() == axes => Some(time),
+        (When::At(time), Happens::Magnets(lost, MagnetEvent::Lost(_))) if lost.len() == axes => {
+            Some(time)
+        }
         _ => None,
     };
     let released = events.clone().filter_map(release).reduce(f64::min);
@@ -71,7 +73,12 @@ pub(super) fn ahead(
     )
 }
 
-/// The torques that brake such a rotor: those that came, and those whose time or speed is to come.
+/// Whether a rotor goes on as another one, or under another load.
+pub(super) fn changes(event: &Event) -> bool {
+    matches!(event, Event::Load(..) | Event::Unbalance(_))
+}
+
+/// The torques that brake such a rotor: those that came, and those whose time or speed is to come; loads and unbalances that come have none.
 pub(super) fn coming(machine: &MachineConstants, reached: &[f64], speed: f64) -> Vec<Brake> {
     let (known, mut yet) = ahead(machine, reached, speed);
     yet.sort_by(|a, b| b.speed.total_cmp(&a.speed));
@@ -81,11 +88,12 @@ pub(super) fn coming(machine: &MachineConstants, reached: &[f64], speed: f64) ->
     let yet = yet
         .iter()
         .flat_map(|own| own.then.iter().map(|then| (0.0, own.speed, then.1)));
-    let mut now = [0.0; 2];
+    let mut now = [0.0; 3];
     let brakes = known.chain(yet).filter_map(|(from, below, event)| {
         let (kind, torque) = match event {
             Event::Brake(share) => (0, share * machine.rotor.brake_torque),
             Event::Drive(more) => (1, -more),
+            _ if changes(&event) => (2, 0.0),
             _ => return None,
         };
         let torque = torque - std::mem::replace(&mut now[kind], torque);

@@ -78,7 +78,7 @@ impl<'a> RigRun<'a> {
             interval: given.run.output_interval,
             taps,
             until_rolling: None,
-            within: None,
+            within: Vec::new(),
             interrupt: options.interrupt,
             progress: options.progress,
         };

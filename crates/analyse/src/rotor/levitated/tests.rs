@@ -2,7 +2,7 @@
 
 use super::super::asked::Asked;
 use super::*;
-use outcome::Value;
+use outcome::{Quantity, Value};
 use problem::Code;
 use scenario::{BuiltIn, Scenario};
 
@@ -55,6 +55,24 @@ const PID: &str = "proportional = \"8000 A/m\"\nintegral = \"8e4 A/(m s)\"\nderi
 /// Words of the file, and what stands in their place.
 type Change = (&'static str, &'static str);
 
+/// The analysis of a file.
+fn asked(text: &str) -> Result<Asked, Box<Problem>> {
+    let scenario = Scenario::parse(text, "small.toml", &[], &BuiltIn)?;
+    Asked::of(scenario.rotor().expect("a rotor"))
+}
+
+/// Their names and values.
+fn values(all: Vec<Quantity>) -> Vec<(String, Value)> {
+    (all.into_iter()).map(|own| (own.name, own.value)).collect()
+}
+
+/// What is found of the closed loop of a file.
+fn looped(asked: &Asked) -> Vec<(String, Value)> {
+    let mut list = List::default();
+    name(&mut list, &asked.model, asked.levitated.as_ref());
+    values(list.quantities)
+}
+
 /// What becomes of the file with some words replaced.
 fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
     let mut text = SMALL.to_string();
@@ -62,19 +80,9 @@ fn outcome(changes: &[Change]) -> Result<Vec<(String, Value)>, Box<Problem>> {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    let scenario = Scenario::parse(&text, "small.toml", &[], &BuiltIn)?;
-    let Some(analysis) = scenario.rotor() else {
-        panic!("a rotor");
-    };
-    let asked = Asked::of(analysis)?;
-    let mut list = List::default();
-    name(&mut list, &asked.model, asked.levitated.as_ref());
-    Ok(list
-        .quantities
-        .into_iter()
-        .map(|q| (q.name, q.value))
-        .collect())
+    Ok(looped(&asked(&text)?))
 }
+
 fn number(found: &[(String, Value)], name: &str) -> f64 {
     match found.iter().find(|(own, _)| own == name) {
         Some((_, Value::Number(value))) => *value,
@@ -105,20 +113,9 @@ fn the_scenario_that_ships_has_the_sensitivity_of_the_reference() {
     // the reference has linear magnets
     let text = include_str!("../../../../../scenarios/rotor_levitated.toml");
     let text = &text.replace("gap = \"0.5 mm\"\n", "");
-    let scenario = Scenario::parse(text, "rotor_levitated.toml", &[], &BuiltIn);
-    let scenario = scenario.unwrap_or_else(|problem| panic!("{problem}"));
-    let Some(analysis) = scenario.rotor() else {
-        panic!("a rotor");
-    };
-    let asked = Asked::of(analysis).unwrap_or_else(|problem| panic!("{problem}"));
+    let asked = asked(text).unwrap_or_else(|problem| panic!("{problem}"));
     assert_eq!(asked.rotor().nodes.len(), 53);
-    let mut list = List::default();
-    name(&mut list, &asked.model, asked.levitated.as_ref());
-    let found: Vec<_> = list
-        .quantities
-        .into_iter()
-        .map(|q| (q.name, q.value))
-        .collect();
+    let found = looped(&asked);
     // machine_levitated.json at 1256.637 rad/s, peaks and slowest eigenvalue; the basis costs up to 4e-5
     for (name, wanted) in [
         (
@@ -169,92 +166,33 @@ fn matrices_and_samples_are_read_too() {
     assert!((a / b - 1.0).abs() < 1e-9);
 }
 
+const NO_INTEGRAL: Change = ("integral = \"8e4 A/(m s)\"", "");
+
+/// What is changed, and what is told of it.
+#[rustfmt::skip]
+const REFUSED: [(&[Change], Code, &str); 14] = [
+    (&[("8000 A/m", "3000 A/m"), NO_INTEGRAL], Code::UnstableLevitation, "eigenvalue"),
+    (&[("8000 A/m", "4000 A/m"), NO_INTEGRAL], Code::ZeroStaticStiffness, "left 1"),
+    (&[("\"5 A\"", "\"2.2 A\"")], Code::CurrentLimit, "A of control current on axis left 1"),
+    (&[("\"5 A\"", "\"1 A\"")], Code::MagnetValues, "2.0000 A follow"),
+    (&[("gap = \"0.5 mm\"", "gap = \"0.5 mm\"\nbias_current = \"3 A\"")], Code::MagnetValues, "2.0000 A is needed"),
+    (&[("at = \"0.08 m\"", "at = \"0.8 m\"")], Code::NoSuchNode, "beside the shaft"),
+    (&[("magnet = \"left\"", "magnet = \"lift\"")], Code::LevitationParts, "left, right"),
+    (&[("magnet = \"right\"", "magnet = \"left\"")], Code::LevitationParts, "a second sensor of \"left\"; one sensor for each"),
+    (&[("[[levitation.sensor]]\nmagnet = \"right\"", "[[levitation.sensor]]\nat = \"0.1 m\"\n[[levitation.sensor]]\nmagnet = \"right\"")],
+        Code::LevitationParts, "of every magnet without its own, and each has its own"),
+    (&[("[levitation.controller]", "[[levitation.controller]]\ndelay = \"50 us\"\n[[levitation.controller]]")],
+        Code::LevitationParts, "a second controller of every magnet without its own"),
+    (&[(PID, "d = \"1 0; 0 1\"\n")], Code::ControllerSize, "2 signals to 2 commands"),
+    (&[("delay = \"50 us\"", "filters = [\"1 0 0 / 1 2\"]")], Code::ControllerFilter, "3 coefficients over 2"),
+    (&[("delay = \"50 us\"", "sampling_period = \"50 us\"\ncomputing_time = \"1 ms\"")], Code::ControllerTime, "time to compute"),
+    (&[("50 us", "-50 us")], Code::OutOfRange, "not below 0"),
+];
+
 #[test]
 fn what_cannot_hold_the_rotor_is_told_with_its_code() {
-    let no_integral = ("integral = \"8e4 A/(m s)\"", "");
-    let cases: [(&[Change], Code, &str); 14] = [
-        (
-            &[("8000 A/m", "3000 A/m"), no_integral],
-            Code::UnstableLevitation,
-            "eigenvalue",
-        ),
-        (
-            &[("8000 A/m", "4000 A/m"), no_integral],
-            Code::ZeroStaticStiffness,
-            "left 1",
-        ),
-        (
-            &[("\"5 A\"", "\"2.2 A\"")],
-            Code::CurrentLimit,
-            "A of control current on axis left 1",
-        ),
-        (
-            &[("\"5 A\"", "\"1 A\"")],
-            Code::MagnetValues,
-            "2.0000 A follow",
-        ),
-        (
-            &[(
-                "gap = \"0.5 mm\"",
-                "gap = \"0.5 mm\"\nbias_current = \"3 A\"",
-            )],
-            Code::MagnetValues,
-            "2.0000 A is needed",
-        ),
-        (
-            &[("at = \"0.08 m\"", "at = \"0.8 m\"")],
-            Code::NoSuchNode,
-            "beside the shaft",
-        ),
-        (
-            &[("magnet = \"left\"", "magnet = \"lift\"")],
-            Code::LevitationParts,
-            "left, right",
-        ),
-        (
-            &[("magnet = \"right\"", "magnet = \"left\"")],
-            Code::LevitationParts,
-            "a second sensor of \"left\"; one sensor for each",
-        ),
-        (
-            &[(
-                "[[levitation.sensor]]\nmagnet = \"right\"",
-                "[[levitation.sensor]]\nat = \"0.1 m\"\n[[levitation.sensor]]\nmagnet = \"right\"",
-            )],
-            Code::LevitationParts,
-            "of every magnet without its own, and each has its own",
-        ),
-        (
-            &[(
-                "[levitation.controller]",
-                "[[levitation.controller]]\ndelay = \"50 us\"\n[[levitation.controller]]",
-            )],
-            Code::LevitationParts,
-            "a second controller of every magnet without its own",
-        ),
-        (
-            &[(PID, "d = \"1 0; 0 1\"\n")],
-            Code::ControllerSize,
-            "2 signals to 2 commands",
-        ),
-        (
-            &[("delay = \"50 us\"", "filters = [\"1 0 0 / 1 2\"]")],
-            Code::ControllerFilter,
-            "3 coefficients over 2",
-        ),
-        (
-            &[(
-                "delay = \"50 us\"",
-                "sampling_period = \"50 us\"\ncomputing_time = \"1 ms\"",
-            )],
-            Code::ControllerTime,
-            "time to compute",
-        ),
-        (&[("50 us", "-50 us")], Code::OutOfRange, "not below 0"),
-    ];
-    for (changes, code, words) in cases {
+    for (changes, code, words) in REFUSED {
         let problem = outcome(changes).unwrap_err();
-        println!("{problem}");
         let text = format!("{}; {}", problem.found, problem.allowed);
         assert_eq!(problem.code, code, "{changes:?}: {text}");
         assert!(text.contains(words), "{changes:?}: {text}");
@@ -284,13 +222,9 @@ fn a_part_that_would_not_act_is_named_with_its_line() {
 /// On two springs of k_i K_p - k_s = 160 kN/m a rotor of 4.9 kg has a rigid motion at 255 rad/s without damping.
 #[test]
 fn diagrams_have_the_magnets_in_them() {
-    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
-    let Some(analysis) = scenario.rotor() else {
-        panic!("a rotor");
-    };
-    let asked = Asked::of(analysis).unwrap();
-    let all = super::super::quantities::name(&asked, Some(&asked.find().unwrap()));
-    let found: Vec<_> = all.into_iter().map(|q| (q.name, q.value)).collect();
+    let asked = asked(SMALL).unwrap();
+    let quantities = super::super::quantities::name(&asked, Some(&asked.find().unwrap()));
+    let found = values(quantities);
     let first = number(&found, "first_critical_speed");
     assert!(first > 100.0 && first < 255.0, "{first}");
     // integrators hold the sensors where they are: the weight bends the shaft about them
@@ -304,15 +238,12 @@ fn diagrams_have_the_magnets_in_them() {
 /// The drawing names what stands along the shaft, sensors where they are and not where their magnets are.
 #[test]
 fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
-    let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
-    let Some(analysis) = scenario.rotor() else {
-        panic!("a rotor");
-    };
     let mut list = List::default();
-    simulate::drawing::name(&mut list, &Asked::of(analysis).unwrap().model);
+    simulate::drawing::name(&mut list, &asked(SMALL).unwrap().model, &[]);
+    let found = values(list.quantities);
     let of = |name: &str| {
-        let found = list.quantities.iter().find(|q| q.name == name);
-        found.unwrap_or_else(|| panic!("{name}")).value.clone()
+        let found = found.iter().find(|own| own.0 == name);
+        found.unwrap_or_else(|| panic!("{name}")).1.clone()
     };
     assert_eq!(of("magnet_names"), Value::Text("left\nright".to_string()));
     assert_eq!(of("magnet_positions"), Value::List(vec![0.1, 0.4]));
@@ -324,10 +255,7 @@ fn a_drawing_has_every_magnet_sensor_and_unbalance_with_its_name() {
 #[test]
 fn an_interrupted_analysis_is_left_at_once() {
     let scenario = Scenario::parse(SMALL, "small.toml", &[], &BuiltIn).unwrap();
-    let Some(analysis) = scenario.rotor() else {
-        panic!("a rotor");
-    };
-    let asked = std::sync::Arc::new(Asked::of(analysis).unwrap());
+    let asked = std::sync::Arc::new(asked(SMALL).unwrap());
     let interrupt = std::sync::atomic::AtomicBool::new(true);
     let options = outcome::options::Options::unwatched(&interrupt);
     let outcome = super::super::run(&scenario, &asked, &options);

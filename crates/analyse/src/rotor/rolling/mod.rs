@@ -19,6 +19,7 @@ use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use nalgebra::DVector;
 use physics::magnet::Magnet;
 use physics::rolling_rotor::{contact_stiffness, pendulum_stiffness, penetration};
+use physics::support::weight_share;
 use rotor::{Block, C64, Coefficients, Place, Response, RotorError, along, sag_under};
 use scenario::rotor::levitation::Magnets;
 use scenario::rotor::{FlexibleRotor, Node, Support};
@@ -463,17 +464,10 @@ fn levitated_loads(
     weight: f64,
 ) -> impl Iterator<Item = (usize, f64)> {
     let magnets = levitation.map_or(&[][..], |own| &own.magnets);
-    let at = magnets.iter().map(|own| own.at);
-    let count = magnets.len() as f64;
-    let middle = at.clone().sum::<f64>() / count;
-    let spread: f64 = at.clone().map(|z| (z - middle).powi(2)).sum();
-    let lever = rotor::properties(rotor).centre - middle;
-    let load = move |z: f64| match spread > 0.0 {
-        true => weight * (1.0 / count + lever * (z - middle) / spread),
-        false => weight / count,
-    };
+    let rows = magnets.iter().map(|own| (own.at, 1.0));
+    let share = weight_share(rows, rotor::properties(rotor).centre);
     let loads: Vec<_> = (magnets.iter())
-        .filter_map(|own| Some((own.on?, load(own.at))))
+        .filter_map(|own| Some((own.on?, weight * share(own.at))))
         .collect();
     loads.into_iter()
 }

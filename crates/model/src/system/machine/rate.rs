@@ -146,9 +146,13 @@ impl<R: Real> Machines<R> {
             seal_heat += reaction.heat;
             pulled += centre.position.cross(reaction.force);
         }
-        let mut pushing = zero;
+        let (mut pushing, mut turning) = (zero, zero);
         let loads = self.loaded.iter().zip(mode.loads);
-        let forces = self.forces.iter().map(|own| (&own.node, own.at(time)));
+        let forces = self.forces.iter().map(|own| {
+            let (force, torque) = own.at(time);
+            turning += torque;
+            (&own.node, force)
+        });
         for (node, own) in forces.chain(loads) {
             let centre = node.centre(&rotor);
             node.push(own, [&mut *force_x, &mut *force_y]);
@@ -167,7 +171,10 @@ impl<R: Real> Machines<R> {
             zero
         };
         let from_outside = match acting {
-            None => brake + mode.driving + self.rotor.torque_by_tables(time, rotor.spin),
+            None => {
+                let tables = self.rotor.torque_by_tables(time, rotor.spin);
+                brake + mode.driving + tables + turning
+            }
             Some(acting) => acting.motor - acting.belt,
         };
 

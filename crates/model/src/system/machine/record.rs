@@ -39,8 +39,10 @@ pub struct Record {
     pub powered: f64,
     /// When the rotor reached each of the speeds at which something happens, s; infinite where it did not.
     pub reached: [f64; MOST_SPEEDS],
-    /// In which share of the clearance of each bearing the rotor is to stay, and when it was last outside, s.
-    pub within: Option<(f64, Vec<Option<f64>>)>,
+    /// In which shares of the clearance of each bearing a rotor that is levitated again is to stay.
+    within: Vec<f64>,
+    /// Each time that it was.
+    pub again: Vec<Levitated>,
     limit_passed: bool,
     /// From when on the run halts once the rotor rolls, s.
     rolling_from: Option<f64>,
@@ -55,8 +57,21 @@ pub struct CurrentPeak {
     pub coil: Peak,
     /// When it was at its limit.
     pub limited: AtLimit,
-    /// The same since no magnet had power for the last time.
-    pub limited_since: AtLimit,
+}
+
+/// A rotor that is levitated again, until the next loss of all power.
+#[derive(Clone, Debug)]
+pub struct Levitated {
+    /// From when, s.
+    pub since: f64,
+    /// Until when, s; none where it lasts.
+    pub until: Option<f64>,
+    /// When it was last outside each share of a clearance within which it is to stay, s.
+    pub outside: Vec<Option<f64>>,
+    /// Largest current of a coil, A.
+    pub coil: Peak,
+    /// When a coil of each axis was at its limit.
+    pub limited: Vec<AtLimit>,
 }
 
 /// When something was at its limit, seen at the ends of steps.
@@ -96,7 +111,6 @@ impl CurrentPeak {
         largest: Peak::NONE,
         coil: Peak::NONE,
         limited: AtLimit::NEVER,
-        limited_since: AtLimit::NEVER,
     };
 }
 
@@ -143,7 +157,8 @@ impl Record {
             lost,
             powered: 0.0,
             reached: [f64::INFINITY; MOST_SPEEDS],
-            within: None,
+            within: Vec::new(),
+            again: Vec::new(),
             limit_passed: false,
             rolling_from: None,
         }
@@ -156,14 +171,10 @@ impl Record {
             ..self
         }
     }
-    /// The same of a run that sees when the rotor is last outside a share of the clearance of each bearing.
+    /// The same of a run that sees when a rotor that is levitated again is last outside these shares of the clearances.
     #[must_use]
-    pub fn staying_within(self, share: Option<f64>) -> Self {
-        let outside = vec![None; self.bearings.len()];
-        Record {
-            within: share.map(|share| (share, outside)),
-            ..self
-        }
+    pub fn staying_within(self, within: Vec<f64>) -> Self {
+        Record { within, ..self }
     }
     /// What is kept of a rig besides its bearing.
     ///
@@ -219,27 +230,35 @@ impl Record {
         }
         let currents = machine.currents(time, state);
         let limits = machine.coil_limits(state);
-        let axes = self.currents.iter_mut().zip(limits);
-        for ((own, limit), (current, coils)) in axes.zip(currents) {
+        let mut again = self.again.last_mut().filter(|own| own.until.is_none());
+        let axes = self.currents.iter_mut().zip(limits).zip(currents);
+        for (axis, ((own, limit), (current, coils))) in axes.enumerate() {
             own.largest.raise(current.abs(), time);
             let coil = coils[0].max(coils[1]);
             own.coil.raise(coil, time);
-            if !powered {
-                own.limited_since = AtLimit::NEVER;
-            } else if coil >= AT_LIMIT * limit {
+            let limited = powered && coil >= AT_LIMIT * limit;
+            if limited {
                 own.limited.add(time, length);
-                own.limited_since.add(time, length);
+            }
+            if let Some(again) = &mut again {
+                again.coil.raise(coil, time);
+                if limited {
+                    again.limited[axis].add(time, length);
+                }
             }
         }
-        if let Some((share, outside)) = &mut self.within {
-            for (k, last) in outside.iter_mut().enumerate() {
+        if let Some(again) = again {
+            let away = (0..self.bearings.len()).map(|k| {
                 let clearance = machine.constants.bearings[k].contact.radial_clearance;
                 let [ground, _] = machine.ground(k, state);
                 let away = machine.node(k, state).position - ground;
-                let away = away.length_squared().sqrt();
-                if away > *share * clearance {
-                    *last = Some(time);
-                }
+                away.length_squared().sqrt() / clearance
+            });
+            let away = away.fold(0.0, f64::max);
+            for (_, last) in
+                (self.within.iter().zip(&mut again.outside)).filter(|own| away > *own.0)
+            {
+                *last = Some(time);
             }
         }
         let shares = machine.voltage_shares(time, state);
@@ -340,7 +359,21 @@ impl Observer<RotorMachine> for Record {
         time: f64,
         state: &[f64],
     ) -> Flow {
-        if machine.controlled() && self.lost.is_none() {
+        if machine.controlled() && self.lost.is_some() {
+            let [any, _] = machine.powered(state);
+            let last = self.again.last_mut().filter(|own| own.until.is_none());
+            match last {
+                Some(last) if !any => last.until = Some(time),
+                None if any => self.again.push(Levitated {
+                    since: time,
+                    until: None,
+                    outside: vec![None; self.within.len()],
+                    coil: Peak::NONE,
+                    limited: vec![AtLimit::NEVER; self.currents.len()],
+                }),
+                _ => {}
+            }
+        } else if machine.controlled() {
             let spin = state[machine.layout().rotor.spin()];
             let [any, all] = machine.powered(state);
             if !all && self.released.is_none() {

@@ -11,7 +11,8 @@ use number::Vec2;
 
 impl RotorMachine {
     /// The same machine with these of the unbalances that come on the way.
-    pub(super) fn unbalanced(&self, unbalances: u16) -> Self {
+    #[must_use]
+    pub fn unbalanced(&self, unbalances: u16) -> Self {
         let mut constants = self.constants.clone();
         let new = unbalances & !self.unbalances;
         let planes = constants.unbalances.iter().enumerate();
@@ -40,7 +41,7 @@ impl RotorMachine {
     }
 
     /// Puts a state of the rotor with some of these unbalances where that with others has it, and books what that changes.
-    pub(super) fn unbalance(&self, of: [u16; 2], state: &mut [f64]) {
+    pub fn unbalance(&self, of: [u16; 2], state: &mut [f64]) {
         let [old, new] = of.map(|unbalances| self.unbalanced(unbalances));
         let before = old.content(state);
         let pairs = new.added.iter().zip(&old.added);

@@ -81,6 +81,8 @@ impl Batch {
 #[derive(Clone, Debug)]
 pub(super) struct Interval {
     pub batches: Vec<Batch>,
+    /// From which of them on an unbalance or a load has come.
+    pub changed: Option<usize>,
     /// Of the balls of each bearing.
     pub balls: Vec<Option<Arc<BallsSeen>>>,
     /// Largest displacement of the rotor in each bearing from the line of levitation, and of its mount, m.
@@ -227,7 +229,8 @@ fn mean(batches: &[&Batch]) -> Batch {
             peak_force: largest(|own| own.peak_force),
             peak_rise: largest(|own| own.peak_rise),
             drag_factor: mean(|own| own.drag_factor),
-            spin: mean(|own| own.spin),
+            // of races over rotor: in batches in which it stands their ratio says nothing
+            spin: over(&|batch| batch.speed * batch.bearings[k].spin) / over(&|batch| batch.speed),
             landing: Landing {
                 force: mean(|own| own.landing.force),
                 slides: mean(|own| own.landing.slides),

@@ -16,6 +16,7 @@ use crate::coast_down::build::{Built, ICE_POINT, Part};
 use crate::coast_down::rows::BallsSeen;
 use crate::drop::context::Context;
 use crate::drop::multirate::batch::{Batch, Bearing, Interval};
+use crate::drop::unbalances::loaded;
 use crate::drop::{method, torque};
 use crate::ending::settings_at;
 use crate::following::{Following, Now, Warmed};
@@ -25,10 +26,11 @@ use model::schedule::Schedule;
 use model::surface_heat::SurfaceHeat;
 use model::system::machine::record::{BearingRecord, Record};
 use model::system::machine::simulate::{Runs, Steps, simulate};
-use model::system::machine::{AtSpeed, MachineConstants, RotorMachine};
+use model::system::machine::{AtSpeed, MOST_LOADED, MachineConstants, RotorMachine};
 use model::system::sampling::Peak;
+use number::Vec2;
 use scenario::Accuracy;
-use solve::{Observer, Settings};
+use solve::{Machine, Observer, Settings};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -55,6 +57,8 @@ pub(super) struct Motion<'a> {
     time: f64,
     /// Steps taken.
     pub taken: u64,
+    /// Whether an unbalance or a load has come since this was asked.
+    changed: bool,
 }
 
 impl<'a> Motion<'a> {
@@ -64,16 +68,23 @@ impl<'a> Motion<'a> {
         let records = &context.finished.record.bearings;
         let mut coarse = context.setup.built.clone();
         coarse.drop.given.run.accuracy = Accuracy::Screening;
-        let mut constants = context.setup.machine.constants.clone();
+        let at_end = context.finished.at_end();
+        let mut constants = MachineConstants {
+            rotor: at_end.constants.rotor.clone(),
+            ..context.setup.machine.constants.clone()
+        };
         let spin = ending.state[context.setup.machine.layout().rotor.spin()].abs();
         (constants.schedule, constants.at_speeds) =
             torque::ahead(&constants, &context.reached, spin);
+        happen(&mut constants, ending.time, spin);
         let stepping = method::stepping(&coarse, context.setup.machine.tangents());
+        let machine = at_end.renewed(constants);
         Motion {
             context,
             interrupt,
             following: Following::of(context.setup.drop()).map(Arc::new),
-            machine: Arc::new(RotorMachine::new(constants)),
+            changed: machine.start_mode().loads != [Vec2::zero(); MOST_LOADED],
+            machine: Arc::new(machine),
             settings: settings_at(&coarse.drop.run, stepping.tolerance),
             steps: stepping.steps,
             state: ending.state.clone(),
@@ -81,6 +92,52 @@ impl<'a> Motion<'a> {
             time: ending.time,
             taken: 0,
         }
+    }
+
+    /// Constants of the machine that goes on.
+    pub fn constants(&self) -> &MachineConstants {
+        &self.machine.constants
+    }
+
+    /// Whether an unbalance or a load has come since this was asked last.
+    pub fn changed(&mut self) -> bool {
+        std::mem::take(&mut self.changed)
+    }
+
+    /// Loads that have come, N, at their nodes of the model.
+    pub fn loads(&self) -> Vec<(usize, Vec2<f64>)> {
+        let nodes = self
+            .context
+            .setup
+            .drop()
+            .shaft
+            .iter()
+            .flat_map(|own| loaded(own));
+        nodes.zip(self.machine.start_mode().loads).collect()
+    }
+
+    /// The next speed at which an unbalance or a load comes, rad/s; 0 where none does.
+    pub fn changes_below(&self) -> f64 {
+        let waits = self.constants().at_speeds.iter();
+        let waits = waits.filter(|own| own.then.iter().any(|(_, event)| torque::changes(event)));
+        waits.map(|own| own.speed).fold(0.0, f64::max)
+    }
+
+    /// Goes on with these constants, in which events have come until now and down to a speed, rad/s.
+    fn go_on(&mut self, mut constants: MachineConstants, speed: f64) {
+        happen(&mut constants, self.time, speed);
+        let before = self.machine.start_mode();
+        let machine = self.machine.renewed(constants);
+        let now = machine.start_mode();
+        self.changed |= now.loads != before.loads;
+        self.machine = Arc::new(match now.unbalances == before.unbalances {
+            true => machine,
+            false => {
+                machine.unbalance([before.unbalances, now.unbalances], &mut self.state);
+                self.changed = true;
+                machine.unbalanced(now.unbalances)
+            }
+        });
     }
 
     /// Size of the rotor's spin, rad/s.
@@ -108,15 +165,21 @@ impl<'a> Motion<'a> {
         let mut record = self.condition(built)?;
         self.turn_at(built.start.speed);
         let span = self.span(built.start.speed);
-        let mut batches = Vec::new();
+        let (mut batches, mut changed) = (Vec::new(), None);
         for batch in 0..BATCHES {
             // a clearance that has moved at once strikes
             if batch == settling {
                 forget(&mut record);
             }
             batches.push(self.batch(built, &mut record, span)?);
+            if self.changed() {
+                changed = Some(batch);
+            }
         }
-        Ok(self.ended(batches, record))
+        Ok(Interval {
+            changed,
+            ..self.ended(batches, record)
+        })
     }
 
     /// Comes down to a speed as it is, in so many equal jumps of its logarithm of a batch each: what was found there. Ends early where a force passes
@@ -154,14 +217,14 @@ impl<'a> Motion<'a> {
         };
         constants.speed = start.speed * constants.speed.signum();
         let own = &self.machine.constants;
+        constants.rotor = own.rotor.clone();
         (constants.schedule, constants.at_speeds) = (own.schedule.clone(), own.at_speeds.clone());
-        happen(&mut constants, start.time, start.speed);
         let leap = start.time - self.time;
         for heat in self.surfaces.iter_mut().flatten() {
             heat.leap(leap);
         }
         self.time = start.time;
-        self.machine = Arc::new(RotorMachine::new(constants));
+        self.go_on(constants, start.speed);
         Ok(self.record(built))
     }
 
@@ -227,7 +290,6 @@ impl<'a> Motion<'a> {
 
     /// The motion goes on for a time, s.
     fn batch(&mut self, built: &Built, record: &mut Record, span: f64) -> Result<Batch, Failure> {
-        let before = self.state.clone();
         let marks: Vec<Mark> = record.bearings.iter().map(Mark::of).collect();
         for own in &mut record.bearings {
             own.contacts.clear();
@@ -238,10 +300,9 @@ impl<'a> Motion<'a> {
         if known.is_some_and(|time| *time <= self.time)
             || own.at_speeds.iter().any(|own| has_come(own, speed))
         {
-            let mut constants = own.clone();
-            happen(&mut constants, self.time, speed);
-            self.machine = Arc::new(RotorMachine::new(constants));
+            self.go_on(own.clone(), speed);
         }
+        let before = self.state.clone();
         let machine = self.machine.clone();
         let runs = Runs {
             machines: &[&*machine],
@@ -296,6 +357,7 @@ impl<'a> Motion<'a> {
             .collect();
         Interval {
             batches,
+            changed: None,
             balls: (record.bearings.iter())
                 .map(|record| balls(record).map(Arc::new))
                 .collect(),

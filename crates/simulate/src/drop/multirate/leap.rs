@@ -34,7 +34,7 @@ pub(super) fn modes(context: &Context, motion: &Motion) -> Vec<Mode> {
     let pendulum = motion.pendulum();
     let drop = context.setup.drop();
     // the weight, changed by e Ω² once a turn, excites a motion of half the speed: λ = e Ω²/(4 g) √(g/c0)
-    let grows = eccentricity(context) * pendulum / (4.0 * drop.gravity.acceleration);
+    let grows = eccentricity(motion) * pendulum / (4.0 * drop.gravity.acceleration);
     let mut list = vec![
         Mode {
             frequency: pendulum,
@@ -110,16 +110,24 @@ impl Mode {
 }
 
 /// Largest eccentricity of the rotor in a bearing, m.
-fn eccentricity(context: &Context) -> f64 {
-    let constants = &context.setup.machine.constants;
+fn eccentricity(motion: &Motion) -> f64 {
+    let constants = motion.constants();
     let bearings = constants.bearings.iter();
     let largest = bearings.map(|bearing| constants.rotor.most_eccentric(&bearing.node));
     largest.fold(0.0, f64::max)
 }
 
 /// Speed below which unbalance lifts no rotor, rad/s.
-pub(super) fn calm(context: &Context) -> f64 {
-    (CALM * context.setup.drop().gravity.acceleration / eccentricity(context)).sqrt()
+pub(super) fn calm(context: &Context, motion: &Motion) -> f64 {
+    (CALM * context.setup.drop().gravity.acceleration / eccentricity(motion)).sqrt()
+}
+
+/// How far a leap goes towards a speed at which the machine changes, ln of both: no interval closes the last one, which has its size.
+pub(super) fn towards(ahead: f64) -> f64 {
+    match ahead > JUMP {
+        true => (ahead - JUMP).max(0.5 * ahead),
+        false => ahead,
+    }
 }
 
 /// Loads at rest of the bearings, N; of one that carries hardly anything, and so never rests, that of the mean bearing.

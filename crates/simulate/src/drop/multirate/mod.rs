@@ -49,10 +49,11 @@ use crate::coast_down::ran::ran;
 use crate::coast_down::rows::{End, Row};
 use crate::drop::context::Context;
 use crate::following::friction;
-use batch::{Batch, Observation};
+use batch::{Batch, Interval, Observation};
 use interval::{BATCHES, Failure, Motion, SETTLING};
 use leap::{Limits, Mode};
 use macro_step::{Ahead, fading, step};
+use results::parts;
 pub(super) use series::IntervalSeries;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::NODES;
@@ -167,6 +168,9 @@ impl<'a> Multirate<'a> {
         let interval = self.motion.interval(built, settling)?;
         let span: f64 = interval.batches.iter().map(|batch| batch.span).sum();
         self.batches.extend(interval.batches.iter().cloned());
+        if let Some(first) = interval.changed {
+            return self.change(built, &interval, first, open);
+        }
         let count = self.batches.len();
         let newest = |left_out: usize| {
             let some = (count - left_out).min(LONGEST_ESTIMATE * BATCHES);
@@ -190,23 +194,47 @@ impl<'a> Multirate<'a> {
             let own: Vec<&Batch> = interval.batches.iter().collect();
             mean = Observation::of(built, &own, &interval.balls);
         }
-        let reached = self.motion.speed();
-        if reached < built.start.speed {
-            let taken = step(
-                built,
-                &mean,
-                Ahead::Followed(&mean),
-                reached,
-                self.interrupt,
-            )?;
-            if let Some(end) = self.series.took(taken) {
-                return Ok(Some(Leave::End(end)));
-            }
+        if let Some(end) = self.follow(built, &mean)? {
+            return Ok(Some(Leave::End(end)));
         }
         if self.rolls_to_the_end(built, &now)? {
             return Ok(Some(Leave::Rolls));
         }
         self.leap(built, &now, span, open)
+    }
+
+    /// Speed, time and temperatures go on by an interval; why the coast-down ends in it.
+    fn follow(&mut self, built: &mut Built, mean: &Observation) -> Result<Option<End>, Failure> {
+        let reached = self.motion.speed();
+        if reached >= built.start.speed {
+            return Ok(None);
+        }
+        let ahead = Ahead::Followed(mean);
+        let taken = step(built, mean, ahead, reached, self.interrupt)?;
+        Ok(self.series.took(taken))
+    }
+
+    /// Ends an interval from one of whose batches on an unbalance or a load has come: what was known before says nothing of what follows.
+    fn change(
+        &mut self,
+        built: &mut Built,
+        interval: &Interval,
+        first: usize,
+        open: &mut Option<Leap<'a>>,
+    ) -> Result<Option<Leave>, Failure> {
+        if let Some(leap) = open.take() {
+            self.end_leap(built, leap)?;
+        }
+        let own: Vec<&Batch> = interval.batches.iter().collect();
+        let mean = Observation::of(built, &own, &interval.balls);
+        self.series.saw(built, &mean, interval, 0);
+        let ended = self.follow(built, &mean)?;
+        let parts = parts(self.context.setup, &self.motion.loads());
+        built.parts = parts.map_err(|_| "no bearing carries these loads")?;
+        self.modes = leap::modes(self.context, &self.motion);
+        self.batches = interval.batches[first..].to_vec();
+        self.settling = SETTLING;
+        Ok(ended.map(Leave::End))
     }
 
     /// The next leap, where it is longer than the interval.
@@ -221,7 +249,9 @@ impl<'a> Multirate<'a> {
         let pace = leap::pace(&self.modes, built.start.speed);
         // a leap ends where a brake comes
         let ahead = built.start.speed / built.brake_below(built.start.speed);
+        let changes = built.start.speed / self.motion.changes_below();
         let length = limits.length(self.length.min(pace.leap)).min(ahead.ln());
+        let length = length.min(leap::towards(changes.ln()));
         let followed: f64 = self.batches.iter().map(|batch| batch.span).sum();
         let dwell = pace.dwell.min(LONGEST_ESTIMATE as f64 * span);
         // neither the interval nor the jumps of the motion are to take longer than the leap
@@ -341,7 +371,8 @@ impl<'a> Multirate<'a> {
 
     /// Whether laws describe the rest: the rotor rolls, unbalance lifts nothing, and friction transmits twice what the bearings brake with.
     fn rolls_to_the_end(&self, built: &mut Built, now: &Observation) -> Result<bool, Failure> {
-        if built.start.speed >= leap::calm(self.context) || !leap::rolls(built, now) {
+        let calm = built.start.speed < leap::calm(self.context, &self.motion);
+        if !calm || self.motion.changes_below() > 0.0 || !leap::rolls(built, now) {
             return Ok(false);
         }
         let mut rest = built.clone();

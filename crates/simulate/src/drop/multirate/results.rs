@@ -20,11 +20,12 @@ use crate::ending;
 use model::system::layout::of_part;
 use model::system::machine::MOST_SPEEDS;
 use model::system::machine::record::ROLLS;
+use number::Vec2;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Quantity, Stop, Value, Warning};
 use problem::warning::Declared;
-use scenario::{AuxiliaryBearing, CoastDownEnd};
+use scenario::{AuxiliaryBearing, CoastDownEnd, Warm};
 use std::sync::atomic::AtomicBool;
 use thermal::held::Held;
 use thermal::warm_machine::RotorDrag;
@@ -189,18 +190,23 @@ fn without_values(mut quantities: Vec<Quantity>, why: &str) -> Vec<Quantity> {
 /// Why there is no coast-down of a bearing.
 const NOT_FOLLOWED: &str = "the temperatures of a bearing are not followed";
 
-/// The bearings of the coast-down.
-fn parts(setup: Setup) -> Result<Vec<Part>, String> {
+/// The bearings of the coast-down under these forces at nodes of the rotor, N.
+pub(super) fn parts(setup: Setup, forces: &[(usize, Vec2<f64>)]) -> Result<Vec<Part>, String> {
+    let loads = setup.drop().loads(forces);
     let of_bearing = |(k, name): (usize, &str)| {
         let given = setup.given(k);
-        let warm = given.warm.as_deref().ok_or(NOT_FOLLOWED)?;
+        let (load, direction) = loads[k];
+        let warm = Warm {
+            radial_load: load,
+            ..given.warm.as_deref().ok_or(NOT_FOLLOWED)?.clone()
+        };
         let constants = &setup.machine.constants.bearings[k];
-        let mut one = part(warm, name.to_string(), constants.planes).map_err(|why| why.found)?;
+        let mut one = part(&warm, name.to_string(), constants.planes).map_err(|why| why.found)?;
         let contact = &constants.contact;
         if let Some(warm) = &constants.warm {
             one.network.clone_from(&warm.network);
         }
-        one.load_direction = setup.drop().gravity.direction;
+        one.load_direction = direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
         if let Some(bearing) = &given.bearing {
             one.pressure_limit = bearing.hertz_pressure_limit;
@@ -215,7 +221,7 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
     let (drop, machine) = (context.setup.drop(), context.setup.machine);
     let ending = &context.finished.ending;
     let rotor = &machine.constants.rotor;
-    let parts = parts(context.setup)?;
+    let parts = parts(context.setup, &[])?;
     let mut temperatures: Vec<f64> = Vec::new();
     let (mut held, mut at_limits) = (Vec::new(), Vec::new());
     let mut beyond_data = Vec::new();
@@ -235,7 +241,7 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
         }
     }
     let spin = ending.state[machine.layout().rotor.spin()].abs();
-    let content = machine.content(&ending.state);
+    let content = context.finished.at_end().content(&ending.state);
     let kinetic = content.translation + content.spin;
     let (speed, inertia) = match goes_on && spin > 0.0 {
         true => (spin, 2.0 * kinetic / (spin * spin)),
@@ -264,7 +270,7 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
 
 /// The results of the coast-down of a drop, without values.
 pub(crate) fn results(setup: Setup) -> Vec<Quantity> {
-    let parts = parts(setup).unwrap_or_default();
+    let parts = parts(setup, &[]).unwrap_or_default();
     named(setup, &parts, None)
 }
 
