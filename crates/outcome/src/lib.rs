@@ -9,6 +9,7 @@ pub mod joined;
 pub mod limits;
 pub mod list;
 pub mod options;
+mod whirl;
 
 pub use host::start_pool;
 pub use options::Options;

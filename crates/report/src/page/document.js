@@ -1,9 +1,9 @@
 // The drawing of the rotor in a document.
 
 function drawRotor() {
-  const [run] = readRuns();
+  const runs = readRuns();
   for (const holder of document.querySelectorAll(".rotor-drawing")) {
-    if (run) holder.append(...rotorPicture(run, []));
+    if (runs.length) holder.append(...rotorPicture(runs[0], [], runs.map((run) => run.summary.name || "")));
   }
   const forPaper = (paper) => () => {
     document.documentElement.classList.toggle("paper", paper);

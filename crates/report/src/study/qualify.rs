@@ -10,7 +10,7 @@ use super::document::Document;
 use super::{A_THREAD, Directory, Done, confirmed_path, headed, part, table_of, text_file};
 use crate::directory::{aside, io_error, page_run};
 use crate::history::{self, View};
-use crate::picture::orbit_svg;
+use crate::page::PageRun;
 use outcome::host::{self, bounded};
 use problem::{Result, open_file};
 use run::Options;
@@ -281,9 +281,7 @@ impl Directory {
             rotor: rotor.as_ref().map(|(outcome, page)| (outcome, page)),
             date: wish.date,
             hash: &hash,
-            worst_run: worst_run
-                .as_ref()
-                .map(|(member, svg)| (*member, svg.as_str())),
+            worst_run: worst_run.as_ref().map(|(member, page)| (*member, page)),
             complete: besides.complete,
         };
         text_file(&self.path.join(DOCUMENT), &document.html())?;
@@ -294,8 +292,8 @@ impl Directory {
         Ok(document.tally())
     }
 
-    /// The run nearest to a requirement, with its orbit, forces and speeds.
-    fn worst_run(&self, answer: &Answer, options: &Options) -> Option<(usize, String)> {
+    /// The run nearest to a requirement.
+    fn worst_run(&self, answer: &Answer, options: &Options) -> Option<(usize, PageRun)> {
         let all = answer.ranking.iter().filter_map(Candidate::nearest);
         let (.., member) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let scenario = self.study.scenario(member).ok()?;
@@ -303,9 +301,9 @@ impl Directory {
             progress: &|_| {},
             ..*options
         };
-        let outcome = run::run(&scenario, &quiet).ok()?;
-        let page = page_run("", &scenario, &outcome).ok()?;
-        Some((member, orbit_svg(&page)))
+        let mut outcome = run::run(&scenario, &quiet).ok()?;
+        outcome.work.seconds = 0.0;
+        Some((member, page_run("run", &scenario, &outcome).ok()?))
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the members of a study say: spread of each result, limits with their verdicts, which input matters.
 
 use super::Study;
-use super::selection::Candidate;
+use super::selection::{CONTACTS, Candidate};
 use super::table::Table;
 use outcome::limits;
 use outcome::{Judged, Spread, Value, Verdict};
@@ -124,7 +124,7 @@ impl Study {
                 found.judged.verdict = Verdict::Undecided;
                 found.judged.why = "no member is of its case".to_string();
             }
-            found.judged = self.whirl_sought(found.judged, table);
+            found.judged = self.whirl_sought(found.judged, table, &own);
             if table.warns(NO_QUALIFICATION.code) {
                 found.judged = limits::withheld(found.judged);
             }
@@ -152,18 +152,22 @@ impl Study {
         }
     }
 
-    /// A verdict; of a limit of whirl by the unbalance angles that its members try.
-    pub(super) fn whirl_sought(&self, judged: Judged, table: &Table) -> Judged {
+    /// A verdict over some rows; of a limit of whirl by the unbalance angles that members try, and whether races that were touched come to
+    /// their speed.
+    pub(super) fn whirl_sought(&self, judged: Judged, table: &Table, rows: &[usize]) -> Judged {
         let declared: Vec<_> = crate::warnings::declared().collect();
-        match limits::seeks_whirl(&judged.limit, &self.known, &declared) {
-            true => {
-                let mut times = limits::spin_up_times(&judged.limit, &self.known);
-                let slips = times.any(|time| table.values(&time.name).contains(&None));
-                drop(times);
-                limits::whirl_sought(judged, self.unbalance_angles(table), slips)
-            }
-            false => judged,
+        if !limits::seeks_whirl(&judged.limit, &self.known, &declared) {
+            return judged;
         }
+        let mut times = limits::spin_up_times(&judged.limit, &self.known);
+        let slips = times.any(|time| {
+            let contacts = table.values(&time.name.replace(limits::SPIN_UP, CONTACTS));
+            let times = table.values(&time.name);
+            rows.iter()
+                .any(|row| times[*row].is_none() && contacts[*row] != Some(0.0))
+        });
+        drop(times);
+        limits::whirl_sought(judged, self.unbalance_angles(table), slips)
     }
 
     /// How many unbalance angles at the release its members try.

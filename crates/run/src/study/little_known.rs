@@ -78,7 +78,7 @@ impl LittleKnown {
         let text = |value_si| {
             units::Quantity {
                 value_si,
-                ..quantity.clone()
+                ..quantity
             }
             .to_string()
         };

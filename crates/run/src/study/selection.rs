@@ -16,7 +16,7 @@ use statistics::random::below;
 /// Warnings of events that did not happen, and of a motion of the base that the run cuts off.
 const NEVER: [&str; 2] = ["AB2083", "AB2085"];
 /// Contacts of a bearing.
-const CONTACTS: &str = "contact_count";
+pub(super) const CONTACTS: &str = "contact_count";
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;
 /// Apart from the numbers of the design.
@@ -145,7 +145,7 @@ impl Study {
         let judged = own.map(|limit| {
             let values = of(&self.limited(table, limit));
             let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
-            let judged = self.whirl_sought(judged, table);
+            let judged = self.whirl_sought(judged, table, rows);
             let judged = if no_verdict {
                 limits::withheld(judged)
             } else {
@@ -232,7 +232,8 @@ impl Study {
                 .map_or(vec![None; table.members.len()], |name| table.values(name))
         };
         let (lost, held) = (first("power_lost_at"), first("relevitation_held"));
-        let all: Vec<(Vec<Option<f64>>, Vec<Option<f64>>)> = (named(CONTACTS).into_iter())
+        let of = named(CONTACTS).into_iter();
+        let all: Vec<_> = of
             .map(|name| {
                 let late = format!("{LATE}{}", name.replace(CONTACTS, limits::SPIN_UP));
                 (table.values(name), table.values(&late))

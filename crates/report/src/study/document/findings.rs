@@ -3,6 +3,7 @@
 
 use super::{Document, note, of_values, paragraph, words};
 use crate::page::escape_text as plain;
+use crate::picture::orbit_svg;
 use crate::study::cells::{cell, marked, percent, short, table};
 use outcome::Severity;
 use run::study::Study;
@@ -10,7 +11,7 @@ use run::study::failure_modes::{FAILURE_MODES, FailureMode};
 use run::study::in_a_row::InARow;
 use run::study::little_known::Owed;
 use run::study::selection::Candidate;
-use scenario::Limit;
+use scenario::{Limit, Side};
 use statistics::share::wilson;
 
 /// Values of assumptions that were not tried, at most.
@@ -174,11 +175,15 @@ impl Document<'_> {
             let limit = &limits[owed.limit];
             let value = owed.value?;
             let margin = (limit.bound - value).abs();
-            let apart = owed.ends[input]
-                .iter()
-                .map(|end| end.map_or(margin, |end| (end - value).abs()));
-            Some(apart.fold(0.0, f64::max) / margin)
-                .filter(|share| share.is_finite() && limit.bound != 0.0)
+            let towards = |end: f64| match limit.side {
+                Side::Most => end - value,
+                Side::Least => value - end,
+            };
+            let ends = owed.ends[input].iter();
+            let most = ends
+                .map(|end| end.map_or(margin, towards))
+                .fold(0.0, f64::max);
+            Some(most / margin).filter(|share| share.is_finite() && limit.bound != 0.0)
         };
         let of = |input: usize| {
             let all = self.owed.iter().filter_map(|owed| effect(owed, input));
@@ -404,8 +409,13 @@ impl Document<'_> {
                 told.join("<br>"),
             ]
         });
-        let figure = self.worst_run.map_or(String::new(), |(member, svg)| {
-            format!("<figure>{svg}<figcaption><span>Run {member}, the nearest to a requirement or the farthest beyond.</span></figcaption></figure>\n")
+        let figure = self.worst_run.map_or(String::new(), |(member, run)| {
+            let told =
+                format!("Run {member}, the nearest to a requirement or the farthest beyond.");
+            format!(
+                "<figure>{}<figcaption><span>{told}</span></figcaption></figure>\n",
+                orbit_svg(run)
+            )
         });
         format!(
             "{}{}{figure}<h3>Drops in a row</h3>\n{}",

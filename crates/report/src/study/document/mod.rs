@@ -50,8 +50,8 @@ pub(super) struct Document<'a> {
     pub date: &'a str,
     /// Hash of study and scenario.
     pub hash: &'a str,
-    /// The run nearest to a requirement, with its picture.
-    pub worst_run: Option<(usize, &'a str)>,
+    /// The run nearest to a requirement.
+    pub worst_run: Option<(usize, &'a PageRun)>,
     /// Whether every member has run, and all that is computed besides.
     pub complete: bool,
 }
@@ -136,9 +136,10 @@ impl Document<'_> {
         for (k, (title, text)) in sections.iter().enumerate() {
             body.push_str(&section(k + 1, title, text));
         }
-        let drawing = self
-            .rotor
-            .map_or(String::new(), |(_, run)| page::drawing(run));
+        // of a run the drawing has its auxiliary bearings too
+        let drawn = self.worst_run.map(|(_, run)| run);
+        let drawn = drawn.or(self.rotor.map(|(_, run)| run));
+        let drawing = drawn.map_or(String::new(), page::drawing);
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:\">\n\
@@ -268,7 +269,7 @@ impl Document<'_> {
             .iter()
             .map(|(head, text)| format!("<tr><th>{head}</th><td>{text}</td></tr>\n"))
             .collect();
-        let _ = write!(out, "<table class=\"facts\">{facts}</table>\n");
+        let _ = writeln!(out, "<table class=\"facts\">{facts}</table>");
         let weak = (0..requirements.len()).filter(|k| {
             requirements[*k].verdict == Verdict::Pass && !self.breaks_with(*k).is_empty()
         });

@@ -185,7 +185,8 @@ impl Document<'_> {
                 cell(Some(asked.unbalance), "kg m")
             )),
             note(
-                "These numbers were quoted second hand; the text of the standard was not at hand."
+                "These numbers were quoted second hand; the text of the standard was not at hand. Which share of a clearance vibration may take, and the vibration of the levitated rotor \
+                 against the number above, are not evaluated here: see the responses of <code>auxbear rotor</code>."
             )
         )
     }
