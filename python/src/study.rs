@@ -128,6 +128,7 @@ impl Study {
     ) -> PyResult<()> {
         let file = self.0.clone();
         let work = move |options: &Options, tell: &(dyn Fn(f64) + Sync)| {
+            file.require_qualification()?;
             let directory = Directory::open(&path, study::Study::new(file)?, 0)?;
             let wish = Wish {
                 date: &date,

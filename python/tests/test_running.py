@@ -158,3 +158,21 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
 def test_what_is_no_progress_is_refused(drop):
     with pytest.raises(TypeError, match="progress"):
         drop.run(progress=3)
+
+
+def test_a_qualification_gives_its_requirements(tmp_path):
+    machine = (SCENARIOS / "machine_casing.toml").read_text(encoding="utf-8").replace('"50 ms"', '"2 ms"')
+    (tmp_path / "machine.toml").write_text(machine, encoding="utf-8")
+    study = auxbear.Study(
+        scenario=str(tmp_path / "machine.toml"),
+        set=["run.duration=15 ms", "run.accuracy=screening"],
+        design={"kind": "qualification", "draws": 1},
+        limit=[{"quantity": "node.seal.least_distance", "least": "1 mm", "source": "none can"}],
+    )
+    found = study.qualify(tmp_path / "out", date="2026-11-28")
+    assert [one["verdict"] for one in found] == ["not met"]
+    assert found[0]["source"] == "none can" and found[0]["worst_value"] < 1e-3
+    assert "2026-11-28" in (tmp_path / "out" / "document.html").read_text(encoding="utf-8")
+    with pytest.raises(auxbear.Problem, match="qualification"):
+        auxbear.Study(scenario=str(tmp_path / "machine.toml"), design={"kind": "monte carlo", "members": 2}, input=[{"path": "rotor.speed", "normal": "1 rpm"}]).qualify(tmp_path / "no")
+    assert not (tmp_path / "no").exists()

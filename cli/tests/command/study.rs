@@ -447,3 +447,11 @@ fn a_link_to_a_study_is_that_study() {
     let called = place.call(&["study", "study.toml", "--out", "link"]).done();
     assert!(called.err.is_empty(), "{called:?}");
 }
+
+#[test]
+fn what_is_no_qualification_is_not_qualified() {
+    let place = place(STUDY);
+    let called = place.call(&["qualify", "study.toml", "--out", "q"]);
+    called.refused(&["study.toml", "design.kind", "qualification"]);
+    assert!(!place.path("q").exists());
+}
