@@ -1,109 +1,123 @@
 //! The ranking of a selection, and the cases of a qualification: as a table of the page, and as lines of a terminal.
 
-use super::cells::{amount, bound, known, marked, rows, short};
+use super::cells::{amount, bound, known, marked, percent, rows, short, table};
 use crate::page::escape_text as plain;
 use outcome::{Judged, Verdict};
+use problem::explain;
 use run::study::Study;
 use run::study::answer::Answer;
 use run::study::selection::Candidate;
+use scenario::Forbidden;
 
 /// Share of the repetitions below which the first place is not settled.
 const SETTLED: f64 = 0.9;
 
-/// The cases of a qualification with the verdict of each limit, then those that are not held and why; nothing of other designs.
+/// The cases of a qualification with their verdicts; nothing of other designs.
 pub(super) fn cases(study: &Study, answer: &Answer) -> String {
     if study.file.rank.is_some() || answer.ranking.is_empty() {
         return String::new();
     }
-    let name = |judged: &Judged| {
-        let name = judged.limit.quantity.replace(['_', '.'], " ");
-        let share = match judged.limit.share {
-            1.0 => String::new(),
-            share => format!(" in {} %", short(100.0 * share)),
-        };
-        let case = judged.limit.case.as_ref();
-        let case = case.map_or(String::new(), |case| format!(", {case} alone"));
-        format!("{name}, {}{share}{case}", bound(judged))
-    };
-    let of = |one: &Candidate| -> Vec<String> {
-        let values = one.values.iter();
-        values.map(|(_, value)| plain(value)).collect()
-    };
-    let value = |judged: &Judged| {
-        let value = judged.value.map(|value| amount(value, judged.unit));
-        plain(&value.unwrap_or_else(|| "no value".to_string())).replace(' ', "\u{a0}")
-    };
-    let mut limits: Vec<String> = Vec::new();
-    for judged in answer.ranking.iter().flat_map(|one| &one.limits) {
-        if !limits.contains(&name(judged)) {
-            limits.push(name(judged));
-        }
-    }
-    let paths = answer.ranking[0].values.iter();
-    let mut head: Vec<&str> = paths.map(|(path, _)| path.as_str()).collect();
-    head.push("verdict");
-    head.extend(limits.iter().map(String::as_str));
-    let body = answer.ranking.iter().map(|one| {
-        let mut cells = of(one);
-        cells.push(marked(one.verdict));
-        cells.extend(limits.iter().map(|limit| {
-            let mut own = one.limits.iter().filter(|judged| name(judged) == *limit);
-            own.next().map_or("–".to_string(), |judged| {
-                format!("{} {}", marked(judged.verdict), value(judged))
-            })
-        }));
-        cells
-    });
-    let body: Vec<Vec<String>> = body.collect();
-    let open = answer.ranking.iter().flat_map(|one| {
-        let judged = one.limits.iter().zip(&one.worst);
-        let broken = judged.filter(|(judged, _)| judged.verdict != Verdict::Pass);
-        let broken = broken.map(|(judged, worst)| {
-            let member = worst.map_or("–".to_string(), |member| member.to_string());
-            let own = [
-                marked(judged.verdict),
-                plain(&name(judged)),
-                plain(&judged.why),
-                member,
-            ];
-            [of(one), own.to_vec()].concat()
-        });
-        let failed = one.why.as_ref().filter(|_| one.draws[1] > 0).map(|why| {
-            let why = format!("{} of {} draws failed: {why}", one.draws[1], one.draws[0]);
-            let own = [
-                marked(one.verdict),
-                String::new(),
-                plain(&why),
-                "–".to_string(),
-            ];
-            [of(one), own.to_vec()].concat()
-        });
-        let open = one.open.as_ref().map(|why| {
-            let own = [
-                marked(one.verdict),
-                String::new(),
-                plain(why),
-                "–".to_string(),
-            ];
-            [of(one), own.to_vec()].concat()
-        });
-        broken.chain(failed).chain(open).collect::<Vec<_>>()
-    });
-    let open: Vec<Vec<String>> = open.collect();
-    let paths = answer.ranking[0].values.iter();
-    let mut why: Vec<&str> = paths.map(|(path, _)| path.as_str()).collect();
-    why.extend(["verdict", "limit", "why", "member"]);
-    let open = match open.is_empty() {
-        true => String::new(),
-        false => format!("<h3>Not held, or not decided</h3>\n{}", rows(&why, &open)),
-    };
     format!(
-        "<h2>Cases</h2>\n<p>{}</p>\n{}{open}<p class=\"small\">Every case meets the same draws. Beside a verdict stands the worst value, of a limit with a share that which so many \
-         of the draws do not exceed. A member is that whose value is the farthest beyond the bound, or the nearest to it: it runs again with its full report by \
-         <code>auxbear study FILE --member N</code>.</p>\n",
+        "<h2>Cases</h2>\n<p>{}</p>\n{}<p class=\"small\">Every case meets the same draws. A run is shown in full by <code>auxbear study FILE --member N</code>; \
+         <code>auxbear qualify FILE</code> writes the document.</p>\n",
         plain(&verdict(study, answer)),
-        rows(&head, &body),
+        of_each(answer),
     )
+}
+
+/// Each case at each level: verdict, the limit that is nearest, and what is not held or not decided, with the run farthest beyond.
+pub(super) fn of_each(answer: &Answer) -> String {
+    let row = |one: &Candidate| {
+        let limits = one.limits.iter().zip(&one.worst);
+        let broken = limits.filter(|(judged, _)| judged.verdict != Verdict::Pass);
+        let broken = broken.map(|(judged, worst)| {
+            let run = worst.map_or(String::new(), |member| format!(" (run {member})"));
+            format!(
+                "{} {}{run}: {}",
+                marked(judged.verdict),
+                requirement(judged),
+                plain(&judged.why)
+            )
+        });
+        let failed = one.why.iter().filter(|_| one.draws[1] > 0);
+        let failed = failed.map(|why| {
+            format!(
+                "{} of {} draws failed: {}",
+                one.draws[1],
+                one.draws[0],
+                plain(why)
+            )
+        });
+        let told: Vec<String> = broken
+            .chain(failed)
+            .chain(one.open.iter().map(|why| plain(why)))
+            .collect();
+        let nearest = one
+            .nearest()
+            .map_or("–".to_string(), |(judged, margin, member)| {
+                format!(
+                    "{}: {} (run {member})",
+                    words(&judged.limit.quantity),
+                    percent(margin)
+                )
+            });
+        vec![
+            of_values(&one.values),
+            marked(one.verdict),
+            one.draws[0].to_string(),
+            nearest,
+            told.join("<br>"),
+        ]
+    };
+    table(
+        &[
+            "case",
+            "verdict",
+            "runs",
+            "nearest limit and its margin",
+            "not held, or not decided",
+        ],
+        answer.ranking.iter().map(row),
+    )
+}
+
+/// A limit in words.
+pub(super) fn requirement(judged: &Judged) -> String {
+    let limit = &judged.limit;
+    let case = limit
+        .case
+        .as_ref()
+        .map_or(String::new(), |case| format!(", {} alone", plain(case)));
+    let share = match limit.share {
+        1.0 => String::new(),
+        share => format!(" in {}", percent(share)),
+    };
+    match &limit.forbids {
+        Some(Forbidden::Code(code)) => format!(
+            "no warning <code>{code}</code> ({}){share}{case}",
+            plain(explain::title(code))
+        ),
+        Some(Forbidden::Severity(severity)) => format!(
+            "no warning that is {} or worse{share}{case}",
+            severity.word()
+        ),
+        None => format!(
+            "{}: {}{share}{case}",
+            words(&limit.quantity),
+            plain(&bound(judged)).replace(' ', "\u{a0}")
+        ),
+    }
+}
+
+/// Words of a case with its levels.
+pub(super) fn of_values(values: &[(String, String)]) -> String {
+    let texts: Vec<&str> = values.iter().map(|(_, value)| value.as_str()).collect();
+    plain(&texts.join(", "))
+}
+
+/// Words of a result.
+pub(super) fn words(name: &str) -> String {
+    plain(&name.replace(['_', '.'], " "))
 }
 
 /// Which cases hold every limit.

@@ -4,7 +4,8 @@
 use super::{Document, note, of_values, paragraph, words};
 use crate::page::escape_text as plain;
 use crate::picture::orbit_svg;
-use crate::study::cells::{cell, marked, percent, short, table};
+use crate::study::cells::{cell, percent, short, table};
+use crate::study::ranking::of_each;
 use outcome::Severity;
 use run::study::Study;
 use run::study::failure_modes::{FAILURE_MODES, FailureMode};
@@ -334,7 +335,7 @@ impl Document<'_> {
                 } else {
                     told
                 };
-                vec![self.requirement_words(limit, None), first, last, told]
+                vec![self.requirement_words(limit), first, last, told]
             });
             let added = self
                 .study
@@ -379,36 +380,6 @@ impl Document<'_> {
 
     /// Each case at each level with its verdict.
     pub(super) fn verdicts(&self) -> String {
-        let body = self.answer.ranking.iter().map(|one| {
-            let broken = one.broken().map(|judged| {
-                format!(
-                    "{} {}",
-                    marked(judged.verdict),
-                    self.requirement_words(&judged.limit, Some(judged))
-                )
-            });
-            let why = one
-                .open
-                .iter()
-                .chain(one.why.iter().filter(|_| one.draws[1] > 0));
-            let told: Vec<String> = broken.chain(why.map(|text| plain(text))).collect();
-            let nearest = one
-                .nearest()
-                .map_or("–".to_string(), |(judged, margin, member)| {
-                    format!(
-                        "{}: {} (run {member})",
-                        words(&judged.limit.quantity),
-                        percent(margin)
-                    )
-                });
-            vec![
-                of_values(&one.values),
-                marked(one.verdict),
-                one.draws[0].to_string(),
-                nearest,
-                told.join("<br>"),
-            ]
-        });
         let figure = self.worst_run.map_or(String::new(), |(member, run)| {
             let told =
                 format!("Run {member}, the nearest to a requirement or the farthest beyond.");
@@ -419,16 +390,7 @@ impl Document<'_> {
         });
         format!(
             "{}{}{figure}<h3>Drops in a row</h3>\n{}",
-            table(
-                &[
-                    "case",
-                    "verdict",
-                    "runs",
-                    "nearest limit and its margin",
-                    "not held, or not decided"
-                ],
-                body
-            ),
+            of_each(self.answer),
             note(
                 "A run is shown in full by <code>auxbear study FILE --member N</code>, at the accuracy of the study."
             ),

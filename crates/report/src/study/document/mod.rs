@@ -13,18 +13,19 @@ mod findings;
 mod machine;
 mod test;
 
-use super::cells::{bound, cell, percent, rows, short};
+use super::cells::{cell, percent, rows};
+use super::ranking::requirement;
+pub(super) use super::ranking::{of_values, words};
 use super::summary::values_json;
 use crate::page::{self, PageRun, escape_text as plain};
-use outcome::{Judged, Outcome, Severity, Verdict};
-use problem::explain;
+use outcome::{Judged, Outcome, Severity, Verdict, limits};
 use run::study::Study;
 use run::study::answer::Answer;
 use run::study::in_a_row::InARow;
 use run::study::little_known::{LittleKnown, Owed};
 use run::study::selection::Candidate;
 use run::study::table::{Column, Table};
-use scenario::{CASE, Forbidden, Limit, Side};
+use scenario::{CASE, Limit, Side};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -84,17 +85,6 @@ pub(super) fn shown(verdict: Verdict) -> String {
         Verdict::Undecided => "open",
     };
     format!("<b class=\"{class}\">{}</b>", verdict_word(verdict))
-}
-
-/// Words of a case with its levels.
-pub(super) fn of_values(values: &[(String, String)]) -> String {
-    let texts: Vec<&str> = values.iter().map(|(_, value)| value.as_str()).collect();
-    plain(&texts.join(", "))
-}
-
-/// Words of a result.
-pub(super) fn words(name: &str) -> String {
-    plain(&name.replace(['_', '.'], " "))
 }
 
 fn section(number: usize, title: &str, body: &str) -> String {
@@ -359,7 +349,7 @@ impl Document<'_> {
             };
             vec![
                 format!("R{}", k + 1),
-                self.requirement_words(one.limit, judged),
+                self.requirement_words(one.limit),
                 shown(one.verdict),
                 cell(
                     judged.and_then(|judged| judged.value),
@@ -471,47 +461,20 @@ impl Document<'_> {
     }
 
     /// A requirement in words.
-    pub(super) fn requirement_words(&self, limit: &Limit, judged: Option<&Judged>) -> String {
-        let case = limit
-            .case
-            .as_ref()
-            .map_or(String::new(), |case| format!(", {} alone", plain(case)));
-        match &limit.forbids {
-            Some(Forbidden::Code(code)) => {
-                return format!(
-                    "no warning <code>{code}</code> ({}){case}",
-                    plain(explain::title(code))
-                );
-            }
-            Some(Forbidden::Severity(severity)) => {
-                return format!("no warning that is {} or worse{case}", severity.word());
-            }
-            None => {}
-        }
-        let share = match limit.share {
-            1.0 => String::new(),
-            share => format!(" in {} %", short(100.0 * share)),
-        };
-        let bound = judged.map_or(format!("{} {}", limit.side.word(), limit.text), bound);
-        format!(
-            "{}: {}{share}{case}",
-            words(&limit.quantity),
-            plain(&bound).replace(' ', "\u{a0}")
-        )
+    pub(super) fn requirement_words(&self, limit: &Limit) -> String {
+        let unit = self.unit_of(limit);
+        requirement(&limits::judge(limit, unit, &[], ""))
     }
 
     fn requirements_table(&self) -> String {
         let none = "<b class=\"open\">no source is given</b>".to_string();
         let source = |text: &Option<String>| text.as_ref().map_or(none.clone(), |text| plain(text));
-        let limits = self.study.file.limits.iter().map(|limit| {
-            let judged = self
-                .answer
-                .ranking
-                .iter()
-                .flat_map(|one| &one.limits)
-                .find(|judged| judged.limit == *limit);
-            (self.requirement_words(limit, judged), source(&limit.source))
-        });
+        let limits = self
+            .study
+            .file
+            .limits
+            .iter()
+            .map(|limit| (self.requirement_words(limit), source(&limit.source)));
         let others = self.study.file.document.requirements.iter();
         let others = others.map(|own| (plain(&own.text), source(&own.source)));
         let all = limits.chain(others).enumerate();
