@@ -267,3 +267,19 @@ fn what_a_coast_down_cannot_follow_is_refused() {
         );
     }
 }
+
+/// A blade that leaves 2 N of unbalance behind, within an interval of a braked rotor: axis and spin do not jump, so nothing strikes.
+#[test]
+fn an_unbalance_within_an_interval_does_not_strike() {
+    let clearance = "{ value = \"0 um\", assumed = \"what the fits leave\" }";
+    let machine = lost("at = \"20 ms\"")
+        .replace(clearance, "\"10 um\"")
+        .replace("\"10 g mm\"", "\"4 g mm\"");
+    let blade = "[[event]]\ndo = \"unbalance\"\nplane = \"wheel\"\namount = \"20 g mm\"\nbelow_speed = \"400 rad/s\"\n";
+    let text = machine + &brake("at = \"300 ms\"", "2 N m") + blade;
+    let run = ran(&text, &["run.duration=0.6 s"]);
+    // ball by ball 44.7 N and 30.5 N
+    let force = number(&run, "drive_end.coast_down.peak_contact_force");
+    let load = number(&run, "drive_end.coast_down.peak_ball_load");
+    assert!(force < 50.0 && load < 36.0, "{force} {load}");
+}

@@ -39,6 +39,8 @@ pub struct Record {
     pub powered: f64,
     /// When the rotor reached each of the speeds at which something happens, s; infinite where it did not.
     pub reached: [f64; MOST_SPEEDS],
+    /// Which of the unbalances that come on the way the state has.
+    pub unbalances: u16,
     /// In which shares of the clearance of each bearing a rotor that is levitated again is to stay.
     within: Vec<f64>,
     /// Each time that it was.
@@ -157,6 +159,7 @@ impl Record {
             lost,
             powered: 0.0,
             reached: [f64::INFINITY; MOST_SPEEDS],
+            unbalances: machine.unbalances,
             within: Vec::new(),
             again: Vec::new(),
             limit_passed: false,
@@ -385,6 +388,7 @@ impl Observer<RotorMachine> for Record {
             self.lost = (!any).then_some((time, spin));
         }
         self.reached = mode.reached.map(|own| own.at);
+        self.unbalances = mode.unbalances;
         if let Some(rig) = &mut self.rig {
             let speed = state[machine.layout().bearings[0].inner.spin()];
             rig.switched(mode, time, speed);

@@ -59,6 +59,8 @@ pub(super) struct Motion<'a> {
     pub taken: u64,
     /// Whether an unbalance or a load has come since this was asked.
     changed: bool,
+    /// Which unbalances that come on the way the state has.
+    unbalances: u16,
 }
 
 impl<'a> Motion<'a> {
@@ -84,6 +86,7 @@ impl<'a> Motion<'a> {
             interrupt,
             following: Following::of(context.setup.drop()).map(Arc::new),
             changed: machine.start_mode().loads != [Vec2::zero(); MOST_LOADED],
+            unbalances: machine.start_mode().unbalances,
             machine: Arc::new(machine),
             settings: settings_at(&coarse.drop.run, stepping.tolerance),
             steps: stepping.steps,
@@ -133,11 +136,13 @@ impl<'a> Motion<'a> {
         self.machine = Arc::new(match now.unbalances == before.unbalances {
             true => machine,
             false => {
-                machine.unbalance([before.unbalances, now.unbalances], &mut self.state);
+                // one that came within a batch has moved the state already
+                machine.unbalance([self.unbalances, now.unbalances], &mut self.state);
                 self.changed = true;
                 machine.unbalanced(now.unbalances)
             }
         });
+        self.unbalances = now.unbalances;
     }
 
     /// Size of the rotor's spin, rad/s.
@@ -302,6 +307,7 @@ impl<'a> Motion<'a> {
         {
             self.go_on(own.clone(), speed);
         }
+        record.unbalances = self.unbalances;
         let before = self.state.clone();
         let machine = self.machine.clone();
         let runs = Runs {
@@ -330,6 +336,7 @@ impl<'a> Motion<'a> {
         }
         self.state = ending.state;
         self.time = ending.time;
+        self.unbalances = record.unbalances;
         let spin = machine.layout().rotor.spin();
         let speed = 0.5 * (before[spin] + self.state[spin]).abs();
         let piece = Piece {
