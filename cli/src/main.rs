@@ -97,6 +97,7 @@ fn perform(command: &Command) -> Result<Exit> {
             run::listen(false);
             let busy = Busy::building(&scenario);
             let machine = auxbear::run::build(&scenario)?;
+            auxbear::run::of_other_cases(&scenario, &machine)?;
             drop(busy);
             console::print(&scenario.resolved.toml())?;
             console::warn(&machine.warnings());

@@ -8,7 +8,7 @@ use crate::watched::{PATIENCE, watched};
 use auxbear::catalogue::{self, Catalogue, Filter, FilterTexts};
 use auxbear::problem::explain::explain as page_of;
 use auxbear::report;
-use auxbear::run::{Machine, build};
+use auxbear::run::{Machine, build, of_other_cases};
 use auxbear::scenario::{self, BuiltIn};
 use auxbear::study::evaluate;
 use auxbear::units;
@@ -71,7 +71,8 @@ impl Scenario {
     fn check(&self, py: Python<'_>) -> PyResult<Vec<Warned>> {
         let scenario = self.0.clone();
         let warnings = watched(py, None, None, PATIENCE, move |_, _| {
-            build(&scenario).map(|machine| machine.warnings())
+            let machine = build(&scenario)?;
+            of_other_cases(&scenario, &machine).map(|_| machine.warnings())
         })?;
         let warnings = warnings.map_err(|problem| raised(py, problem))?;
         Ok(warnings.iter().map(warned).collect())

@@ -74,16 +74,17 @@ fn power_lost_after_whole_turns_drops_the_rotor_as_at_the_start() {
 
 #[test]
 fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
-    let sets = |limit: &str| {
+    let with = |limit: &str, event: &str| {
         let text = rig().replace(
             "current_stiffness = \"40 N/A\"",
             &format!("current_stiffness = \"40 N/A\"\n{limit}"),
-        );
+        ) + event;
         // the drive adds 1 000 rad/s, and unbalance current with them
         let drive = "rotor.drive_torque=40 N m";
         let run = ["run.duration=20 ms", "levitation.power_lost_at=1 s", drive];
         ran(&text, &run)
     };
+    let sets = |limit: &str| with(limit, "");
     let told = |outcome: &Outcome| outcome.warnings.iter().any(|w| w.code == "AB2034");
     let free = sets("largest_current = \"5 A\"");
     let largest = "magnet.drive_end.largest_current_1";
@@ -106,6 +107,11 @@ fn currents_end_at_the_limit_of_the_coil_and_the_run_says_so() {
         let text = bound.warnings.iter().find(|w| w.code == "AB2034");
         assert!(text.is_some_and(|w| w.text.contains(coil)), "{limit}");
     }
+    // the limit that it reached, not a later one
+    let more = "\n[[event]]\ndo = \"amplifier limit\"\nat = \"19 ms\"\nlargest_current = \"5 A\"\n";
+    let raised = with("largest_current = \"0.65 A\"", more);
+    let text = raised.warnings.iter().find(|w| w.code == "AB2034");
+    assert!(text.is_some_and(|w| w.text.contains("(0.650 A, ")));
 }
 
 /// Volts and amperes are limits of one kind: both are reported, as gravely.

@@ -4,7 +4,7 @@ use crate::machine::{parsed, ran};
 use crate::outcomes::number;
 use auxbear::outcome::Verdict;
 use auxbear::report::study::Directory;
-use auxbear::run::Options;
+use auxbear::run::{Options, build, of_other_cases};
 use auxbear::scenario::StudyFile;
 use auxbear::study::Study;
 use std::fs;
@@ -62,6 +62,13 @@ fn a_case_that_is_none_is_refused_and_so_is_one_that_contradicts_itself() {
         told.contains("limit.case") && told.contains("Did you mean \"shock\"?"),
         "{told}"
     );
+    // a result that its case has not, where another case happens
+    let nothing = limit.replace("energy_residual", "event.nobody.time");
+    let nothing = nothing.replace("shok", "shock");
+    let scenario = parsed(&format!("{machine}{nothing}"), &[]).unwrap();
+    let first = build(&scenario).unwrap();
+    let told = of_other_cases(&scenario, &first).unwrap_err().to_string();
+    assert!(told.contains("event.nobody.time"), "{told}");
     // whichever happens
     let again = "\n[[event]]\nname = \"again\"\ncase = \"axis lost\"\ndo = \"re-levitate\"\nbias_time = \"1 ms\"\nat = \"1 ms\"\n";
     let told = refused(&format!("{machine}{again}"), &[]);

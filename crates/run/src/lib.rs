@@ -28,7 +28,7 @@ use outcome::{host, limits};
 use problem::{Code, Result};
 #[cfg(feature = "files")]
 pub use recording::file::parquet::panic_is_caught;
-use scenario::{CoastDown, Rig, Scenario, SpinUp, System, problem_at};
+use scenario::{CASE, CoastDown, Rig, Scenario, SpinUp, System, problem_at};
 pub use simulate::simulation::{Input, Simulation};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
@@ -81,6 +81,25 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
             .map_err(|problem| scenario.locate(problem))?;
     }
     Ok(machine)
+}
+
+/// The results that only the other cases of a scenario have.
+///
+/// # Errors
+/// What is wrong with one of them, a limit of it among others.
+pub fn of_other_cases(scenario: &Scenario, own: &Machine) -> Result<Vec<Quantity>> {
+    let mut known = own.results();
+    let count = known.len();
+    let cases = scenario.system.cases();
+    for case in cases.others() {
+        let other = scenario.with(&[(CASE.to_string(), case.to_string())])?;
+        for own in build(&other)?.results() {
+            if known.iter().all(|known| known.name != own.name) {
+                known.push(own);
+            }
+        }
+    }
+    Ok(known.split_off(count))
 }
 
 impl Machine<'_> {

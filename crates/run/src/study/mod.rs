@@ -106,14 +106,7 @@ impl Study {
         let machine = crate::build(&file.scenario)?;
         let mut known = machine.results();
         // and what only happens in other cases
-        for case in file.scenario.system.cases().names {
-            let other = file.scenario.with(&[(CASE.to_string(), case)])?;
-            for own in crate::build(&other)?.results() {
-                if known.iter().all(|known| known.name != own.name) {
-                    known.push(own);
-                }
-            }
-        }
+        known.extend(crate::of_other_cases(&file.scenario, &machine)?);
         // numbers that only a run names are named by one with the values as given
         let number = |value: &Value| matches!(value, Value::Number(_) | Value::None { .. });
         if known

@@ -64,7 +64,7 @@ impl Cases {
         self.names.get(self.chosen).map(String::as_str)
     }
     /// Those that do not happen.
-    pub(super) fn others(&self) -> impl Iterator<Item = &str> {
+    pub fn others(&self) -> impl Iterator<Item = &str> {
         let names = self.names.iter().enumerate();
         let others = names.filter(|(k, _)| *k != self.chosen);
         others.map(|(_, name)| name.as_str())

@@ -135,6 +135,7 @@ pub(super) fn until_standstill(
             _ => {}
         }
     }
+    let any_again = events.iter().any(Event::relevitates);
     for (part, event) in parts.iter().zip(events) {
         let of_magnets = event.what.axes().is_some();
         let (key, found) = match (&event.what, event.when) {
@@ -146,7 +147,9 @@ pub(super) fn until_standstill(
                 ("torque", "a drive that stays on")
             }
             (_, When::At(time)) if time > end => ("", "an instant after run.duration"),
-            _ if of_magnets && lost.len() < axes => ("do", "magnets that keep power"),
+            _ if of_magnets && lost.len() < axes && (event.relevitates() || !any_again) => {
+                ("do", "magnets that keep power")
+            }
             _ => continue,
         };
         let found = format!("{found} beside run.until = \"standstill\"");
@@ -156,7 +159,14 @@ pub(super) fn until_standstill(
     Ok(())
 }
 
-/// Refuses a re-levitation of a rotor that was not lost before, or whose hold is longer than the run.
+impl Event {
+    /// Whether the rotor is levitated again by it.
+    pub fn relevitates(&self) -> bool {
+        matches!(self.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)))
+    }
+}
+
+/// Refuses a re-levitation of a rotor that was not lost before, and an event with the name of that of a key.
 pub(super) fn relevitated(
     parts: &[&Part],
     events: &[Event],
@@ -178,8 +188,12 @@ pub(super) fn relevitated(
         lost.flatten().collect::<BTreeSet<_>>().len() == axes
     };
     for (part, event) in parts.iter().zip(events) {
-        let again = matches!(event.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)));
-        if again && !lost_before(event) {
+        let of_key = |own: &&Event| own.by_key && own.name == event.name;
+        if let Some(own) = events.iter().find(of_key) {
+            let found = format!("{}, as that of {LOST_AT} is called", quoted(&own.name));
+            return part.refuse(Code::Conflict, "name", found, "another name is needed");
+        }
+        if event.relevitates() && !lost_before(event) {
             let found = "a re-levitation before the loss of all power";
             let allowed = "an event with do = \"power lost\" before it, or levitation.power_lost_at, is needed";
             return part.refuse(Code::Conflict, "do", found, allowed);

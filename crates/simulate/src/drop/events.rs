@@ -110,6 +110,8 @@ struct Again<'a> {
     contact: Option<f64>,
     /// Whether it was held.
     held: bool,
+    /// How long before the end it must have been, s.
+    hold: f64,
     /// End of the run, or the next loss of all power, s.
     end: f64,
     /// From that event, or an earlier one, on.
@@ -143,6 +145,7 @@ impl<'a> Again<'a> {
                 outside,
                 contact,
                 held: last < end - own.hold,
+                hold: own.hold,
                 end,
                 seen,
             };
@@ -252,7 +255,7 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     let mut list = Vec::new();
     for event in events(given) {
         let time = time_of(event.when, context);
-        let again = matches!(event.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)));
+        let again = event.relevitates();
         let lost = context.finished.record.lost;
         let why = match (time, event.when) {
             (Some(time), _)
@@ -261,10 +264,23 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
                 "the magnets have not lost their power before it".to_string()
             }
             (Some(time), _) if time <= end => continue,
-            (None, When::Speed { speed, rising, .. }) => {
+            (
+                None,
+                When::Speed {
+                    speed,
+                    rising,
+                    delay,
+                },
+            ) => {
                 let way = if rising { "rise" } else { "fall" };
                 let rpm = speed * 30.0 / PI;
-                format!("the speed of the rotor does not {way} to {rpm:.1} rpm ({speed:.1} rad/s)")
+                let then = match delay > 0.0 {
+                    true => format!(", {delay} s after which it would happen"),
+                    false => String::new(),
+                };
+                format!(
+                    "the speed of the rotor does not {way} to {rpm:.1} rpm ({speed:.1} rad/s){then}"
+                )
             }
             (Some(time), _) => format!("it would at {time:.4} s, and the run ends at {end:.4} s"),
             (None, When::At(_)) => continue,
@@ -306,7 +322,11 @@ pub(super) fn not_held(context: &Context) -> Vec<(f64, Warning)> {
         let warning = ShaftWarning::NotHeldAgain {
             time: own.time,
             last,
+            ends: ["the end of the run", "the next loss of power"]
+                [usize::from(own.seen.until.is_some())]
+            .to_string(),
             end: own.end,
+            hold: own.hold,
             first,
         };
         (last - own.time, warning.into())

@@ -118,8 +118,7 @@ pub(crate) fn limited(context: &Context) -> Option<(f64, Warning)> {
     let currents = &context.finished.record.currents;
     let (axis, share, time) = longest(context, currents.iter().map(|peak| peak.limited))?;
     let given = context.setup.controlled()?;
-    let limits = (context.setup.machine).coil_limits(&context.finished.ending.state);
-    let limit = format!("{:.3}", limits[axis]);
+    let limit = format!("{:.3}", currents[axis].limit);
     let channel = value_of(given, axis, "current");
     let reached = currents.iter().filter(|peak| peak.limited.first.is_some());
     let others = match reached.count() {

@@ -42,7 +42,7 @@ problem::warnings! {
         ForwardWhirlInCoastDown { time: "s", when: words } "AB2302" Invalid, coast_down
             ("Forward whirl during the coast-down, {when}: unbalance throws the rotor round the bore with its spin. One place of it stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.");
         RollingDoesNotLast { time: "s", speed: "rad/s", last_time: "s", last_speed: "rad/s", force: "N" } "AB2317" Uncertain, coast_down
-            ("Rolling does not last: unbalance lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, with contact forces up to {force:.3e} N. Whether such a motion is thrown into a whirl is chance: repeat the run (--repeat 8).");
+            ("Rolling does not last: unbalance or a load lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, with contact forces up to {force:.3e} N. Whether such a motion is thrown into a whirl is chance: repeat the run (--repeat 8).");
         SlidesInCoastDown { time: "s", duration: "s", when: words, slowest: words, rubs: words, shared: words } "AB2318" Uncertain, coast_down
             ("{when} the rotor slides on its races{slowest}: friction makes {rubs}. It is in coast_down.load_dependent_heat{shared}.");
         WindowsScatter { deviation: "1", windows: "" } "AB2319" Uncertain, coast_down
@@ -77,8 +77,8 @@ problem::warnings! {
             ("The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may change what they do.", 1e3 * time);
         VoltageLimit { channel: text, limit: words, share: "1", time: "s" } "AB2036" Uncertain, each
             ("{channel} reaches the largest of its amplifier ({limit}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the controller wants it, and what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
-        NotHeldAgain { time: "s", last: "s", end: "s", first: words } "AB2082" Destroys, each
-            ("The rotor is levitated again at {time:.4} s and not held: it was in contact or far from the middle until {last:.4} s of {end:.4} s; {first}. Magnets that push a rotor into its bearings load them for as long as they have power.");
+        NotHeldAgain { time: "s", last: "s", ends: words, end: "s", hold: "s", first: words } "AB2082" Destroys, each
+            ("The rotor is levitated again at {time:.4} s and not held: it was in contact or far from the middle until {last:.4} s, and {hold} s without are asked before {ends} at {end:.4} s; {first}. Magnets that push a rotor into its bearings load them for as long as they have power.");
         EventNever { name: text, why: words } "AB2083" Uncertain
             ("The event {name} never happens: {why}.");
         CutOff { what: words, until: "s", end: "s" } "AB2085" Uncertain, each

@@ -59,6 +59,8 @@ pub struct CurrentPeak {
     pub coil: Peak,
     /// When it was at its limit.
     pub limited: AtLimit,
+    /// That limit when it was there first, A.
+    pub limit: f64,
 }
 
 /// A rotor that is levitated again, until the next loss of all power.
@@ -113,6 +115,7 @@ impl CurrentPeak {
         largest: Peak::NONE,
         coil: Peak::NONE,
         limited: AtLimit::NEVER,
+        limit: f64::NAN,
     };
 }
 
@@ -241,6 +244,9 @@ impl Record {
             own.coil.raise(coil, time);
             let limited = powered && coil >= AT_LIMIT * limit;
             if limited {
+                if own.limited.first.is_none() {
+                    own.limit = limit;
+                }
                 own.limited.add(time, length);
             }
             if let Some(again) = &mut again {
