@@ -402,7 +402,7 @@ const GREASE: &str = "rolling_with_a_grease_state";
 
 /// The truth of laboratories that do what the paper's three explanations say is found, and the form of their steady moment.
 #[test]
-fn the_truth_of_four_laboratories_is_found() {
+fn the_truth_of_laboratories_is_found() {
     let quiet = [
         "rig.arm.synchronous_amplitude=0 N m",
         "rig.arm.zero=0 N m",
@@ -410,10 +410,13 @@ fn the_truth_of_four_laboratories_is_found() {
     ];
     // one logger of the shipped test, or as many as are asked for
     let loggers = std::env::var("AUXBEAR_SEEDS").ok();
-    for seed in 1..=loggers.and_then(|text| text.parse().ok()).unwrap_or(1) {
+    let loggers: Option<u64> = loggers.and_then(|text| text.parse().ok());
+    for seed in 1..=loggers.unwrap_or(1) {
         row("shipped", GREASE, seed, (&[], &[]), true);
     }
-    row("quiet arm", GREASE, 1, (&quiet, &[]), true);
+    if loggers.is_some() {
+        row("quiet arm", GREASE, 1, (&quiet, &[]), true);
+    }
     let skid = [
         "bearing.fidelity=planar",
         "bearing.operating_diametral_clearance=-0.8 um",

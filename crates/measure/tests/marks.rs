@@ -59,12 +59,21 @@ const SPEEDS: [f64; 9] = [
     163.1,
 ];
 
+/// Every second speed, from the first or the second on; all of them with `AUXBEAR_SEEDS` in the environment.
+fn speeds(from: usize) -> impl Iterator<Item = f64> {
+    let (skipped, step) = match std::env::var_os("AUXBEAR_SEEDS") {
+        Some(_) => (0, 1),
+        None => (from % 2, 2),
+    };
+    SPEEDS.into_iter().skip(skipped).step_by(step)
+}
+
 #[test]
 fn right_marks_raise_no_alarm() {
     let (mut alarms, mut count) = (Vec::new(), 0);
     for marks in [12, 24, 36, 60, 100] {
         for (kind, errors) in wheels(marks).iter().enumerate() {
-            for speed in SPEEDS {
+            for speed in speeds(kind) {
                 for (slope, digital) in [(0.0, false), (0.0, true), (5.0, false)] {
                     // At least six samples a mark: fewer show no two levels.
                     if speed * marks as f64 / TAU > RATE / 6.0 {
@@ -79,7 +88,7 @@ fn right_marks_raise_no_alarm() {
             }
         }
     }
-    assert!(count > 300, "{count}");
+    assert!(count > 150, "{count}");
     assert!(
         alarms.is_empty(),
         "{} of {count}: {alarms:#?}",
@@ -92,7 +101,7 @@ fn wrong_marks_are_detected_with_the_right_number() {
     let (mut missed, mut wrong, mut count) = (Vec::new(), Vec::new(), 0);
     for marks in [24usize, 36, 60] {
         let [_, errors, _] = wheels(marks);
-        for speed in SPEEDS {
+        for speed in speeds(marks / 12) {
             if speed * marks as f64 / TAU > RATE / 6.0 {
                 continue;
             }

@@ -7,7 +7,7 @@ use measure::speed::{Speed, SpeedSettings, smooth};
 /// Spin-ups of each case; `AUXBEAR_SEEDS=400` for the figures of the book.
 fn seeds() -> u64 {
     let seeds = std::env::var("AUXBEAR_SEEDS").ok();
-    seeds.and_then(|seeds| seeds.parse().ok()).unwrap_or(80)
+    seeds.and_then(|seeds| seeds.parse().ok()).unwrap_or(30)
 }
 
 /// Instants in a spin-up, and a quarter of its length after it, at which the band is asked.
