@@ -31,6 +31,8 @@ pub struct Unread {
     pub needed: String,
     /// A name that may be meant.
     pub hint: Option<String>,
+    /// Whether it concerns the times of the channel, not its values.
+    pub of_clock: bool,
 }
 
 impl From<FileError> for Unread {
@@ -46,6 +48,7 @@ fn unread(code: Code, found: String, needed: impl Into<String>) -> Unread {
         found,
         needed: needed.into(),
         hint: None,
+        of_clock: false,
     }
 }
 
@@ -79,7 +82,15 @@ pub fn over_time(
                 own: None,
                 scale: 1.0,
             };
-            let [_, second] = converted(&own.name, &own.unit, seconds)?;
+            let of_clock = |why: Unread| Unread {
+                needed: format!(
+                    "the unit of the times in the file is needed, e.g. {} [s]",
+                    own.name
+                ),
+                of_clock: true,
+                ..why
+            };
+            let [_, second] = converted(&own.name, &own.unit, seconds).map_err(of_clock)?;
             let times = all(recording, *clock, own.count)?;
             times.into_iter().map(|time| time * second).collect()
         }

@@ -1,5 +1,6 @@
 //! Many single runs of scenarios that differ.
 
+use crate::measured::{self, Curve};
 use crate::{build, known};
 use outcome::host::{self, in_pool};
 use outcome::options::Options;
@@ -28,6 +29,7 @@ pub fn each(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
 
 fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     let done = AtomicUsize::new(0);
+    let curves = curves_of(scenarios);
     let stages = host::each(scenarios, |_, scenario| {
         let stage = staged(scenario, options);
         if stage.is_err() {
@@ -60,12 +62,27 @@ fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     };
     let made = each::run(&drops, &plan).into_iter().zip(&drops);
     for (place, (mut outcome, one)) in places.into_iter().zip(made) {
+        if !one.scenario.measured.is_empty() {
+            measured::add(&curves, &mut outcome);
+            outcome.history.clear();
+        }
         outcome.warnings =
             known::with_those_before(one.scenario, &one.built.drop, outcome.warnings);
         list[place] = Some(outcome);
     }
     host::discard(drops);
     list.into_iter().flatten().collect()
+}
+
+/// The measured channels that these scenarios have in common; what is wrong with them was reported when the first was built.
+fn curves_of(scenarios: &[Result<Scenario>]) -> Vec<Curve> {
+    let drops = scenarios
+        .iter()
+        .flatten()
+        .filter(|own| own.drop().is_some());
+    let mut measured = drops.filter(|own| !own.measured.is_empty());
+    let machine = measured.find_map(|scenario| build(scenario).ok());
+    machine.map(|machine| machine.measured).unwrap_or_default()
 }
 
 /// Builds a drop; runs anything else at once, on the thread that has it.
@@ -75,7 +92,12 @@ fn staged<'a>(scenario: &'a Result<Scenario>, options: &Options) -> Result<One<'
         Err(problem) => return Err(not_built(problem)),
     };
     if let Some(drop) = scenario.drop() {
-        return each::one(scenario, drop).map_err(|problem| not_built(&scenario.locate(problem)));
+        let one = each::one(scenario, drop);
+        let one = one.map(|one| match scenario.measured.is_empty() {
+            true => one,
+            false => one.with_history(),
+        });
+        return one.map_err(|problem| not_built(&scenario.locate(problem)));
     }
     let unwatched = Options {
         threads: Some(1),
