@@ -229,6 +229,10 @@ fn wrong_tables_are_refused_with_what_is_there() {
             "[AB0306]: |measured.unit: found channel \"y\" in N",
         ),
         (
+            table("rotor.speed", "y", "unit = \"rpm\""),
+            "[AB0306]: |measured.unit: found channel \"y\" in mm",
+        ),
+        (
             table("rotor.y", "gap", ""),
             "[AB0106]: |measured.channel: found channel \"gap\", whose value 151 is no number",
         ),
@@ -285,7 +289,7 @@ fn wrong_tables_are_refused_with_what_is_there() {
     let refused = set("measured.rotor.z.scale=2").unwrap_err();
     assert!(
         refused.contains(
-            "with one of the columns rotor.x, rotor.y, bearing.inner_race.speed, rotor.x.drop_2"
+            "with one of the columns of [[measured]]: rotor.x, rotor.y, bearing.inner_race.speed, rotor.x.drop_2"
         ),
         "{refused}"
     );
@@ -297,7 +301,7 @@ fn wrong_tables_are_refused_with_what_is_there() {
         .unwrap_err()
         .to_string();
     assert!(
-        refused.contains("[AB0110]: a.toml:6: measured: found a section that has no effect"),
+        refused.contains("[AB0110]: a.toml:7: measured: found a section that has no effect"),
         "{refused}"
     );
 }

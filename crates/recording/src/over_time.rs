@@ -3,6 +3,7 @@
 use crate::unit::{speed_factor, unit_of};
 use crate::{Clock, FileError, Recording, find};
 use problem::Code;
+use units::Unit;
 
 /// Largest number of a record: sums and slopes of what is beyond have no finite value.
 const LARGEST: f64 = 1e100;
@@ -135,11 +136,9 @@ fn all(recording: &mut dyn Recording, channel: usize, count: u64) -> Result<Vec<
     Ok(values)
 }
 
-/// Offset and factor that turn the values of a channel into a unit of SI.
-fn converted(name: &str, file: &str, wanted: Wanted) -> Result<[f64; 2], Unread> {
-    let Wanted { unit, own, scale } = wanted;
-    let text = own.unwrap_or(file).trim();
-    let known = match (text, unit) {
+/// Offset and factor that turn values of a unit as files write it into one of SI.
+fn to_si(text: &str, unit: &str) -> Option<[f64; 2]> {
+    match (text, unit) {
         ("g", "m/s^2") => Some([0.0, STANDARD_GRAVITY]),
         ("", "1") => Some([0.0, 1.0]),
         (text, "rad/s") => speed_factor(text).map(|factor| [0.0, factor]),
@@ -147,13 +146,23 @@ fn converted(name: &str, file: &str, wanted: Wanted) -> Result<[f64; 2], Unread>
             let zero = unit.to_si(0.0);
             [zero, unit.to_si(1.0) - zero]
         }),
-    };
+    }
+}
+
+/// Offset and factor that turn the values of a channel into those wanted.
+fn converted(name: &str, file: &str, wanted: Wanted) -> Result<[f64; 2], Unread> {
+    let Wanted { unit, own, scale } = wanted;
+    // a sensor's voltage or current may stand for anything, a length in the file not for a speed
+    let fits = |file: &str| [unit, "V", "A"].iter().any(|si| to_si(file, si).is_some());
+    let contradicts = Unit::parse(file).is_ok() && !fits(file.trim());
+    let text = own.filter(|_| !contradicts).unwrap_or(file).trim();
     let found = || match text {
         "" => format!("channel \"{name}\" without a unit"),
         text => format!("channel \"{name}\" in {text}"),
     };
     let place = if own.is_some() { "" } else { " in the file" };
     let needed = || format!("a unit of the kind of {unit} is needed{place}");
-    let [offset, factor] = known.ok_or_else(|| unread(Code::ChannelUnit, found(), needed()))?;
+    let refused = || unread(Code::ChannelUnit, found(), needed());
+    let [offset, factor] = to_si(text, unit).ok_or_else(refused)?;
     Ok([offset, factor * scale])
 }

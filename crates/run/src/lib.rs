@@ -38,7 +38,7 @@ use std::sync::Arc;
 pub struct Machine<'a> {
     scenario: &'a Scenario,
     system: Built<'a>,
-    measured: Vec<measured::Curve>,
+    measured: Arc<Vec<measured::Curve>>,
 }
 
 /// The machine of each system.
@@ -57,7 +57,9 @@ enum Built<'a> {
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
     let mut machine = built(scenario)?;
     let here = |problem| scenario.locate(problem);
-    machine.measured = measured::read(scenario, &machine.columns()).map_err(here)?;
+    machine.measured = measured::read(scenario, &machine.columns())
+        .map_err(here)?
+        .into();
     let limits = scenario.limits_here();
     if !limits.is_empty() {
         let declared: Vec<_> = warnings::declared().collect();
@@ -91,7 +93,7 @@ fn built(scenario: &Scenario) -> Result<Machine<'_>> {
     Ok(Machine {
         scenario,
         system,
-        measured: Vec::new(),
+        measured: Arc::default(),
     })
 }
 
@@ -157,7 +159,7 @@ impl Machine<'_> {
     /// The columns of a run's history, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn columns(&self) -> Vec<Column> {
         let mut columns = self.computed_columns();
-        columns.extend(measured::columns(&self.measured));
+        columns.extend(measured::columns(&self.measured, &[]));
         columns
     }
 

@@ -123,26 +123,19 @@ impl Measured {
 pub(crate) fn set(document: &mut Document, path: &[String], raw: Raw) -> Result<()> {
     let key = path.last().cloned().unwrap_or_default();
     let named = path[1..path.len() - 1].join(".");
-    let name = |table: &[Written]| {
-        let of = |key: &str| {
-            table
-                .iter()
-                .find(|(own, ..)| own == key)
-                .map(|(_, raw, _)| raw.shown())
-        };
+    let name = |table: &Vec<Written>| {
+        let of =
+            |key: &str| (table.iter().find(|(own, ..)| own == key)).map(|(_, raw, _)| raw.shown());
         let drop = of("drop").filter(|drop| drop != "1");
-        let drop = drop.map_or(String::new(), |drop| format!(".drop_{drop}"));
-        of("column").unwrap_or_default() + &drop
+        of("column").unwrap_or_default()
+            + &drop.map_or(String::new(), |drop| format!(".drop_{drop}"))
     };
-    let names: Vec<String> = document.measured.iter().map(|table| name(table)).collect();
+    let names: Vec<String> = document.measured.iter().map(name).collect();
     let Some(place) = names.iter().position(|own| *own == named) else {
-        let allowed = match names.as_slice() {
-            [] => "the file has no [[measured]]".to_string(),
-            names => format!(
-                "measured.COLUMN.KEY is needed, with one of the columns {}",
-                names.join(", ")
-            ),
-        };
+        let names = names.join(", ");
+        let allowed = format!(
+            "measured.COLUMN.KEY is needed, with one of the columns of [[measured]]: {names}"
+        );
         let problem = Problem::new(Code::UnknownKey, &document.file, quoted(&named), allowed);
         return Err(problem.at(Place::Set).on_key(path.join(".")));
     };

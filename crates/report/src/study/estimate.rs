@@ -1,6 +1,6 @@
 //! What measured curves say of the inputs of an estimate, as a table of the page and of the terminal.
 
-use super::cells::{amount, rows as cells, scaled, short};
+use super::cells::{amount, scaled, short, table};
 use crate::page::escape_text as plain;
 use run::study::answer::Answer;
 use run::study::estimate::{Estimate, Estimated};
@@ -80,14 +80,10 @@ pub(super) fn html(answer: &Answer) -> String {
         None => return String::new(),
         Some(Err(why)) => format!("<p>Nothing was estimated: {}.</p>\n", plain(why)),
         Some(Ok(found)) => {
-            let [head, all @ ..] = &rows(found)[..] else {
-                return String::new();
-            };
-            let all: Vec<Vec<String>> = (all.iter())
-                .map(|row| row.iter().map(|cell| plain(cell)).collect())
-                .collect();
-            let table = cells(&head.each_ref().map(String::as_str), &all);
-            format!("{table}<p class=\"small\">{}</p>\n", plain(&note(found)))
+            let cells = |row: &[String; 5]| row.each_ref().map(|cell| plain(cell)).to_vec();
+            let all: Vec<Vec<String>> = rows(found)[1..].iter().map(cells).collect();
+            let note = plain(&note(found));
+            format!("{}<p class=\"small\">{note}</p>\n", table(&HEAD, all))
         }
     };
     format!("<h2>Estimate from the measured curves</h2>\n{body}")

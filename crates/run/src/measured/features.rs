@@ -8,8 +8,9 @@
 //! ```
 //! The threshold is six standard deviations of the channel, and a fiftieth of the range of the prediction at least.
 
-use super::{Compared, Curve, NOTHING_COMMON, Run};
+use super::{Compared, Curve, NOTHING_COMMON, Run, root_mean_square};
 use outcome::list::{List, origins, results};
+use statistics::interpolation::between;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
@@ -34,17 +35,12 @@ fn sides<const N: usize>(
     both: Option<[[Found; N]; 2]>,
 ) {
     let all = both.map(|[measured, predicted]| {
-        let less = |k: usize| Ok(measured[k].clone()? - predicted[k].clone()?);
-        let difference = from_fn(less);
+        let difference = from_fn(|k| Ok(measured[k].clone()? - predicted[k].clone()?));
         [measured, predicted, difference]
     });
-    for (k, side) in ["measured", "predicted", "difference"]
-        .into_iter()
-        .enumerate()
-    {
-        list.named(&[name, side], |list| {
-            table(list, &(), all.as_ref().map(|all| &all[k]))
-        });
+    for (k, side) in (0..).zip(["measured", "predicted", "difference"]) {
+        let own = all.as_ref().map(|all| &all[k]);
+        list.named(&[name, side], |list| table(list, &(), own));
     }
 }
 
@@ -72,42 +68,49 @@ fn reached(time: &[f64], values: &[f64], level: f64, from: usize) -> Option<(usi
 
 /// Features of one channel by what its column is.
 pub(super) fn of_curve(list: &mut List, curve: &Curve, run: Option<(&Compared, &Run)>) {
-    let column = curve.given.column.as_str();
-    let is = |unit: &str, ends: &[&str]| {
-        curve.unit == unit && ends.iter().any(|end| column.ends_with(end))
-    };
-    if is("N", &["force"]) {
-        let both = run.map(|(own, run)| {
-            [&own.measured, &own.predicted].map(|values| impact(own, values, run.release))
-        });
-        sides(list, &curve.name, force, both);
-    } else if is("m", &[".x", ".y"]) {
-        let both = run.map(|(own, run)| {
-            [&own.measured, &own.predicted].map(|values| turning(own, values, run.release))
-        });
-        sides(list, &curve.name, displacement, both);
-    } else if is("rad/s", &["inner_race.speed"]) {
-        let both = run.map(|(own, run)| {
-            let rotor = run.outcome.column("rotor.speed");
-            let full = match rotor.filter(|rotor| rotor.values.len() >= own.time.len()) {
-                Some(rotor) => rotor.values.get(own.row(run.release)).copied(),
-                None => own
-                    .predicted
-                    .iter()
-                    .copied()
-                    .max_by(|a, b| a.abs().total_cmp(&b.abs())),
+    let (name, column) = (curve.name.as_str(), curve.given.column.as_str());
+    let ends = |ends: &[&str]| ends.iter().any(|end| column.ends_with(end));
+    let values = |own: &'_ Compared| [own.measured.clone(), own.predicted.clone()];
+    match curve.unit {
+        "N" if ends(&["force"]) => {
+            let of = |(own, run): (&Compared, &Run)| {
+                values(own).map(|values| impact(own, &values, run.release))
             };
-            [&own.measured, &own.predicted].map(|values| {
-                let speeds: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-                let level = SPUN_UP * full.unwrap_or(f64::NAN).abs();
-                let time = reached(&own.time, &speeds, level, own.row(run.release));
-                [time
-                    .map(|(_, time)| time - run.release)
-                    .ok_or_else(|| "95 % of the speed is not reached".to_string())]
-            })
-        });
-        sides(list, &curve.name, speed, both);
+            sides(list, name, force, run.map(of));
+        }
+        "m" if ends(&[".x", ".y"]) => {
+            let of = |(own, run): (&Compared, &Run)| {
+                values(own).map(|values| turning(own, &values, run.release))
+            };
+            sides(list, name, displacement, run.map(of));
+        }
+        "rad/s" if ends(&["inner_race.speed"]) => {
+            let of = |(own, run): (&Compared, &Run)| {
+                values(own).map(|values| [spin_up(own, &values, run)])
+            };
+            sides(list, name, speed, run.map(of));
+        }
+        _ => {}
     }
+}
+
+/// Time to 95 % of the rotor's speed at the release; without a rotor of the largest predicted speed.
+fn spin_up(own: &Compared, values: &[f64], run: &Run) -> Found {
+    let largest = |values: &[f64]| {
+        values
+            .iter()
+            .fold(0.0, |most: f64, own| most.max(own.abs()))
+    };
+    let rotor = run
+        .outcome
+        .column("rotor.speed")
+        .zip(run.outcome.column("time"));
+    let full = rotor.and_then(|(speed, time)| between(&time.values, &speed.values, run.release));
+    let level = SPUN_UP * full.map_or_else(|| largest(&own.predicted), f64::abs);
+    let speeds: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    let time = reached(&own.time, &speeds, level, own.row(run.release));
+    let time = time.map(|(_, time)| time - run.release);
+    time.ok_or_else(|| "95 % of the speed is not reached".to_string())
 }
 
 /// First contact, its duration and impulse, and the peak of a force.
@@ -188,14 +191,10 @@ fn orbits(curves: &[Curve]) -> Vec<Orbit<'_>> {
     let pairs = curves.iter().enumerate().filter_map(|(x, curve)| {
         let place = curve.given.column.strip_suffix(".x")?;
         let other = format!("{place}.y");
-        let y = curves
-            .iter()
-            .position(|own| own.given.column == other && own.given.drop == curve.given.drop)?;
-        Some(Orbit {
-            name: curve.given.of_drop(place),
-            place,
-            axes: [x, y],
-        })
+        let beside = |own: &Curve| own.given.column == other && own.given.drop == curve.given.drop;
+        let axes = [x, curves.iter().position(beside)?];
+        let name = curve.given.of_drop(place);
+        Some(Orbit { name, place, axes })
     });
     pairs.collect()
 }
@@ -214,10 +213,7 @@ impl Orbit<'_> {
         let mut points = Points {
             time: Vec::new(),
             sides: [Vec::new(), Vec::new()],
-            deviation: [x, y]
-                .iter()
-                .filter_map(|own| own.deviation)
-                .fold(0.0, f64::max),
+            deviation: (x.deviation.into_iter().chain(y.deviation)).fold(0.0, f64::max),
         };
         for (row, time) in x.time.iter().enumerate() {
             let other = y.row(*time);
@@ -234,9 +230,8 @@ impl Orbit<'_> {
     fn clearance(&self, run: &Run) -> Option<f64> {
         let bearing = self.place.strip_suffix("rotor")?.trim_end_matches('.');
         let mut pictures = run.outcome.pictures.iter();
-        pictures
-            .find(|picture| picture.bearing == bearing)?
-            .clearance
+        let own = pictures.find(|picture| picture.bearing == bearing);
+        own?.clearance
     }
 
     /// Phase at the release, first contact and whirl of both curves.
@@ -274,11 +269,9 @@ impl Orbit<'_> {
     fn error(&self, run: &Run) -> Found {
         let points = self.points(run);
         let [measured, predicted] = &points.sides;
-        let apart = measured
-            .iter()
-            .zip(predicted)
-            .map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
-        super::root_mean_square(apart).ok_or_else(|| NOTHING_COMMON.to_string())
+        let both = measured.iter().zip(predicted);
+        let apart = both.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
+        root_mean_square(apart, NOTHING_COMMON)
     }
 }
 

@@ -15,9 +15,9 @@
 mod features;
 pub(crate) mod warnings;
 
-use outcome::list::{List, Origin, origins, results};
-use outcome::{Column, Outcome, Quantity, Value, counted_from};
-use problem::{Code, Problem, Result, did_you_mean};
+use outcome::list::{List, origins, results};
+use outcome::{Column, Outcome, Quantity, counted_from};
+use problem::{Code, Result, did_you_mean};
 use recording::over_time::{Unread, Wanted, over_time};
 use scenario::{Measured, Scenario};
 use statistics::interpolation::between;
@@ -70,8 +70,16 @@ impl Curve {
         let known = columns.iter().find(|column| column.name == given.column);
         let Some(column) = known.filter(|column| column.name != "time") else {
             let found = format!("\"{}\", which is no column of this run", given.column);
-            let needed = "a column of its history is needed; auxbear results FILE lists them";
-            let problem = given.problem(Code::UnknownQuantity, "column", found, needed.into());
+            let last = |name: &str| name.rsplit('.').next().map(str::to_string);
+            // those that end like it first
+            let (alike, others): (Vec<&str>, Vec<&str>) =
+                (names().skip(1)).partition(|name| last(name) == last(&given.column));
+            let few: Vec<&str> = alike.into_iter().chain(others).take(8).collect();
+            let needed = format!(
+                "a column of its history is needed, such as {}; without this table auxbear results FILE lists all",
+                few.join(", ")
+            );
+            let problem = given.problem(Code::UnknownQuantity, "column", found, needed);
             return Err(problem.with_hint(did_you_mean(&given.column, names())));
         };
         let refused = |why: Unread| {
@@ -108,27 +116,21 @@ impl Curve {
             values,
         };
         let [first, last] = curve.span();
-        match last < 0.0 || first > end {
-            true => Err(curve.apart(end)),
-            false => Ok(curve),
+        if last >= 0.0 && first <= end {
+            return Ok(curve);
         }
+        let [first, last] = [first, last].map(|time| number_text(1e-6 * (1e6 * time).round()));
+        let found = format!("a file from {first} s to {last} s on the clock of the run");
+        let end = number_text(end);
+        let needed = format!(
+            "one that overlaps the run, from 0 s to {end} s, is needed: clock_offset is the instant of the run at which time 0 of the file lies"
+        );
+        Err(given.problem(Code::ChannelClock, "clock_offset", found, needed))
     }
 
     /// First and last instant, s.
     fn span(&self) -> [f64; 2] {
         [self.times[0], self.times[self.times.len() - 1]]
-    }
-
-    fn apart(&self, end: f64) -> Box<Problem> {
-        let [first, last] = self
-            .span()
-            .map(|time| number_text(1e-6 * (1e6 * time).round()));
-        let found = format!("a file from {first} s to {last} s on the clock of the run");
-        let needed = format!(
-            "one that overlaps the run, from 0 s to {} s, is needed: clock_offset is the instant of the run at which time 0 of the file lies",
-            number_text(end)
-        );
-        (self.given).problem(Code::ChannelClock, "clock_offset", found, needed)
     }
 
     /// Its value at an instant, straight between its samples; not a number outside.
@@ -146,7 +148,12 @@ impl Curve {
         let square = |three: &[f64]| (three[0] - 2.0 * three[1] + three[2]).powi(2) / 6.0;
         let squares = self.values[..quiet].windows(3).map(square);
         let mean = squares.sum::<f64>() / quiet as f64;
-        (quiet >= FEWEST && mean > 0.0).then(|| mean.sqrt())
+        let largest = self
+            .values
+            .iter()
+            .fold(0.0, |most: f64, own| most.max(own.abs()));
+        // less is rounding
+        (quiet >= FEWEST && mean.sqrt() > 1e-9 * largest).then(|| mean.sqrt())
     }
 
     /// The column of its name, at some instants.
@@ -165,16 +172,30 @@ impl Curve {
         }
     }
 
+    /// Root mean square of this drop less the first.
+    fn less_first(&self, run: &Run) -> Result<f64, String> {
+        let is_first = |own: &&Curve| own.given.drop == 1 && own.given.column == self.given.column;
+        let first = (run.curves.iter().find(is_first))
+            .ok_or("no first drop of this column was measured")?;
+        let time = run
+            .outcome
+            .column("time")
+            .map_or(&[][..], |time| &time.values);
+        let apart = time.iter().map(|time| self.at(*time) - first.at(*time));
+        root_mean_square(apart.filter(|own| own.is_finite()), NOTHING_COMMON)
+    }
+
     fn compared(&self, outcome: &Outcome, release: f64) -> Compared {
         let mut compared = Compared {
             deviation: self.deviation(release),
             ..Compared::default()
         };
-        let (time, own) = (outcome.column("time"), outcome.column(&self.given.column));
-        let (Some(time), Some(own)) = (time, own) else {
-            return compared;
+        let values = |name| {
+            outcome
+                .column(name)
+                .map_or(&[][..], |column| &column.values)
         };
-        for (time, predicted) in time.values.iter().zip(&own.values) {
+        for (time, predicted) in values("time").iter().zip(values(&self.given.column)) {
             let measured = self.at(*time);
             if measured.is_finite() && predicted.is_finite() {
                 compared.time.push(*time);
@@ -199,7 +220,7 @@ impl Compared {
     }
 
     fn rms(&self) -> Result<f64, String> {
-        root_mean_square(self.differences()).ok_or_else(|| NOTHING_COMMON.to_string())
+        root_mean_square(self.differences(), NOTHING_COMMON)
     }
 
     /// The largest difference, and its instant.
@@ -217,34 +238,30 @@ impl Compared {
     }
 
     fn relative(&self) -> Result<f64, String> {
-        let range = self.range();
-        match range > 0.0 {
-            true => Ok(self.rms()? / range),
-            false => Err("the predicted column does not change".to_string()),
-        }
+        let range = Some(self.range()).filter(|range| *range > 0.0);
+        Ok(self.rms()? / range.ok_or("the predicted column does not change")?)
     }
 
     fn misfit(&self) -> Result<f64, String> {
         let residuals = self.residuals().ok_or(NO_DEVIATION)?;
-        root_mean_square(residuals.into_iter()).ok_or_else(|| NOTHING_COMMON.to_string())
+        root_mean_square(residuals.into_iter(), NOTHING_COMMON)
     }
 
     fn share(&self) -> Result<f64, String> {
         let residuals = self.residuals().ok_or(NO_DEVIATION)?;
         let within = residuals.iter().filter(|own| own.abs() <= BAND).count();
-        match residuals.len() {
-            0 => Err(NOTHING_COMMON.to_string()),
-            all => Ok(within as f64 / all as f64),
-        }
+        let share = within as f64 / residuals.len() as f64;
+        (share.is_finite().then_some(share)).ok_or_else(|| NOTHING_COMMON.to_string())
     }
 }
 
 const NOTHING_COMMON: &str = "file and run have no instant in common";
-const NO_DEVIATION: &str = "the standard deviation of the channel is not known: measured.deviation, or 16 values before the release, are needed";
+const NO_DEVIATION: &str = "the standard deviation of the channel is not known: measured.deviation, or 16 values before the release that scatter, are needed";
 
-fn root_mean_square(values: impl Iterator<Item = f64>) -> Option<f64> {
+fn root_mean_square(values: impl Iterator<Item = f64>, why: &str) -> Result<f64, String> {
     let (count, sum) = values.fold((0, 0.0), |(count, sum), own| (count + 1, sum + own * own));
-    (count > 0).then(|| (sum / f64::from(count)).sqrt())
+    let mean = (count > 0).then(|| sum / f64::from(count));
+    mean.map(f64::sqrt).ok_or_else(|| why.to_string())
 }
 
 /// Adds columns, results and warnings of the comparison to a run.
@@ -262,20 +279,17 @@ pub(crate) fn add(curves: &[Curve], outcome: &mut Outcome) {
         curves,
         all: &all,
     };
-    let quantities = name(curves, Some(&run));
-    let own = warnings::of(curves, &run);
+    let (quantities, warnings) = (name(curves, Some(&run)), warnings::of(curves, &run));
+    let times = outcome.column("time").map(|time| time.values.as_slice());
+    let columns: Vec<Column> = times.map_or_else(Vec::new, |times| columns(curves, times));
     outcome.quantities.extend(quantities);
-    outcome.warnings.extend(own);
-    let times = outcome.column("time").map(|time| time.values.clone());
-    if let Some(times) = times {
-        let columns = curves.iter().map(|curve| curve.column(&times));
-        outcome.history.extend(columns);
-    }
+    outcome.warnings.extend(warnings);
+    outcome.history.extend(columns);
 }
 
-/// Columns of a run without values.
-pub(crate) fn columns(curves: &[Curve]) -> Vec<Column> {
-    curves.iter().map(|curve| curve.column(&[])).collect()
+/// Columns of the channels at some instants.
+pub(crate) fn columns(curves: &[Curve], times: &[f64]) -> Vec<Column> {
+    curves.iter().map(|curve| curve.column(times)).collect()
 }
 
 /// Differences over their deviations of each channel of the first drop whose deviation is known: what is predicted is that drop.
@@ -302,98 +316,40 @@ pub(crate) fn name(curves: &[Curve], run: Option<&Run>) -> Vec<Quantity> {
         overall(&mut list, &(), run);
     }
     for (k, curve) in curves.iter().enumerate() {
-        let own = run.map(|run| &run.all[k]);
-        of_column(&mut list, curve, own, curves, run.map(|run| run.all));
-        list.named(&[&curve.name], |list| difference(list, &(), own));
-        features::of_curve(&mut list, curve, own.zip(run));
+        let own = run.map(|run| (&run.all[k], run));
+        let first = list.quantities.len();
+        list.named(&[&curve.name], |list| difference(list, curve, own.as_ref()));
+        for quantity in &mut list.quantities[first..] {
+            if quantity.unit == OF_COLUMN {
+                quantity.unit = curve.unit;
+            }
+        }
+        features::of_curve(&mut list, curve, own);
     }
     features::of_orbits(&mut list, curves, run);
     list.quantities
 }
 
-/// What has the unit of the column.
-fn of_column(
-    list: &mut List,
-    curve: &Curve,
-    own: Option<&Compared>,
-    curves: &[Curve],
-    all: Option<&[Compared]>,
-) {
-    let mut add =
-        |end: &str, meaning, origin: &Origin, words: &str, value: Option<Result<f64, String>>| {
-            let unknown = || Value::None {
-                why: "not known before the run".to_string(),
-            };
-            let name = format!("{MEASURED}.{}.{end}", curve.name);
-            list.push(
-                &name,
-                curve.unit,
-                meaning,
-                value.map_or_else(unknown, Value::from),
-                origin,
-            );
-            if let Some(last) = list.quantities.last_mut() {
-                last.shown = vec![("measured_difference", words.to_string())];
-            }
-        };
-    let deviation = |own: &Compared| own.deviation.ok_or_else(|| NO_DEVIATION.to_string());
-    add(
-        "deviation",
-        "standard deviation of the channel",
-        &DEVIATION,
-        "deviation of the channel",
-        own.map(deviation),
-    );
-    add(
-        "rms_difference",
-        "root mean square of measured less predicted",
-        &RMS,
-        "rms difference",
-        own.map(Compared::rms),
-    );
-    let largest = own.map(|own| own.largest().map(|(value, _)| value));
-    add(
-        "largest_difference",
-        "largest difference of measured less predicted",
-        &LARGEST,
-        "largest difference",
-        largest,
-    );
-    let first = curves
-        .iter()
-        .position(|other| other.given.drop == 1 && other.given.column == curve.given.column);
-    if let Some(first) = first.filter(|_| curve.given.drop > 1) {
-        let apart = all.map(|all| {
-            let own = all[first].time.iter().zip(&all[first].measured);
-            let apart = own.map(|(time, value)| curve.at(*time) - value);
-            root_mean_square(apart.filter(|own| own.is_finite()))
-                .ok_or_else(|| NOTHING_COMMON.to_string())
-        });
-        add(
-            "rms_difference_from_drop_1",
-            "root mean square of this drop less the first",
-            &RMS,
-            "rms difference from drop 1",
-            apart,
-        );
-    }
-}
-
 results! {
     fn overall(setup: &(), run: &Run) {
         "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" => {
-            let all = residuals(run.curves, run.outcome);
-            root_mean_square(all.concat().into_iter()).ok_or_else(|| NO_DEVIATION.to_string())
+            root_mean_square(residuals(run.curves, run.outcome).concat().into_iter(), NO_DEVIATION)
         };
     }
-    fn difference(setup: &(), own: &Compared) {
-        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => own.largest().map(|(_, time)| time);
-        "measured.*.relative_difference": number "1" headline, RELATIVE, "rms difference over the range of the prediction" in measured_difference "over the range [%]" => own.relative();
-        "measured.*.misfit": number "1", MISFIT, "rms difference over the standard deviation of the channel" in measured_difference "over the deviation" => own.misfit();
-        "measured.*.share_within_band": number "1", SHARE, "share of the rows within two standard deviations" in measured_difference "within two deviations [%]" => own.share();
+    fn difference(curve: &Curve, run: &(&Compared, &Run)) {
+        "measured.*.deviation": number "of the column", DEVIATION, "standard deviation of the channel" in measured_difference "deviation of the channel" => run.0.deviation.ok_or_else(|| NO_DEVIATION.to_string());
+        "measured.*.rms_difference": number "of the column", RMS, "root mean square of measured less predicted" in measured_difference "rms difference" => run.0.rms();
+        "measured.*.largest_difference": number "of the column", LARGEST, "largest difference of measured less predicted" in measured_difference "largest difference" => run.0.largest().map(|(value, _)| value);
+        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => run.0.largest().map(|(_, time)| time);
+        "measured.*.relative_difference": number "1" headline, RELATIVE, "rms difference over the range of the prediction" in measured_difference "over the range [%]" => run.0.relative();
+        "measured.*.misfit": number "1", MISFIT, "rms difference over the standard deviation of the channel" in measured_difference "over the deviation" => run.0.misfit();
+        "measured.*.share_within_band": number "1", SHARE, "share of the rows within two standard deviations" in measured_difference "within two deviations [%]" => run.0.share();
+        "measured.*.rms_difference_from_drop_1": number "of the column", RMS, "root mean square of this drop less the first" in measured_difference "rms difference from drop 1" when curve.given.drop > 1 => curve.less_first(run.1);
     }
 }
 
+/// The unit of what has that of its column.
+const OF_COLUMN: &str = "of the column";
 const HERE: &str = "crates/run/src/measured/mod.rs";
 
 origins! {

@@ -21,59 +21,50 @@ problem::warnings! {
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
-    let mut list = Vec::new();
+    use MeasuredWarning::{Coarse, PartOfRun, PhaseDiffers, PhaseUnknown};
+    let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
         .outcome
         .column("time")
         .map_or(&[][..], |time| &time.values);
     let (Some(begin), Some(end)) = (time.first(), time.last()) else {
-        return list;
+        return Vec::new();
     };
     let mean = |times: &[f64]| (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
     for curve in curves {
-        let part = curve.name.clone();
+        let part = || curve.name.clone();
         let (interval, [from, to]) = (mean(&curve.times), curve.span());
         let rows = if time.len() > 1 { mean(time) } else { interval };
         if interval > COARSER * rows {
-            let part = part.clone();
-            list.push(
-                MeasuredWarning::Coarse {
-                    part,
-                    interval,
-                    rows,
-                }
-                .into(),
-            );
+            let part = part();
+            list.push(Coarse {
+                part,
+                interval,
+                rows,
+            });
         }
         if from > begin + interval || to < end - interval {
-            let (from, to, end) = (from.max(*begin), to.min(*end), *end);
-            list.push(
-                MeasuredWarning::PartOfRun {
-                    part,
-                    from,
-                    to,
-                    end,
-                }
-                .into(),
-            );
+            let (part, from, to, end) = (part(), from.max(*begin), to.min(*end), *end);
+            list.push(PartOfRun {
+                part,
+                from,
+                to,
+                end,
+            });
         }
     }
     let phases = features::phases(curves, run);
-    for (part, [measured, predicted]) in &phases {
+    if phases.is_empty() && ["drop", "machine"].contains(&run.outcome.system) {
+        list.push(PhaseUnknown);
+    }
+    for (part, [measured, predicted]) in phases {
         if (measured - predicted).abs() > APART {
-            let (part, measured, predicted) = (part.clone(), *measured, *predicted);
-            list.push(
-                MeasuredWarning::PhaseDiffers {
-                    part,
-                    measured,
-                    predicted,
-                }
-                .into(),
-            );
+            list.push(PhaseDiffers {
+                part,
+                measured,
+                predicted,
+            });
         }
     }
-    if phases.is_empty() && ["drop", "machine"].contains(&run.outcome.system) {
-        list.push(MeasuredWarning::PhaseUnknown.into());
-    }
-    list
+    list.into_iter().map(Warning::from).collect()
 }

@@ -36,6 +36,7 @@ const TOGETHER: f64 = 0.95;
 const RIVAL: (f64, f64) = (1.05, 5.0);
 /// Nearest to a bound, as a share of both.
 const EDGE: f64 = 1e-3;
+const NO_MISFIT: &str = "no member has measured.misfit: a run of the scenario says why";
 
 /// What measured curves say of inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,13 +97,12 @@ impl Study {
         let misfits = table.values(MISFIT);
         let known = misfits.iter().zip(&table.members);
         let known = known.filter_map(|(misfit, member)| Some(((*misfit)?, *member)));
-        let Some((_, best)) = known.clone().min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            let why = "no member has measured.misfit: see its reason in a run of the scenario";
-            return Some(Err(why.to_string()));
-        };
-        let curves = match crate::build(&self.file.scenario) {
-            Ok(machine) => machine.measured,
-            Err(problem) => return Some(Err(problem.to_string())),
+        let best = known.clone().min_by(|a, b| a.0.total_cmp(&b.0));
+        let machine = crate::build(&self.file.scenario).map_err(|problem| problem.to_string());
+        let (best, curves) = match (best, machine) {
+            (Some((_, best)), Ok(machine)) => (best, machine.measured),
+            (_, Err(why)) => return Some(Err(why)),
+            (None, _) => return Some(Err(NO_MISFIT.to_string())),
         };
         let fit = Fit::<N> {
             study: self,
@@ -113,88 +113,71 @@ impl Study {
         let step = 0.5 / (table.members.len() as f64).powf(1.0 / N as f64);
         let step = start.map(|u| if u > 0.5 { -step } else { step });
         let rows = fit.at(&start).map_or(0, |own| own.concat().len());
-        let calls = CALLS[0] + CALLS[1] * N;
-        let mut runs = 1;
+        let (calls, mut runs) = (CALLS[0] + CALLS[1] * N, 2 + 4 * N);
         let (found, value) = simplex::lowest(start, step, TOLERANCE / rows as f64, calls, |u| {
             runs += 1;
             fit.mean_square(u)
         });
         let place = found.map(|u| u.clamp(0.0, 1.0));
-        let Some(at) = fit.at(&place).filter(|_| value.is_finite()) else {
-            let why = "no run of the search ended as planned".to_string();
-            return (!fit.interrupted()).then_some(Err(why));
-        };
+        let at = fit.at(&place).unwrap_or_default();
         let mut information = fit.information(&place, [STEPS[0]; N], &at);
         let steps = from_fn(|k| information[k][k].powf(-0.5).clamp(STEPS[1], STEPS[2]));
         information = fit.information(&place, steps, &at);
         if fit.interrupted() {
             return None;
         }
-        let covariance = covariance(&information);
-        let deviation = |k: usize| covariance.map(|own| own[k][k].sqrt());
-        let coefficient = |i: usize, k: usize| {
-            let apart = covariance?[i][k];
-            Some(apart / (deviation(i)? * deviation(k)?))
-        };
-        let inputs = (0..N).map(|k| {
-            let vary = &self.file.inputs[k].vary;
-            let number = |u: f64| at_share(vary, u).1;
-            let bounds = [number(0.0), number(1.0)];
-            let together = (0..N)
-                .find(|i| *i != k && coefficient(*i, k).is_some_and(|own| own.abs() > TOGETHER));
-            let edge = deviation(k).unwrap_or(0.0).clamp(EDGE, 0.5);
-            let why = match (deviation(k), together) {
-                (None, _) => "not determined: the curves do not tell the inputs apart".to_string(),
-                (Some(own), _) if own > DETERMINED => {
-                    "not determined: hardly better than its bounds".to_string()
-                }
-                (_, Some(other)) => format!(
-                    "determined together with {} alone",
-                    self.file.inputs[other].vary.path
-                ),
-                _ if place[k] < edge || place[k] > 1.0 - edge => {
-                    "at a bound: a wider one may fit better".to_string()
-                }
-                _ => String::new(),
-            };
-            Estimated {
-                path: vary.path.clone(),
-                unit: vary.unit(),
-                value: number(place[k]),
-                uncertainty: deviation(k).map(|own| own * (bounds[1] - bounds[0]).abs()),
-                bounds,
-                set: at_share(vary, place[k]).0,
-                why,
-            }
-        });
-        let inputs: Vec<Estimated> = inputs.collect();
+        if at.is_empty() || !value.is_finite() {
+            return Some(Err("no run of the search ended as planned".to_string()));
+        }
+        let (deviations, correlation) = uncertainties(&information);
         let misfit = value.sqrt();
-        let mut rivals = known.filter(|(own, member)| {
-            let shares: [f64; N] = self.shares(*member);
-            let far = |k: usize| {
-                deviation(k).is_some_and(|own| (shares[k] - place[k]).abs() > RIVAL.1 * own)
-            };
-            *own <= RIVAL.0 * misfit && (0..N).any(far)
-        });
+        let far = |shares: [f64; N]| {
+            (0..N).any(|k| (shares[k] - place[k]).abs() > RIVAL.1 * deviations[k].unwrap_or(1.0))
+        };
+        let mut rivals = known.filter(|(own, k)| *own <= RIVAL.0 * misfit && far(self.shares(*k)));
+        let inputs = (0..N).map(|k| self.input(k, place[k], deviations[k], &correlation[k]));
+        let independent = at.iter().map(|own| own.len() as f64 / repetition(own));
         Some(Ok(Estimate {
             rival: rivals.next().map(|(_, member)| member),
-            correlation: (0..N)
-                .map(|i| {
-                    (0..N)
-                        .map(|k| coefficient(i, k).unwrap_or(f64::NAN))
-                        .collect()
-                })
-                .collect(),
+            rows: [at.concat().len() as f64, independent.sum()],
+            inputs: inputs.collect(),
+            correlation: correlation.map(|row| row.to_vec()).to_vec(),
             misfit,
-            rows: [
-                at.iter().map(Vec::len).sum::<usize>() as f64,
-                at.iter()
-                    .map(|own| own.len() as f64 / repetition(own))
-                    .sum(),
-            ],
-            runs: runs + 1 + 4 * N,
-            inputs,
+            runs,
         }))
+    }
+
+    /// An input at a share of its bounds, with its deviation as such a share and its coefficients with all.
+    fn input(&self, k: usize, at: f64, deviation: Option<f64>, coefficients: &[f64]) -> Estimated {
+        let vary = &self.file.inputs[k].vary;
+        let number = |u: f64| at_share(vary, u).1;
+        let bounds = [number(0.0), number(1.0)];
+        let beside = |i: usize| i != k && coefficients[i].abs() > TOGETHER;
+        let together = (0..coefficients.len()).find(|i| beside(*i));
+        let edge = deviation.unwrap_or(0.0).clamp(EDGE, 0.5);
+        let why = match (deviation, together) {
+            (None, _) => "not determined: the curves do not depend on it alone".to_string(),
+            (Some(own), _) if own > DETERMINED => {
+                "not determined: hardly better than its bounds".to_string()
+            }
+            (_, Some(i)) => format!(
+                "determined together with {} alone",
+                self.file.inputs[i].vary.path
+            ),
+            _ if at < edge || at > 1.0 - edge => {
+                "at a bound: a wider one may fit better".to_string()
+            }
+            _ => String::new(),
+        };
+        Estimated {
+            path: vary.path.clone(),
+            unit: vary.unit(),
+            value: number(at),
+            uncertainty: deviation.map(|own| own * (bounds[1] - bounds[0]).abs()),
+            bounds,
+            set: at_share(vary, at).0,
+            why,
+        }
     }
 
     /// Shares of the bounds that a member drew.
@@ -248,46 +231,37 @@ impl<const N: usize> Fit<'_, N> {
     /// Mean of the squares of the residuals; beyond the bounds it grows.
     fn mean_square(&self, shares: &[f64; N]) -> f64 {
         let inside = shares.map(|u| u.clamp(0.0, 1.0));
-        let beyond: f64 = (shares.iter().zip(&inside))
-            .map(|(u, inside)| (u - inside).abs())
-            .sum();
-        let all = self.at(&inside).map(|all| all.concat());
-        all.map_or(f64::INFINITY, |all| {
-            (1.0 + beyond) * mean_of_squares(&all) + beyond
-        })
+        let both = shares.iter().zip(&inside);
+        let beyond: f64 = both.map(|(u, inside)| (u - inside).abs()).sum();
+        let square = |all: Vec<Vec<f64>>| (1.0 + beyond) * mean_of_squares(&all.concat()) + beyond;
+        self.at(&inside).map_or(f64::INFINITY, square)
     }
 
     /// Σ JᵀJ/(s² τ) over the channels.
     fn information(&self, place: &[f64; N], steps: [f64; N], at: &[Vec<f64>]) -> [[f64; N]; N] {
-        let points: Vec<[f64; N]> = (0..2 * N)
-            .map(|point| {
-                let (k, sense) = (point / 2, if point % 2 == 0 { 1.0 } else { -1.0 });
-                let mut own = *place;
-                own[k] = (own[k] + sense * steps[k]).clamp(0.0, 1.0);
-                own
-            })
+        let point = |k: usize, sense: f64| {
+            let mut own = *place;
+            own[k] = (own[k] + sense * steps[k]).clamp(0.0, 1.0);
+            own
+        };
+        let points: Vec<[f64; N]> = (0..N)
+            .flat_map(|k| [point(k, 1.0), point(k, -1.0)])
             .collect();
         let found = host::in_pool(self.options.threads, || {
-            host::each(&points, |_, point| self.at(point))
+            host::each(&points, |_, point| self.at(point).unwrap_or_default())
         });
         let mut information = [[0.0; N]; N];
         for (channel, own) in at.iter().enumerate() {
             let slopes: [Vec<f64>; N] = from_fn(|k| {
                 let width = points[2 * k][k] - points[2 * k + 1][k];
-                match (&found[2 * k], &found[2 * k + 1]) {
-                    (Some(above), Some(below)) => {
-                        let both = above[channel].iter().zip(&below[channel]);
-                        both.map(|(above, below)| (above - below) / width).collect()
-                    }
-                    _ => Vec::new(),
-                }
+                let of = |point: usize| found[point].get(channel).map_or(&[][..], Vec::as_slice);
+                let both = of(2 * k).iter().zip(of(2 * k + 1));
+                both.map(|(above, below)| (above - below) / width).collect()
             });
             let weight = 1.0 / (mean_of_squares(own).max(1.0) * repetition(own));
-            for i in 0..N {
-                for k in 0..N {
-                    let product = slopes[i].iter().zip(&slopes[k]).map(|(a, b)| a * b);
-                    information[i][k] += weight * product.sum::<f64>();
-                }
+            for (i, k) in (0..N).flat_map(|i| (0..N).map(move |k| (i, k))) {
+                let product = slopes[i].iter().zip(&slopes[k]).map(|(a, b)| a * b);
+                information[i][k] += weight * product.sum::<f64>();
             }
         }
         information
@@ -304,47 +278,30 @@ fn repetition(values: &[f64]) -> f64 {
     let apart: Vec<f64> = values.iter().map(|own| own - mean).collect();
     let product = |lag: usize| -> f64 { apart.iter().zip(&apart[lag..]).map(|(a, b)| a * b).sum() };
     let whole = product(0);
-    if !(whole > 0.0) {
+    if whole <= 0.0 || whole.is_nan() {
         return 1.0;
     }
     let coefficients = (1..apart.len() / 2).map(|lag| product(lag) / whole);
     1.0 + 2.0 * coefficients.take_while(|own| *own > 0.0).sum::<f64>()
 }
 
-/// Inverse of the information; none where the inputs cannot be told apart.
-fn covariance<const N: usize>(information: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+/// Deviations and coefficients by the inverse of the information; none of an input that nothing depends on, of none where they cannot
+/// be told apart.
+fn uncertainties<const N: usize>(information: &[[f64; N]; N]) -> ([Option<f64>; N], [[f64; N]; N]) {
     let size: [f64; N] = from_fn(|k| information[k][k].sqrt());
-    if !size.iter().all(|own| *own > 0.0) {
-        return None;
-    }
-    let plain: [[f64; N]; N] = from_fn(|i| from_fn(|k| information[i][k] / (size[i] * size[k])));
-    let inverse = linear::inverse(plain, 1e-10)?;
-    Some(from_fn(|i| {
-        from_fn(|k| inverse[i][k] / (size[i] * size[k]))
-    }))
+    let plain = from_fn(|i| {
+        from_fn(|k| match size[i] * size[k] {
+            both if both > 0.0 => information[i][k] / both,
+            _ => f64::from(u8::from(i == k)),
+        })
+    });
+    let inverse: [[f64; N]; N] = linear::inverse(plain, 1e-10).unwrap_or([[f64::INFINITY; N]; N]);
+    let known = |own: &f64| own.is_finite();
+    let deviations = from_fn(|k| Some(inverse[k][k].sqrt() / size[k]).filter(known));
+    let of = |i: usize, k: usize| inverse[i][k] / (inverse[i][i] * inverse[k][k]).sqrt();
+    (deviations, from_fn(|i| from_fn(|k| of(i, k))))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_repeats_itself_counts_once() {
-        let mut random = statistics::random::Random::new(7);
-        let noise: Vec<f64> = (0..4000).map(|_| random.normal()).collect();
-        assert!((repetition(&noise) - 1.0).abs() < 0.2);
-        let thrice: Vec<f64> = noise.iter().flat_map(|own| [*own; 3]).collect();
-        // ρ = 2/3, 1/3 of three equal neighbours: 1 + 2 (2/3 + 1/3)
-        assert!((repetition(&thrice) - 3.0).abs() < 0.4);
-    }
-
-    #[test]
-    fn inputs_that_act_alike_have_no_covariance() {
-        assert_eq!(covariance(&[[1.0, 2.0], [2.0, 4.0]]), None);
-        assert_eq!(
-            covariance(&[[4.0, 0.0], [0.0, 0.25]]),
-            Some([[0.25, 0.0], [0.0, 4.0]])
-        );
-        assert_eq!(covariance(&[[0.0]]), None);
-    }
-}
+#[path = "../../tests/unit/estimate.rs"]
+mod tests;

@@ -70,11 +70,6 @@ impl<'a> One<'a> {
             members: 1,
         }
     }
-    /// The same whose history is kept.
-    pub fn with_history(mut self) -> Self {
-        self.member.keep_rows = true;
-        self
-    }
     /// Whether it is the one member of its repetition that is kept whole, or no repetition.
     pub(crate) fn speaks(&self) -> bool {
         self.members == 1 || self.member.keep_rows
