@@ -5,9 +5,10 @@ use crate::digits::readable;
 use crate::exit::Exit;
 use crate::limits::bound;
 use crate::{console, run};
+use auxbear::problem::key::article;
 use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::free_path;
-use auxbear::report::study::{Directory, Done, chosen};
+use auxbear::report::study::{Directory, Done, chosen, estimate_note, estimate_rows};
 use auxbear::run::Options;
 use auxbear::run::outcome::{Severity, Verdict};
 use auxbear::scenario::StudyFile;
@@ -214,9 +215,10 @@ pub fn cases(study: &Study, answer: &Answer) -> String {
 fn text(path: &Path, study: &Study, done: &Done) -> String {
     let answer = &done.answer;
     let mut text = format!(
-        "{}: {} members of a {} design, {} failed\n",
+        "{}: {} members of {} {} design, {} failed\n",
         PathBuf::from(path).display(),
         answer.members,
+        article(study.file.kind),
         study.file.kind,
         done.failed
     );
@@ -237,6 +239,14 @@ fn text(path: &Path, study: &Study, done: &Done) -> String {
         .collect();
     if !limits.is_empty() {
         text.push_str(&format!("limits:\n{}", console::table(&limits)));
+    }
+    match &answer.estimate {
+        None => {}
+        Some(Err(why)) => text.push_str(&format!("nothing was estimated: {why}\n")),
+        Some(Ok(found)) => {
+            let table = console::table(&estimate_rows(found));
+            text.push_str(&format!("estimate:\n{table}{}\n", estimate_note(found)));
+        }
     }
     text.push_str(&ranking(study, answer));
     text.push_str(&spreads(study, answer));

@@ -153,6 +153,11 @@ class StudyResult:
         """Limits with their verdicts."""
         return self.summary["limits"]
 
+    @property
+    def estimate(self) -> dict[str, Any] | None:
+        """Inputs with their standard uncertainties, of a study of ``kind = "estimate"`` whose members are all there."""
+        return self.summary.get("estimate")
+
     def __getitem__(self, name: str) -> dict[str, Any]:
         """Mean and spread of a result over the members."""
         known = self.summary["quantities"]

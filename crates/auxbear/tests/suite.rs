@@ -24,6 +24,7 @@ mod machine;
 mod machine_results;
 mod machine_supports;
 mod magnets_under_load;
+mod measured;
 mod measurement_file;
 mod mount;
 mod oil_range;

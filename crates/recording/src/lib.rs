@@ -8,6 +8,7 @@
 #[cfg(feature = "files")]
 pub mod file;
 mod find;
+pub mod over_time;
 pub mod unit;
 
 pub use find::{NoChannel, find};

@@ -67,6 +67,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/curves.js"),
     include_str!("page/histories.js"),
     include_str!("page/closely.js"),
+    include_str!("page/measured.js"),
     include_str!("page/orbit.js"),
     include_str!("page/orders.js"),
     include_str!("page/maps.js"),

@@ -1,12 +1,14 @@
 //! Many single runs of scenarios that differ.
 
-use crate::{build, known};
+use crate::measured::Curve;
+use crate::{Machine, build, built, known};
 use outcome::host::{self, in_pool};
 use outcome::options::Options;
 use outcome::{Outcome, Stop};
 use problem::{Problem, Result};
 use scenario::Scenario;
 use simulate::drop::each::{self, One};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn not_built(problem: &Problem) -> Box<Outcome> {
@@ -20,7 +22,8 @@ fn not_built(problem: &Problem) -> Box<Outcome> {
     })
 }
 
-/// Runs each scenario once; drops of one kind share lanes. A scenario that could not be read or built is a result that says
+/// Runs each scenario once; drops of one kind share lanes, but for those beside measured channels, whose histories would fill the memory.
+/// A scenario that could not be read or built is a result that says
 /// why; histories are not kept. The numbers of one depend on its scenario alone.
 pub fn each(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     in_pool(options.threads, || of_pool(scenarios, options))
@@ -28,8 +31,9 @@ pub fn each(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
 
 fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     let done = AtomicUsize::new(0);
+    let curves = curves_of(scenarios);
     let stages = host::each(scenarios, |_, scenario| {
-        let stage = staged(scenario, options);
+        let stage = staged(scenario, &curves, options);
         if stage.is_err() {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             (options.progress)(done as f64 / scenarios.len() as f64);
@@ -68,13 +72,24 @@ fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
     list.into_iter().flatten().collect()
 }
 
-/// Builds a drop; runs anything else at once, on the thread that has it.
-fn staged<'a>(scenario: &'a Result<Scenario>, options: &Options) -> Result<One<'a>, Box<Outcome>> {
+/// The measured channels that these scenarios have in common; what is wrong with them was reported when the first was built.
+fn curves_of(scenarios: &[Result<Scenario>]) -> Arc<Vec<Curve>> {
+    let mut measured = (scenarios.iter().flatten()).filter(|own| !own.measured.is_empty());
+    let machine = measured.find_map(|scenario| build(scenario).ok());
+    machine.map(|machine| machine.measured).unwrap_or_default()
+}
+
+/// Builds a drop; runs anything else, and a drop beside measured channels, at once, on the thread that has it.
+fn staged<'a>(
+    scenario: &'a Result<Scenario>,
+    curves: &Arc<Vec<Curve>>,
+    options: &Options,
+) -> Result<One<'a>, Box<Outcome>> {
     let scenario = match scenario {
         Ok(scenario) => scenario,
         Err(problem) => return Err(not_built(problem)),
     };
-    if let Some(drop) = scenario.drop() {
+    if let Some(drop) = scenario.drop().filter(|_| scenario.measured.is_empty()) {
         return each::one(scenario, drop).map_err(|problem| not_built(&scenario.locate(problem)));
     }
     let unwatched = Options {
@@ -82,7 +97,15 @@ fn staged<'a>(scenario: &'a Result<Scenario>, options: &Options) -> Result<One<'
         interrupt: options.interrupt,
         progress: &|_| {},
     };
-    Err(match build(scenario) {
+    let machine = match scenario.measured.is_empty() {
+        true => build(scenario),
+        // their files were read once
+        false => built(scenario).map(|machine| Machine {
+            measured: curves.clone(),
+            ..machine
+        }),
+    };
+    Err(match machine {
         Ok(machine) => Box::new(Outcome {
             history: Vec::new(),
             files: Vec::new(),

@@ -11,6 +11,7 @@ mod before;
 mod cutoff;
 mod each;
 mod known;
+mod measured;
 pub mod study;
 #[cfg(test)]
 mod tests;
@@ -37,6 +38,7 @@ use std::sync::Arc;
 pub struct Machine<'a> {
     scenario: &'a Scenario,
     system: Built<'a>,
+    measured: Arc<Vec<measured::Curve>>,
 }
 
 /// The machine of each system.
@@ -53,6 +55,21 @@ enum Built<'a> {
 
 /// Builds the machine that the scenario describes; runs nothing.
 pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
+    let mut machine = built(scenario)?;
+    let here = |problem| scenario.locate(problem);
+    machine.measured = measured::read(scenario, &machine.columns())
+        .map_err(here)?
+        .into();
+    let limits = scenario.limits_here();
+    if !limits.is_empty() {
+        let declared: Vec<_> = warnings::declared().collect();
+        limits::check(&limits, &machine.results(), &declared).map_err(here)?;
+    }
+    Ok(machine)
+}
+
+/// The machine without what its results are compared with.
+fn built(scenario: &Scenario) -> Result<Machine<'_>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
             let others = drop::repetition::others(scenario, &built)?;
@@ -73,14 +90,11 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
         System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
-    let machine = Machine { scenario, system };
-    let limits = scenario.limits_here();
-    if !limits.is_empty() {
-        let declared: Vec<_> = warnings::declared().collect();
-        limits::check(&limits, &machine.results(), &declared)
-            .map_err(|problem| scenario.locate(problem))?;
-    }
-    Ok(machine)
+    Ok(Machine {
+        scenario,
+        system,
+        measured: Arc::default(),
+    })
 }
 
 /// The results that only the other cases of a scenario have.
@@ -106,6 +120,7 @@ impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
         let (mut outcome, seconds) = host::timed(|| self.computed(options));
+        measured::add(&self.measured, &mut outcome);
         outcome.work.seconds = seconds;
         outcome.work.members = outcome.work.members.max(1);
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
@@ -162,6 +177,12 @@ impl Machine<'_> {
 
     /// The columns of a run's history, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn columns(&self) -> Vec<Column> {
+        let mut columns = self.computed_columns();
+        columns.extend(measured::columns(&self.measured, &[]));
+        columns
+    }
+
+    fn computed_columns(&self) -> Vec<Column> {
         match &self.system {
             Built::Drop(built, _) => drop::columns(built),
             Built::SpinUp(of, built) => spin_up::columns(of, built),
@@ -176,6 +197,12 @@ impl Machine<'_> {
 
     /// The results of a run, without values; each `*` in a name stands for what only a run or its data decide.
     pub fn results(&self) -> Vec<Quantity> {
+        let mut results = self.computed_results();
+        results.extend(measured::name(&self.measured, None));
+        results
+    }
+
+    fn computed_results(&self) -> Vec<Quantity> {
         match &self.system {
             Built::Drop(built, _) => {
                 let mut list = drop::results(built);

@@ -1,5 +1,6 @@
 //! Every warning that a run may give, from the tables of their homes.
 
+use crate::measured::warnings::MeasuredWarning;
 use analyse::identify::notes::IdentifyWarning;
 use analyse::mount::MountWarning;
 use analyse::rotor::warnings::RotorWarning;
@@ -38,6 +39,7 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
         RotorWarning::DECLARED,
         MountWarning::DECLARED,
         TorqueWarning::DECLARED,
+        MeasuredWarning::DECLARED,
     ];
     homes.into_iter().flatten()
 }

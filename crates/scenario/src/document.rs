@@ -2,6 +2,7 @@
 
 use crate::key::{Key, quoted};
 use crate::meant;
+use crate::measured::{self, MEASURED};
 use crate::not_modelled;
 use crate::rotor::keys::{OF_MACHINES, kind_at, kind_within};
 use crate::rotor::tables::{self, WrittenPart, is_part};
@@ -33,6 +34,8 @@ pub struct Document {
     pub vary: Vec<Written>,
     /// What results must hold: the keys of each limit.
     pub limits: Vec<Vec<Written>>,
+    /// Measured channels beside predicted columns: the keys of each.
+    pub measured: Vec<Vec<Written>>,
     /// Parts of a flexible rotor.
     pub parts: Vec<WrittenPart>,
 }
@@ -66,6 +69,7 @@ impl Document {
             own: Vec::new(),
             vary: Vec::new(),
             limits: Vec::new(),
+            measured: Vec::new(),
             parts: Vec::new(),
         };
         let mut entries = Vec::new();
@@ -81,8 +85,13 @@ impl Document {
         if let Some((key, value)) = root.get_ref().get_key_value(VARY) {
             document.add_varied(text, key.span().start, value.get_ref())?;
         }
-        if let Some((key, value)) = root.get_ref().get_key_value(LIMIT) {
-            document.limits = tables(text, key.span().start, value.get_ref());
+        for (name, list) in [
+            (LIMIT, &mut document.limits),
+            (MEASURED, &mut document.measured),
+        ] {
+            if let Some((key, value)) = root.get_ref().get_key_value(name) {
+                *list = tables(text, key.span().start, value.get_ref());
+            }
         }
         document.parts = tables::read_all(text, root.get_ref(), file, document.system)?;
         for set in sets {
@@ -166,6 +175,7 @@ impl Document {
         rotor.own.clear();
         rotor.vary.clear();
         rotor.limits.clear();
+        rotor.measured.clear();
         Document { system, ..rotor }
     }
 
@@ -333,6 +343,9 @@ impl Document {
         }
         if self.system.has_shaft() && kind_within(&path.join(".")).is_some() {
             return tables::set(&mut self.parts, &self.file, &path, raw);
+        }
+        if path[0] == MEASURED && path.len() > 1 {
+            return measured::set(self, &path, raw);
         }
         if path[0] == AUXILIARY_BEARING {
             return self.add_to_bearing(&path, raw, typed.to_string());
@@ -526,7 +539,7 @@ fn flatten(system: SystemName, table: &DeTable<'_>, prefix: &[String], entries: 
         let mut path = prefix.to_vec();
         path.push(key.get_ref().to_string());
         let dotted = path.join(".");
-        let is_list = [AUXILIARY_BEARING, VARY, LIMIT].contains(&dotted.as_str());
+        let is_list = [AUXILIARY_BEARING, VARY, LIMIT, MEASURED].contains(&dotted.as_str());
         if is_list || (kind_at(&dotted).is_some_and(|kind| is_part(system, kind, value.get_ref())))
         {
             continue;

@@ -22,6 +22,7 @@ pub mod key;
 pub mod limit;
 pub mod locate;
 pub mod meant;
+pub mod measured;
 pub mod not_modelled;
 pub mod notes;
 pub mod resolve;
@@ -68,6 +69,7 @@ pub use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
 pub use limit::{Forbidden, Limit, Side, present_name};
 pub use locate::{UNNAMED, problem_at};
+pub use measured::Measured;
 pub use problem::provenance::Provenance;
 pub use resolved::{Resolved, ResolvedValue};
 pub use rig::{
@@ -264,6 +266,8 @@ pub struct Scenario {
     pub vary: Vec<Vary>,
     /// What results must hold.
     pub limits: Vec<Limit>,
+    /// Measured channels beside predicted columns.
+    pub measured: Vec<Measured>,
     /// What the user should know of the values themselves.
     pub notes: Vec<Warning>,
     /// What was read, to be read again with other values.
@@ -442,6 +446,7 @@ impl Scenario {
             _ => Vec::new(),
         };
         let limits = limit::of(&document, &system.cases())?;
+        let measured = measured::of(&document)?;
         let parts = rotor::tables::toml(&document, &values[0]);
         let mut notes: Vec<Warning> = Vec::new();
         for note in values.iter().flat_map(values::Values::notes) {
@@ -458,9 +463,11 @@ impl Scenario {
             resolved: values::Values::resolved(&values)
                 .varied(&vary)
                 .of_parts(parts)
-                .limited(limits.iter().map(Limit::toml).collect()),
+                .listed(limits.iter().map(Limit::toml))
+                .listed(measured.iter().map(Measured::toml)),
             vary,
             limits,
+            measured,
             notes,
             document,
         };

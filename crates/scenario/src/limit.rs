@@ -366,10 +366,10 @@ fn bound_of(table: &Table, side: &str) -> Result<(f64, Dimension, String)> {
 }
 
 /// Why a value is none: code, what was found, a hint.
-type Refused = (Code, String, Option<String>);
+pub(crate) type Refused = (Code, String, Option<String>);
 
 /// A quantity or a bare number: in SI, its dimension, and as a file has it; else code, what was found and a hint.
-fn amount(raw: &Raw) -> Result<(f64, Dimension, String), Refused> {
+pub(crate) fn amount(raw: &Raw) -> Result<(f64, Dimension, String), Refused> {
     let (value, dimension, text) = match raw {
         Raw::Text(text) => {
             let text = text.trim();

@@ -45,8 +45,8 @@ pub struct Resolved {
     pub values: Vec<ResolvedValue>,
     /// What `[vary]` says, a line each.
     vary: Vec<String>,
-    /// What results must hold, a table each.
-    limits: Vec<String>,
+    /// What results must hold, and measured channels, a table each.
+    tables: Vec<String>,
     /// Parts of a flexible rotor, a table each, with the paths of what is assumed of it.
     parts: Vec<(String, Vec<String>)>,
 }
@@ -56,7 +56,7 @@ impl Resolved {
         Resolved {
             values,
             vary: Vec::new(),
-            limits: Vec::new(),
+            tables: Vec::new(),
             parts: Vec::new(),
         }
     }
@@ -89,9 +89,9 @@ impl Resolved {
             })
         })
     }
-    /// The same with what results must hold, each limit as a file has it.
-    pub fn limited(mut self, limits: Vec<String>) -> Resolved {
-        self.limits = limits;
+    /// The same with tables of a list, each as a file has it: what results must hold, measured channels.
+    pub fn listed(mut self, tables: impl Iterator<Item = String>) -> Resolved {
+        self.tables.extend(tables);
         self
     }
     /// The same with what repeated runs vary; what the keys of `[repeat]` say stands there.
@@ -152,8 +152,8 @@ impl Resolved {
         if !self.vary.is_empty() {
             out.push_str(&format!("\n[{VARY}]\n{}\n", self.vary.join("\n")));
         }
-        for limit in &self.limits {
-            out.push_str(&format!("\n{limit}"));
+        for table in &self.tables {
+            out.push_str(&format!("\n{table}"));
         }
         out
     }

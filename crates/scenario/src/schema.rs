@@ -14,9 +14,10 @@
 //! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
 
 use crate::key::{Condition, Key, Kind, Otherwise, Presence, Range, Section};
+use crate::measured::{MEASURED, TABLE};
 use crate::rotor::keys::{PARTS, PartKind};
 use crate::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
-use crate::system::SystemName;
+use crate::system::{OVER_TIME, SystemName};
 use crate::table;
 use crate::values::{COMPARED_LAWS, LAW};
 use problem::read::FILLED_IN;
@@ -63,6 +64,9 @@ fn root(system: SystemName) -> Value {
         properties(&mut root, key.section()).insert(key.name().to_string(), known);
     }
     properties(&mut root, "").insert(LIMIT.to_string(), limits(system));
+    if OVER_TIME.contains(&system) {
+        properties(&mut root, "").insert(MEASURED.to_string(), parts(&TABLE, system));
+    }
     if system.has_shaft() {
         for kind in PARTS.iter().filter(|kind| system.has_part(kind.word)) {
             properties(&mut root, kind.table()).insert(kind.word.to_string(), parts(kind, system));
@@ -531,12 +535,8 @@ fn number(kind: &str, range: Range) -> Value {
 /// A value as written in the table, as JSON; null where it has no short form.
 fn typed(key: &Key, text: &str) -> Value {
     match key.kind {
-        Kind::Coefficient => text
-            .parse::<f64>()
-            .map_or(Value::Null, |value| json!(value)),
-        Kind::Count => text
-            .parse::<u64>()
-            .map_or(Value::Null, |value| json!(value)),
+        Kind::Coefficient => text.parse().map_or(Value::Null, |value: f64| json!(value)),
+        Kind::Count => text.parse().map_or(Value::Null, |value: u64| json!(value)),
         Kind::Switch => json!(text == "true"),
         // a list of texts, or of lists of texts, which TOML and JSON write alike
         Kind::Table(..) | Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts => {

@@ -7,7 +7,7 @@
 //! seed = 1
 //!
 //! [design]
-//! kind = "monte carlo"          # widened, latin hypercube, sobol, factorial, sweep, morris, saltelli, selection, qualification
+//! kind = "monte carlo"          # widened, latin hypercube, sobol, factorial, sweep, morris, saltelli, selection, estimate, qualification
 //! members = 1000                # blocks of morris and saltelli
 //!
 //! [[input]]
@@ -24,7 +24,7 @@
 //! ```
 
 use crate::study_document::{self, StudyDocument};
-use crate::study_inputs::{StudyInput, inputs_of};
+use crate::study_inputs::{StudyInput, estimable, inputs_of};
 use crate::{Accuracy, BuiltIn, CASE, Distribution, Limit, Scenario, UNBALANCE_ANGLE};
 use problem::key::{Key, Kind, Range, quoted};
 use problem::raw::{Raw, Sections, Written};
@@ -43,7 +43,7 @@ const MOST_MEMBERS: usize = 1_000_000;
 const WIDENING: f64 = 2.0;
 /// Largest one: beyond it hardly a member counts.
 const MOST_WIDENING: f64 = 4.0;
-const DESIGNS: [&str; 10] = [
+const DESIGNS: [&str; 11] = [
     "monte carlo",
     "widened",
     "latin hypercube",
@@ -53,8 +53,11 @@ const DESIGNS: [&str; 10] = [
     "morris",
     "saltelli",
     "selection",
+    ESTIMATE,
     QUALIFICATION,
 ];
+/// Inputs within bounds that measured curves determine.
+const ESTIMATE: &str = "estimate";
 /// Every case at every level of the inputs that have levels, each with the same draws of the others.
 pub(super) const QUALIFICATION: &str = "qualification";
 
@@ -182,6 +185,9 @@ impl StudyFile {
             tables.splice(0..0, of_each_qualification(&scenario, &tables));
         }
         let inputs = inputs_of(file, &scenario, &tables, kind)?;
+        if kind == ESTIMATE {
+            estimable(file, &scenario, &inputs)?;
+        }
         let (design, asked, added) = design_of(file, sections.one("design"), kind, &inputs)?;
         let (pairs, correlation) = correlated(file, sections.all("correlation"), &inputs, kind)?;
         let keys: &[Key] = match kind {
@@ -227,6 +233,11 @@ impl StudyFile {
             rank: question.text("rank").map(ranked),
             document,
         })
+    }
+
+    /// Whether measured curves are to determine its inputs.
+    pub fn estimates(&self) -> bool {
+        self.kind == ESTIMATE
     }
 
     /// Refuses what is no qualification.
@@ -498,7 +509,7 @@ fn design_of(
         "sweep" => Design::Sweep(levels()),
         "monte carlo" => Design::MonteCarlo(count, asked),
         "widened" => Design::Widened(count, asked, table.number("widen").unwrap_or(WIDENING)),
-        "latin hypercube" => Design::LatinHypercube(count, asked, 1),
+        "latin hypercube" | ESTIMATE => Design::LatinHypercube(count, asked, 1),
         "sobol" => Design::Sobol(count, asked),
         "morris" => Design::Morris(count, asked),
         kind if has_candidates(kind) => Design::Selection(levels(), asked),

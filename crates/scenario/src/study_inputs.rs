@@ -10,6 +10,8 @@ use problem::{Code, Problem, Result};
 
 /// Levels of an input of a factorial or a sweep, unless given.
 const LEVELS: usize = 5;
+/// Inputs of an estimate, at most.
+const MOST_ESTIMATED: usize = 5;
 const WORDS: [&str; 5] = ["lognormal", "normal", "uniform", "triangular", "choice"];
 /// Bearings by their dimensions.
 const CATALOGUE: &str = "catalogue";
@@ -198,4 +200,29 @@ pub(super) fn inputs_of(
         );
     }
     Ok(inputs)
+}
+
+/// Refuses an estimate without measured channels, or of inputs without bounds.
+pub(super) fn estimable(file: &str, scenario: &Scenario, inputs: &[StudyInput]) -> Result<()> {
+    let refuse = |key: &str, found: String, allowed: &str| {
+        Err(Problem::new(Code::StudyDesign, file, found, allowed).on_key(key))
+    };
+    if scenario.measured.is_empty() {
+        let found = "a scenario without measured channels".to_string();
+        let allowed = "tables [[measured]] in it are needed: an estimate compares with them";
+        return refuse("scenario", found, allowed);
+    }
+    let bounded =
+        |input: &&StudyInput| !matches!(input.vary.distribution, Distribution::Uniform(..));
+    if let Some(input) = inputs.iter().find(bounded) {
+        let found = format!("{} of {}", input.written, input.vary.path);
+        let allowed = "bounds are needed of each input of an estimate, e.g. uniform = [0.1, 0.3]";
+        return refuse("input", found, allowed);
+    }
+    if inputs.len() > MOST_ESTIMATED {
+        let found = format!("{} inputs", inputs.len());
+        let allowed = format!("at most {MOST_ESTIMATED} are estimated at once");
+        return refuse("input", found, &allowed);
+    }
+    Ok(())
 }

@@ -181,6 +181,8 @@ pub const COASTING_DOWN: &[SystemName] = &[Drop, Machine, CoastDown];
 pub const WARMING: &[SystemName] = MOVING;
 /// All systems with a network of heat.
 pub const WITH_NETWORK: &[SystemName] = &[Drop, SpinUp, Rig, Machine, CoastDown];
+/// Systems that compute columns over time.
+pub const OVER_TIME: &[SystemName] = WITH_NETWORK;
 
 /// Systems whose runs have a choice of steps.
 pub const STEPPED: &[SystemName] = &[Drop, SpinUp, Machine];

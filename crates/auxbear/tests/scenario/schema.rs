@@ -3,6 +3,7 @@
 //! The judge below knows the words of JSON Schema that the schema uses, and panics at any other.
 
 use auxbear::catalogue;
+use auxbear::scenario::system::OVER_TIME;
 use auxbear::scenario::{
     BuiltIn, Scenario, SystemName, keys_of, parts_of, schema, sections_of, template,
 };
@@ -163,6 +164,9 @@ fn the_schema_has_every_section_and_key_and_no_other() {
             let asked = keys_of(SystemName::Rotor).map(|key| key.path);
             let asked = asked.filter(|path| path.starts_with("analysis."));
             known.extend(asked.chain(["analysis"]).map(String::from));
+        }
+        if OVER_TIME.contains(system) {
+            known.push("measured".to_string());
         }
         if system.has_auxiliary_bearings() {
             known.push("auxiliary_bearing".to_string());

@@ -36,6 +36,7 @@ function start() {
   const builders = [
     ...(compared && !ofOneRun(runs) ? [[differenceSection, runs]] : []),
     ...(runs.some((run) => limitsOf(run).length) ? [[limitSection, wholesOf(runs)]] : []),
+    ...(runs.some((run) => measuredOf(run).size) ? [[measuredSection, wholesOf(runs).filter((run) => measuredOf(run).size)]] : []),
     ...sectionsOf(runs),
     [quantitySection, runs],
     // bearings of one machine differ as they were given: no finding of a comparison

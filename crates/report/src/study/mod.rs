@@ -6,6 +6,7 @@
 mod bars;
 mod cells;
 mod document;
+mod estimate;
 mod page;
 mod parallel;
 mod part;
@@ -13,6 +14,7 @@ mod qualify;
 mod ranking;
 mod summary;
 
+pub use estimate::{note as estimate_note, rows as estimate_rows};
 pub use qualify::{Qualified, Wish};
 pub use ranking::verdict as chosen;
 
@@ -232,7 +234,7 @@ impl Directory {
     /// What cannot be written, and parts that cannot be read.
     pub fn finish(&self, options: &Options) -> Result<Done> {
         self.confirm(options)?;
-        self.told()
+        self.told(options)
     }
 
     /// Runs the members nearest to the limits again, once all members are there.
@@ -264,10 +266,13 @@ impl Directory {
     }
 
     /// Reads all parts and writes what they say.
-    fn told(&self) -> Result<Done> {
+    fn told(&self, options: &Options) -> Result<Done> {
         let table = table_of(&self.path, &self.study)?;
-        let answer = self.study.answer(&table);
+        let mut answer = self.study.answer(&table);
         let complete = table.members.len() == self.study.members();
+        if complete && self.study.file.estimates() {
+            answer.estimate = self.study.estimate(&table, options);
+        }
         let json = summary::json(&self.study, &table, &answer, complete);
         text_file(&self.path.join(TABLE), &part::csv(&self.study, &table))?;
         text_file(&self.path.join(SUMMARY), &json)?;

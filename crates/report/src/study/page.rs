@@ -2,7 +2,7 @@
 
 use super::bars::{Bars, WIDTH, bars, picture, room};
 use super::cells::{amount, bound, known, marked, rows, scaled, short};
-use super::{parallel, ranking};
+use super::{estimate, parallel, ranking};
 use crate::page::{STYLE, escape_text as plain};
 use crate::picture::{Panel, dot, line, text};
 use outcome::Severity;
@@ -32,6 +32,7 @@ pub(super) fn html(study: &Study, table: &Table, answer: &Answer) -> String {
     );
     body.push_str(&warned(table));
     body.push_str(&inputs(study));
+    body.push_str(&estimate::html(answer));
     body.push_str(&ranking::html(study, answer));
     body.push_str(&ranking::cases(study, answer));
     body.push_str(&verdicts(answer));

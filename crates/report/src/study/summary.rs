@@ -3,6 +3,7 @@
 use outcome::{Judged, Spread};
 use run::study::Study;
 use run::study::answer::{Answer, Sensitivity};
+use run::study::estimate::Estimate;
 use run::study::selection::Candidate;
 use run::study::table::Table;
 use serde_json::{Map, Value, json};
@@ -29,7 +30,7 @@ pub(super) fn json(study: &Study, table: &Table, answer: &Answer, complete: bool
             json!({"code": warned.code, "title": warned.title, "members": warned.members, "first_member": warned.first})
         })
         .collect();
-    let all = json!({
+    let mut all = json!({
         "format": "auxbear.study_summary/1",
         "version": env!("CARGO_PKG_VERSION"),
         "complete": complete,
@@ -48,7 +49,25 @@ pub(super) fn json(study: &Study, table: &Table, answer: &Answer, complete: bool
         "sensitivity": sensitivity,
         "failed": failed,
     });
+    if let Some(estimate) = &answer.estimate {
+        all["estimate"] = estimated(estimate);
+    }
     format!("{all:#}\n")
+}
+
+fn estimated(estimate: &Result<Estimate, String>) -> Value {
+    let found = match estimate {
+        Ok(found) => found,
+        Err(why) => return json!({"inputs": null, "why": why}),
+    };
+    let inputs: Vec<Value> = (found.inputs.iter().zip(&found.correlation))
+        .map(|(own, correlation)| {
+            json!({"path": own.path, "unit": own.unit, "value": own.value, "standard_uncertainty": own.uncertainty, "bounds": own.bounds,
+                "correlation": correlation, "determined": own.why.is_empty(), "why": own.why, "set": values_json(&own.set)})
+        })
+        .collect();
+    json!({"inputs": inputs, "misfit": found.misfit, "rows": found.rows[0], "independent_rows": found.rows[1], "runs": found.runs,
+        "member_as_good_elsewhere": found.rival})
 }
 
 fn quantity(unit: &str, spread: Option<&Spread>) -> Value {

@@ -1,6 +1,7 @@
 //! What the members of a study say: spread of each result, limits with their verdicts, which input matters.
 
 use super::Study;
+use super::estimate::{Estimate, MISFIT};
 use super::selection::{CONTACTS, Candidate};
 use super::table::Table;
 use outcome::limits;
@@ -31,6 +32,8 @@ pub struct Answer {
     pub ranking: Vec<Candidate>,
     /// What each result that is shown owes to each input.
     pub sensitivity: Vec<(String, &'static str, Sensitivity)>,
+    /// What measured curves say of the inputs, or why they say nothing; of an estimate whose members are all there.
+    pub estimate: Option<Result<Estimate, String>>,
 }
 
 /// A limit with its verdict.
@@ -74,6 +77,9 @@ impl Study {
         };
         let mut seen = Vec::new();
         names.retain(|name| !seen.contains(name) && (seen.push(name.clone()), true).1);
+        if names.is_empty() && self.file.estimates() {
+            names.push(MISFIT.to_string());
+        }
         if names.is_empty() {
             let numbers = |value: &Value| matches!(value, Value::Number(_) | Value::None { .. });
             let all = self.known.iter().filter(|known| numbers(&known.value));
@@ -149,6 +155,7 @@ impl Study {
             limits: limits.collect(),
             ranking: self.ranking(table),
             sensitivity: sensitivity.collect(),
+            estimate: None,
         }
     }
 

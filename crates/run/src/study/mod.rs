@@ -10,10 +10,12 @@
 //! | [`little_known`] | what verdicts of a qualification owe to the inputs that are known least |
 //! | [`failure_modes`] | ways in which bearings fail, with the results that show them |
 //! | [`in_a_row`] | drops in a row, with the wear of those before |
+//! | [`estimate`] | inputs that measured curves determine |
 //! | [`predicted`] | signals of a test with their bands |
 
 pub mod answer;
 pub mod confirm;
+pub mod estimate;
 pub mod failure_modes;
 pub mod in_a_row;
 pub mod little_known;

@@ -195,6 +195,6 @@ impl Values {
 }
 
 /// A path relative to the file that names it.
-fn beside(file: &str, path: &str) -> PathBuf {
+pub(crate) fn beside(file: &str, path: &str) -> PathBuf {
     Path::new(file).parent().unwrap_or(Path::new("")).join(path)
 }

@@ -1,0 +1,374 @@
+//! Measured channels beside predicted columns, at the rows of a run: `[[measured]]`.
+//!
+//! ```text
+//!   file ──recording::over_time──▶ Curve ──rows of the run──▶ Compared ──▶ differences
+//!                                                                   └───▶ features of both curves by one estimator each
+//! ```
+//! | page | subject |
+//! |---|---|
+//! | here | channels of files on the run's clock; columns `measured.*`; differences with what the noise of a channel explains |
+//! | [`features`] | contact, rebound, spin-up, orbit: of the measured and of the predicted curve |
+//! | [`warnings`] | what the comparison does not show |
+//!
+//! Not modelled: errors of the clock, drift and offset of a sensor; noise is taken as that of one standard deviation throughout.
+
+mod features;
+pub(crate) mod warnings;
+
+use outcome::list::{List, origins, results};
+use outcome::{Column, Outcome, Quantity, counted_from};
+use problem::{Code, Result, did_you_mean};
+use recording::over_time::{Unread, Wanted, over_time};
+use scenario::{Measured, Scenario};
+use statistics::interpolation::between;
+use units::{Unit, number_text};
+
+/// Values before the release that a deviation is estimated from, at least.
+const FEWEST: usize = 16;
+/// Standard deviations of the band whose share is told.
+const BAND: f64 = 2.0;
+/// What names of results and columns begin with.
+const MEASURED: &str = "measured";
+
+/// A measured channel on the clock of the run.
+#[derive(Debug)]
+pub(crate) struct Curve {
+    given: Measured,
+    /// What results and columns call it.
+    pub name: String,
+    unit: &'static str,
+    times: Vec<f64>,
+    values: Vec<f64>,
+}
+
+/// A measured and a predicted curve at the rows of a run that the file covers.
+#[derive(Debug, Default)]
+pub(crate) struct Compared {
+    pub time: Vec<f64>,
+    pub measured: Vec<f64>,
+    pub predicted: Vec<f64>,
+    /// Standard deviation of a measured value.
+    pub deviation: Option<f64>,
+}
+
+/// Reads the channels that a scenario names, and checks that the run has such columns.
+///
+/// # Errors
+/// What is wrong with a table or its file.
+pub(crate) fn read(scenario: &Scenario, columns: &[Column]) -> Result<Vec<Curve>> {
+    let end = (scenario.resolved.get("run.duration")).and_then(|value| value.value_si);
+    let until = scenario.resolved.get("run.until");
+    let ends = until.is_none_or(|until| until.text.as_deref() == Some("duration"));
+    let end = end.filter(|_| ends).unwrap_or(f64::INFINITY);
+    let curve = |given: &Measured| Curve::read(given, columns, end);
+    scenario.measured.iter().map(curve).collect()
+}
+
+impl Curve {
+    fn read(given: &Measured, columns: &[Column], end: f64) -> Result<Curve> {
+        let names = || columns.iter().map(|column| column.name.as_str());
+        let known = columns.iter().find(|column| column.name == given.column);
+        let Some(column) = known.filter(|column| column.name != "time") else {
+            let found = format!("\"{}\", which is no column of this run", given.column);
+            let last = |name: &str| name.rsplit('.').next().map(str::to_string);
+            // those that end like it first
+            let (alike, others): (Vec<&str>, Vec<&str>) =
+                (names().skip(1)).partition(|name| last(name) == last(&given.column));
+            let few: Vec<&str> = alike.into_iter().chain(others).take(8).collect();
+            let needed = format!(
+                "a column of its history is needed, such as {}; without this table auxbear results FILE lists all",
+                few.join(", ")
+            );
+            let problem = given.problem(Code::UnknownQuantity, "column", found, needed);
+            return Err(problem.with_hint(did_you_mean(&given.column, names())));
+        };
+        let refused = |why: Unread| {
+            let (key, needed) = match why.code {
+                Code::MeasurementUnreadable => ("file", why.needed),
+                _ if why.of_clock => ("channel", why.needed),
+                Code::ChannelUnit if given.unit.is_some() => ("unit", why.needed),
+                Code::ChannelUnit => ("channel", format!("{}, or measured.unit", why.needed)),
+                _ => ("channel", why.needed),
+            };
+            (given.problem(why.code, key, why.found, needed)).with_hint(why.hint)
+        };
+        if let Some((_, dimension, text)) = &given.deviation
+            && Unit::parse(column.unit).is_ok_and(|unit| unit.dimension() != *dimension)
+        {
+            let needed = format!("a quantity of the kind of {} is needed", column.unit);
+            return Err(given.problem(Code::WrongDimension, "deviation", text.clone(), needed));
+        }
+        let mut recording = recording::open(&given.file).map_err(|why| refused(why.into()))?;
+        let wanted = Wanted {
+            unit: column.unit,
+            own: given.unit.as_deref(),
+            scale: given.scale,
+        };
+        let rows = over_time(recording.as_mut(), &given.channel, wanted).map_err(refused)?;
+        let (times, values): (Vec<f64>, Vec<f64>) = (rows.iter())
+            .map(|[time, value]| (time + given.clock_offset, *value))
+            .unzip();
+        let curve = Curve {
+            name: given.name(),
+            given: given.clone(),
+            unit: column.unit,
+            times,
+            values,
+        };
+        let [first, last] = curve.span();
+        if last >= 0.0 && first <= end {
+            return Ok(curve);
+        }
+        let [first, last] = [first, last].map(|time| number_text(1e-6 * (1e6 * time).round()));
+        let found = format!("a file from {first} s to {last} s on the clock of the run");
+        let end = number_text(end);
+        let needed = format!(
+            "one that overlaps the run, from 0 s to {end} s, is needed: clock_offset is the instant of the run at which time 0 of the file lies"
+        );
+        Err(given.problem(Code::ChannelClock, "clock_offset", found, needed))
+    }
+
+    /// First and last instant, s.
+    fn span(&self) -> [f64; 2] {
+        [self.times[0], self.times[self.times.len() - 1]]
+    }
+
+    /// Its value at an instant, straight between its samples; not a number outside.
+    fn at(&self, time: f64) -> f64 {
+        between(&self.times, &self.values, time).unwrap_or(f64::NAN)
+    }
+
+    /// Standard deviation: as given, or of the second differences of the values before the release, which an orbit that is sampled
+    /// many times a turn does not raise.
+    fn deviation(&self, release: f64) -> Option<f64> {
+        if let Some((value, ..)) = self.given.deviation {
+            return Some(value);
+        }
+        let quiet = self.times.partition_point(|time| *time < release);
+        let square = |three: &[f64]| (three[0] - 2.0 * three[1] + three[2]).powi(2) / 6.0;
+        let squares = self.values[..quiet].windows(3).map(square);
+        let mean = squares.sum::<f64>() / quiet as f64;
+        let largest = self
+            .values
+            .iter()
+            .fold(0.0, |most: f64, own| most.max(own.abs()));
+        // less is rounding
+        (quiet >= FEWEST && mean.sqrt() > 1e-9 * largest).then(|| mean.sqrt())
+    }
+
+    /// The column of its name, at some instants.
+    fn column(&self, times: &[f64]) -> Column {
+        let file = self.given.file.file_name().unwrap_or_default();
+        Column {
+            name: format!("{MEASURED}.{}", self.name),
+            unit: self.unit,
+            meaning: format!(
+                "measured: {} of {}, straight between its samples",
+                self.given.channel,
+                file.to_string_lossy()
+            ),
+            optional: false,
+            values: times.iter().map(|time| self.at(*time)).collect(),
+        }
+    }
+
+    /// Root mean square of this drop less the first.
+    fn less_first(&self, run: &Run) -> Result<f64, String> {
+        let is_first = |own: &&Curve| own.given.drop == 1 && own.given.column == self.given.column;
+        let first = (run.curves.iter().find(is_first))
+            .ok_or("no first drop of this column was measured")?;
+        let time = run
+            .outcome
+            .column("time")
+            .map_or(&[][..], |time| &time.values);
+        let apart = time.iter().map(|time| self.at(*time) - first.at(*time));
+        root_mean_square(apart.filter(|own| own.is_finite()), NOTHING_COMMON)
+    }
+
+    fn compared(&self, outcome: &Outcome, release: f64) -> Compared {
+        let mut compared = Compared {
+            deviation: self.deviation(release),
+            ..Compared::default()
+        };
+        let values = |name| {
+            outcome
+                .column(name)
+                .map_or(&[][..], |column| &column.values)
+        };
+        for (time, predicted) in values("time").iter().zip(values(&self.given.column)) {
+            let measured = self.at(*time);
+            if measured.is_finite() && predicted.is_finite() {
+                compared.time.push(*time);
+                compared.measured.push(measured);
+                compared.predicted.push(*predicted);
+            }
+        }
+        compared
+    }
+}
+
+impl Compared {
+    fn differences(&self) -> impl Iterator<Item = f64> {
+        let both = self.measured.iter().zip(&self.predicted);
+        both.map(|(measured, predicted)| measured - predicted)
+    }
+
+    /// Differences over the standard deviation; none where it is not known.
+    pub fn residuals(&self) -> Option<Vec<f64>> {
+        let deviation = self.deviation?;
+        Some(self.differences().map(|own| own / deviation).collect())
+    }
+
+    fn rms(&self) -> Result<f64, String> {
+        root_mean_square(self.differences(), NOTHING_COMMON)
+    }
+
+    /// The largest difference, and its instant.
+    fn largest(&self) -> Result<(f64, f64), String> {
+        let all = self.differences().zip(self.time.iter().copied());
+        let largest = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        largest.ok_or_else(|| NOTHING_COMMON.to_string())
+    }
+
+    /// Range of the predicted curve.
+    fn range(&self) -> f64 {
+        let low = self.predicted.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = (self.predicted.iter().copied()).fold(f64::NEG_INFINITY, f64::max);
+        high - low
+    }
+
+    fn relative(&self) -> Result<f64, String> {
+        let range = Some(self.range()).filter(|range| *range > 0.0);
+        Ok(self.rms()? / range.ok_or("the predicted column does not change")?)
+    }
+
+    fn misfit(&self) -> Result<f64, String> {
+        let residuals = self.residuals().ok_or(NO_DEVIATION)?;
+        root_mean_square(residuals.into_iter(), NOTHING_COMMON)
+    }
+
+    fn share(&self) -> Result<f64, String> {
+        let residuals = self.residuals().ok_or(NO_DEVIATION)?;
+        let within = residuals.iter().filter(|own| own.abs() <= BAND).count();
+        let share = within as f64 / residuals.len() as f64;
+        (share.is_finite().then_some(share)).ok_or_else(|| NOTHING_COMMON.to_string())
+    }
+}
+
+const NOTHING_COMMON: &str = "file and run have no instant in common";
+const NO_DEVIATION: &str = "the standard deviation of the channel is not known: measured.deviation, or 16 values before the release that scatter, are needed";
+
+fn root_mean_square(values: impl Iterator<Item = f64>, why: &str) -> Result<f64, String> {
+    let (count, sum) = values.fold((0, 0.0), |(count, sum), own| (count + 1, sum + own * own));
+    let mean = (count > 0).then(|| sum / f64::from(count));
+    mean.map(f64::sqrt).ok_or_else(|| why.to_string())
+}
+
+/// Adds columns, results and warnings of the comparison to a run.
+pub(crate) fn add(curves: &[Curve], outcome: &mut Outcome) {
+    if curves.is_empty() {
+        return;
+    }
+    let release = counted_from(&outcome.quantities).unwrap_or(0.0);
+    let all: Vec<Compared> = (curves.iter())
+        .map(|curve| curve.compared(outcome, release))
+        .collect();
+    let run = Run {
+        outcome,
+        release,
+        curves,
+        all: &all,
+    };
+    let (quantities, warnings) = (name(curves, Some(&run)), warnings::of(curves, &run));
+    let times = outcome.column("time").map(|time| time.values.as_slice());
+    let columns: Vec<Column> = times.map_or_else(Vec::new, |times| columns(curves, times));
+    outcome.quantities.extend(quantities);
+    outcome.warnings.extend(warnings);
+    outcome.history.extend(columns);
+}
+
+/// Columns of the channels at some instants.
+pub(crate) fn columns(curves: &[Curve], times: &[f64]) -> Vec<Column> {
+    curves.iter().map(|curve| curve.column(times)).collect()
+}
+
+/// Differences over their deviations of each channel of the first drop whose deviation is known: what is predicted is that drop.
+pub(crate) fn residuals(curves: &[Curve], outcome: &Outcome) -> Vec<Vec<f64>> {
+    let release = counted_from(&outcome.quantities).unwrap_or(0.0);
+    let first = curves.iter().filter(|curve| curve.given.drop == 1);
+    let each = first.map(|curve| curve.compared(outcome, release));
+    each.filter_map(|own| own.residuals()).collect()
+}
+
+/// A run with its channels.
+pub(crate) struct Run<'a> {
+    outcome: &'a Outcome,
+    /// From which instants count, s.
+    release: f64,
+    curves: &'a [Curve],
+    all: &'a [Compared],
+}
+
+/// Names the results of the comparison, without a run those of any.
+pub(crate) fn name(curves: &[Curve], run: Option<&Run>) -> Vec<Quantity> {
+    let mut list = List::default();
+    if !curves.is_empty() {
+        overall(&mut list, &(), run);
+    }
+    for (k, curve) in curves.iter().enumerate() {
+        let own = run.map(|run| (&run.all[k], run));
+        let first = list.quantities.len();
+        list.named(&[&curve.name], |list| difference(list, curve, own.as_ref()));
+        for quantity in &mut list.quantities[first..] {
+            if quantity.unit == OF_COLUMN {
+                quantity.unit = curve.unit;
+            }
+        }
+        features::of_curve(&mut list, curve, own);
+    }
+    features::of_orbits(&mut list, curves, run);
+    list.quantities
+}
+
+results! {
+    fn overall(setup: &(), run: &Run) {
+        "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" => {
+            root_mean_square(residuals(run.curves, run.outcome).concat().into_iter(), NO_DEVIATION)
+        };
+    }
+    fn difference(curve: &Curve, run: &(&Compared, &Run)) {
+        "measured.*.deviation": number "of the column", DEVIATION, "standard deviation of the channel" in measured_difference "deviation of the channel" => run.0.deviation.ok_or_else(|| NO_DEVIATION.to_string());
+        "measured.*.rms_difference": number "of the column", RMS, "root mean square of measured less predicted" in measured_difference "rms difference" => run.0.rms();
+        "measured.*.largest_difference": number "of the column", LARGEST, "largest difference of measured less predicted" in measured_difference "largest difference" => run.0.largest().map(|(value, _)| value);
+        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => run.0.largest().map(|(_, time)| time);
+        "measured.*.relative_difference": number "1" headline, RELATIVE, "rms difference over the range of the prediction" in measured_difference "over the range [%]" => run.0.relative();
+        "measured.*.misfit": number "1", MISFIT, "rms difference over the standard deviation of the channel" in measured_difference "over the deviation" => run.0.misfit();
+        "measured.*.share_within_band": number "1", SHARE, "share of the rows within two standard deviations" in measured_difference "within two deviations [%]" => run.0.share();
+        "measured.*.rms_difference_from_drop_1": number "of the column", RMS, "root mean square of this drop less the first" in measured_difference "rms difference from drop 1" when curve.given.drop > 1 => curve.less_first(run.1);
+    }
+}
+
+/// The unit of what has that of its column.
+const OF_COLUMN: &str = "of the column";
+const HERE: &str = "crates/run/src/measured/mod.rs";
+
+origins! {
+    DEVIATION: law "measured.deviation, or sqrt(mean (v(i-1) - 2 v(i) + v(i+1))^2/6) over the values before the release",
+        source HERE,
+        valid "noise that is independent from value to value; a filtered channel scatters more than this says";
+    RMS: law "sqrt(mean (measured - predicted)^2) over the rows that the file covers",
+        source HERE,
+        valid "noise of the channel is in it; after the first impacts two drops of one machine differ as well";
+    LARGEST: law "measured - predicted where its size is largest, and that instant from the start of the run",
+        source HERE,
+        valid "at the rows of the run; at steep flanks a small error of the clock makes it";
+    RELATIVE: law "rms_difference over largest less smallest predicted value at these rows",
+        source HERE,
+        valid "as rms_difference";
+    MISFIT: law "rms_difference over deviation; of all channels of the first drop that of all their rows",
+        source HERE,
+        valid "1 where noise alone explains the difference; larger where the model, an input or the clock is off";
+    SHARE: law "share of the rows with |measured - predicted| of two deviations at most",
+        source HERE,
+        valid "0.95 where normal noise alone explains the difference";
+}

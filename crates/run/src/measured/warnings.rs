@@ -1,0 +1,70 @@
+//! What a comparison with measured channels does not show.
+
+use super::{Curve, Run, features};
+use outcome::Warning;
+use std::f64::consts::PI;
+
+/// Difference of orbit phases at the release from which on impacts differ by it, rad: three deviations of the phase of the smallest orbit
+/// that is taken for one.
+const APART: f64 = PI / 6.0;
+/// A file is coarser than the rows from this ratio of intervals on.
+const COARSER: f64 = 1.5;
+
+problem::warnings! {
+    /// Of measured channels beside predicted columns.
+    pub enum MeasuredWarning {
+        Coarse { part: text, interval: "s", rows: "s" } "AB2340" Note ("Channel of {part} is sampled every {:.3} ms, the run has a row every {:.3} ms: straight between its samples.", 1e3 * interval, 1e3 * rows);
+        PhaseDiffers { part: text, measured: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), predicted.to_degrees());
+        PhaseUnknown "AB2342" Note ("The measured channels do not show the phase of the orbit at the release. Impacts after the first depend on the angle of the unbalance at the release, an input (rotor.unbalance_angle).");
+        PartOfRun { part: text, from: "s", to: "s", end: "s" } "AB2343" Note ("File of {part} covers {from:.4} s to {to:.4} s of a run of {end:.4} s: compared there.");
+    }
+}
+
+pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
+    use MeasuredWarning::{Coarse, PartOfRun, PhaseDiffers, PhaseUnknown};
+    let mut list: Vec<MeasuredWarning> = Vec::new();
+    let time = run
+        .outcome
+        .column("time")
+        .map_or(&[][..], |time| &time.values);
+    let (Some(begin), Some(end)) = (time.first(), time.last()) else {
+        return Vec::new();
+    };
+    let mean = |times: &[f64]| (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    for curve in curves {
+        let part = || curve.name.clone();
+        let (interval, [from, to]) = (mean(&curve.times), curve.span());
+        let rows = if time.len() > 1 { mean(time) } else { interval };
+        if interval > COARSER * rows {
+            let part = part();
+            list.push(Coarse {
+                part,
+                interval,
+                rows,
+            });
+        }
+        if from > begin + interval || to < end - interval {
+            let (part, from, to, end) = (part(), from.max(*begin), to.min(*end), *end);
+            list.push(PartOfRun {
+                part,
+                from,
+                to,
+                end,
+            });
+        }
+    }
+    let phases = features::phases(curves, run);
+    if phases.is_empty() && ["drop", "machine"].contains(&run.outcome.system) {
+        list.push(PhaseUnknown);
+    }
+    for (part, [measured, predicted]) in phases {
+        if (measured - predicted).abs() > APART {
+            list.push(PhaseDiffers {
+                part,
+                measured,
+                predicted,
+            });
+        }
+    }
+    list.into_iter().map(Warning::from).collect()
+}

@@ -1,0 +1,307 @@
+//! Inputs whose predicted curves are most like the measured ones, and how well these determine them.
+//!
+//! ```text
+//!   members of the design ──best──▶ simplex on Σ r²/n ──▶ û          r = (measured - predicted)/deviation
+//!   r(û ± h) ──▶ J ──▶ cov = (Σ JᵀJ/(s² τ))⁻¹                        one term a channel
+//! ```
+//! s² is the mean of r² at û, 1 at least; τ = 1 + 2 Σ ρ(k) counts how many rows of a channel say the same, ρ the autocorrelation of r.
+//! Inputs are counted in shares of their bounds. All is a function of the file alone, whatever the number of threads.
+//!
+//! Source: weighted least squares; the inverse of the information matrix bounds the covariance (Cramér and Rao).
+//! Valid: near û the curves follow the inputs on straight lines; errors of the model that no input can cure are in s² and τ alone.
+
+use super::Study;
+use super::table::Table;
+use crate::Options;
+use crate::measured::{self, Curve};
+use outcome::host;
+use scenario::Vary;
+use statistics::design::Coordinate;
+use statistics::{linear, simplex};
+use std::array::from_fn;
+
+/// The result of a member that is made small.
+pub const MISFIT: &str = "measured.misfit";
+/// Evaluations of the simplex: so many, and so many an input.
+const CALLS: [usize; 2] = [20, 40];
+/// The simplex ends where Σ r² differs by less between its corners.
+const TOLERANCE: f64 = 0.02;
+/// Steps of the first and of the second slope at least and at most, as shares of the bounds.
+const STEPS: [f64; 3] = [1e-3, 1e-5, 2e-2];
+/// An input is determined where its deviation is at most this share of the bounds: half of that of the bounds themselves, 1/√12.
+const DETERMINED: f64 = 0.144;
+/// Two inputs whose coefficient is larger are determined together alone.
+const TOGETHER: f64 = 0.95;
+/// A member as good as the best one, by its misfit, and so many deviations away, is another estimate.
+const RIVAL: (f64, f64) = (1.05, 5.0);
+/// Nearest to a bound, as a share of both.
+const EDGE: f64 = 1e-3;
+const NO_MISFIT: &str = "no member has measured.misfit: a run of the scenario says why";
+
+/// What measured curves say of inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// Each input.
+    pub inputs: Vec<Estimated>,
+    /// Coefficients between them.
+    pub correlation: Vec<Vec<f64>>,
+    /// Root mean square of the residuals over their deviations at the estimate.
+    pub misfit: f64,
+    /// Rows that were compared, of all channels, and how many of them are independent.
+    pub rows: [f64; 2],
+    /// Runs besides the members.
+    pub runs: usize,
+    /// The first member that fits as well elsewhere.
+    pub rival: Option<usize>,
+}
+
+/// An input with its estimate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimated {
+    /// Its path.
+    pub path: String,
+    /// SI unit.
+    pub unit: String,
+    /// Best value, SI.
+    pub value: f64,
+    /// Standard uncertainty, SI; none where the curves do not depend on it.
+    pub uncertainty: Option<f64>,
+    /// Its bounds, SI.
+    pub bounds: [f64; 2],
+    /// Paths with the best value, as an override has them.
+    pub set: Vec<(String, String)>,
+    /// What is wrong with it, in words; empty where it is determined.
+    pub why: String,
+}
+
+impl Study {
+    /// Estimates the inputs from the best member on. None where this was interrupted.
+    ///
+    /// # Errors
+    /// Why nothing can be estimated.
+    pub fn estimate(&self, table: &Table, options: &Options) -> Option<Result<Estimate, String>> {
+        match self.file.inputs.len() {
+            1 => self.estimated::<1>(table, options),
+            2 => self.estimated::<2>(table, options),
+            3 => self.estimated::<3>(table, options),
+            4 => self.estimated::<4>(table, options),
+            _ => self.estimated::<5>(table, options),
+        }
+    }
+
+    fn estimated<const N: usize>(
+        &self,
+        table: &Table,
+        options: &Options,
+    ) -> Option<Result<Estimate, String>> {
+        let misfits = table.values(MISFIT);
+        let known = misfits.iter().zip(&table.members);
+        let known = known.filter_map(|(misfit, member)| Some(((*misfit)?, *member)));
+        let best = known.clone().min_by(|a, b| a.0.total_cmp(&b.0));
+        let machine = crate::build(&self.file.scenario).map_err(|problem| problem.to_string());
+        let (best, curves) = match (best, machine) {
+            (Some((_, best)), Ok(machine)) => (best, machine.measured),
+            (_, Err(why)) => return Some(Err(why)),
+            (None, _) => return Some(Err(NO_MISFIT.to_string())),
+        };
+        let fit = Fit::<N> {
+            study: self,
+            curves: &curves,
+            options,
+        };
+        let start = self.shares(best);
+        let step = 0.5 / (table.members.len() as f64).powf(1.0 / N as f64);
+        let step = start.map(|u| if u > 0.5 { -step } else { step });
+        let rows = fit.at(&start).map_or(0, |own| own.concat().len());
+        let (calls, mut runs) = (CALLS[0] + CALLS[1] * N, 2 + 4 * N);
+        let (found, value) = simplex::lowest(start, step, TOLERANCE / rows as f64, calls, |u| {
+            runs += 1;
+            fit.mean_square(u)
+        });
+        let place = found.map(|u| u.clamp(0.0, 1.0));
+        let at = fit.at(&place).unwrap_or_default();
+        let mut information = fit.information(&place, [STEPS[0]; N], &at);
+        let steps = from_fn(|k| information[k][k].powf(-0.5).clamp(STEPS[1], STEPS[2]));
+        information = fit.information(&place, steps, &at);
+        if fit.interrupted() {
+            return None;
+        }
+        if at.is_empty() || !value.is_finite() {
+            return Some(Err("no run of the search ended as planned".to_string()));
+        }
+        let (deviations, correlation) = uncertainties(&information);
+        let misfit = value.sqrt();
+        let far = |shares: [f64; N]| {
+            (0..N).any(|k| (shares[k] - place[k]).abs() > RIVAL.1 * deviations[k].unwrap_or(1.0))
+        };
+        let mut rivals = known.filter(|(own, k)| *own <= RIVAL.0 * misfit && far(self.shares(*k)));
+        let inputs = (0..N).map(|k| self.input(k, place[k], deviations[k], &correlation[k]));
+        let independent = at.iter().map(|own| own.len() as f64 / repetition(own));
+        Some(Ok(Estimate {
+            rival: rivals.next().map(|(_, member)| member),
+            rows: [at.concat().len() as f64, independent.sum()],
+            inputs: inputs.collect(),
+            correlation: correlation.map(|row| row.to_vec()).to_vec(),
+            misfit,
+            runs,
+        }))
+    }
+
+    /// An input at a share of its bounds, with its deviation as such a share and its coefficients with all.
+    fn input(&self, k: usize, at: f64, deviation: Option<f64>, coefficients: &[f64]) -> Estimated {
+        let vary = &self.file.inputs[k].vary;
+        let number = |u: f64| at_share(vary, u).1;
+        let bounds = [number(0.0), number(1.0)];
+        let beside = |i: usize| i != k && coefficients[i].abs() > TOGETHER;
+        let together = (0..coefficients.len()).find(|i| beside(*i));
+        let edge = deviation.unwrap_or(0.0).clamp(EDGE, 0.5);
+        let why = match (deviation, together) {
+            (None, _) => "not determined: the curves do not depend on it alone".to_string(),
+            (Some(own), _) if own > DETERMINED => {
+                "not determined: hardly better than its bounds".to_string()
+            }
+            (_, Some(i)) => format!(
+                "determined together with {} alone",
+                self.file.inputs[i].vary.path
+            ),
+            _ if at < edge || at > 1.0 - edge => {
+                "at a bound: a wider one may fit better".to_string()
+            }
+            _ => String::new(),
+        };
+        Estimated {
+            path: vary.path.clone(),
+            unit: vary.unit(),
+            value: number(at),
+            uncertainty: deviation.map(|own| own * (bounds[1] - bounds[0]).abs()),
+            bounds,
+            set: at_share(vary, at).0,
+            why,
+        }
+    }
+
+    /// Shares of the bounds that a member drew.
+    fn shares<const N: usize>(&self, member: usize) -> [f64; N] {
+        let drawn = self.file.design.member(self.file.seed, member);
+        from_fn(|k| match drawn.get(k) {
+            Some(Coordinate::Share(u)) => *u,
+            _ => 0.5,
+        })
+    }
+}
+
+/// Value of an input at a share of its bounds: as overrides have it, and as a number.
+fn at_share(vary: &Vary, u: f64) -> (Vec<(String, String)>, f64) {
+    let (values, number) = vary.at(Coordinate::Share(u));
+    (values, number.unwrap_or(f64::NAN))
+}
+
+struct Fit<'a, const N: usize> {
+    study: &'a Study,
+    curves: &'a [Curve],
+    options: &'a Options<'a>,
+}
+
+impl<const N: usize> Fit<'_, N> {
+    fn interrupted(&self) -> bool {
+        (self.options.interrupt).load(std::sync::atomic::Ordering::Relaxed)
+    }
+
+    /// Residuals of each channel at shares of the bounds; none of a run that does not end as planned.
+    fn at(&self, shares: &[f64; N]) -> Option<Vec<Vec<f64>>> {
+        if self.interrupted() {
+            return None;
+        }
+        let file = &self.study.file;
+        let inputs = file.inputs.iter().zip(shares);
+        let values: Vec<_> = inputs
+            .flat_map(|(input, u)| at_share(&input.vary, *u).0)
+            .collect();
+        let quiet = Options {
+            threads: Some(1),
+            interrupt: self.options.interrupt,
+            progress: &|_| {},
+        };
+        let scenario = file.scenario.with(&values).ok()?;
+        let outcome = crate::built(&scenario).ok()?.computed(&quiet);
+        let all = measured::residuals(self.curves, &outcome);
+        (outcome.stop.complete() && !all.concat().is_empty()).then_some(all)
+    }
+
+    /// Mean of the squares of the residuals; beyond the bounds it grows.
+    fn mean_square(&self, shares: &[f64; N]) -> f64 {
+        let inside = shares.map(|u| u.clamp(0.0, 1.0));
+        let both = shares.iter().zip(&inside);
+        let beyond: f64 = both.map(|(u, inside)| (u - inside).abs()).sum();
+        let square = |all: Vec<Vec<f64>>| (1.0 + beyond) * mean_of_squares(&all.concat()) + beyond;
+        self.at(&inside).map_or(f64::INFINITY, square)
+    }
+
+    /// Σ JᵀJ/(s² τ) over the channels.
+    fn information(&self, place: &[f64; N], steps: [f64; N], at: &[Vec<f64>]) -> [[f64; N]; N] {
+        let point = |k: usize, sense: f64| {
+            let mut own = *place;
+            own[k] = (own[k] + sense * steps[k]).clamp(0.0, 1.0);
+            own
+        };
+        let points: Vec<[f64; N]> = (0..N)
+            .flat_map(|k| [point(k, 1.0), point(k, -1.0)])
+            .collect();
+        let found = host::in_pool(self.options.threads, || {
+            host::each(&points, |_, point| self.at(point).unwrap_or_default())
+        });
+        let mut information = [[0.0; N]; N];
+        for (channel, own) in at.iter().enumerate() {
+            let slopes: [Vec<f64>; N] = from_fn(|k| {
+                let width = points[2 * k][k] - points[2 * k + 1][k];
+                let of = |point: usize| found[point].get(channel).map_or(&[][..], Vec::as_slice);
+                let both = of(2 * k).iter().zip(of(2 * k + 1));
+                both.map(|(above, below)| (above - below) / width).collect()
+            });
+            let weight = 1.0 / (mean_of_squares(own).max(1.0) * repetition(own));
+            for (i, k) in (0..N).flat_map(|i| (0..N).map(move |k| (i, k))) {
+                let product = slopes[i].iter().zip(&slopes[k]).map(|(a, b)| a * b);
+                information[i][k] += weight * product.sum::<f64>();
+            }
+        }
+        information
+    }
+}
+
+fn mean_of_squares(values: &[f64]) -> f64 {
+    values.iter().map(|own| own * own).sum::<f64>() / values.len().max(1) as f64
+}
+
+/// How many neighbouring residuals say the same: 1 + 2 Σ ρ(k) up to the first that is not positive; 1 of independent ones.
+fn repetition(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let apart: Vec<f64> = values.iter().map(|own| own - mean).collect();
+    let product = |lag: usize| -> f64 { apart.iter().zip(&apart[lag..]).map(|(a, b)| a * b).sum() };
+    let whole = product(0);
+    if whole <= 0.0 || whole.is_nan() {
+        return 1.0;
+    }
+    let coefficients = (1..apart.len() / 2).map(|lag| product(lag) / whole);
+    1.0 + 2.0 * coefficients.take_while(|own| *own > 0.0).sum::<f64>()
+}
+
+/// Deviations and coefficients by the inverse of the information; none of an input that nothing depends on, of none where they cannot
+/// be told apart.
+fn uncertainties<const N: usize>(information: &[[f64; N]; N]) -> ([Option<f64>; N], [[f64; N]; N]) {
+    let size: [f64; N] = from_fn(|k| information[k][k].sqrt());
+    let plain = from_fn(|i| {
+        from_fn(|k| match size[i] * size[k] {
+            both if both > 0.0 => information[i][k] / both,
+            _ => f64::from(u8::from(i == k)),
+        })
+    });
+    let inverse: [[f64; N]; N] = linear::inverse(plain, 1e-10).unwrap_or([[f64::INFINITY; N]; N]);
+    let known = |own: &f64| own.is_finite();
+    let deviations = from_fn(|k| Some(inverse[k][k].sqrt() / size[k]).filter(known));
+    let of = |i: usize, k: usize| inverse[i][k] / (inverse[i][i] * inverse[k][k]).sqrt();
+    (deviations, from_fn(|i| from_fn(|k| of(i, k))))
+}
+
+#[cfg(test)]
+#[path = "../../tests/unit/estimate.rs"]
+mod tests;
