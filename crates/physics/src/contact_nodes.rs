@@ -8,15 +8,17 @@
 //! matched rule.
 
 use crate::groove::complete_integrals;
+use number::constants;
 use std::f64::consts::PI;
 
-/// A point of the contact ellipse.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactNode {
-    /// Place across rolling over the half axis, ξ.
-    pub place: f64,
-    /// Share of the load, W.
-    pub weight: f64,
+constants! {
+    /// A point of the contact ellipse.
+    pub struct ContactNode {
+        /// Place across rolling over the half axis, ξ.
+        place: R,
+        /// Share of the load, W.
+        weight: R,
+    }
 }
 
 /// One node in the middle: slip is the same all over the contact, as in the planar bearing.
@@ -25,7 +27,7 @@ pub struct ContactNode {
 ///
 /// Source: definition.
 /// Valid: where spin and Heathcote slip are small against the slip.
-pub fn middle() -> Vec<ContactNode> {
+pub fn middle() -> Vec<ContactNode<f64>> {
     let (place, weight) = (0.0, 1.0);
     vec![ContactNode { place, weight }]
 }
@@ -41,7 +43,7 @@ pub fn middle() -> Vec<ContactNode> {
 ///
 /// Source: derived from the integrals over the ellipse; the errors by comparison with the integral.
 /// Valid: k ≥ 1; S below 1.5 for 1 % of force.
-pub fn matched(ellipticity: f64) -> Vec<ContactNode> {
+pub fn matched(ellipticity: f64) -> Vec<ContactNode<f64>> {
     let shape = 1.0 + 1.0 / (ellipticity * ellipticity);
     let place = 8.0 / 15.0 * shape / complete_integrals(ellipticity)[1];
     let weight = shape / (10.0 * place * place);
@@ -61,7 +63,7 @@ pub fn matched(ellipticity: f64) -> Vec<ContactNode> {
 ///
 /// Source: C. F. Gauss; Gauss-Jacobi rule of the weight 1 - ξ² (DLMF 3.5).
 /// Valid: contacts of an ellipticity above 4; below, the width along rolling is missed (11 % of the spin couple at 3).
-pub fn legendre(count: usize) -> Vec<ContactNode> {
+pub fn legendre(count: usize) -> Vec<ContactNode<f64>> {
     let n = count + 1;
     let node = |k: usize| {
         // a zero of P'_n lies between two of P_n; Newton from the middle of their usual guesses
@@ -81,7 +83,7 @@ pub fn legendre(count: usize) -> Vec<ContactNode> {
         let weight = 1.5 * (1.0 - x * x) / (((count + 1) * (count + 2)) as f64 * value * value);
         ContactNode { place: x, weight }
     };
-    let mut nodes: Vec<ContactNode> = (1..n).rev().map(node).collect();
+    let mut nodes: Vec<ContactNode<f64>> = (1..n).rev().map(node).collect();
     if count % 2 == 1 {
         nodes[count / 2].place = 0.0;
     }
@@ -126,8 +128,8 @@ mod tests {
             3.0 / ((n + 1.0) * (n + 3.0))
         }
     }
-    fn sum(nodes: &[ContactNode], power: u32) -> f64 {
-        let term = |node: &ContactNode| node.weight * node.place.powi(power as i32);
+    fn sum(nodes: &[ContactNode<f64>], power: u32) -> f64 {
+        let term = |node: &ContactNode<f64>| node.weight * node.place.powi(power as i32);
         nodes.iter().map(term).sum()
     }
 

@@ -1,0 +1,611 @@
+//! Rows of balls on shared rings, the outer ring in its mount, and a rotor that may fall into the inner one.
+//!
+//! ```text
+//!   states   bodies of 13: rotor, inner ring, outer ring, a cage for each row; then for each row its balls, nine lists; then the
+//!            energy accounts [`LEDGER`], J
+//!   rotor    C = x_r - e_u d1, its axis C + s a_r;  bore contact at stations of the inner ring, shoulders on its faces
+//!   levitation at stations s:  F = -(k_a x_⊥ + c_a v_⊥ + m g_⊥)/n of C + s a_r;  along the axis at C; each direction carries its weight
+//!   inner    drive τ a_i, force and moment from outside, settling damper -c_i v, -c_it (ω - (ω·a)a)
+//!   outer    mount;  tied cages move with it and add their mass
+//! ```
+//! A body that does not exist keeps its states.
+
+use super::ball::BALL_STATES;
+use super::face::{Face, FaceNodes};
+use super::mount::SpatialMount;
+use super::pocket::{CageMotion, InPocket};
+use super::race::RingMotion;
+use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
+use super::row::{Around, BetweenRaces, CageGuide, Row, RowConstants, SpatialLand};
+use crate::contact::JournalContact;
+use number::{Gather, Real, Vec3, Vectorized, constants};
+
+/// Energy accounts in the order of the states: work that became heat, then work that was supplied.
+pub const LEDGER: [&str; 18] = [
+    "ball_inner_damping",
+    "ball_outer_damping",
+    "inner_slip_and_spin",
+    "outer_slip_and_spin",
+    "drag",
+    "pocket_damping",
+    "pocket_friction",
+    "support_damping",
+    "bore_contact_damping",
+    "bore_contact_friction",
+    "amb_damping",
+    "land_damping",
+    "land_friction",
+    "face_damping",
+    "face_friction",
+    "settling_damper",
+    "supplied_by_drive",
+    "supplied_on_inner_ring",
+];
+/// Accounts that are heat: the first of [`LEDGER`].
+pub const HEAT_ACCOUNTS: usize = 16;
+
+constants! {
+    /// The inner ring with its sleeve, and what acts on it from outside.
+    pub struct InnerRing {
+        /// Mass and inertias.
+        inertia: Inertia<R>,
+        /// Whether centre and axis are held, so that it only turns.
+        held: bool,
+        /// Drive torque about its axis, N m.
+        torque: R,
+        /// Force at its centre, N.
+        force: Vec3<R>,
+        /// Moment, N m.
+        moment: Vec3<R>,
+        /// Damping of its motion for settling, N s/m.
+        settling: R,
+        /// Damping of its tilt for settling, N m s.
+        tilt_settling: R,
+    }
+}
+constants! {
+    /// The outer ring in its mount.
+    pub struct OuterRing {
+        /// Mass and inertias, without cages.
+        inertia: Inertia<R>,
+        /// Whether it turns and tilts; else it keeps its orientation.
+        turns: bool,
+        /// Its mount.
+        mount: SpatialMount<R>,
+    }
+}
+constants! {
+    /// Levitation of the reference files: springs and dampers at stations of the rotor's axis.
+    pub struct SpatialLevitation {
+        /// Across the axis, all stations together, N/m.
+        stiffness: R,
+        /// N s/m.
+        damping: R,
+        /// Along the axis, N/m.
+        axial_stiffness: R,
+        /// N s/m.
+        axial_damping: R,
+        /// Whether the weight across the axis is carried.
+        carries: bool,
+        /// Whether the weight along the axis is carried.
+        carries_axially: bool,
+    }
+}
+
+/// The rotor of one machine: free, rigid, six freedoms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpatialRotor {
+    /// Mass and inertias.
+    pub inertia: Inertia<f64>,
+    /// Distance of the centre of mass from the axis along d1, m.
+    pub eccentricity: f64,
+    /// Rotor and bore of the inner ring; stiffness at one station.
+    pub contact: JournalContact<f64>,
+    /// Stations of the contact on the inner ring's axis, m.
+    pub stations: Vec<f64>,
+    /// Shoulders on faces of the inner ring.
+    pub faces: Vec<Face<f64>>,
+    /// Directions of a face's nodes, cosine and sine.
+    pub face_nodes: Vec<[f64; 2]>,
+    /// Levitation, and its stations on the rotor's axis, m.
+    pub levitation: Option<(SpatialLevitation<f64>, Vec<f64>)>,
+}
+
+/// An assembly of one machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssemblyConstants {
+    /// Gravity, m/s².
+    pub gravity: Vec3<f64>,
+    /// The inner ring.
+    pub inner: InnerRing<f64>,
+    /// The outer ring.
+    pub outer: OuterRing<f64>,
+    /// The rows of balls.
+    pub rows: Vec<RowConstants>,
+    /// The rotor.
+    pub rotor: Option<SpatialRotor>,
+}
+
+/// Forces and couples of an assembly at a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AssemblyProbe<R> {
+    /// Normal force of rotor and bore, all stations, N.
+    pub bore_normal_force: R,
+    /// Sum of |friction| there, N.
+    pub bore_friction: R,
+    /// Largest penetration there, m; 0 without contact.
+    pub bore_penetration: R,
+    /// Normal force on the faces, N.
+    pub face_normal_force: R,
+    /// Torque of balls and lands on the inner ring about its axis, N m.
+    pub inner_torque: R,
+    /// The same on the outer ring.
+    pub outer_torque: R,
+    /// Largest penetration of a face, m; 0 without contact.
+    pub face_penetration: R,
+    /// Sum of |friction| on the faces, N.
+    pub face_friction: R,
+}
+
+struct Rotor<R> {
+    inertia: Inertia<R>,
+    eccentricity: R,
+    contact: JournalContact<R>,
+    stations: Vec<R>,
+    faces: Vec<Face<R>>,
+    nodes: FaceNodes<R>,
+    levitation: Option<(SpatialLevitation<R>, Vec<R>)>,
+}
+
+/// An assembly over `R`.
+pub struct Assembly<R: Real> {
+    gravity: Vec3<R>,
+    inner: InnerRing<R>,
+    outer: OuterRing<R>,
+    /// Mass that moves with the outer ring, kg.
+    outer_mass: R,
+    rows: Vec<Row<R>>,
+    rotor: Option<Rotor<R>>,
+}
+
+impl AssemblyConstants {
+    /// First state of a body: 0 rotor, 1 inner ring, 2 outer ring, then the cages.
+    pub const fn body(&self, index: usize) -> usize {
+        BODY_STATES * index
+    }
+    /// First state of the balls of a row.
+    pub fn first_ball_state(&self, row: usize) -> usize {
+        let before: usize = self.rows[..row].iter().map(|row| row.balls).sum();
+        BODY_STATES * (3 + self.rows.len()) + BALL_STATES * before
+    }
+    /// First of the energy accounts, which are the last states.
+    pub fn first_account(&self) -> usize {
+        self.first_ball_state(self.rows.len())
+    }
+    /// Number of states.
+    pub fn states(&self) -> usize {
+        self.first_account() + LEDGER.len()
+    }
+    /// Place of the outer ring at which its mount must be free so that its weight and that of all it carries leave it at the origin, m.
+    pub fn balanced_free_position(&self) -> Vec3<f64> {
+        let rows = self.rows.iter();
+        let of_rows: f64 = rows
+            .map(|row| row.cage.inertia.mass + row.balls as f64 * row.ball.mass)
+            .sum();
+        let inner = if self.inner.held {
+            0.0
+        } else {
+            self.inner.inertia.mass
+        };
+        let mount = &self.outer.mount;
+        let mass = self.outer.inertia.mass + of_rows + inner;
+        let radial = -mass / mount.radial_stiffness;
+        let g = self.gravity;
+        Vec3::new(
+            g.x * radial,
+            g.y * radial,
+            -mass * g.z / mount.axial_stiffness,
+        )
+    }
+}
+
+/// A list of constants, one a lane.
+fn gather_list<'a, R: Real, T: Gather<R> + 'a>(machine: &dyn Fn(usize) -> &'a [T]) -> Vec<T::Out> {
+    let one = |k: usize| T::gather(&|lane| &machine(lane)[k]);
+    (0..machine(0).len()).map(one).collect()
+}
+
+impl<R: Real> Rotor<R> {
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a SpatialRotor) -> Self {
+        let sides = |k: usize| {
+            let first = &machine(0).face_nodes;
+            first.iter().map(|node| R::splat(node[k])).collect()
+        };
+        let of_levitation = |lane: usize| {
+            let levitation = machine(lane).levitation.as_ref();
+            levitation.expect("lanes share whether the rotor is levitated")
+        };
+        Rotor {
+            inertia: Gather::gather(&|lane| &machine(lane).inertia),
+            eccentricity: Gather::<R>::gather(&|lane| &machine(lane).eccentricity),
+            contact: Gather::gather(&|lane| &machine(lane).contact),
+            stations: gather_list(&|lane| &machine(lane).stations),
+            faces: gather_list(&|lane| &machine(lane).faces),
+            nodes: FaceNodes {
+                cosines: sides(0),
+                sines: sides(1),
+            },
+            levitation: machine(0).levitation.as_ref().map(|_| {
+                (
+                    Gather::gather(&|lane| &of_levitation(lane).0),
+                    gather_list(&|lane| &of_levitation(lane).1),
+                )
+            }),
+        }
+    }
+}
+
+impl<R: Real> Assembly<R> {
+    /// One assembly a lane.
+    pub fn gather<'a>(machine: &dyn Fn(usize) -> &'a AssemblyConstants) -> Self {
+        let row = |k: usize| Row::gather(&|lane| &machine(lane).rows[k]);
+        let rows: Vec<Row<R>> = (0..machine(0).rows.len()).map(row).collect();
+        let outer: OuterRing<R> = Gather::gather(&|lane| &machine(lane).outer);
+        let tied = rows.iter().filter(|row| row.is_tied());
+        let outer_mass = tied.fold(outer.inertia.mass, |sum, row| sum + row.cage.mass);
+        Assembly {
+            gravity: Gather::gather(&|lane| &machine(lane).gravity),
+            inner: Gather::gather(&|lane| &machine(lane).inner),
+            outer,
+            outer_mass,
+            rows,
+            rotor: machine(0).rotor.as_ref().map(|_| {
+                Rotor::gather(&|lane| {
+                    let rotor = machine(lane).rotor.as_ref();
+                    rotor.expect("lanes share whether there is a rotor")
+                })
+            }),
+        }
+    }
+
+    /// Rates of all states.
+    pub fn rate(&self, state: &[R], rate: &mut [R]) -> AssemblyProbe<R> {
+        let mut bodies = Bodies {
+            inner: RigidBody::read(&state[BODY_STATES..]),
+            outer: RigidBody::read(&state[2 * BODY_STATES..]),
+            on_inner: SpatialWrench::zero(),
+            on_outer: SpatialWrench::zero(),
+            power: [R::zero(); LEDGER.len()],
+        };
+        let mut first = BODY_STATES * (3 + self.rows.len());
+        for (index, row) in self.rows.iter().enumerate() {
+            let place = BODY_STATES * (3 + index);
+            let cage = RigidBody::read(&state[place..]);
+            let around = around(&bodies, &cage);
+            let balls = first..first + BALL_STATES * row.balls;
+            first = balls.end;
+            let reaction = row.react(&around, &state[balls.clone()], &mut rate[balls]);
+            R::vectorized(Caged {
+                row,
+                cage: &cage,
+                gravity: self.gravity,
+                bodies: &mut bodies,
+                by_balls: reaction.on_cage,
+                rate: &mut rate[place..place + BODY_STATES],
+            });
+            bodies.on_inner.add(reaction.on_inner);
+            bodies.on_outer.add(reaction.on_outer);
+            for (power, heat) in bodies.power.iter_mut().zip(&reaction.heats) {
+                *power += *heat;
+            }
+        }
+        let probe = R::vectorized(Rings {
+            assembly: self,
+            bodies: &mut bodies,
+            state,
+            rate,
+        });
+        rate[first..first + LEDGER.len()].copy_from_slice(&bodies.power);
+        probe
+    }
+
+    /// Contacts and pocket of a ball, for inspection.
+    pub fn ball(&self, row: usize, ball: usize, state: &[R]) -> BallContacts<R::Group> {
+        let bodies = Bodies {
+            inner: RigidBody::read(&state[BODY_STATES..]),
+            outer: RigidBody::read(&state[2 * BODY_STATES..]),
+            on_inner: SpatialWrench::zero(),
+            on_outer: SpatialWrench::zero(),
+            power: [R::zero(); LEDGER.len()],
+        };
+        let cage = RigidBody::read(&state[BODY_STATES * (3 + row)..]);
+        let before: usize = self.rows[..row].iter().map(|row| row.balls).sum();
+        let first = BODY_STATES * (3 + self.rows.len()) + BALL_STATES * before;
+        let (races, pocket) =
+            self.rows[row].inspect(&around(&bodies, &cage), &state[first..], ball);
+        BallContacts { races, pocket }
+    }
+}
+
+/// A ball in its races and in its pocket.
+#[derive(Clone, Copy, Debug)]
+pub struct BallContacts<R> {
+    /// At inner and outer race.
+    pub races: BetweenRaces<R>,
+    /// In its pocket.
+    pub pocket: InPocket<R>,
+}
+
+/// Rings, what acts on them and the powers of the accounts.
+struct Bodies<R> {
+    inner: RigidBody<R>,
+    outer: RigidBody<R>,
+    on_inner: SpatialWrench<R>,
+    on_outer: SpatialWrench<R>,
+    power: [R; LEDGER.len()],
+}
+
+#[inline(always)]
+fn around<R: Real>(bodies: &Bodies<R>, cage: &RigidBody<R>) -> Around<R::Group> {
+    Around {
+        inner: RingMotion::grouped(&bodies.inner),
+        outer: RingMotion::grouped(&bodies.outer),
+        cage: CageMotion::grouped(cage),
+    }
+}
+
+/// A cage: its land, its drag, its rates.
+struct Caged<'a, R: Real> {
+    row: &'a Row<R>,
+    cage: &'a RigidBody<R>,
+    gravity: Vec3<R>,
+    bodies: &'a mut Bodies<R>,
+    by_balls: SpatialWrench<R>,
+    rate: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for Caged<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Caged {
+            row, cage, bodies, ..
+        } = self;
+        let mut on_cage = self.by_balls;
+        let drag = row.cage_drag;
+        on_cage.moment += cage.spin * -drag;
+        bodies.power[DRAG] += drag * cage.spin.length_squared();
+        match &row.guide {
+            CageGuide::Tied => {
+                // its place follows the outer ring, which has the forces of its pockets: their couple no ring that is held feels
+                bodies.on_outer.force += on_cage.force;
+                let turning = row.cage.held_acceleration(cage, on_cage.moment);
+                cage.write_rates(self.rate, [cage.velocity, Vec3::zero()], turning);
+                return;
+            }
+            CageGuide::Balls => {}
+            CageGuide::OuterLand(land) => {
+                let mut k = 0;
+                while k < 2 {
+                    let station = land.station(k);
+                    let r = (land.contact).at_station(cage, cage.position, &bodies.outer, station);
+                    on_cage.add(r.on_cylinder);
+                    bodies.on_outer.add(r.on_bore);
+                    bodies.power[LAND] += r.damping_heat;
+                    bodies.power[LAND + 1] += r.friction_heat;
+                    k += 1;
+                }
+            }
+            CageGuide::InnerLand(land) => {
+                let mut k = 0;
+                while k < 2 {
+                    let (inner, station) = (&bodies.inner, land.station(k));
+                    let r = (land.contact).at_station(inner, inner.position, cage, station);
+                    on_cage.add(r.on_bore);
+                    bodies.on_inner.add(r.on_cylinder);
+                    bodies.power[LAND] += r.damping_heat;
+                    bodies.power[LAND + 1] += r.friction_heat;
+                    k += 1;
+                }
+            }
+        }
+        let acceleration = on_cage.force * row.cage.mass.recip() + self.gravity;
+        let turning = row.cage.angular_acceleration(cage, on_cage.moment);
+        cage.write_rates(self.rate, [cage.velocity, acceleration], turning);
+    }
+}
+
+impl<R: Real> SpatialLand<R> {
+    #[inline(always)]
+    fn station(&self, k: usize) -> R {
+        self.middle
+            + if k == 0 {
+                -self.half_width
+            } else {
+                self.half_width
+            }
+    }
+}
+
+const DRAG: usize = 4;
+const SUPPORT: usize = 7;
+const BORE: usize = 8;
+const AMB: usize = 10;
+const LAND: usize = 11;
+const FACE: usize = 13;
+const SETTLING: usize = 15;
+
+/// Rotor and rings, when all balls and cages have acted.
+struct Rings<'a, R: Real> {
+    assembly: &'a Assembly<R>,
+    bodies: &'a mut Bodies<R>,
+    state: &'a [R],
+    rate: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for Rings<'_, R> {
+    type Output = AssemblyProbe<R>;
+    #[inline(always)]
+    fn run(self) -> AssemblyProbe<R> {
+        let Rings {
+            assembly,
+            bodies,
+            state,
+            rate,
+        } = self;
+        let zero = R::zero();
+        let mut probe = AssemblyProbe {
+            bore_normal_force: zero,
+            bore_friction: zero,
+            bore_penetration: zero,
+            face_normal_force: zero,
+            inner_torque: bodies.on_inner.moment.dot(bodies.inner.axis),
+            outer_torque: bodies.on_outer.moment.dot(bodies.outer.axis),
+            face_penetration: zero,
+            face_friction: zero,
+        };
+        match &assembly.rotor {
+            None => {
+                let mut k = 0;
+                while k < BODY_STATES {
+                    rate[k] = zero;
+                    k += 1;
+                }
+            }
+            Some(rotor) => {
+                let body = RigidBody::read(state);
+                let on_rotor = rotor.react(&body, assembly.gravity, bodies, &mut probe);
+                let acceleration = on_rotor.force * rotor.inertia.mass.recip() + assembly.gravity;
+                let turning = rotor.inertia.angular_acceleration(&body, on_rotor.moment);
+                body.write_rates(rate, [body.velocity, acceleration], turning);
+            }
+        }
+        assembly.move_inner(bodies, &mut rate[BODY_STATES..2 * BODY_STATES]);
+        let acceleration = assembly.move_outer(bodies, &mut rate[2 * BODY_STATES..3 * BODY_STATES]);
+        let mut index = 0;
+        while index < assembly.rows.len() {
+            if assembly.rows[index].is_tied() {
+                let at = BODY_STATES * (3 + index) + 3;
+                rate[at] = acceleration.x;
+                rate[at + 1] = acceleration.y;
+                rate[at + 2] = acceleration.z;
+            }
+            index += 1;
+        }
+        probe
+    }
+}
+
+impl<R: Real> Assembly<R> {
+    #[inline(always)]
+    fn move_inner(&self, bodies: &mut Bodies<R>, rate: &mut [R]) {
+        let (ring, body) = (&self.inner, &bodies.inner);
+        let turn = body.spin.dot(body.axis);
+        let tilting = body.spin - body.axis * turn;
+        let damping = body.velocity * ring.settling;
+        let tilt_damping = tilting * ring.tilt_settling;
+        bodies.power[SETTLING] += damping.dot(body.velocity) + tilt_damping.dot(tilting);
+        bodies.power[SETTLING + 1] += ring.torque * turn;
+        bodies.power[SETTLING + 2] += ring.force.dot(body.velocity) + ring.moment.dot(body.spin);
+        let force = bodies.on_inner.force + ring.force - damping;
+        let moment = bodies.on_inner.moment + body.axis * ring.torque + ring.moment - tilt_damping;
+        if ring.held {
+            let turning = ring.inertia.held_acceleration(body, moment);
+            body.write_rates(rate, [Vec3::zero(); 2], turning);
+        } else {
+            let acceleration = force * ring.inertia.mass.recip() + self.gravity;
+            let turning = ring.inertia.angular_acceleration(body, moment);
+            body.write_rates(rate, [body.velocity, acceleration], turning);
+        }
+    }
+    /// Returns the acceleration of the outer ring.
+    #[inline(always)]
+    fn move_outer(&self, bodies: &mut Bodies<R>, rate: &mut [R]) -> Vec3<R> {
+        let (ring, body) = (&self.outer, &bodies.outer);
+        let by_mount = ring.mount.wrench(body);
+        bodies.power[SUPPORT] += ring.mount.heat(body);
+        let force = bodies.on_outer.force + by_mount.force;
+        let acceleration = force * self.outer_mass.recip() + self.gravity;
+        let moment = bodies.on_outer.moment + by_mount.moment;
+        let mut turning = ring.inertia.angular_acceleration(body, moment);
+        if !ring.turns {
+            turning = Vec3::zero();
+        }
+        body.write_rates(rate, [body.velocity, acceleration], turning);
+        if !ring.turns {
+            let mut k = 6;
+            while k < 10 {
+                rate[k] = R::zero();
+                k += 1;
+            }
+        }
+        acceleration
+    }
+}
+
+impl<R: Real> Rotor<R> {
+    /// Contacts and levitation: what acts on the rotor.
+    #[inline(always)]
+    fn react(
+        &self,
+        body: &RigidBody<R>,
+        gravity: Vec3<R>,
+        bodies: &mut Bodies<R>,
+        probe: &mut AssemblyProbe<R>,
+    ) -> SpatialWrench<R> {
+        let mut on_rotor = SpatialWrench::zero();
+        let [d1, _] = body.transverse_axes();
+        let from_mass = d1 * -self.eccentricity;
+        let centre = body.position + from_mass;
+        let mut k = 0;
+        while k < self.stations.len() {
+            let r = (self.contact).at_station(body, centre, &bodies.inner, self.stations[k]);
+            on_rotor.add(r.on_cylinder);
+            bodies.on_inner.add(r.on_bore);
+            bodies.power[BORE] += r.damping_heat;
+            bodies.power[BORE + 1] += r.friction_heat;
+            probe.bore_normal_force += r.normal_force;
+            probe.bore_friction += r.friction;
+            probe.bore_penetration = probe.bore_penetration.max(r.penetration);
+            k += 1;
+        }
+        let mut k = 0;
+        while k < self.faces.len() {
+            let r = self.faces[k].react(&self.nodes, body, centre, &bodies.inner);
+            on_rotor.add(r.on_rotor);
+            bodies.on_inner.add(r.on_ring);
+            bodies.power[FACE] += r.damping_heat;
+            bodies.power[FACE + 1] += r.friction_heat;
+            probe.face_normal_force += r.normal_force;
+            probe.face_friction += r.friction;
+            probe.face_penetration = probe.face_penetration.max(r.penetration);
+            k += 1;
+        }
+        if let Some((levitation, stations)) = &self.levitation {
+            let weight = gravity * self.inertia.mass;
+            let zero = R::zero();
+            if levitation.carries {
+                let share = R::splat(1.0 / stations.len() as f64);
+                let across = |v: Vec3<R>| Vec3::new(v.x, v.y, zero);
+                let mut k = 0;
+                while k < stations.len() {
+                    let arm = from_mass + body.axis * stations[k];
+                    let x = across(body.position + arm);
+                    let v = across(body.velocity_at(arm));
+                    let force = x * levitation.stiffness + v * levitation.damping + across(weight);
+                    on_rotor.add_at(force * -share, arm);
+                    bodies.power[AMB] += levitation.damping * share * v.length_squared();
+                    k += 1;
+                }
+            }
+            if levitation.carries_axially {
+                let v = body.velocity_at(from_mass).z;
+                let force =
+                    levitation.axial_stiffness * centre.z + levitation.axial_damping * v + weight.z;
+                on_rotor.add_at(Vec3::new(zero, zero, -force), from_mass);
+                bodies.power[AMB] += levitation.axial_damping * v.square();
+            }
+        }
+        on_rotor
+    }
+}

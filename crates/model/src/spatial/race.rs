@@ -1,0 +1,314 @@
+//! The contact of a ball with a race, and the traction in it.
+//!
+//! ```text
+//!   d = b - x,  ζ = d·a,  p = d - ζa,  ρ = |p|,  e = p/ρ          x centre, a axis of the ring
+//!   n, δ: physics::groove;  arm = r - δ/2;  c = b + arm n: the one point where all forces act
+//!   t_y = a × e (rolling direction),  t_x = t_y × n = n_a e - n_e a
+//!   u = v_ring(c) - v_ball(c),  Δ = ω_ring - w;  δ̇ = -n·u
+//!   slip at x = ξ a_H:  s_x = u_x - Δ_y h,  s_y = u_y + Δ_n x + Δ_x h,  h = x²/(2R_c)
+//!   f = Q W μ(|s|) s/|s|;   F = Σ f,  M = (Σ h f_y, -Σ h f_x, Σ x f_y) on the ball in (t_x, t_y, n)
+//!   on the ball F - Q n at c, and M; on the ring the opposite of both at c
+//! ```
+//! n points into the race for both races, so one function serves both. Heat of slip and spin Σ f·s ≥ 0.
+//!
+//! Assumes: slip and load of a strip across rolling ([`physics::contact_nodes`]); one law μ(|s|) for the vector.
+//! Does not model: the shoulder, offset of the centre of pressure, film of the lubricant beyond its law of traction.
+
+use super::rigid_body::{RigidBody, SpatialWrench};
+use number::{Real, Vec3, constants};
+use physics::contact::{NormalForce, ball_race};
+use physics::contact_nodes::ContactNode;
+use physics::groove::in_groove;
+use physics::traction::{SlidingContact, TractionLaw};
+
+constants! {
+    /// The groove of a ring, and a ball's contact in it.
+    pub struct RaceGroove {
+        /// Radius R_g of the circle of the groove's centres, m.
+        centre_radius: R,
+        /// Place z_g of that circle along the ring's axis, m.
+        place: R,
+        /// Radius r_g of the groove less that of the ball, m.
+        slack: R,
+        /// K, N/m^1.5.
+        stiffness: R,
+        /// A_a of a_H = A_a √δ, √m.
+        half_axis: R,
+        /// 1/(2R_c), 1/m.
+        half_curvature: R,
+    }
+}
+
+/// A ring as a ball sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct RingMotion<R> {
+    /// Centre, m.
+    pub position: Vec3<R>,
+    /// m/s.
+    pub velocity: Vec3<R>,
+    /// rad/s.
+    pub spin: Vec3<R>,
+    /// Axis.
+    pub axis: Vec3<R>,
+}
+
+impl<R: Real> RingMotion<R> {
+    /// Of a body, for a group of balls.
+    #[inline(always)]
+    pub fn grouped(body: &RigidBody<R>) -> RingMotion<R::Group> {
+        RingMotion {
+            position: body.position.grouped(),
+            velocity: body.velocity.grouped(),
+            spin: body.spin.grouped(),
+            axis: body.axis.grouped(),
+        }
+    }
+}
+
+/// Motion of a ball in the frame.
+#[derive(Clone, Copy, Debug)]
+pub struct BallInSpace<R> {
+    /// Centre b, m.
+    pub position: Vec3<R>,
+    /// m/s.
+    pub velocity: Vec3<R>,
+    /// w, rad/s.
+    pub spin: Vec3<R>,
+}
+
+/// A vector in the directions of a contact: t_x, t_y and n.
+#[derive(Clone, Copy, Debug)]
+pub struct AtContact<R> {
+    /// Across rolling.
+    pub x: R,
+    /// Along rolling.
+    pub y: R,
+    /// Into the race.
+    pub n: R,
+}
+
+/// Ball and race where they touch.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch<R> {
+    /// From the ring's centre to the ball's, m.
+    from_ring: Vec3<R>,
+    /// e: from the ring's axis to the ball.
+    pub outward: Vec3<R>,
+    /// t_y.
+    rolling: Vec3<R>,
+    axis: Vec3<R>,
+    /// Parts of n along e and along a.
+    pub normal: [R; 2],
+    /// δ, m.
+    pub approach: R,
+    /// δ̇, m/s.
+    pub closing: R,
+    /// Load Q.
+    pub load: NormalForce<R>,
+    /// r - δ/2, m.
+    arm: R,
+    /// u, m/s; its part along n is -δ̇.
+    pub slip: AtContact<R>,
+    /// Δ, rad/s.
+    pub turning: AtContact<R>,
+    /// Half axis a_H, m.
+    pub half_axis: R,
+    /// a_H²/(2R_c): how far the rim of the ellipse stands back, m.
+    bulge: R,
+    /// Mean speed of both surfaces past the contact, m/s.
+    entrainment: R,
+}
+
+/// Traction in a contact, on the ball.
+#[derive(Clone, Copy, Debug)]
+pub struct Traction<R> {
+    /// F, N; without a part along n.
+    pub force: [R; 2],
+    /// M about c, N m.
+    pub couple: AtContact<R>,
+    /// Heat of slip and spin, W.
+    pub heat: R,
+}
+
+impl<R: Real> RaceGroove<R> {
+    /// Where and how a ball touches.
+    #[inline(always)]
+    pub fn touch(
+        &self,
+        ring: &RingMotion<R>,
+        ball: &BallInSpace<R>,
+        radius: R,
+        damping_time: R,
+    ) -> Touch<R> {
+        let half = R::splat(0.5);
+        let axis = ring.axis;
+        let from_ring = ball.position - ring.position;
+        let along = from_ring.dot(axis);
+        let p = from_ring - axis * along;
+        let distance = p.length_squared().sqrt();
+        let inverse = distance.recip();
+        let outward = p * inverse;
+        let rolling = axis.cross(outward);
+        let at = in_groove(
+            distance - self.centre_radius,
+            along - self.place,
+            self.slack,
+        );
+        let (n_e, n_a) = (at.radial, at.axial);
+
+        // ring less ball: at the ball's centre as if the ring reached there, then at c
+        let past = ring.velocity + ring.spin.cross(from_ring) - ball.velocity;
+        let turned = ring.spin - ball.spin;
+        let along_contact = |v: Vec3<R>| {
+            let (e, y, a) = (v.dot(outward), v.dot(rolling), v.dot(axis));
+            AtContact {
+                x: n_a * e - n_e * a,
+                y,
+                n: n_e * e + n_a * a,
+            }
+        };
+        let (g, turning) = (along_contact(past), along_contact(turned));
+        let arm = radius - half * at.approach;
+        let slip = AtContact {
+            x: g.x + arm * turning.y,
+            y: g.y - arm * turning.x,
+            n: g.n,
+        };
+        let closing = -g.n;
+        let load = ball_race(self.stiffness, damping_time, at.approach, closing);
+        let half_axis = self.half_axis * at.approach.max(R::zero()).sqrt();
+        Touch {
+            from_ring,
+            outward,
+            rolling,
+            axis,
+            normal: [n_e, n_a],
+            approach: at.approach,
+            closing,
+            load,
+            arm,
+            slip,
+            turning,
+            half_axis,
+            bulge: half_axis.square() * self.half_curvature,
+            entrainment: (distance + arm * n_e) * (g.y * inverse) - half * slip.y,
+        }
+    }
+}
+
+impl<R: Real> Touch<R> {
+    /// What traction and load do to the ball, the moment about its centre; and to the ring, about the ring's.
+    #[inline(always)]
+    pub fn on_ball_and_ring(&self, traction: &Traction<R>) -> [SpatialWrench<R>; 2] {
+        let [n_e, n_a] = self.normal;
+        let [x, y] = traction.force;
+        let q = self.load.force;
+        let m = AtContact {
+            x: traction.couple.x - self.arm * y,
+            y: traction.couple.y + self.arm * x,
+            n: traction.couple.n,
+        };
+        let force =
+            self.outward * (n_a * x - n_e * q) + self.rolling * y - self.axis * (n_e * x + n_a * q);
+        let moment = self.outward * (n_a * m.x + n_e * m.n)
+            + self.rolling * m.y
+            + self.axis * (n_a * m.n - n_e * m.x);
+        let on_ball = SpatialWrench { force, moment };
+        let on_ring = SpatialWrench {
+            force: -force,
+            moment: -(self.from_ring.cross(force) + moment),
+        };
+        [on_ball, on_ring]
+    }
+    #[inline(always)]
+    fn at(&self, slip: R) -> SlidingContact<R> {
+        SlidingContact {
+            slip,
+            load: self.load.force,
+            entrainment: self.entrainment,
+        }
+    }
+}
+
+/// Slip below which traction is proportional to slip, m/s.
+const LEAST_SLIP: f64 = 1e-12;
+
+/// Sums over the nodes of a contact.
+struct NodeSums<R> {
+    force: [R; 2],
+    couple: AtContact<R>,
+    heat: R,
+}
+
+impl<R: Real> NodeSums<R> {
+    #[inline(always)]
+    fn new() -> Self {
+        let zero = R::zero();
+        NodeSums {
+            force: [zero; 2],
+            couple: AtContact {
+                x: zero,
+                y: zero,
+                n: zero,
+            },
+            heat: zero,
+        }
+    }
+    #[inline(always)]
+    fn add(&mut self, weight: R, slip: [R; 2], place: R, back: R) {
+        let f = [weight * slip[0], weight * slip[1]];
+        self.force[0] += f[0];
+        self.force[1] += f[1];
+        self.couple.x += back * f[1];
+        self.couple.y -= back * f[0];
+        self.couple.n += place * f[1];
+        self.heat += f[0] * slip[0] + f[1] * slip[1];
+    }
+    #[inline(always)]
+    fn times(self, load: R) -> Traction<R> {
+        let couple = self.couple;
+        Traction {
+            force: [self.force[0] * load, self.force[1] * load],
+            couple: AtContact {
+                x: couple.x * load,
+                y: couple.y * load,
+                n: couple.n * load,
+            },
+            heat: self.heat * load,
+        }
+    }
+}
+
+/// Traction in the contacts of a ball with its inner and its outer race.
+#[inline(always)]
+pub fn traction<R: Real, L: TractionLaw<R>>(
+    law: &L,
+    nodes: &[ContactNode<R>],
+    touches: [&Touch<R>; 2],
+) -> [Traction<R>; 2] {
+    let least = R::splat(LEAST_SLIP * LEAST_SLIP);
+    let [inner, outer] = touches;
+    let (mut at_inner, mut at_outer) = (NodeSums::new(), NodeSums::new());
+    for node in nodes {
+        let (xi, squared) = (node.place, node.place.square());
+        let slip = |touch: &Touch<R>| {
+            let (place, back) = (xi * touch.half_axis, squared * touch.bulge);
+            let s_x = touch.slip.x - touch.turning.y * back;
+            let s_y = touch.slip.y + touch.turning.n * place + touch.turning.x * back;
+            ([s_x, s_y], place, back)
+        };
+        let (s_i, x_i, h_i) = slip(inner);
+        let (s_o, x_o, h_o) = slip(outer);
+        let size = |s: [R; 2]| (s[0].square() + s[1].square()).max(least).sqrt();
+        let (size_i, size_o) = (size(s_i), size(s_o));
+        let (mu_i, mu_o) = law.at_races(&inner.at(size_i), &outer.at(size_o));
+        // one division for both
+        let inverse = node.weight / (size_i * size_o);
+        at_inner.add(mu_i * size_o * inverse, s_i, x_i, h_i);
+        at_outer.add(mu_o * size_i * inverse, s_o, x_o, h_o);
+    }
+    [
+        at_inner.times(inner.load.force),
+        at_outer.times(outer.load.force),
+    ]
+}
