@@ -16,13 +16,19 @@ impl Frame {
     /// The frame whose D1 and D2 are e_x and e_y under the smallest rotation that turns e_z into an axis.
     pub fn along(axis: Vec3<f64>) -> Self {
         let a = axis * axis.length_squared().sqrt().recip();
-        if 1.0 + a.z < 1e-12 {
+        let across = a.x * a.x + a.y * a.y;
+        if a.z < 0.0 && across < 1e-30 {
             let axes = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
             return Frame {
                 axes: axes.map(|[x, y, z]| Vec3::new(x, y, z)),
             };
         }
-        let k = 1.0 / (1.0 + a.z);
+        // 1/(1 + a_z) without a difference
+        let k = if a.z < 0.0 {
+            (1.0 - a.z) / across
+        } else {
+            1.0 / (1.0 + a.z)
+        };
         Frame {
             axes: [
                 Vec3::new(1.0 - k * a.x * a.x, -k * a.x * a.y, -a.x),

@@ -12,6 +12,7 @@
 //! | [`assembly`] | rows on shared rings, mount and rotor: states, rates, energy accounts |
 //! | [`energy`] | energies and momenta of an assembly |
 //! | [`frame`] | the bearing's frame in that of the machine |
+//! | [`statics`] | quasi-static equilibrium, stiffness, ISO/TS 16281 |
 //!
 //! Everything here is in the bearing's frame: the origin in its centre, e_z its axis. [`frame`] turns what is given in another.
 //! Every interaction acts at one point c: a force on one body at c, the opposite on the other at c, a couple with both signs. So
@@ -31,6 +32,7 @@ pub mod pocket;
 pub mod race;
 pub mod rigid_body;
 pub mod row;
+pub mod statics;
 
 pub use assembly::{
     Assembly, AssemblyConstants, AssemblyProbe, InnerRing, LEDGER, OuterRing, SpatialRotor,

@@ -1,0 +1,8 @@
+//! Physics sentences about bearings in space.
+
+mod balances;
+mod closed_forms;
+mod planar_limit;
+mod setup;
+mod statics;
+mod turning;
