@@ -7,11 +7,12 @@
 //! ```
 //! Written over `Real`: tests differentiate V. It knows places and penetrations alone, no points of contact.
 
-use super::assembly::{AssemblyConstants, SpatialRotor};
+use super::assembly::AssemblyConstants;
 use super::ball::{BALL_STATES, BallState, SpatialBall, Turned};
 use super::face::Face;
 use super::race::RaceGroove;
 use super::rigid_body::{Inertia, RigidBody};
+use super::rotor::SpatialRotor;
 use super::row::{CageGuide, lists};
 use crate::bearing::seat;
 use crate::contact::JournalContact;

@@ -9,6 +9,7 @@
 //! | [`row`] | a row of balls with its cage |
 //! | [`bore`], [`face`] | rotor and inner ring, cage and land; shoulder and face |
 //! | [`mount`] | the outer ring in its mount |
+//! | [`rotor`] | the rotor with its contacts and its levitation |
 //! | [`assembly`] | rows on shared rings, mount and rotor: states, rates, energy accounts |
 //! | [`energy`] | energies and momenta of an assembly |
 //! | [`frame`] | the bearing's frame in that of the machine |
@@ -31,12 +32,12 @@ pub mod mount;
 pub mod pocket;
 pub mod race;
 pub mod rigid_body;
+pub mod rotor;
 pub mod row;
 pub mod statics;
 
-pub use assembly::{
-    Assembly, AssemblyConstants, AssemblyProbe, InnerRing, LEDGER, OuterRing, SpatialRotor,
-};
+pub use assembly::{Assembly, AssemblyConstants, AssemblyProbe, InnerRing, LEDGER, OuterRing};
 pub use ball::SpatialBall;
 pub use frame::Frame;
+pub use rotor::{SpatialLevitation, SpatialRotor};
 pub use row::{CageConstants, CageGuide, RowConstants, SpatialLand};

@@ -1,6 +1,7 @@
 //! Physics sentences about bearings in space.
 
 mod balances;
+mod bits;
 mod closed_forms;
 mod planar_limit;
 mod setup;

@@ -1,7 +1,7 @@
 //! Assemblies of every kind, and random states in which all contacts press.
 
 use model::contact::JournalContact;
-use model::spatial::assembly::SpatialLevitation;
+use model::spatial::SpatialLevitation;
 use model::spatial::ball::BALL_STATES;
 use model::spatial::face::Face;
 use model::spatial::mount::SpatialMount;

@@ -2,7 +2,7 @@
 
 use crate::machines::json::{list, number, numbers};
 use model::contact::JournalContact;
-use model::spatial::assembly::SpatialLevitation;
+use model::spatial::SpatialLevitation;
 use model::spatial::ball::{BALL_STATES, BallState, Turned};
 use model::spatial::face::Face;
 use model::spatial::mount::SpatialMount;
