@@ -8,7 +8,7 @@ mod machines;
 #[allow(dead_code)] // shared with the tests
 mod setup;
 
-use model::spatial::{Assembly, AssemblyConstants};
+use model::spatial::{Assembly, AssemblyConstants, CageGuide};
 use model::system::machine::{Machines, RotorMachine};
 use number::{Level, Real, Task, Vectorized};
 use physics::contact_nodes::{ContactNode, legendre, matched, middle};
@@ -91,6 +91,13 @@ fn spatial(
     let rotor = machine.rotor.as_mut().expect("it has one");
     rotor.levitation = None;
     rotor.faces.truncate(1);
+    // as in the plane at the release: rotor and cages are free
+    rotor.contact.radial_clearance = 2.5e-4;
+    for row in &mut machine.rows {
+        if let CageGuide::OuterLand(land) = &mut row.cage.guide {
+            land.contact.radial_clearance = 1.5e-4;
+        }
+    }
     let mut state = random_state(&machine, &mut Random(7), 1.0);
     for (index, row) in machine.rows.iter().enumerate() {
         for ball in 0..row.balls {
@@ -126,6 +133,7 @@ fn main() {
     );
     for (name, signs, nodes, guide) in [
         ("tied, 1 node", SINGLE, middle(), Guide::Tied),
+        ("tied, 3 nodes", SINGLE, matched(8.0), Guide::Tied),
         ("1 node", SINGLE, middle(), Guide::Outer),
         ("3 nodes", SINGLE, matched(8.0), Guide::Outer),
         ("5 nodes", SINGLE, legendre(5), Guide::Outer),

@@ -4,6 +4,7 @@ use analyse::identify::notes::IdentifyWarning;
 use analyse::mount::MountWarning;
 use analyse::rotor::warnings::RotorWarning;
 use analyse::signals::warning_table::SignalsWarning;
+use analyse::stiffness::warnings::StiffnessWarning;
 use analyse::torque::warnings::TorqueWarning;
 use outcome::Severity;
 use problem::warning::Declared;
@@ -38,6 +39,7 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
         RotorWarning::DECLARED,
         MountWarning::DECLARED,
         TorqueWarning::DECLARED,
+        StiffnessWarning::DECLARED,
     ];
     homes.into_iter().flatten()
 }

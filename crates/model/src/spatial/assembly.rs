@@ -184,43 +184,11 @@ impl<R: Real> Assembly<R> {
 
     /// Rates of all states.
     pub fn rate(&self, state: &[R], rate: &mut [R]) -> AssemblyProbe<R> {
-        let mut bodies = Bodies {
-            inner: RigidBody::read(&state[BODY_STATES..]),
-            outer: RigidBody::read(&state[2 * BODY_STATES..]),
-            on_inner: SpatialWrench::zero(),
-            on_outer: SpatialWrench::zero(),
-            power: [R::zero(); LEDGER.len()],
-        };
-        let mut first = BODY_STATES * (3 + self.rows.len());
-        for (index, row) in self.rows.iter().enumerate() {
-            let place = BODY_STATES * (3 + index);
-            let cage = RigidBody::read(&state[place..]);
-            let around = around(&bodies, &cage);
-            let balls = first..first + BALL_STATES * row.balls;
-            first = balls.end;
-            let reaction = row.react(&around, &state[balls.clone()], &mut rate[balls]);
-            R::vectorized(Caged {
-                row,
-                cage: &cage,
-                gravity: self.gravity,
-                bodies: &mut bodies,
-                by_balls: reaction.on_cage,
-                rate: &mut rate[place..place + BODY_STATES],
-            });
-            bodies.on_inner.add(reaction.on_inner);
-            bodies.on_outer.add(reaction.on_outer);
-            for (power, heat) in bodies.power.iter_mut().zip(&reaction.heats) {
-                *power += *heat;
-            }
-        }
-        let probe = R::vectorized(Rings {
+        R::vectorized(Rates {
             assembly: self,
-            bodies: &mut bodies,
             state,
             rate,
-        });
-        rate[first..first + LEDGER.len()].copy_from_slice(&bodies.power);
-        probe
+        })
     }
 
     /// Contacts and pocket of a ball, for inspection.
@@ -268,33 +236,26 @@ fn around<R: Real>(bodies: &Bodies<R>, cage: &RigidBody<R>) -> Around<R::Group> 
     }
 }
 
-/// A cage: its land, its drag, its rates.
-struct Caged<'a, R: Real> {
-    row: &'a Row<R>,
-    cage: &'a RigidBody<R>,
-    gravity: Vec3<R>,
-    bodies: &'a mut Bodies<R>,
-    by_balls: SpatialWrench<R>,
-    rate: &'a mut [R],
-}
-
-impl<R: Real> Vectorized for Caged<'_, R> {
-    type Output = ();
+impl<R: Real> Bodies<R> {
+    /// A cage: its land, its drag, its rates.
     #[inline(always)]
-    fn run(self) {
-        let Caged {
-            row, cage, bodies, ..
-        } = self;
-        let mut on_cage = self.by_balls;
+    fn move_cage(
+        &mut self,
+        row: &Row<R>,
+        cage: &RigidBody<R>,
+        by_balls: SpatialWrench<R>,
+        (gravity, rate): (Vec3<R>, &mut [R]),
+    ) {
+        let mut on_cage = by_balls;
         let drag = row.cage_drag;
         on_cage.moment += cage.spin * -drag;
-        bodies.power[DRAG] += drag * cage.spin.length_squared();
+        self.power[DRAG] += drag * cage.spin.length_squared();
         match &row.guide {
             CageGuide::Tied => {
                 // its place follows the outer ring, which has the forces of its pockets: their couple no ring that is held feels
-                bodies.on_outer.force += on_cage.force;
+                self.on_outer.force += on_cage.force;
                 let turning = row.cage.held_acceleration(cage, on_cage.moment);
-                cage.write_rates(self.rate, [cage.velocity, Vec3::zero()], turning);
+                cage.write_rates(rate, [cage.velocity, Vec3::zero()], turning);
                 return;
             }
             CageGuide::Balls => {}
@@ -302,30 +263,35 @@ impl<R: Real> Vectorized for Caged<'_, R> {
                 let mut k = 0;
                 while k < 2 {
                     let station = land.station(k);
-                    let r = (land.contact).at_station(cage, cage.position, &bodies.outer, station);
+                    let r = (land.contact).at_station::<true>(
+                        cage,
+                        cage.position,
+                        &self.outer,
+                        station,
+                    );
                     on_cage.add(r.on_cylinder);
-                    bodies.on_outer.add(r.on_bore);
-                    bodies.power[LAND] += r.damping_heat;
-                    bodies.power[LAND + 1] += r.friction_heat;
+                    self.on_outer.add(r.on_bore);
+                    self.power[LAND] += r.damping_heat;
+                    self.power[LAND + 1] += r.friction_heat;
                     k += 1;
                 }
             }
             CageGuide::InnerLand(land) => {
                 let mut k = 0;
                 while k < 2 {
-                    let (inner, station) = (&bodies.inner, land.station(k));
-                    let r = (land.contact).at_station(inner, inner.position, cage, station);
+                    let (inner, station) = (&self.inner, land.station(k));
+                    let r = (land.contact).at_station::<true>(inner, inner.position, cage, station);
                     on_cage.add(r.on_bore);
-                    bodies.on_inner.add(r.on_cylinder);
-                    bodies.power[LAND] += r.damping_heat;
-                    bodies.power[LAND + 1] += r.friction_heat;
+                    self.on_inner.add(r.on_cylinder);
+                    self.power[LAND] += r.damping_heat;
+                    self.power[LAND + 1] += r.friction_heat;
                     k += 1;
                 }
             }
         }
-        let acceleration = on_cage.force * row.cage.mass.recip() + self.gravity;
+        let acceleration = on_cage.force * row.cage.mass.recip() + gravity;
         let turning = row.cage.angular_acceleration(cage, on_cage.moment);
-        cage.write_rates(self.rate, [cage.velocity, acceleration], turning);
+        cage.write_rates(rate, [cage.velocity, acceleration], turning);
     }
 }
 
@@ -349,24 +315,60 @@ const LAND: usize = 11;
 pub(super) const FACE: usize = 13;
 const SETTLING: usize = 15;
 
-/// Rotor and rings, when all balls and cages have acted.
-struct Rings<'a, R: Real> {
+/// All rates.
+struct Rates<'a, R: Real> {
     assembly: &'a Assembly<R>,
-    bodies: &'a mut Bodies<R>,
     state: &'a [R],
     rate: &'a mut [R],
 }
 
-impl<R: Real> Vectorized for Rings<'_, R> {
+impl<R: Real> Vectorized for Rates<'_, R> {
     type Output = AssemblyProbe<R>;
     #[inline(always)]
     fn run(self) -> AssemblyProbe<R> {
-        let Rings {
+        let Rates {
             assembly,
-            bodies,
             state,
             rate,
         } = self;
+        let mut bodies = Bodies {
+            inner: RigidBody::read(&state[BODY_STATES..]),
+            outer: RigidBody::read(&state[2 * BODY_STATES..]),
+            on_inner: SpatialWrench::zero(),
+            on_outer: SpatialWrench::zero(),
+            power: [R::zero(); LEDGER.len()],
+        };
+        let mut first = BODY_STATES * (3 + assembly.rows.len());
+        let mut index = 0;
+        while index < assembly.rows.len() {
+            let row = &assembly.rows[index];
+            let place = BODY_STATES * (3 + index);
+            index += 1;
+            let cage = RigidBody::read(&state[place..]);
+            let around = around(&bodies, &cage);
+            let balls = first..first + BALL_STATES * row.balls;
+            first = balls.end;
+            let reaction = row.react(&around, &state[balls.clone()], &mut rate[balls]);
+            let own = &mut rate[place..place + BODY_STATES];
+            bodies.move_cage(row, &cage, reaction.on_cage, (assembly.gravity, own));
+            bodies.on_inner.add(reaction.on_inner);
+            bodies.on_outer.add(reaction.on_outer);
+            let mut k = 0;
+            while k < reaction.heats.len() {
+                bodies.power[k] += reaction.heats[k];
+                k += 1;
+            }
+        }
+        let probe = assembly.move_rings(&mut bodies, state, rate);
+        rate[first..first + LEDGER.len()].copy_from_slice(&bodies.power);
+        probe
+    }
+}
+
+impl<R: Real> Assembly<R> {
+    /// Rotor and rings, when all balls and cages have acted.
+    #[inline(always)]
+    fn move_rings(&self, bodies: &mut Bodies<R>, state: &[R], rate: &mut [R]) -> AssemblyProbe<R> {
         let zero = R::zero();
         let mut probe = AssemblyProbe {
             bore_normal_force: zero,
@@ -378,7 +380,7 @@ impl<R: Real> Vectorized for Rings<'_, R> {
             face_penetration: zero,
             face_friction: zero,
         };
-        match &assembly.rotor {
+        match &self.rotor {
             None => {
                 let mut k = 0;
                 while k < BODY_STATES {
@@ -388,17 +390,17 @@ impl<R: Real> Vectorized for Rings<'_, R> {
             }
             Some(rotor) => {
                 let body = RigidBody::read(state);
-                let on_rotor = rotor.react(&body, assembly.gravity, bodies, &mut probe);
-                let acceleration = on_rotor.force * rotor.inertia.mass.recip() + assembly.gravity;
+                let on_rotor = rotor.react(&body, self.gravity, bodies, &mut probe);
+                let acceleration = on_rotor.force * rotor.inertia.mass.recip() + self.gravity;
                 let turning = rotor.inertia.angular_acceleration(&body, on_rotor.moment);
                 body.write_rates(rate, [body.velocity, acceleration], turning);
             }
         }
-        assembly.move_inner(bodies, &mut rate[BODY_STATES..2 * BODY_STATES]);
-        let acceleration = assembly.move_outer(bodies, &mut rate[2 * BODY_STATES..3 * BODY_STATES]);
+        self.move_inner(bodies, &mut rate[BODY_STATES..2 * BODY_STATES]);
+        let acceleration = self.move_outer(bodies, &mut rate[2 * BODY_STATES..3 * BODY_STATES]);
         let mut index = 0;
-        while index < assembly.rows.len() {
-            if assembly.rows[index].is_tied() {
+        while index < self.rows.len() {
+            if self.rows[index].is_tied() {
                 let at = BODY_STATES * (3 + index) + 3;
                 rate[at] = acceleration.x;
                 rate[at + 1] = acceleration.y;
@@ -408,9 +410,6 @@ impl<R: Real> Vectorized for Rings<'_, R> {
         }
         probe
     }
-}
-
-impl<R: Real> Assembly<R> {
     #[inline(always)]
     fn move_inner(&self, bodies: &mut Bodies<R>, rate: &mut [R]) {
         let (ring, body) = (&self.inner, &bodies.inner);

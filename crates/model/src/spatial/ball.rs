@@ -91,15 +91,19 @@ impl<R: Real> BallState<R> {
     /// From the lists of a row.
     #[inline(always)]
     pub fn load<S: Real<Group = R>>(lists: &[&[S]; BALL_STATES], from: usize) -> Self {
-        let at = |k: usize| S::load_group(lists[k], from);
+        let [rho, d_rho, theta, d_theta, z, d_z, r, t, a] = lists;
         BallState {
-            radius: at(0),
-            radial_speed: at(1),
-            azimuth: at(2),
-            orbit_speed: at(3),
-            axial: at(4),
-            axial_speed: at(5),
-            spin: Vec3::new(at(6), at(7), at(8)),
+            radius: S::load_group(rho, from),
+            radial_speed: S::load_group(d_rho, from),
+            azimuth: S::load_group(theta, from),
+            orbit_speed: S::load_group(d_theta, from),
+            axial: S::load_group(z, from),
+            axial_speed: S::load_group(d_z, from),
+            spin: Vec3::new(
+                S::load_group(r, from),
+                S::load_group(t, from),
+                S::load_group(a, from),
+            ),
         }
     }
     /// From the nine states.

@@ -9,7 +9,7 @@
 use super::rigid_body::{RigidBody, SpatialWrench};
 use crate::contact::JournalContact;
 use number::{Mask, Real, Vec3};
-use physics::contact::{hunt_crossley, hunt_crossley_energy};
+use physics::contact::{hunt_crossley, hunt_crossley_energy, linear_contact};
 
 /// What a cylinder and its bore do to each other at one station.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,9 +31,10 @@ pub struct StationReaction<R> {
 }
 
 impl<R: Real> JournalContact<R> {
-    /// A cylinder about an axis through a point `through` of its body, at a station of the bore's axis.
+    /// A cylinder about an axis through a point `through` of its body, at a station of the bore's axis. `LINEAR` where the exponent
+    /// is 1: it costs no power.
     #[inline(always)]
-    pub fn at_station(
+    pub fn at_station<const LINEAR: bool>(
         &self,
         cylinder: &RigidBody<R>,
         through: Vec3<R>,
@@ -62,7 +63,11 @@ impl<R: Real> JournalContact<R> {
         let (arm_a, arm_b) = (c - cylinder.position, c - bore.position);
         let u = cylinder.velocity_at(arm_a) - bore.velocity_at(arm_b);
         let d_rate = n.dot(u);
-        let load = hunt_crossley(self.stiffness, self.exponent, self.damping, d, d_rate);
+        let load = if LINEAR {
+            linear_contact(self.stiffness, self.damping, d, d_rate)
+        } else {
+            hunt_crossley(self.stiffness, self.exponent, self.damping, d, d_rate)
+        };
         let slip = u.across(n);
         let size = slip.length_squared().max(R::splat(1e-24)).sqrt();
         let friction = self.friction * (size * self.inverse_reference_speed).tanh() * load.force;

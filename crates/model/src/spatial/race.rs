@@ -87,6 +87,27 @@ pub struct AtContact<R> {
     pub n: R,
 }
 
+/// Directions of a contact.
+struct Triad<R> {
+    outward: Vec3<R>,
+    rolling: Vec3<R>,
+    axis: Vec3<R>,
+    normal: [R; 2],
+}
+
+impl<R: Real> Triad<R> {
+    #[inline(always)]
+    fn parts(&self, v: Vec3<R>) -> AtContact<R> {
+        let [n_e, n_a] = self.normal;
+        let (e, a) = (v.dot(self.outward), v.dot(self.axis));
+        AtContact {
+            x: n_a * e - n_e * a,
+            y: v.dot(self.rolling),
+            n: n_e * e + n_a * a,
+        }
+    }
+}
+
 /// Ball and race where they touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch<R> {
@@ -159,15 +180,13 @@ impl<R: Real> RaceGroove<R> {
         // ring less ball: at the ball's centre as if the ring reached there, then at c
         let past = ring.velocity + ring.spin.cross(from_ring) - ball.velocity;
         let turned = ring.spin - ball.spin;
-        let along_contact = |v: Vec3<R>| {
-            let (e, y, a) = (v.dot(outward), v.dot(rolling), v.dot(axis));
-            AtContact {
-                x: n_a * e - n_e * a,
-                y,
-                n: n_e * e + n_a * a,
-            }
+        let triad = Triad {
+            outward,
+            rolling,
+            axis,
+            normal: [n_e, n_a],
         };
-        let (g, turning) = (along_contact(past), along_contact(turned));
+        let (g, turning) = (triad.parts(past), triad.parts(turned));
         let arm = radius - half * at.approach;
         let slip = AtContact {
             x: g.x + arm * turning.y,
@@ -221,12 +240,39 @@ impl<R: Real> Touch<R> {
         [on_ball, on_ring]
     }
     #[inline(always)]
+    fn at_node(&self, node: &ContactNode<R>) -> NodeSlip<R> {
+        let place = node.place * self.half_axis;
+        let back = node.place.square() * self.bulge;
+        NodeSlip {
+            x: self.slip.x - self.turning.y * back,
+            y: self.slip.y + self.turning.n * place + self.turning.x * back,
+            place,
+            back,
+        }
+    }
+    #[inline(always)]
     fn at(&self, slip: R) -> SlidingContact<R> {
         SlidingContact {
             slip,
             load: self.load.force,
             entrainment: self.entrainment,
         }
+    }
+}
+
+/// Slip at a node, m/s, and where it is: across rolling, and behind the middle of the contact, m.
+struct NodeSlip<R> {
+    x: R,
+    y: R,
+    place: R,
+    back: R,
+}
+
+impl<R: Real> NodeSlip<R> {
+    #[inline(always)]
+    fn size(&self) -> R {
+        let least = R::splat(LEAST_SLIP * LEAST_SLIP);
+        (self.x.square() + self.y.square()).max(least).sqrt()
     }
 }
 
@@ -255,14 +301,14 @@ impl<R: Real> NodeSums<R> {
         }
     }
     #[inline(always)]
-    fn add(&mut self, weight: R, slip: [R; 2], place: R, back: R) {
-        let f = [weight * slip[0], weight * slip[1]];
-        self.force[0] += f[0];
-        self.force[1] += f[1];
-        self.couple.x += back * f[1];
-        self.couple.y -= back * f[0];
-        self.couple.n += place * f[1];
-        self.heat += f[0] * slip[0] + f[1] * slip[1];
+    fn add(&mut self, weight: R, at: &NodeSlip<R>) {
+        let (x, y) = (weight * at.x, weight * at.y);
+        self.force[0] += x;
+        self.force[1] += y;
+        self.couple.x += at.back * y;
+        self.couple.y -= at.back * x;
+        self.couple.n += at.place * y;
+        self.heat += x * at.x + y * at.y;
     }
     #[inline(always)]
     fn times(self, load: R) -> Traction<R> {
@@ -286,26 +332,16 @@ pub fn traction<R: Real, L: TractionLaw<R>>(
     nodes: &[ContactNode<R>],
     touches: [&Touch<R>; 2],
 ) -> [Traction<R>; 2] {
-    let least = R::splat(LEAST_SLIP * LEAST_SLIP);
     let [inner, outer] = touches;
     let (mut at_inner, mut at_outer) = (NodeSums::new(), NodeSums::new());
     for node in nodes {
-        let (xi, squared) = (node.place, node.place.square());
-        let slip = |touch: &Touch<R>| {
-            let (place, back) = (xi * touch.half_axis, squared * touch.bulge);
-            let s_x = touch.slip.x - touch.turning.y * back;
-            let s_y = touch.slip.y + touch.turning.n * place + touch.turning.x * back;
-            ([s_x, s_y], place, back)
-        };
-        let (s_i, x_i, h_i) = slip(inner);
-        let (s_o, x_o, h_o) = slip(outer);
-        let size = |s: [R; 2]| (s[0].square() + s[1].square()).max(least).sqrt();
-        let (size_i, size_o) = (size(s_i), size(s_o));
+        let (i, o) = (inner.at_node(node), outer.at_node(node));
+        let (size_i, size_o) = (i.size(), o.size());
         let (mu_i, mu_o) = law.at_races(&inner.at(size_i), &outer.at(size_o));
         // one division for both
         let inverse = node.weight / (size_i * size_o);
-        at_inner.add(mu_i * size_o * inverse, s_i, x_i, h_i);
-        at_outer.add(mu_o * size_i * inverse, s_o, x_o, h_o);
+        at_inner.add(mu_i * size_o * inverse, &i);
+        at_outer.add(mu_o * size_i * inverse, &o);
     }
     [
         at_inner.times(inner.load.force),

@@ -59,6 +59,14 @@ impl<R: Real> SpatialWrench<R> {
             moment: Vec3::zero(),
         }
     }
+    /// Of six numbers: the force, then the moment.
+    #[inline(always)]
+    pub fn from_slice(list: &[R]) -> Self {
+        SpatialWrench {
+            force: triple(list, 0),
+            moment: triple(list, 3),
+        }
+    }
     /// Adds a force at a place from the centre of mass.
     #[inline(always)]
     pub fn add_at(&mut self, force: Vec3<R>, arm: Vec3<R>) {

@@ -65,6 +65,12 @@ fn gather_list<'a, R: Real, T: Gather<R> + 'a>(machine: &dyn Fn(usize) -> &'a [T
     (0..machine(0).len()).map(one).collect()
 }
 
+/// The part of a vector across the bearing's axis.
+#[inline(always)]
+fn transverse<R: Real>(v: Vec3<R>) -> Vec3<R> {
+    Vec3::new(v.x, v.y, R::zero())
+}
+
 impl<R: Real> Rotor<R> {
     pub(super) fn gather<'a>(machine: &dyn Fn(usize) -> &'a SpatialRotor) -> Self {
         let sides = |k: usize| {
@@ -108,7 +114,8 @@ impl<R: Real> Rotor<R> {
         let centre = body.position + from_mass;
         let mut k = 0;
         while k < self.stations.len() {
-            let r = (self.contact).at_station(body, centre, &bodies.inner, self.stations[k]);
+            let r =
+                (self.contact).at_station::<false>(body, centre, &bodies.inner, self.stations[k]);
             on_rotor.add(r.on_cylinder);
             bodies.on_inner.add(r.on_bore);
             bodies.power[BORE] += r.damping_heat;
@@ -135,13 +142,13 @@ impl<R: Real> Rotor<R> {
             let zero = R::zero();
             if levitation.carries {
                 let share = R::splat(1.0 / stations.len() as f64);
-                let across = |v: Vec3<R>| Vec3::new(v.x, v.y, zero);
                 let mut k = 0;
                 while k < stations.len() {
                     let arm = from_mass + body.axis * stations[k];
-                    let x = across(body.position + arm);
-                    let v = across(body.velocity_at(arm));
-                    let force = x * levitation.stiffness + v * levitation.damping + across(weight);
+                    let x = transverse(body.position + arm);
+                    let v = transverse(body.velocity_at(arm));
+                    let force =
+                        x * levitation.stiffness + v * levitation.damping + transverse(weight);
                     on_rotor.add_at(force * -share, arm);
                     bodies.power[AMB] += levitation.damping * share * v.length_squared();
                     k += 1;

@@ -10,7 +10,7 @@ use crate::bearing::ball::gather_group;
 use crate::bearing::ball_sums::BallSums;
 use crate::bearing::seat;
 use crate::contact::JournalContact;
-use number::{Gather, Real, Vec3, Vectorized, constants};
+use number::{Gather, Real, Vectorized, constants};
 use physics::contact_nodes::ContactNode;
 use physics::traction::{Traction, TractionLaw};
 
@@ -323,14 +323,10 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
         }
         let s = sums.total();
         let c = in_pockets.total();
-        let wrench = |v: &[R]| SpatialWrench {
-            force: Vec3::new(v[0], v[1], v[2]),
-            moment: Vec3::new(v[3], v[4], v[5]),
-        };
         RowReaction {
-            on_inner: wrench(&s[..6]),
-            on_outer: wrench(&s[6..12]),
-            on_cage: wrench(&c[..6]),
+            on_inner: SpatialWrench::from_slice(&s[..6]),
+            on_outer: SpatialWrench::from_slice(&s[6..12]),
+            on_cage: SpatialWrench::from_slice(&c[..6]),
             heats: [s[12], s[13], s[14], s[15], s[16], c[6], c[7]],
         }
     }
