@@ -52,8 +52,6 @@ pub struct FaceReaction<R> {
     pub damping_heat: R,
     /// Heat of sliding, W.
     pub friction_heat: R,
-    /// Energy in the contact, J.
-    pub energy: R,
 }
 
 /// Directions of the nodes, cosines and sines.
@@ -81,7 +79,7 @@ impl<R: Real> Face<R> {
         let level = (ring.position + middle - centre).dot(up) - self.shoulder;
         let share = self.stiffness * R::splat(1.0 / count as f64);
         let slope = [d1.dot(up), d2.dot(up)];
-        let mut sums = BallSums::<R, 11>::new(count);
+        let (mut wrench, mut sums) = (BallSums::<R, 6>::new(count), BallSums::<R, 4>::new(count));
         let mut largest = <R::Group as Real>::splat(f64::NEG_INFINITY);
         let mut from = 0;
         while from < count {
@@ -110,38 +108,19 @@ impl<R: Real> Face<R> {
                 let friction = self.friction.grouped() * rate.tanh() * load.force;
                 let force = up * (side * load.force) - slip * (friction / size);
                 let moment = arm.cross(force);
-                let half = <R::Group as Real>::splat(0.5);
+                wrench.add(from, &SpatialWrench { force, moment }.to_array());
                 let terms = [
-                    force.x,
-                    force.y,
-                    force.z,
-                    moment.x,
-                    moment.y,
-                    moment.z,
                     load.force,
                     friction,
                     (load.force - load.elastic) * d_rate,
                     friction * size,
-                    half * load.elastic * d,
                 ];
                 sums.add(from, &terms);
             }
             from += R::GROUP;
         }
-        let [
-            x,
-            y,
-            z,
-            mx,
-            my,
-            mz,
-            normal,
-            friction,
-            damping_heat,
-            friction_heat,
-            energy,
-        ] = sums.total();
-        let (force, moment) = (Vec3::new(x, y, z), Vec3::new(mx, my, mz));
+        let SpatialWrench { force, moment } = SpatialWrench::from_array(wrench.total());
+        let [normal, friction, damping_heat, friction_heat] = sums.total();
         let to_rotor = (ring.position - rotor.position).cross(force);
         FaceReaction {
             on_rotor: SpatialWrench {
@@ -157,7 +136,6 @@ impl<R: Real> Face<R> {
             penetration: largest_part::<R>(largest),
             damping_heat,
             friction_heat,
-            energy,
         }
     }
 }

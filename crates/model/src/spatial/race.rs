@@ -76,35 +76,33 @@ pub struct BallInSpace<R> {
     pub spin: Vec3<R>,
 }
 
-/// A vector in the directions of a contact: t_x, t_y and n.
+/// Directions of a contact: t_x, t_y and n, in which vectors of a contact have their components x, y and z.
 #[derive(Clone, Copy, Debug)]
-pub struct AtContact<R> {
-    /// Across rolling.
-    pub x: R,
-    /// Along rolling.
-    pub y: R,
-    /// Into the race.
-    pub n: R,
-}
-
-/// Directions of a contact.
-struct Triad<R> {
+pub struct Triad<R> {
+    /// e: from the ring's axis to the ball.
     outward: Vec3<R>,
+    /// t_y.
     rolling: Vec3<R>,
     axis: Vec3<R>,
-    normal: [R; 2],
+    /// Parts of n along e and along a.
+    pub normal: [R; 2],
 }
 
 impl<R: Real> Triad<R> {
+    /// A vector of the frame in the contact.
     #[inline(always)]
-    fn parts(&self, v: Vec3<R>) -> AtContact<R> {
+    fn inward(&self, v: Vec3<R>) -> Vec3<R> {
         let [n_e, n_a] = self.normal;
         let (e, a) = (v.dot(self.outward), v.dot(self.axis));
-        AtContact {
-            x: n_a * e - n_e * a,
-            y: v.dot(self.rolling),
-            n: n_e * e + n_a * a,
-        }
+        Vec3::new(n_a * e - n_e * a, v.dot(self.rolling), n_e * e + n_a * a)
+    }
+    /// A vector of the contact in the frame.
+    #[inline(always)]
+    fn outward(&self, v: Vec3<R>) -> Vec3<R> {
+        let [n_e, n_a] = self.normal;
+        self.outward * (n_a * v.x + n_e * v.z)
+            + self.rolling * v.y
+            + self.axis * (n_a * v.z - n_e * v.x)
     }
 }
 
@@ -113,13 +111,8 @@ impl<R: Real> Triad<R> {
 pub struct Touch<R> {
     /// From the ring's centre to the ball's, m.
     from_ring: Vec3<R>,
-    /// e: from the ring's axis to the ball.
-    pub outward: Vec3<R>,
-    /// t_y.
-    rolling: Vec3<R>,
-    axis: Vec3<R>,
-    /// Parts of n along e and along a.
-    pub normal: [R; 2],
+    /// Its directions.
+    pub triad: Triad<R>,
     /// δ, m.
     pub approach: R,
     /// δ̇, m/s.
@@ -129,9 +122,9 @@ pub struct Touch<R> {
     /// r - δ/2, m.
     arm: R,
     /// u, m/s; its part along n is -δ̇.
-    pub slip: AtContact<R>,
+    pub slip: Vec3<R>,
     /// Δ, rad/s.
-    pub turning: AtContact<R>,
+    pub turning: Vec3<R>,
     /// Half axis a_H, m.
     pub half_axis: R,
     /// a_H²/(2R_c): how far the rim of the ellipse stands back, m.
@@ -143,10 +136,10 @@ pub struct Touch<R> {
 /// Traction in a contact, on the ball.
 #[derive(Clone, Copy, Debug)]
 pub struct Traction<R> {
-    /// F, N; without a part along n.
-    pub force: [R; 2],
+    /// F, N; none along n.
+    pub force: Vec3<R>,
     /// M about c, N m.
-    pub couple: AtContact<R>,
+    pub couple: Vec3<R>,
     /// Heat of slip and spin, W.
     pub heat: R,
 }
@@ -186,22 +179,15 @@ impl<R: Real> RaceGroove<R> {
             axis,
             normal: [n_e, n_a],
         };
-        let (g, turning) = (triad.parts(past), triad.parts(turned));
+        let (g, turning) = (triad.inward(past), triad.inward(turned));
         let arm = radius - half * at.approach;
-        let slip = AtContact {
-            x: g.x + arm * turning.y,
-            y: g.y - arm * turning.x,
-            n: g.n,
-        };
-        let closing = -g.n;
+        let slip = Vec3::new(g.x + arm * turning.y, g.y - arm * turning.x, g.z);
+        let closing = -g.z;
         let load = ball_race(self.stiffness, damping_time, at.approach, closing);
         let half_axis = self.half_axis * at.approach.max(R::zero()).sqrt();
         Touch {
             from_ring,
-            outward,
-            rolling,
-            axis,
-            normal: [n_e, n_a],
+            triad,
             approach: at.approach,
             closing,
             load,
@@ -219,19 +205,10 @@ impl<R: Real> Touch<R> {
     /// What traction and load do to the ball, the moment about its centre; and to the ring, about the ring's.
     #[inline(always)]
     pub fn on_ball_and_ring(&self, traction: &Traction<R>) -> [SpatialWrench<R>; 2] {
-        let [n_e, n_a] = self.normal;
-        let [x, y] = traction.force;
-        let q = self.load.force;
-        let m = AtContact {
-            x: traction.couple.x - self.arm * y,
-            y: traction.couple.y + self.arm * x,
-            n: traction.couple.n,
-        };
-        let force =
-            self.outward * (n_a * x - n_e * q) + self.rolling * y - self.axis * (n_e * x + n_a * q);
-        let moment = self.outward * (n_a * m.x + n_e * m.n)
-            + self.rolling * m.y
-            + self.axis * (n_a * m.n - n_e * m.x);
+        let Vec3 { x, y, z } = traction.force;
+        let force = self.triad.outward(Vec3::new(x, y, z - self.load.force));
+        let arms = Vec3::new(-(self.arm * y), self.arm * x, R::zero());
+        let moment = self.triad.outward(traction.couple + arms);
         let on_ball = SpatialWrench { force, moment };
         let on_ring = SpatialWrench {
             force: -force,
@@ -245,7 +222,7 @@ impl<R: Real> Touch<R> {
         let back = node.place.square() * self.bulge;
         NodeSlip {
             x: self.slip.x - self.turning.y * back,
-            y: self.slip.y + self.turning.n * place + self.turning.x * back,
+            y: self.slip.y + self.turning.z * place + self.turning.x * back,
             place,
             back,
         }
@@ -279,47 +256,27 @@ impl<R: Real> NodeSlip<R> {
 /// Slip below which traction is proportional to slip, m/s.
 const LEAST_SLIP: f64 = 1e-12;
 
-/// Sums over the nodes of a contact.
-struct NodeSums<R> {
-    force: [R; 2],
-    couple: AtContact<R>,
-    heat: R,
-}
-
-impl<R: Real> NodeSums<R> {
+impl<R: Real> Traction<R> {
     #[inline(always)]
-    fn new() -> Self {
-        let zero = R::zero();
-        NodeSums {
-            force: [zero; 2],
-            couple: AtContact {
-                x: zero,
-                y: zero,
-                n: zero,
-            },
-            heat: zero,
+    fn none() -> Self {
+        Traction {
+            force: Vec3::zero(),
+            couple: Vec3::zero(),
+            heat: R::zero(),
         }
     }
     #[inline(always)]
     fn add(&mut self, weight: R, at: &NodeSlip<R>) {
         let (x, y) = (weight * at.x, weight * at.y);
-        self.force[0] += x;
-        self.force[1] += y;
-        self.couple.x += at.back * y;
-        self.couple.y -= at.back * x;
-        self.couple.n += at.place * y;
+        self.force += Vec3::new(x, y, R::zero());
+        self.couple += Vec3::new(at.back * y, -(at.back * x), at.place * y);
         self.heat += x * at.x + y * at.y;
     }
     #[inline(always)]
-    fn times(self, load: R) -> Traction<R> {
-        let couple = self.couple;
+    fn times(self, load: R) -> Self {
         Traction {
-            force: [self.force[0] * load, self.force[1] * load],
-            couple: AtContact {
-                x: couple.x * load,
-                y: couple.y * load,
-                n: couple.n * load,
-            },
+            force: self.force * load,
+            couple: self.couple * load,
             heat: self.heat * load,
         }
     }
@@ -333,7 +290,7 @@ pub fn traction<R: Real, L: TractionLaw<R>>(
     touches: [&Touch<R>; 2],
 ) -> [Traction<R>; 2] {
     let [inner, outer] = touches;
-    let (mut at_inner, mut at_outer) = (NodeSums::new(), NodeSums::new());
+    let (mut at_inner, mut at_outer) = (Traction::none(), Traction::none());
     for node in nodes {
         let (i, o) = (inner.at_node(node), outer.at_node(node));
         let (size_i, size_o) = (i.size(), o.size());

@@ -61,11 +61,17 @@ impl<R: Real> SpatialWrench<R> {
     }
     /// Of six numbers: the force, then the moment.
     #[inline(always)]
-    pub fn from_slice(list: &[R]) -> Self {
+    pub fn from_array(list: [R; 6]) -> Self {
         SpatialWrench {
-            force: triple(list, 0),
-            moment: triple(list, 3),
+            force: triple(&list, 0),
+            moment: triple(&list, 3),
         }
+    }
+    /// Its six numbers.
+    #[inline(always)]
+    pub fn to_array(self) -> [R; 6] {
+        let (f, m) = (self.force, self.moment);
+        [f.x, f.y, f.z, m.x, m.y, m.z]
     }
     /// Adds a force at a place from the centre of mass.
     #[inline(always)]

@@ -43,7 +43,7 @@ pub struct CageConstants {
 /// What guides a cage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CageGuide<R> {
-    /// It turns about its own axis and moves with the outer ring, which takes the forces of its pockets.
+    /// It turns about its own axis and moves with the outer ring, which takes the forces of its pockets and must not turn.
     Tied,
     /// Its balls.
     Balls,
@@ -261,8 +261,9 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
         let inverse_mass = law.mass.recip();
         let inverse_inertia =
             inverse_mass * (<R::Group as Real>::splat(0.4) * law.radius.square()).recip();
-        let mut sums = BallSums::<R, 17>::new(n);
-        let mut in_pockets = BallSums::<R, 8>::new(n);
+        let (mut on_inner, mut on_outer) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
+        let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 5>::new(n));
+        let mut pocket_heats = BallSums::<R, 2>::new(n);
         let mut from = 0;
         while from < n {
             let ball = BallState::load(&states, from);
@@ -272,19 +273,16 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             let between = law.between(self.law, &row.nodes, rings, &space);
             let [t_i, t_o] = &between.touch;
             let [f_i, f_o] = &between.traction;
-            let [mut on_ball, on_inner] = t_i.on_ball_and_ring(f_i);
-            let [by_outer, on_outer] = t_o.on_ball_and_ring(f_o);
+            let [mut on_ball, inner] = t_i.on_ball_and_ring(f_i);
+            let [by_outer, outer] = t_o.on_ball_and_ring(f_o);
             on_ball.add(by_outer);
 
             let place = row.place(&around.cage, from, &space);
             if law.pocket.may_press(&place) {
                 let p = law.pocket.react(&around.cage, &space, law.radius, &place);
                 on_ball.add(p.on_ball);
-                let SpatialWrench { force, moment } = p.on_cage;
-                let heats = [p.damping_heat, p.sliding_heat];
-                let [x, y, z] = [force.x, force.y, force.z];
-                let [mx, my, mz] = [moment.x, moment.y, moment.z];
-                in_pockets.add(from, &[x, y, z, mx, my, mz, heats[0], heats[1]]);
+                on_cage.add(from, &p.on_cage.to_array());
+                pocket_heats.add(from, &[p.damping_heat, p.sliding_heat]);
             }
 
             let along = ball.radius * ball.orbit_speed;
@@ -297,21 +295,11 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
                 R::store_group(rates[k], &mut self.rate[k * n..(k + 1) * n], from);
                 k += 1;
             }
-            sums.add(
+            on_inner.add(from, &inner.to_array());
+            on_outer.add(from, &outer.to_array());
+            heats.add(
                 from,
                 &[
-                    on_inner.force.x,
-                    on_inner.force.y,
-                    on_inner.force.z,
-                    on_inner.moment.x,
-                    on_inner.moment.y,
-                    on_inner.moment.z,
-                    on_outer.force.x,
-                    on_outer.force.y,
-                    on_outer.force.z,
-                    on_outer.moment.x,
-                    on_outer.moment.y,
-                    on_outer.moment.z,
                     (t_i.load.force - t_i.load.elastic) * t_i.closing,
                     (t_o.load.force - t_o.load.elastic) * t_o.closing,
                     f_i.heat,
@@ -321,13 +309,13 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             );
             from += R::GROUP;
         }
-        let s = sums.total();
-        let c = in_pockets.total();
+        let [d_i, d_o, s_i, s_o, drag] = heats.total();
+        let [damping, friction] = pocket_heats.total();
         RowReaction {
-            on_inner: SpatialWrench::from_slice(&s[..6]),
-            on_outer: SpatialWrench::from_slice(&s[6..12]),
-            on_cage: SpatialWrench::from_slice(&c[..6]),
-            heats: [s[12], s[13], s[14], s[15], s[16], c[6], c[7]],
+            on_inner: SpatialWrench::from_array(on_inner.total()),
+            on_outer: SpatialWrench::from_array(on_outer.total()),
+            on_cage: SpatialWrench::from_array(on_cage.total()),
+            heats: [d_i, d_o, s_i, s_o, drag, damping, friction],
         }
     }
 }

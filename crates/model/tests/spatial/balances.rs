@@ -316,11 +316,11 @@ fn friction_only_heats_at_every_set_of_nodes() {
                 let ball = assembly.ball(1, ball, &state);
                 for (touch, traction) in ball.races.touch.iter().zip(&ball.races.traction) {
                     let (u, d, m) = (touch.slip, touch.turning, traction.couple);
-                    let power = traction.force[0] * u.x
-                        + traction.force[1] * u.y
+                    let power = traction.force.x * u.x
+                        + traction.force.y * u.y
                         + m.x * d.x
                         + m.y * d.y
-                        + m.n * d.n;
+                        + m.z * d.z;
                     assert!(traction.heat >= 0.0);
                     assert!((power - traction.heat).abs() <= 1e-12 * traction.heat);
                 }

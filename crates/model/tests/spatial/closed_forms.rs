@@ -9,7 +9,7 @@ use physics::contact_nodes::{matched, middle, pure_spin_couple};
 use physics::traction::TanhTraction;
 
 /// Runge and Kutta's classical steps.
-fn run(machine: &AssemblyConstants, state: &mut [f64], time: f64, steps: usize) {
+pub fn run(machine: &AssemblyConstants, state: &mut [f64], time: f64, steps: usize) {
     let assembly = Assembly::<f64>::gather(&|_| machine);
     let h = time / steps as f64;
     let mut k = vec![vec![0.0; state.len()]; 4];
@@ -158,12 +158,12 @@ fn pure_spin_has_the_couple_of_the_ellipse() {
         inverse_reference_speed: 1e9,
     };
     let [found, _] = traction(&law, &matched(k), [&touch, &touch]);
-    assert!((touch.turning.n - spin).abs() < 1e-12 && touch.slip.y.abs() < 1e-12);
+    assert!((touch.turning.z - spin).abs() < 1e-12 && touch.slip.y.abs() < 1e-12);
     let expected = pure_spin_couple(0.07 * touch.load.force, touch.half_axis, k);
     assert!(
-        (found.couple.n / expected - 1.0).abs() < 1e-6,
+        (found.couple.z / expected - 1.0).abs() < 1e-6,
         "{} {expected}",
-        found.couple.n
+        found.couple.z
     );
 }
 

@@ -1,11 +1,14 @@
 //! Equilibria: closed forms, and the steady dynamics that no hypothesis is needed for.
 
+use super::closed_forms::run;
 use super::setup::*;
 use model::spatial::RowConstants;
 use model::spatial::race::RaceGroove;
+use model::spatial::rigid_body::RigidBody;
 use model::spatial::statics::ball::Running;
 use model::spatial::statics::steady::steady_row;
 use model::spatial::statics::{RaceControl, RingLoad, StaticBall, StaticRow, StaticRows};
+use number::Vec3;
 use physics::contact_nodes::matched;
 use physics::groove::{axis_over_root_approach, contact_surface_radius, pure_axial_load};
 use physics::hertz::{BallRace, PointContact, Race};
@@ -175,6 +178,66 @@ fn stiffness_is_the_slope_of_the_reaction() {
     }
 }
 
+#[test]
+fn dynamics_at_rest_settle_on_the_equilibrium() {
+    let row = row(0.07);
+    let rows = StaticRows(vec![static_row(&row)]);
+    let load = |share: f64| RingLoad {
+        force: [share * 60.0, 0.0, share * 300.0],
+        moment: [0.0, share * 0.4],
+    };
+    let (start, expected) = (
+        rows.settle(&load(0.7), &REST).unwrap(),
+        rows.settle(&load(1.0), &REST).unwrap(),
+    );
+    let mut machine = bearing(SINGLE, row.traction, &row.nodes, Guide::Tied);
+    machine.rows[0] = RowConstants {
+        cage: machine.rows[0].cage,
+        ..row
+    };
+    machine.rows[0].ball.gravity = Vec3::zero();
+    machine.gravity = Vec3::zero();
+    let RingLoad { force, moment } = load(1.0);
+    machine.inner.force = Vec3::new(force[0], force[1], force[2]);
+    machine.inner.moment = Vec3::new(moment[0], moment[1], 0.0);
+    (machine.inner.settling, machine.inner.tilt_settling) = (60.0, 6e-3);
+    let mount = &mut machine.outer.mount;
+    (mount.radial_stiffness, mount.axial_stiffness) = (1e8, 1e8);
+    (mount.radial_damping, mount.axial_damping) = (4e3, 4e3);
+    let mut state = vec![0.0; machine.states()];
+    for body in 0..4 {
+        state[machine.body(body) + 6] = 1.0;
+    }
+    let inner = machine.body(1);
+    let from = start.displacement;
+    state[inner..inner + 3].copy_from_slice(&from.shift);
+    state[inner + 7..inner + 9].copy_from_slice(&from.tilt.map(|tilt| 0.5 * tilt));
+    for (j, ball) in start.rows[0].iter().enumerate() {
+        let values = [ball.place[0], 0.0, ball.azimuth, 0.0, ball.place[1]];
+        for (k, value) in values.into_iter().enumerate() {
+            state[ball_state(&machine, 0, j, k)] = value;
+        }
+    }
+    run(&machine, &mut state, 0.012, 6000);
+    let outer = machine.body(2);
+    let axis = RigidBody::read(&state[inner..]).axis;
+    let shift = [0, 1, 2].map(|k| state[inner + k] - state[outer + k]);
+    let largest = shift.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+    for (found, expected) in shift.iter().zip(expected.displacement.shift) {
+        assert!(
+            (found - expected).abs() < 1e-4 * largest,
+            "{found} {expected}"
+        );
+    }
+    let tilt = [-axis.y, axis.x];
+    for (found, expected) in tilt.iter().zip(expected.displacement.tilt) {
+        assert!(
+            (found - expected).abs() < 1e-4 * tilt[1].abs(),
+            "{found} {expected}"
+        );
+    }
+}
+
 /// Steady motions of the reference's solver: speed, load, friction; displacement µm, loads, cage over ring speed, spins, forces across, w_t.
 const STEADY: [[f64; 12]; 5] = [
     [
@@ -209,10 +272,10 @@ fn steady_dynamics_under_axial_load_meet_the_table() {
                 inner.load.force,
                 outer.load.force,
                 found.ball.orbit_speed / speed,
-                -inner.turning.n,
-                -outer.turning.n,
-                f_i.force[0].abs(),
-                f_o.force[0].abs(),
+                -inner.turning.z,
+                -outer.turning.z,
+                f_i.force.x.abs(),
+                f_o.force.x.abs(),
                 found.ball.spin.y,
             ];
             // 1e-4 of each value, or half of the last digit printed and its rounding

@@ -182,7 +182,7 @@ fn columns(ball: &BallContacts<f64>, free: bool) -> [f64; 32] {
         let own = &mut columns[14 * k..14 * (k + 1)];
         own[0] = touch.approach;
         if touch.approach > 0.0 {
-            let sine = touch.normal[1];
+            let sine = touch.triad.normal[1];
             own[1..].copy_from_slice(&[
                 touch.load.force,
                 touch.load.elastic,
@@ -190,11 +190,11 @@ fn columns(ball: &BallContacts<f64>, free: bool) -> [f64; 32] {
                 traction.heat,
                 touch.slip.x,
                 touch.slip.y,
-                traction.force[0],
-                traction.force[1],
-                traction.couple.n,
+                traction.force.x,
+                traction.force.y,
+                traction.couple.z,
                 sine,
-                touch.turning.n,
+                touch.turning.z,
                 touch.half_axis,
                 traction.couple.x,
             ]);
