@@ -4,7 +4,7 @@ use crate::arguments::Stiffness;
 use crate::{bearings, console};
 use auxbear::problem::Result;
 use auxbear::run::stiffness::answer::Ball;
-use auxbear::run::stiffness::{self, Answer, Asked, Texts};
+use auxbear::run::stiffness::{self, Answer, Asked, Typed};
 
 /// What messages name as the file.
 const PLACE: &str = "auxbear bearings stiffness";
@@ -13,20 +13,23 @@ const PLACE: &str = "auxbear bearings stiffness";
 pub fn perform(wish: &Stiffness) -> Result<()> {
     let catalogue = bearings::read(wish.catalogue.as_deref())?;
     let bearing = bearings::meant(&catalogue, &wish.name.join(" "), PLACE)?;
-    let texts = Texts {
-        axial: wish.axial.as_deref(),
-        radial: wish.radial.as_deref(),
-        moment: wish.moment.as_deref(),
-        speed: wish.speed.as_deref(),
-        contact_angle: wish.contact_angle.as_deref(),
-        clearance: wish.clearance.as_deref(),
-        arrangement: wish.arrangement.as_deref(),
-        preload: wish.preload.as_deref(),
-        offset: wish.offset.as_deref(),
-        spacing: wish.spacing.as_deref(),
-        race_control: wish.race_control.as_deref(),
+    let typed = Typed {
+        texts: &[
+            ("--axial", wish.axial.as_deref()),
+            ("--radial", wish.radial.as_deref()),
+            ("--moment", wish.moment.as_deref()),
+            ("--speed", wish.speed.as_deref()),
+            ("--contact-angle", wish.contact_angle.as_deref()),
+            ("--clearance", wish.clearance.as_deref()),
+            ("--arrangement", wish.arrangement.as_deref()),
+            ("--preload", wish.preload.as_deref()),
+            ("--offset", wish.offset.as_deref()),
+            ("--spacing", wish.spacing.as_deref()),
+            ("--race-control", wish.race_control.as_deref()),
+        ],
+        place: PLACE,
     };
-    let answer = stiffness::run(&Asked::read(bearing, &texts, PLACE)?, PLACE)?;
+    let answer = stiffness::run(&Asked::read(bearing, &typed)?, PLACE)?;
     console::print(&if wish.json {
         answer.to_json()
     } else {
@@ -57,8 +60,8 @@ fn text(answer: &Answer) -> String {
     let mut text = format!(
         "{}, {}, free contact angle {angle} deg, race control: {}\n",
         asked.name,
-        asked.arrangement_word(),
-        asked.control_word()
+        asked.words()[0],
+        asked.words()[1]
     );
     if answer.offset > 0.0 {
         let thrusts = answer.preload_thrusts.iter().flatten();
@@ -88,9 +91,11 @@ fn text(answer: &Answer) -> String {
     let units = ["", "N", "deg: N N", "deg", "MPa", "of the ring", "rad/s"];
     let mut rows = vec![head.map(String::from), units.map(String::from)];
     for (index, balls) in answer.rows.iter().enumerate() {
-        let most = balls
-            .iter()
-            .max_by(|a, b| a.loads[1].total_cmp(&b.loads[1]));
+        // of balls that carry the same the first
+        let most = balls.iter().reduce(|most, ball| {
+            let more = ball.loads[1] > most.loads[1] * (1.0 + 1e-9);
+            if more { ball } else { most }
+        });
         rows.extend(most.map(|ball| row(answer, index, ball)));
     }
     text.push_str(&console::table(&rows));

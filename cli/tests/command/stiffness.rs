@@ -113,11 +113,11 @@ fn what_is_out_of_range_is_warned_of() {
     let fast = [
         "6005",
         "--axial",
-        "5 N",
-        "--radial",
         "20 N",
+        "--radial",
+        "100 N",
         "--speed",
-        "40000 rpm",
+        "30000 rpm",
         "--contact-angle",
         "15 deg",
     ];
@@ -169,7 +169,7 @@ fn wrong_input_is_one_message() {
         &["--contact-angle", "0 to 60 deg"],
     );
     refused(
-        &["--axial", "1 N", "--contact-angle", "50 deg"],
+        &["--axial", "1 N", "--contact-angle", "55 deg"],
         &["--contact-angle", "groove", "ends"],
     );
     refused(

@@ -123,8 +123,8 @@ impl Answer {
         let asked = &self.asked;
         let whole = json!({
             "bearing": asked.name,
-            "arrangement": asked.arrangement_word(),
-            "race_control": asked.control_word(),
+            "arrangement": asked.words()[0],
+            "race_control": asked.words()[1],
             "free_contact_angle": asked.free_angle,
             "axial_load": asked.axial,
             "radial_load": asked.radial,

@@ -5,34 +5,8 @@ use model::spatial::statics::RaceControl;
 use physics::groove::{centre_distance, free_contact_angle};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE};
 use problem::{Code, Problem, Result, did_you_mean};
+use std::f64::consts::FRAC_PI_3;
 use units::parse_quantity;
-
-/// The words, each as typed.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Texts<'a> {
-    /// Force along the axis on the inner ring.
-    pub axial: Option<&'a str>,
-    /// Force across the axis.
-    pub radial: Option<&'a str>,
-    /// Moment about the axis across that force.
-    pub moment: Option<&'a str>,
-    /// Speed of the inner ring.
-    pub speed: Option<&'a str>,
-    /// Free contact angle.
-    pub contact_angle: Option<&'a str>,
-    /// Diametral clearance, from which the free contact angle follows.
-    pub clearance: Option<&'a str>,
-    /// Arrangement of a pair.
-    pub arrangement: Option<&'a str>,
-    /// Preload of a pair, a force.
-    pub preload: Option<&'a str>,
-    /// Preload of a pair, the distance by which it is closed.
-    pub offset: Option<&'a str>,
-    /// Distance of the rows of a pair.
-    pub spacing: Option<&'a str>,
-    /// Hypothesis of the balls' spin.
-    pub race_control: Option<&'a str>,
-}
 
 /// How rows stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,174 +75,174 @@ pub struct Asked {
     pub control: RaceControl,
 }
 
-/// Reads words under one place that stands for the file.
-struct Reader<'a>(&'a str);
-
-impl Reader<'_> {
-    fn problem(&self, code: Code, option: &str, found: String, allowed: &str) -> Box<Problem> {
-        Problem::new(code, self.0, found, allowed).on_key(option)
-    }
-    /// A quantity of a unit whose value is allowed.
-    fn quantity(
-        &self,
-        (option, text): (&str, Option<&str>),
-        unit: &str,
-        (allowed, needed): (impl Fn(f64) -> bool, &str),
-    ) -> Result<Option<f64>> {
-        let Some(text) = text else { return Ok(None) };
-        let read = parse_quantity(text).ok();
-        let read = read.filter(|own| own.dimension.si_unit() == unit && allowed(own.value_si));
-        match read {
-            Some(own) => Ok(Some(own.value_si)),
-            None => Err(self.problem(Code::OutOfRange, option, format!("\"{text}\""), needed)),
-        }
-    }
-    fn word<T: Copy>(
-        &self,
-        (option, text): (&str, Option<&str>),
-        words: &[(&str, T)],
-    ) -> Result<T> {
-        let Some(text) = text else {
-            return Ok(words[0].1);
-        };
-        let same = words
-            .iter()
-            .find(|(word, _)| word.eq_ignore_ascii_case(text.trim()));
-        same.map(|(_, value)| *value).ok_or_else(|| {
-            let all: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-            let needed = format!("one of {} is needed", all.join(", "));
-            let hint = did_you_mean(text, all.iter().copied());
-            self.problem(Code::UnknownWord, option, format!("\"{text}\""), &needed)
-                .with_hint(hint)
-        })
-    }
-}
-
+/// Options that are quantities: unit, smallest and largest value, what is needed.
+#[rustfmt::skip]
+const QUANTITIES: [(&str, &str, [f64; 2], &str); 9] = [
+    ("--axial", "N", ANY, "a force is needed, e.g. \"200 N\""),
+    ("--radial", "N", ANY, "a force is needed, e.g. \"200 N\""),
+    ("--moment", "N m", ANY, "a moment is needed, e.g. \"2 N m\""),
+    ("--speed", "rad/s", ANY, "a speed is needed, e.g. \"20000 rpm\""),
+    ("--contact-angle", "rad", [0.0, FRAC_PI_3], "an angle from 0 to 60 deg is needed, e.g. \"15 deg\""),
+    ("--clearance", "m", [0.0, 1e-3], "a diametral clearance from 0 to 1 mm is needed, e.g. \"10 um\""),
+    ("--spacing", "m", [1e-6, 1.0], "a distance of rows above 0 is needed, e.g. \"12 mm\""),
+    ("--preload", "N", [1e-9, MOST], "a force above 0 N is needed, e.g. \"65 N\": without it the pair is unloaded at rest"),
+    ("--offset", "m", [0.0, 1e-3], "a distance from 0 to 1 mm by which the pair is closed is needed, e.g. \"8 um\": a pair that is opened is unloaded at rest"),
+];
 /// Larger than any load, moment or speed of a ball bearing.
 const MOST: f64 = 1e9;
+const ANY: [f64; 2] = [-MOST, MOST];
 
-fn any(value: f64) -> bool {
-    value.abs() < MOST
+/// Options as typed, under a place that stands for the file in messages.
+pub struct Typed<'a> {
+    /// Each option with its text, where it is given.
+    pub texts: &'a [(&'static str, Option<&'a str>)],
+    /// Place.
+    pub place: &'a str,
+}
+
+impl Typed<'_> {
+    fn refuse<T>(
+        &self,
+        code: Code,
+        option: &str,
+        found: impl Into<String>,
+        needed: impl Into<String>,
+    ) -> Result<T> {
+        Err(Problem::new(code, self.place, found, needed).on_key(option))
+    }
+    fn text(&self, option: &str) -> Option<&str> {
+        self.texts.iter().find(|own| own.0 == option)?.1
+    }
+    fn quantity(&self, option: &str) -> Result<Option<f64>> {
+        let row = QUANTITIES.iter().find(|row| row.0 == option);
+        let (Some(text), Some((_, unit, [least, most], needed))) = (self.text(option), row) else {
+            return Ok(None);
+        };
+        let read = parse_quantity(text)
+            .ok()
+            .filter(|own| own.dimension.si_unit() == *unit);
+        match read
+            .map(|own| own.value_si)
+            .filter(|own| (*least..=*most).contains(own))
+        {
+            Some(value) => Ok(Some(value)),
+            None => self.refuse(Code::OutOfRange, option, format!("\"{text}\""), *needed),
+        }
+    }
+    fn word<T: Copy>(&self, option: &str, words: &[(&str, T)]) -> Result<T> {
+        let text = self.text(option).unwrap_or(words[0].0);
+        match words
+            .iter()
+            .find(|own| own.0.eq_ignore_ascii_case(text.trim()))
+        {
+            Some((_, value)) => Ok(*value),
+            None => {
+                let all: Vec<&str> = words.iter().map(|own| own.0).collect();
+                let needed = format!("one of {} is needed", all.join(", "));
+                let refused = self.refuse(Code::UnknownWord, option, format!("\"{text}\""), needed);
+                refused.map_err(|own| own.with_hint(did_you_mean(text, all.iter().copied())))
+            }
+        }
+    }
+    /// Refuses two options that say the same.
+    fn either(&self, [first, second]: [&str; 2]) -> Result<()> {
+        if self.text(first).is_none() || self.text(second).is_none() {
+            return Ok(());
+        }
+        let found = format!("both {first} and {second}");
+        self.refuse(
+            Code::Conflict,
+            second,
+            found,
+            "one of them is needed: the other follows from it",
+        )
+    }
 }
 
 impl Asked {
-    /// Reads what is asked of a bearing of the catalogue; `place` stands for the file in messages.
+    /// Reads what is asked of a bearing of the catalogue.
     ///
     /// # Errors
     /// Words that are none of the allowed ones, and bearings or arrangements that cannot be computed.
-    pub fn read(bearing: &Bearing, texts: &Texts<'_>, place: &str) -> Result<Asked> {
-        let reader = Reader(place);
-        let force = (any, "a force is needed, e.g. \"200 N\"");
-        let turning = (any, "a moment is needed, e.g. \"2 N m\"");
-        let speed = (any, "a speed is needed, e.g. \"20000 rpm\"");
-        let angle = (
-            |value: f64| (0.0..=std::f64::consts::FRAC_PI_3).contains(&value),
-            "an angle from 0 to 60 deg is needed, e.g. \"15 deg\"",
-        );
-        let length = (
-            |value: f64| value > 0.0 && value < 1.0,
-            "a length above 0 is needed, e.g. \"12 mm\"",
-        );
-        let closing = (
-            |value: f64| (0.0..1e-3).contains(&value),
-            "a distance from 0 to 1 mm by which the pair is closed is needed, e.g. \"8 um\": a pair that is opened is unloaded at rest",
-        );
-        let preload = (
-            |value: f64| value > 0.0 && value < MOST,
-            "a force above 0 N is needed, e.g. \"65 N\": without it the pair is unloaded at rest",
-        );
-        let play = (
-            |value: f64| (0.0..1e-3).contains(&value),
-            "a diametral clearance from 0 to 1 mm is needed, e.g. \"10 um\"",
-        );
-        let needed = |key: &str| {
-            let value = bearing.number(key);
-            value.ok_or_else(|| {
+    pub fn read(bearing: &Bearing, typed: &Typed<'_>) -> Result<Asked> {
+        let needed = |key: &str| match bearing.number(key) {
+            Some(value) => Ok(value),
+            None => {
                 let found = format!("{} without {key}", bearing.name);
-                reader.problem(
-                    Code::MissingKey,
-                    "NAME",
-                    found,
-                    "a bearing of the catalogue with it, or a file by --catalogue, is needed",
-                )
-            })
+                let allowed =
+                    "a bearing of the catalogue with it, or a file by --catalogue, is needed";
+                typed.refuse(Code::MissingKey, "NAME", found, allowed)
+            }
         };
         let (ball_diameter, pitch_diameter) = (needed("ball_diameter")?, needed("pitch_diameter")?);
         let curvatures = [
             needed("inner_groove_curvature")?,
             needed("outer_groove_curvature")?,
         ];
-        let arrangement = reader.word(("--arrangement", texts.arrangement), &ARRANGEMENTS)?;
-        let offset = reader.quantity(("--offset", texts.offset), "m", closing)?;
-        let preload = reader.quantity(("--preload", texts.preload), "N", preload)?;
-        let paired = matches!(
-            arrangement,
-            Arrangement::BackToBack | Arrangement::FaceToFace
-        );
-        let given = [("--preload", texts.preload), ("--offset", texts.offset)];
-        if let (false, Some((option, Some(text)))) =
-            (paired, given.into_iter().find(|own| own.1.is_some()))
-        {
-            let found = match arrangement {
-                Arrangement::Tandem => {
-                    format!("\"{text}\" of a tandem pair, whose rows do not press on each other")
-                }
-                _ => format!("\"{text}\" of a single bearing"),
+        let arrangement = typed.word("--arrangement", &ARRANGEMENTS)?;
+        typed.either(["--preload", "--offset"])?;
+        typed.either(["--contact-angle", "--clearance"])?;
+        for option in ["--preload", "--offset"] {
+            let Some(text) = typed.text(option) else {
+                continue;
             };
-            return Err(reader.problem(
+            let what = match arrangement {
+                Arrangement::Single => "a single bearing",
+                Arrangement::Tandem => "a tandem pair, whose rows do not press on each other",
+                Arrangement::BackToBack | Arrangement::FaceToFace => continue,
+            };
+            let allowed =
+                "--arrangement DB or DF is needed; preload by a spring is an --axial load";
+            return typed.refuse(
                 Code::Conflict,
                 option,
-                found,
-                "--arrangement DB or DF is needed; preload by a spring is an --axial load",
-            ));
-        }
-        if texts.preload.is_some() && texts.offset.is_some() {
-            let found = "both --preload and --offset".to_string();
-            return Err(reader.problem(Code::Conflict, "--offset", found, "one of them is needed"));
+                format!("\"{text}\" of {what}"),
+                allowed,
+            );
         }
         let distance = centre_distance(curvatures, ball_diameter);
-        let clearance = reader.quantity(("--clearance", texts.clearance), "m", play)?;
-        let typed = reader.quantity(("--contact-angle", texts.contact_angle), "rad", angle)?;
-        if texts.clearance.is_some() && texts.contact_angle.is_some() {
-            let found = "both --contact-angle and --clearance".to_string();
-            return Err(reader.problem(
-                Code::Conflict,
-                "--clearance",
-                found,
-                "one of them is needed: the angle follows from the clearance",
-            ));
-        }
+        let clearance = typed.quantity("--clearance")?;
         if let Some(clearance) = clearance.filter(|own| *own >= 2.0 * distance) {
             let found = format!("{:.3} mm", clearance * 1e3);
-            let needed = format!(
+            let allowed = format!(
                 "less than {:.3} mm is needed: the grooves let the ball through",
                 2e3 * distance
             );
-            return Err(reader.problem(Code::ClearanceTooLarge, "--clearance", found, &needed));
+            return typed.refuse(Code::ClearanceTooLarge, "--clearance", found, allowed);
         }
-        let nominal = typed.or(bearing
+        let nominal = bearing
             .number("contact_angle")
-            .filter(|_| clearance.is_none()));
-        let free_angle =
-            nominal.unwrap_or_else(|| free_contact_angle(clearance.unwrap_or(0.0), distance));
+            .filter(|_| clearance.is_none());
+        let nominal = typed.quantity("--contact-angle")?.or(nominal);
+        let by_clearance = free_contact_angle(clearance.unwrap_or(0.0), distance);
+        let free_angle = nominal.unwrap_or(by_clearance);
         let shoulder = bearing.number("inner_shoulder_diameter");
         let shoulder = shoulder.map(|own| 0.5 * (own - pitch_diameter + ball_diameter));
-        if let Some(height) = shoulder {
-            let end = (1.0 - height / (curvatures[0] * ball_diameter)).acos();
-            if free_angle >= end {
-                let found = format!(
-                    "a contact angle of {:.1} deg at rest",
-                    free_angle.to_degrees()
-                );
-                let needed = format!(
-                    "less than {:.1} deg is needed: there the groove of the inner ring ends",
-                    end.to_degrees()
-                );
-                return Err(reader.problem(Code::OutOfRange, "--contact-angle", found, &needed));
-            }
+        let end = shoulder.map(|height| (1.0 - height / (curvatures[0] * ball_diameter)).acos());
+        if let Some(end) = end.filter(|end| free_angle >= *end) {
+            let found = format!(
+                "a contact angle of {:.1} deg at rest",
+                free_angle.to_degrees()
+            );
+            let allowed = format!(
+                "less than {:.1} deg is needed: there the groove of the inner ring ends",
+                end.to_degrees()
+            );
+            return typed.refuse(Code::OutOfRange, "--contact-angle", found, allowed);
         }
-        let zero = |value: Option<f64>| value.unwrap_or(0.0);
-        let asked = Asked {
+        let load = |option: &str| Ok::<_, Box<Problem>>(typed.quantity(option)?.unwrap_or(0.0));
+        let (preload, offset) = (typed.quantity("--preload")?, typed.quantity("--offset")?);
+        let [axial, radial, moment] = [load("--axial")?, load("--radial")?, load("--moment")?];
+        if [axial, radial, moment, preload.or(offset).unwrap_or(0.0)] == [0.0; 4] {
+            let allowed = "a load is needed, e.g. --axial \"200 N\", or the preload of a pair";
+            return typed.refuse(
+                Code::MissingKey,
+                "--axial",
+                "no load and no preload",
+                allowed,
+            );
+        }
+        Ok(Asked {
             name: bearing.name.clone(),
             balls: needed("ball_count")? as usize,
             ball_diameter,
@@ -282,43 +256,27 @@ impl Asked {
             opposite: nominal.is_none() && arrangement == Arrangement::Single,
             shoulder,
             arrangement,
-            spacing: match reader.quantity(("--spacing", texts.spacing), "m", length)? {
+            spacing: match typed.quantity("--spacing")? {
                 Some(spacing) => spacing,
                 None if arrangement == Arrangement::Single => 0.0,
                 None => needed("width")?,
             },
             preload,
             offset,
-            axial: zero(reader.quantity(("--axial", texts.axial), "N", force)?),
-            radial: zero(reader.quantity(("--radial", texts.radial), "N", force)?),
-            moment: zero(reader.quantity(("--moment", texts.moment), "N m", turning)?),
-            speed: zero(reader.quantity(("--speed", texts.speed), "rad/s", speed)?),
-            control: reader.word(("--race-control", texts.race_control), &CONTROLS)?,
-        };
-        let preloaded = preload.is_some() || offset.is_some_and(|offset| offset > 0.0);
-        if asked.axial == 0.0 && asked.radial == 0.0 && asked.moment == 0.0 && !preloaded {
-            let found = "no load and no preload".to_string();
-            return Err(reader.problem(
-                Code::MissingKey,
-                "--axial",
-                found,
-                "a load is needed, e.g. --axial \"200 N\", or the preload of a pair",
-            ));
-        }
-        Ok(asked)
+            axial,
+            radial,
+            moment,
+            speed: load("--speed")?,
+            control: typed.word("--race-control", &CONTROLS)?,
+        })
     }
-    /// Word of the arrangement.
-    pub fn arrangement_word(&self) -> &'static str {
-        let all = ARRANGEMENTS.iter();
-        all.clone()
-            .find(|own| own.1 == self.arrangement)
-            .map_or("", |own| own.0)
-    }
-    /// Word of the hypothesis.
-    pub fn control_word(&self) -> &'static str {
-        CONTROLS
-            .iter()
-            .find(|own| own.1 == self.control)
-            .map_or("", |own| own.0)
+    /// Words of the arrangement and of the hypothesis.
+    pub fn words(&self) -> [&'static str; 2] {
+        let arrangement = ARRANGEMENTS.iter().find(|own| own.1 == self.arrangement);
+        let control = CONTROLS.iter().find(|own| own.1 == self.control);
+        [
+            arrangement.map_or("", |own| own.0),
+            control.map_or("", |own| own.0),
+        ]
     }
 }

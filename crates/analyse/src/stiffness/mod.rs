@@ -12,7 +12,7 @@ mod asked;
 pub mod warnings;
 
 pub use answer::Answer;
-pub use asked::{Asked, Texts};
+pub use asked::{Asked, Typed};
 
 use asked::Arrangement;
 use model::spatial::race::RaceGroove;
@@ -158,10 +158,7 @@ pub fn run(asked: &Asked, place: &str) -> Result<Answer> {
     let loaded = rows.settle(&load, &running);
     let loaded = loaded.map_err(|why| {
         let found = format!("loads and speed under which {why}");
-        impossible(
-            found,
-            "a load that closes the contacts, and less than the bearing can take, is needed",
-        )
+        impossible(found, "loads that close the contacts are needed, and enough axial load for the speed: a ball that the inner race hardly holds cannot take its gyroscopic moment (--race-control outer leaves it to the outer race)")
     })?;
     let preloaded = (offset > 0.0)
         .then(|| rows.at(Default::default(), &running).ok())

@@ -67,7 +67,7 @@ pub struct BallEquilibrium {
     pub contact_spin: [f64; 2],
     /// Approaches δ_i and δ_o, m.
     pub approaches: [f64; 2],
-    /// Part of the inner normal along A, N of thrust for each N of load.
+    /// Thrust on the ring along -A for each N of inner load: positive where the row carries a +z load.
     pub axial_share: f64,
 }
 
@@ -207,7 +207,7 @@ impl StaticBall {
                 spin: [value(w_r), value(w_z)],
                 contact_spin: [spin([i_r, i_z], w_z - speed), spin([o_r, o_z], w_z)],
                 approaches: [value(inner.approach), value(outer.approach)],
-                axial_share: value(n_i.z),
+                axial_share: -value(n_i.z),
             },
         }
     }

@@ -8,7 +8,7 @@
 //!
 //! Source: ISO/TS 16281:2008 (from memory). Valid: small displacements, no speed.
 
-use super::linear::solve;
+use super::linear::{Balance, Reaction};
 use super::ring::{Displacement, NoEquilibrium, RingLoad};
 use number::{Dual, Real};
 use std::f64::consts::TAU;
@@ -28,8 +28,8 @@ pub struct LinearBearing {
     pub stiffness: f64,
 }
 
-/// Longest step, m.
-const LONGEST_STEP: f64 = 5e-6;
+/// How far beyond its play a ring is put to start from, m.
+const CLOSE: f64 = 1e-6;
 
 impl LinearBearing {
     /// Displacement under a load; the first ball stands at +x.
@@ -37,55 +37,41 @@ impl LinearBearing {
     /// # Errors
     /// Where no equilibrium is found.
     pub fn settle(&self, load: &RingLoad) -> Result<Displacement, NoEquilibrium> {
-        let ([x, y, z], [a, b]) = (load.force, load.moment);
-        let outside = [x, y, z, a, b];
+        let outside = load.to_array();
         let arm = 0.5 * self.pitch_diameter;
-        let lengths = [1.0, 1.0, 1.0, arm, arm];
-        let largest = (0..5).fold(1e-6_f64, |most, k| most.max(outside[k].abs() / lengths[k]));
-        let radial = self.centre_distance * (1.0 - self.free_angle.cos());
         let axial = self.centre_distance * self.free_angle.sin();
+        // the play taken up along each part of the load
+        let side = outside[0].hypot(outside[1]);
+        let radial = self.centre_distance * (1.0 - self.free_angle.cos()) + CLOSE;
         let toward = |value: f64, play: f64| {
             if value == 0.0 {
                 0.0
             } else {
-                value.signum() * (play + 1e-6)
+                value.signum() * (play + CLOSE)
             }
         };
-        let side = x.hypot(y).max(1e-300);
-        let mut u = [
-            x / side * toward(side, radial),
-            y / side * toward(side, radial),
-            toward(z, axial),
-            0.0,
-            0.0,
-        ];
-        if x == 0.0 && y == 0.0 && z == 0.0 {
-            (u[3], u[4]) = (toward(a, axial + 4e-6) / arm, toward(b, axial + 4e-6) / arm);
+        let mut start = [0.0, 0.0, toward(outside[2], axial), 0.0, 0.0];
+        if side > 0.0 {
+            (start[0], start[1]) = (outside[0] / side * radial, outside[1] / side * radial);
+        } else if outside[2] == 0.0 {
+            let tilt = |k: usize| toward(outside[k], axial + 4.0 * CLOSE) / arm;
+            (start[3], start[4]) = (tilt(3), tilt(4));
         }
-        let reference = self.balls as f64 * self.stiffness * 1e-3;
-        for _ in 0..600 {
-            let at = self.reaction(std::array::from_fn(|k| Dual::variable(u[k], k)));
-            let left: [f64; 5] = std::array::from_fn(|k| outside[k] - at[k].value);
-            let share =
-                (0..5).fold(0.0_f64, |most, k| most.max(left[k].abs() / lengths[k])) / largest;
-            if share < 1e-12 {
-                return Ok(Displacement {
-                    shift: [u[0], u[1], u[2]],
-                    tilt: [u[3], u[4]],
-                });
-            }
-            let mut matrix = at.map(|load| load.partial);
-            for (k, length) in lengths.iter().enumerate() {
-                matrix[k][k] += reference * (share * share).min(1e-2) * length * length;
-            }
-            let step = solve(matrix, left).ok_or(NoEquilibrium::Ring)?;
-            let longest = (0..5).fold(0.0_f64, |most, k| most.max((step[k] * lengths[k]).abs()));
-            let shorter = (LONGEST_STEP / longest).min(1.0);
-            for (value, step) in u.iter_mut().zip(&step) {
-                *value += shorter * step;
-            }
-        }
-        Err(NoEquilibrium::Ring)
+        let balance = Balance {
+            outside,
+            arm,
+            stiffness: self.balls as f64 * self.stiffness * 1e-3,
+        };
+        let (u, _) = balance.find(start, |u| {
+            let at = self.reaction(std::array::from_fn(|k| Dual::<5>::variable(u[k], k)));
+            Ok(Reaction {
+                load: at.map(|load| -load.value),
+                slope: at.map(|load| load.partial.map(|slope| -slope)),
+                largest: 0.0,
+                found: (),
+            })
+        })?;
+        Ok(Displacement::from_array(u))
     }
 
     /// The load that displaces the ring so.

@@ -8,7 +8,7 @@
 //! the contacts.
 
 use super::ball::{BallEquilibrium, Running, StaticBall};
-use super::linear::solve;
+use super::linear::{Balance, Reaction};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -36,6 +36,14 @@ pub struct RingLoad {
     pub moment: [f64; 2],
 }
 
+impl RingLoad {
+    /// All five.
+    pub fn to_array(self) -> [f64; 5] {
+        let ([x, y, z], [a, b]) = (self.force, self.moment);
+        [x, y, z, a, b]
+    }
+}
+
 /// Displacement of the inner ring.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Displacement {
@@ -51,7 +59,7 @@ impl Displacement {
         let ([x, y, z], [a, b]) = (self.shift, self.tilt);
         [x, y, z, a, b]
     }
-    fn from_array([x, y, z, a, b]: [f64; 5]) -> Self {
+    pub(super) fn from_array([x, y, z, a, b]: [f64; 5]) -> Self {
         Displacement {
             shift: [x, y, z],
             tilt: [a, b],
@@ -92,17 +100,8 @@ impl fmt::Display for NoEquilibrium {
 
 impl std::error::Error for NoEquilibrium {}
 
-/// Longest step of the ring, m.
-const LONGEST_STEP: f64 = 5e-6;
-/// Share of the load to which the iteration balances it.
-const BALANCED: f64 = 1e-11;
-
-/// Forces and slope of the load on a ring, and what each ball does.
-struct Sum {
-    load: [f64; 5],
-    slope: [[f64; 5]; 5],
-    rows: Vec<Vec<BallEquilibrium>>,
-}
+/// Load on a ring, its slope, and what each ball does.
+type Sum = Reaction<Vec<Vec<BallEquilibrium>>>;
 
 impl StaticRows {
     /// Balls and stiffness at a given displacement.
@@ -117,7 +116,7 @@ impl StaticRows {
     fn equilibrium(&self, displacement: Displacement, at: Sum) -> Equilibrium {
         Equilibrium {
             displacement,
-            rows: at.rows,
+            rows: at.found,
             stiffness: at.slope.map(|row| row.map(|slope| -slope)),
             reaction: at.load,
         }
@@ -151,59 +150,19 @@ impl StaticRows {
         load: &RingLoad,
         running: &Running,
     ) -> Result<Equilibrium, NoEquilibrium> {
-        let ([x, y, z], [a, b]) = (load.force, load.moment);
-        let outside = [x, y, z, a, b];
-        let radius = self.0[0].ball.inner.centre_radius;
-        // moments count as forces at the balls
-        let lengths = [1.0, 1.0, 1.0, radius, radius];
-        let size = |left: &[f64; 5]| {
-            let all = left.iter().zip(lengths);
-            all.fold(0.0_f64, |most, (value, length)| {
-                most.max(value.abs() / length)
-            })
-        };
-        let mut u = start;
-        let mut near: Option<Vec<Vec<BallEquilibrium>>> = None;
-        let mut damping = self.reference_stiffness();
-        for _ in 0..600 {
-            let at = self.sum(u, running, near.as_deref())?;
-            let left: [f64; 5] = std::array::from_fn(|k| at.load[k] + outside[k]);
-            let carried = at.rows.iter().flatten().map(|ball| ball.loads[1]);
-            let largest = carried.fold(size(&outside), f64::max).max(1e-6);
-            let share = size(&left) / largest;
-            if share < BALANCED {
-                return Ok(self.equilibrium(Displacement::from_array(u), at));
-            }
-            near = Some(at.rows);
-            let mut matrix = at.slope.map(|row| row.map(|slope| -slope));
-            for (k, length) in lengths.iter().enumerate() {
-                matrix[k][k] += damping * length * length;
-            }
-            let Some(step) = solve(matrix, left) else {
-                damping = damping.max(1.0) * 10.0;
-                continue;
-            };
-            let moved = step.iter().zip(lengths);
-            let longest = moved.fold(0.0_f64, |most, (step, length)| {
-                most.max((step * length).abs())
-            });
-            let shorter = (LONGEST_STEP / longest).min(1.0);
-            for (value, step) in u.iter_mut().zip(&step) {
-                *value += shorter * step;
-            }
-            damping = self.reference_stiffness() * (share * share).min(1e-2);
-            if longest < 1e-17 {
-                let at = self.sum(u, running, near.as_deref())?;
-                return Ok(self.equilibrium(Displacement::from_array(u), at));
-            }
-        }
-        Err(NoEquilibrium::Ring)
-    }
-
-    /// A stiffness of the size of the bearing's, N/m.
-    fn reference_stiffness(&self) -> f64 {
         let row = &self.0[0];
-        row.balls as f64 * row.ball.inner.stiffness * 1e-6_f64.sqrt()
+        let balance = Balance {
+            outside: load.to_array(),
+            arm: row.ball.inner.centre_radius,
+            stiffness: row.balls as f64 * row.ball.inner.stiffness * 1e-3,
+        };
+        let mut near: Option<Vec<Vec<BallEquilibrium>>> = None;
+        let (u, at) = balance.find(start, |u| {
+            let sum = self.sum(u, running, near.as_deref())?;
+            near = Some(sum.found.clone());
+            Ok(sum)
+        })?;
+        Ok(self.equilibrium(Displacement::from_array(u), at))
     }
 
     /// Where the load has just closed the contacts: the play taken up along each of its parts.
@@ -253,7 +212,8 @@ impl StaticRows {
         let mut sum = Sum {
             load: [0.0; 5],
             slope: [[0.0; 5]; 5],
-            rows: Vec::new(),
+            largest: 0.0,
+            found: Vec::new(),
         };
         for (index, row) in self.0.iter().enumerate() {
             let mut balls = Vec::new();
@@ -288,9 +248,10 @@ impl StaticRows {
                         *total += own;
                     }
                 }
+                sum.largest = sum.largest.max(found.loads[1]);
                 balls.push(found);
             }
-            sum.rows.push(balls);
+            sum.found.push(balls);
         }
         Ok(sum)
     }
