@@ -97,7 +97,7 @@ pub fn direction_angle<R: Real>(cosine: R, sine: R) -> R {
     let mut s = R::select(beyond, large * sine.sign_or_plus(), small);
     let mut c = R::select(beyond, small.abs(), large);
     for _ in 0..4 {
-        s = s * (R::splat(2.0) * (one + c)).sqrt().recip();
+        s *= (R::splat(2.0) * (one + c)).sqrt().recip();
         c = ((one + c) * half).sqrt();
     }
     R::splat(32.0) * s.asin_small()

@@ -8,7 +8,7 @@
 //! Written over `Real`: tests differentiate V. It knows places and penetrations alone, no points of contact.
 
 use super::assembly::AssemblyConstants;
-use super::ball::{BALL_STATES, BallState, SpatialBall, Turned};
+use super::ball::{BallState, SpatialBall, Turned};
 use super::face::Face;
 use super::race::RaceGroove;
 use super::rigid_body::{Inertia, RigidBody};
@@ -102,9 +102,9 @@ impl AssemblyConstants {
             let balls = lists(state, self.first_ball_state(index), row.balls);
             let ball: SpatialBall<R> = over(&row.ball);
             let tied = matches!(guide, CageGuide::Tied);
+            let ball_at = |j: usize| BallState::from_array(balls.map(|list| list[j]));
             for j in 0..row.balls {
-                let values: [R; BALL_STATES] = std::array::from_fn(|k| balls[k][j]);
-                let at = BallState::from_array(values);
+                let at = ball_at(j);
                 let bodies = [&inner, &outer, &cage];
                 add_ball(&mut all, &ball, &at, bodies, seat(j, row.balls), tied);
             }

@@ -156,7 +156,7 @@ fn stiffness_is_the_slope_of_the_reaction() {
     };
     let found = rows.settle(&load, &running).unwrap();
     let steps = [2e-9, 2e-9, 2e-9, 2e-7, 2e-7];
-    for k in 0..5 {
+    for (k, step) in steps.into_iter().enumerate() {
         let moved = |by: f64| {
             let mut at = found.displacement;
             if k < 3 {
@@ -166,9 +166,9 @@ fn stiffness_is_the_slope_of_the_reaction() {
             }
             rows.at(at, &running).unwrap().reaction
         };
-        let (after, before) = (moved(steps[k]), moved(-steps[k]));
+        let (after, before) = (moved(step), moved(-step));
         for i in 0..5 {
-            let slope = -(after[i] - before[i]) / (2.0 * steps[k]);
+            let slope = -(after[i] - before[i]) / (2.0 * step);
             let size = (found.stiffness[i][i] * found.stiffness[k][k]).sqrt();
             assert!(
                 (found.stiffness[i][k] - slope).abs() < 1e-5 * size,

@@ -69,9 +69,7 @@ fn turning_everything_about_the_axis_turns_the_answer() {
         let expected = turn(&plain, 0.0);
         for (k, (ours, expected)) in answer.iter().zip(&expected).enumerate() {
             // accelerations of balls reach 1e7, of their spins 1e9
-            let scale = expected
-                .abs()
-                .max(1e-4 * largest_near(&expected, &plain, k));
+            let scale = expected.abs().max(1e-4 * largest_near(&plain, k));
             assert!(
                 (ours - expected).abs() <= 1e-9 * scale,
                 "state {k}: {ours} {expected}"
@@ -87,7 +85,7 @@ fn turning_everything_about_the_axis_turns_the_answer() {
 }
 
 /// The largest rate among the states around one.
-fn largest_near(_: &f64, rates: &[f64], at: usize) -> f64 {
+fn largest_near(rates: &[f64], at: usize) -> f64 {
     let near = at.saturating_sub(9)..(at + 10).min(rates.len());
     rates[near]
         .iter()

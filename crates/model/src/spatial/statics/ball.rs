@@ -111,11 +111,8 @@ fn tilted<R: Real>(x: R, y: R) -> Vec3<R> {
     // sin t/t and cos t as series in t²: exact to rounding up to 0.2 rad, and smooth at 0
     let t = x.square() + y.square();
     let series = |terms: [f64; 5]| {
-        let fold = terms
-            .iter()
-            .rev()
-            .fold(R::zero(), |sum, term| sum * t + R::splat(*term));
-        fold
+        let terms = terms.iter().rev();
+        terms.fold(R::zero(), |sum, term| sum * t + R::splat(*term))
     };
     let sine = series([1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0]);
     let cosine = series([1.0, -0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0]);
@@ -224,7 +221,7 @@ impl StaticBall {
             out = out.across(axis);
             out = out * out.length_squared().sqrt().recip();
             let beside = (middle + out * self.inner.centre_radius).dot(e_t);
-            out = out - e_t * (beside / self.inner.centre_radius);
+            out -= e_t * (beside / self.inner.centre_radius);
         }
         let point = middle + out * self.inner.centre_radius;
         let outer = [self.outer.centre_radius, self.outer.place];

@@ -175,9 +175,8 @@ impl StaticRows {
         let play = (slack - radial).max(0.0);
         let side = load.force[0].hypot(load.force[1]);
         if side > 0.0 {
-            for k in 0..2 {
-                start[k] = load.force[k] / side * (play + close);
-            }
+            let across = start.iter_mut().zip(load.force).take(2);
+            across.for_each(|(own, force)| *own = force / side * (play + close));
         }
         let axial = (slack * slack - radial * radial).max(0.0).sqrt();
         let turned = |value: f64| if value == 0.0 { 0.0 } else { value.signum() };
