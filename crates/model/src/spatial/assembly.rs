@@ -38,8 +38,6 @@ pub const LEDGER: [&str; 18] = [
     "supplied_by_drive",
     "supplied_on_inner_ring",
 ];
-/// Accounts that are heat: the first of [`LEDGER`].
-pub const HEAT_ACCOUNTS: usize = 16;
 
 constants! {
     /// The inner ring with its sleeve, and what acts on it from outside.
