@@ -271,6 +271,53 @@ pub struct Torque {
     pub output: Output,
 }
 
+/// Equilibrium and stiffness of a bearing.
+#[derive(Debug, Args)]
+pub struct Stiffness {
+    /// Name of the bearing, e.g. 6005
+    #[arg(required = true)]
+    pub name: Vec<String>,
+    /// Force along the axis on the inner ring, e.g. "200 N"
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
+    pub axial: Option<String>,
+    /// Force across the axis, along x
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
+    pub radial: Option<String>,
+    /// Moment about y
+    #[arg(long, value_name = "MOMENT", allow_hyphen_values = true)]
+    pub moment: Option<String>,
+    /// Speed of the inner ring, e.g. "20000 rpm"
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
+    pub speed: Option<String>,
+    /// Free contact angle, e.g. "15 deg", in place of the catalogue's
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    pub contact_angle: Option<String>,
+    /// Diametral clearance of a deep-groove bearing, e.g. "10 um", from which the free contact angle follows
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub clearance: Option<String>,
+    /// single, DB (back to back), DF (face to face) or DT (tandem)
+    #[arg(long)]
+    pub arrangement: Option<String>,
+    /// Preload of a pair as a force, e.g. "65 N"
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
+    pub preload: Option<String>,
+    /// Preload of a pair as the distance by which it is closed, e.g. "8 um"
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub offset: Option<String>,
+    /// Distance of the rows of a pair; else the width of a bearing
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub spacing: Option<String>,
+    /// Hypothesis of the balls' spin: half, outer, inner or outer_half
+    #[arg(long, value_name = "WORD")]
+    pub race_control: Option<String>,
+    /// File with more bearings, or with others of the same names
+    #[arg(long, value_name = "FILE")]
+    pub catalogue: Option<PathBuf>,
+    /// Print JSON with every ball instead of tables
+    #[arg(long)]
+    pub json: bool,
+}
+
 #[derive(Debug, Subcommand)]
 pub enum Bearings {
     /// List the bearings, all or those asked for
@@ -306,4 +353,6 @@ pub enum Bearings {
         #[arg(long)]
         json: bool,
     },
+    /// Compute equilibrium and stiffness of a bearing, or of a pair, under loads and speed
+    Stiffness(Stiffness),
 }

@@ -1,7 +1,7 @@
 //! `auxbear bearings`.
 
 use crate::arguments::Bearings;
-use crate::console;
+use crate::{console, stiffness};
 use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Origin};
 use auxbear::problem::Result;
 use auxbear::units;
@@ -39,29 +39,36 @@ pub fn perform(command: &Bearings) -> Result<()> {
             catalogue,
             json,
         } => {
-            let name = name.join(" ");
             let catalogue = read(catalogue.as_deref())?;
-            let meant = catalogue.meant(&name, PLACE)?;
-            let bearing = meant.bearing;
-            if !meant.by_name {
-                let left_out = match meant.left_out.as_str() {
-                    "" => String::new(),
-                    words => format!(". Left out: {words}"),
-                };
-                let own = &bearing.name;
-                console::report(&format!("{name}: the {own} of the catalogue{left_out}"));
-            }
+            let bearing = meant(&catalogue, &name.join(" "), PLACE)?;
             console::print(&if *json {
                 catalogue::to_json([bearing])
             } else {
                 show(bearing)
             })?;
         }
+        Bearings::Stiffness(wish) => stiffness::perform(wish)?,
     }
     Ok(())
 }
 
-fn read(file: Option<&Path>) -> Result<Catalogue> {
+/// The bearing of a name or of a designation, of which is said what is left out.
+pub fn meant<'a>(catalogue: &'a Catalogue, name: &str, place: &str) -> Result<&'a Bearing> {
+    let meant = catalogue.meant(name, place)?;
+    let bearing = meant.bearing;
+    if !meant.by_name {
+        let left_out = match meant.left_out.as_str() {
+            "" => String::new(),
+            words => format!(". Left out: {words}"),
+        };
+        let own = &bearing.name;
+        console::report(&format!("{name}: the {own} of the catalogue{left_out}"));
+    }
+    Ok(bearing)
+}
+
+/// The catalogue, with a file's bearings.
+pub fn read(file: Option<&Path>) -> Result<Catalogue> {
     file.map_or(Ok(Catalogue::built_in()), Catalogue::with_file)
 }
 

@@ -18,6 +18,7 @@ mod run;
 mod schema;
 mod service;
 mod start;
+mod stiffness;
 mod study;
 mod summary;
 mod torque;

@@ -13,6 +13,7 @@ mod schema;
 mod service;
 mod signals;
 mod spin_up;
+mod stiffness;
 mod stopped;
 mod study;
 mod torque;

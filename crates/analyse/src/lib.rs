@@ -7,4 +7,5 @@ pub(crate) mod interruptible;
 pub mod mount;
 pub mod rotor;
 pub mod signals;
+pub mod stiffness;
 pub mod torque;

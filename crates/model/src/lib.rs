@@ -26,6 +26,7 @@ pub mod rotor;
 pub mod schedule;
 pub mod seal;
 pub mod sensor;
+pub mod spatial;
 pub mod surface_heat;
 pub mod system;
 pub mod table;

@@ -6,4 +6,5 @@ mod library;
 mod machines;
 mod physics;
 mod rig;
+mod spatial;
 mod spin_up;

@@ -61,6 +61,7 @@ mod real;
 mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod single;
+mod space;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -69,4 +70,5 @@ pub use constants::Gather;
 pub use dual::Dual;
 pub use level::{Level, Task};
 pub use real::{Mask, Real, Vectorized};
+pub use space::{Vec3, direction_angle};
 pub use vector::Vec2;

@@ -11,6 +11,8 @@
 //! | [`angular_contact`] | contacts at an angle, seen in the plane |
 //! | [`ring`] | rings pressed on a shaft or into a housing, rings that spin |
 //! | [`contact`] | normal force of a contact in time: Hertz with damping, Hunt-Crossley |
+//! | [`groove`] | a ball in the grooves of two rings, in space: contact angle as a result |
+//! | [`contact_nodes`] | points of a contact ellipse at which slip is taken |
 //! | [`traction`] | sliding friction between ball and race |
 //! | [`film`] | thickness of the lubricant film between ball and race |
 //! | [`lubricant`] | lubricants: viscosity over temperature and pressure, limiting stress |
@@ -52,11 +54,13 @@ pub mod angular_contact;
 #[cfg(test)]
 mod bearing_6005;
 pub mod contact;
+pub mod contact_nodes;
 pub mod dry_whirl;
 pub mod film;
 pub mod flash;
 pub mod friction;
 pub mod friction_range;
+pub mod groove;
 pub mod heat_conduction;
 pub mod heat_exchange;
 pub mod hertz;

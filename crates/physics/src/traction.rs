@@ -31,7 +31,7 @@ macro_rules! curve {
         }
     )*};
 }
-curve!(FourParameterTraction, DryTraction);
+curve!(FourParameterTraction, DryTraction, AlgebraicTraction);
 
 impl<R: Real> TractionLaw<R> for TanhTraction<R> {
     #[inline(always)]
@@ -142,6 +142,24 @@ impl<R: Real> SlipLaw<R> for DryTraction<R> {
 }
 
 constants! {
+    /// Law (f): a smooth step like (a), without an exponential.
+    ///
+    /// Formula: μ = μ_max u/√(u² + u0²).
+    pub struct AlgebraicTraction {
+        /// Largest coefficient μ_max.
+        maximum: R,
+        /// u0, m/s: slip at which μ reaches 71 % of its maximum.
+        reference_speed: R,
+    }
+}
+impl<R: Real> SlipLaw<R> for AlgebraicTraction<R> {
+    #[inline(always)]
+    fn coefficient(&self, slip: R) -> R {
+        self.maximum * slip / (slip.square() + self.reference_speed.square()).sqrt()
+    }
+}
+
+constants! {
     /// Law (e): the lubricant, whose film differs between the races.
     pub struct LubricatedRaces {
         /// At the inner race.
@@ -171,6 +189,8 @@ pub enum Traction<R> {
     Dry(DryTraction<R>),
     /// Law (e).
     Lubricated(LubricatedRaces<R>),
+    /// Law (f).
+    Algebraic(AlgebraicTraction<R>),
 }
 
 impl<R: Real> TractionLaw<R> for Traction<R> {
@@ -179,7 +199,7 @@ impl<R: Real> TractionLaw<R> for Traction<R> {
     /// Source: (a) regularised Coulomb friction; (b) the four-parameter form of
     /// P. K. Gupta, Advanced Dynamics of Rolling Elements, 1984 (from memory);
     /// (d) the exponential Stribeck form of L. C. Bo, D. Pavelescu, Wear 82 (1982) 277 (from memory);
-    /// (e) that of [`LubricantTraction::state`].
+    /// (e) that of [`LubricantTraction::state`]; (f) regularised Coulomb friction.
     /// Valid: any slip; (b) only with C > 0 and μ ≥ 0 for all |u|; (e) as there.
     #[inline(always)]
     fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
@@ -188,6 +208,7 @@ impl<R: Real> TractionLaw<R> for Traction<R> {
             Traction::FourParameter(law) => law.at_races(inner, outer),
             Traction::Dry(law) => law.at_races(inner, outer),
             Traction::Lubricated(law) => law.at_races(inner, outer),
+            Traction::Algebraic(law) => law.at_races(inner, outer),
         }
     }
 }
@@ -265,7 +286,7 @@ impl Traction<f64> {
     }
 }
 
-number::variants!(Traction, "traction law": ; Tanh, FourParameter, Dry, Lubricated);
+number::variants!(Traction, "traction law": ; Tanh, FourParameter, Dry, Lubricated, Algebraic);
 
 #[cfg(test)]
 mod tests {
@@ -326,7 +347,9 @@ mod tests {
         }
         #[test]
         fn friction_is_odd_and_opposes_slip(u in -100.0..100.0_f64) {
-            for law in [Traction::Tanh(TANH), Traction::FourParameter(FOUR), Traction::Dry(DRY)] {
+            let algebraic = AlgebraicTraction { maximum: 0.07, reference_speed: 0.1 };
+            let smooth = [Traction::Tanh(TANH), Traction::Algebraic(algebraic)];
+            for law in [smooth[0], smooth[1], Traction::FourParameter(FOUR), Traction::Dry(DRY)] {
                 let at = |slip| SlidingContact { slip, load: 100.0, entrainment: 5.0 };
                 let (mu, same) = law.at_races(&at(u), &at(u));
                 let (opposite, _) = law.at_races(&at(-u), &at(u));

@@ -18,6 +18,7 @@ mod tests;
 pub mod warnings;
 
 pub use analyse::mount;
+pub use analyse::stiffness;
 use analyse::{identify, signals};
 use analyse::{rotor, torque};
 pub use each::each;

@@ -5,6 +5,7 @@ use analyse::identify::notes::IdentifyWarning;
 use analyse::mount::MountWarning;
 use analyse::rotor::warnings::RotorWarning;
 use analyse::signals::warning_table::SignalsWarning;
+use analyse::stiffness::warnings::StiffnessWarning;
 use analyse::torque::warnings::TorqueWarning;
 use outcome::Severity;
 use problem::warning::Declared;
@@ -40,6 +41,7 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
         MountWarning::DECLARED,
         TorqueWarning::DECLARED,
         MeasuredWarning::DECLARED,
+        StiffnessWarning::DECLARED,
     ];
     homes.into_iter().flatten()
 }

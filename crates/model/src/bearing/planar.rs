@@ -172,6 +172,7 @@ impl<R: Real> Planar<R> {
                 Traction::FourParameter(law) => sum.by(law),
                 Traction::Dry(law) => sum.by(law),
                 Traction::Lubricated(law) => sum.by(law),
+                Traction::Algebraic(law) => sum.by(law),
             },
             // here once a ball: the code of the sum stands once for all laws
             Some(factors) => sum.by(&Warmed {
@@ -240,6 +241,7 @@ impl<R: Real> Planar<R> {
                 Traction::FourParameter(law) => into.take(row, seats, law, motion, state),
                 Traction::Dry(law) => into.take(row, seats, law, motion, state),
                 Traction::Lubricated(law) => into.take(row, seats, law, motion, state),
+                Traction::Algebraic(law) => into.take(row, seats, law, motion, state),
             },
             Some(lubricant) => {
                 let factors = R::vectorized(lubricant_state::Act {

@@ -3,16 +3,16 @@
 use number::Vec2;
 use serde_json::Value;
 
-pub(super) fn list<'a>(value: &'a Value, key: &str) -> Result<&'a [Value], String> {
+pub(crate) fn list<'a>(value: &'a Value, key: &str) -> Result<&'a [Value], String> {
     let list = value[key].as_array().map(Vec::as_slice);
     list.ok_or_else(|| format!("{key} is no list"))
 }
-pub(super) fn number(value: &Value, key: &str) -> Result<f64, String> {
+pub(crate) fn number(value: &Value, key: &str) -> Result<f64, String> {
     let number = value[key].as_f64().filter(|number| number.is_finite());
     number.ok_or_else(|| format!("{key} is no number"))
 }
 /// So many numbers.
-pub(super) fn numbers<const N: usize>(value: &Value, key: &str) -> Result<[f64; N], String> {
+pub(crate) fn numbers<const N: usize>(value: &Value, key: &str) -> Result<[f64; N], String> {
     let found = value[key].as_array().map(Vec::as_slice).unwrap_or_default();
     let found: Option<Vec<f64>> = found.iter().map(Value::as_f64).collect();
     let found = found.and_then(|list| <[f64; N]>::try_from(list).ok());

@@ -7,7 +7,7 @@ mod faults;
 mod faults_given;
 mod faults_watch;
 mod given;
-mod json;
+pub(super) mod json;
 mod mounts;
 mod points;
 mod run_up;

@@ -1,0 +1,227 @@
+//! `auxbear bearings stiffness`.
+
+use crate::place::{Called, Place};
+use serde_json::Value;
+use std::fs;
+
+/// The bearing of the reference's quasi-static file: 14 balls on the circle that its groove centres give.
+const REFERENCE: &str = "format = \"auxbear.bearings/1\"\n\n[[bearing]]\nname = \"reference\"\ntype = \"angular contact\"\nball_count = 14\nball_diameter = \"6.35 mm\"\npitch_diameter = \"36.02195945375878 mm\"\nwidth = \"12 mm\"\ninner_groove_curvature = 0.52\nouter_groove_curvature = 0.52\ncontact_angle = \"24 deg\"\n";
+
+fn call(place: &Place, words: &[&str]) -> Called {
+    let mut all = vec!["bearings", "stiffness"];
+    all.extend(words);
+    place.call(&all)
+}
+
+fn json(place: &Place, words: &[&str]) -> Value {
+    let mut all = words.to_vec();
+    all.push("--json");
+    serde_json::from_str(&call(place, &all).done().out).unwrap()
+}
+
+fn close(value: &Value, expected: f64, share: f64) {
+    let value = value.as_f64().unwrap();
+    assert!((value / expected - 1.0).abs() < share, "{value} {expected}");
+}
+
+#[test]
+fn the_reference_bearing_has_the_reference_equilibrium() {
+    let place = Place::new();
+    fs::write(place.path("own.toml"), REFERENCE).unwrap();
+    let own = ["reference", "--catalogue", "own.toml"];
+    // the row steel, 300 N, 2000 rad/s, inner, and the pair O at 2000 rad/s of spatial_quasistatic.json
+    let mut words = own.to_vec();
+    words.extend([
+        "--axial",
+        "300 N",
+        "--speed",
+        "2000 rad/s",
+        "--race-control",
+        "inner",
+    ]);
+    let found = json(&place, &words);
+    close(&found["shift"][2], 7.356_039_825_254_202_5e-6, 1e-6);
+    let mut words = own.to_vec();
+    words.extend([
+        "--arrangement",
+        "DB",
+        "--offset",
+        "8 um",
+        "--speed",
+        "2000 rad/s",
+    ]);
+    let found = json(&place, &words);
+    close(&found["preload_thrusts"][0], 193.309_935_562_338_8, 1e-6);
+    close(
+        &found["rows"][1][3]["load_outer"],
+        40.113_797_304_598_58,
+        1e-6,
+    );
+    close(
+        &found["rows"][0][0]["contact_angle_inner"],
+        0.517_260_489_776_366_7,
+        1e-6,
+    );
+    // a preload is the force of a row at rest: 8 µm are 103.03 N
+    let mut words = own.to_vec();
+    words.extend(["--arrangement", "DF", "--preload", "103.03033943154108 N"]);
+    let found = json(&place, &words);
+    close(&found["offset"], 8e-6, 1e-6);
+    close(&found["stiffness"][0][0], 183_641_102.05, 1e-6);
+}
+
+#[test]
+fn the_table_shows_angles_loads_and_stiffness() {
+    let place = Place::new();
+    let words = [
+        "6005",
+        "--axial",
+        "200N",
+        "--speed",
+        "20000rpm",
+        "--contact-angle",
+        "15deg",
+    ];
+    let shown = call(&place, &words).done();
+    assert!(
+        shown
+            .out
+            .starts_with("6005, single, free contact angle 15.00 deg, race control: half\n")
+    );
+    for part in [
+        "displacement of the inner ring",
+        "MPa",
+        "of the ring",
+        "tilt x",
+        "Mx",
+    ] {
+        assert!(shown.out.contains(part), "{part} in {}", shown.out);
+    }
+    assert!(shown.out.lines().all(|line| line.chars().count() <= 130));
+    assert_eq!(shown.err, "");
+}
+
+#[test]
+fn what_is_out_of_range_is_warned_of() {
+    let place = Place::new();
+    let radial = call(&place, &["6005", "--radial", "200 N"]).done();
+    assert!(
+        radial.err.contains("AB2402") && radial.err.contains("of 10 balls"),
+        "{}",
+        radial.err
+    );
+    let fast = [
+        "6005",
+        "--axial",
+        "20 N",
+        "--radial",
+        "100 N",
+        "--speed",
+        "30000 rpm",
+        "--contact-angle",
+        "15 deg",
+    ];
+    assert!(call(&place, &fast).done().err.contains("AB2404"));
+    let pair = [
+        "6005",
+        "--contact-angle",
+        "15 deg",
+        "--arrangement",
+        "DB",
+        "--preload",
+        "20 N",
+        "--axial",
+        "300 N",
+    ];
+    assert!(call(&place, &pair).done().err.contains("AB2403"));
+    let heavy = call(&place, &["6005", "--radial", "12 kN"]).done();
+    assert!(
+        heavy.err.contains("AB2406") && heavy.err.contains("MPa"),
+        "{}",
+        heavy.err
+    );
+    let deep = call(
+        &place,
+        &["6005", "--axial", "9 kN", "--contact-angle", "28 deg"],
+    )
+    .done();
+    assert!(deep.err.contains("AB2401"), "{}", deep.err);
+}
+
+#[test]
+fn wrong_input_is_one_message() {
+    let place = Place::new();
+    let refused = |words: &[&str], parts: &[&str]| {
+        let mut all = vec!["6005"];
+        all.extend(words);
+        let mut parts = parts.to_vec();
+        parts.push("auxbear bearings stiffness");
+        call(&place, &all).refused(&parts);
+    };
+    refused(&[], &["--axial", "no load"]);
+    refused(
+        &["--axial", "200"],
+        &["--axial", "\"200\"", "a force is needed"],
+    );
+    refused(&["--axial", "200 mm"], &["--axial", "a force is needed"]);
+    refused(
+        &["--axial", "1 N", "--contact-angle", "70 deg"],
+        &["--contact-angle", "0 to 60 deg"],
+    );
+    refused(
+        &["--axial", "1 N", "--contact-angle", "55 deg"],
+        &["--contact-angle", "groove", "ends"],
+    );
+    refused(
+        &["--axial", "1 N", "--arrangement", "OX"],
+        &["--arrangement", "single, DB, DF, DT"],
+    );
+    refused(
+        &["--preload", "65 N"],
+        &["--preload", "single bearing", "DB or DF"],
+    );
+    refused(
+        &["--arrangement", "DT", "--preload", "65 N"],
+        &["--preload", "tandem"],
+    );
+    refused(
+        &["--arrangement", "DB", "--offset=-2 um"],
+        &["--offset", "unloaded at rest"],
+    );
+    refused(
+        &["--arrangement", "DB", "--preload", "0 N"],
+        &["--preload", "unloaded at rest"],
+    );
+    refused(
+        &[
+            "--arrangement",
+            "DB",
+            "--preload",
+            "65 N",
+            "--offset",
+            "2 um",
+        ],
+        &["both"],
+    );
+    refused(
+        &["--axial", "1 N", "--clearance", "0.9 mm"],
+        &["AB0204", "--clearance"],
+    );
+    refused(
+        &[
+            "--axial",
+            "1 N",
+            "--clearance",
+            "1 um",
+            "--contact-angle",
+            "9 deg",
+        ],
+        &["both"],
+    );
+    refused(
+        &["--axial", "1 N", "--race-control", "orc"],
+        &["--race-control", "half, outer"],
+    );
+    refused(&["--axial", "1e8 N"], &["loads and speed"]);
+    call(&place, &["6o05", "--axial", "1 N"]).refused(&["\"6o05\"", "\"6005\""]);
+}

@@ -1,0 +1,321 @@
+//! A row of balls with its cage, between two rings.
+//!
+//! Adds up, in one pass over the balls, what they do to inner ring, outer ring and cage, and the heats.
+
+use super::ball::{BALL_STATES, BallState, SpatialBall, Turned};
+use super::pocket::{CageMotion, InPocket, PocketPlace};
+use super::race::{BallInSpace, RingMotion, Touch, Traction as ContactTraction, traction};
+use super::rigid_body::{Inertia, SpatialWrench};
+use crate::bearing::ball::gather_group;
+use crate::bearing::ball_sums::BallSums;
+use crate::bearing::seat;
+use crate::contact::JournalContact;
+use number::{Gather, Real, Vectorized, constants};
+use physics::contact_nodes::ContactNode;
+use physics::traction::{Traction, TractionLaw};
+
+/// A row of balls of one machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowConstants {
+    /// Number of balls.
+    pub balls: usize,
+    /// The ball.
+    pub ball: SpatialBall<f64>,
+    /// Where slip is taken in a contact.
+    pub nodes: Vec<ContactNode<f64>>,
+    /// Traction in the contacts.
+    pub traction: Traction<f64>,
+    /// The cage.
+    pub cage: CageConstants,
+}
+
+/// The cage of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CageConstants {
+    /// Mass and inertias.
+    pub inertia: Inertia<f64>,
+    /// Drag to the housing on its turning, N m s.
+    pub drag: f64,
+    /// What guides it.
+    pub guide: CageGuide<f64>,
+}
+
+/// What guides a cage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CageGuide<R> {
+    /// It turns about its own axis and moves with the outer ring, which takes the forces of its pockets and must not turn.
+    Tied,
+    /// Its balls.
+    Balls,
+    /// A land of the outer ring.
+    OuterLand(SpatialLand<R>),
+    /// A land of the inner ring.
+    InnerLand(SpatialLand<R>),
+}
+
+constants! {
+    /// A cage on a land: a cylinder in a bore at two stations of the bore's axis.
+    pub struct SpatialLand {
+        /// The surfaces; stiffness at one station.
+        contact: JournalContact<R>,
+        /// Middle of the stations on the axis of the body with the bore, m.
+        middle: R,
+        /// Half their distance, m.
+        half_width: R,
+    }
+}
+
+impl<R: Real> Gather<R> for CageGuide<f64> {
+    type Out = CageGuide<R>;
+    fn gather<'a>(machine: &dyn Fn(usize) -> &'a Self) -> CageGuide<R>
+    where
+        Self: 'a,
+    {
+        use CageGuide::{Balls, InnerLand, OuterLand, Tied};
+        let land = |lane: usize| match machine(lane) {
+            OuterLand(land) | InnerLand(land) => land,
+            Tied | Balls => panic!("lanes share how a cage is guided"),
+        };
+        match machine(0) {
+            Tied => Tied,
+            Balls => Balls,
+            OuterLand(_) => OuterLand(Gather::gather(&land)),
+            InnerLand(_) => InnerLand(Gather::gather(&land)),
+        }
+    }
+}
+
+/// A row over `R`.
+#[derive(Clone, Debug)]
+pub(super) struct Row<R: Real> {
+    pub balls: usize,
+    pub ball: SpatialBall<R::Group>,
+    nodes: Vec<ContactNode<R::Group>>,
+    traction: Traction<R::Group>,
+    pub cage: Inertia<R>,
+    pub cage_drag: R,
+    pub guide: CageGuide<R>,
+    /// Cosines and sines of the pockets' places on the cage.
+    seats: [Vec<R>; 2],
+}
+
+/// What the balls of a row do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowReaction<R> {
+    pub on_inner: SpatialWrench<R>,
+    pub on_outer: SpatialWrench<R>,
+    /// By the pockets.
+    pub on_cage: SpatialWrench<R>,
+    /// Damping inner and outer, slip and spin inner and outer, drag, damping and friction of pockets, W.
+    pub heats: [R; 7],
+}
+
+/// Bodies around a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around<R> {
+    pub inner: RingMotion<R>,
+    pub outer: RingMotion<R>,
+    pub cage: CageMotion<R>,
+}
+
+/// A ball between its races.
+#[derive(Clone, Copy, Debug)]
+pub struct BetweenRaces<R> {
+    /// At inner and outer race.
+    pub touch: [Touch<R>; 2],
+    /// Their traction.
+    pub traction: [ContactTraction<R>; 2],
+}
+
+/// The lists of ball states that begin at a state.
+#[inline(always)]
+pub(super) fn lists<R>(state: &[R], first: usize, balls: usize) -> [&[R]; BALL_STATES] {
+    let all = &state[first..first + BALL_STATES * balls];
+    std::array::from_fn(|k| &all[k * balls..(k + 1) * balls])
+}
+
+impl<R: Real> SpatialBall<R> {
+    /// Its two contacts.
+    #[inline(always)]
+    pub(super) fn between<L: TractionLaw<R>>(
+        &self,
+        law: &L,
+        nodes: &[ContactNode<R>],
+        rings: [&RingMotion<R>; 2],
+        ball: &BallInSpace<R>,
+    ) -> BetweenRaces<R> {
+        let inner = (self.inner).touch(rings[0], ball, self.radius, self.damping_time);
+        let outer = (self.outer).touch(rings[1], ball, self.radius, self.damping_time);
+        BetweenRaces {
+            traction: traction(law, nodes, [&inner, &outer]),
+            touch: [inner, outer],
+        }
+    }
+}
+
+impl<R: Real> Row<R> {
+    pub(super) fn gather<'a>(machine: &dyn Fn(usize) -> &'a RowConstants) -> Self {
+        let balls = Gather::<R>::gather(&|lane| &machine(lane).balls);
+        let of_seat = |part: fn(f64) -> f64| {
+            let one = |j: usize| R::splat(part(seat(j, balls)));
+            (0..balls).map(one).collect()
+        };
+        let count = machine(0).nodes.len();
+        let same = (1..R::LANES).all(|lane| machine(lane).nodes.len() == count);
+        assert!(same, "lanes share the number of nodes");
+        let node = |k: usize| gather_group::<R, _>(&|lane| &machine(lane).nodes[k]);
+        Row {
+            balls,
+            ball: gather_group::<R, _>(&|lane| &machine(lane).ball),
+            nodes: (0..count).map(node).collect(),
+            traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
+            cage: Gather::gather(&|lane| &machine(lane).cage.inertia),
+            cage_drag: Gather::<R>::gather(&|lane| &machine(lane).cage.drag),
+            guide: Gather::gather(&|lane| &machine(lane).cage.guide),
+            seats: [of_seat(f64::cos), of_seat(f64::sin)],
+        }
+    }
+    pub(super) fn is_tied(&self) -> bool {
+        matches!(self.guide, CageGuide::Tied)
+    }
+    /// Writes the rates of the balls, whose states are these lists.
+    #[inline(always)]
+    pub(super) fn react(
+        &self,
+        around: &Around<R::Group>,
+        state: &[R],
+        rate: &mut [R],
+    ) -> RowReaction<R> {
+        // the law is chosen once a call, not once a ball
+        match &self.traction {
+            Traction::Tanh(law) => self.by(law, around, state, rate),
+            Traction::FourParameter(law) => self.by(law, around, state, rate),
+            Traction::Dry(law) => self.by(law, around, state, rate),
+            Traction::Lubricated(law) => self.by(law, around, state, rate),
+            Traction::Algebraic(law) => self.by(law, around, state, rate),
+        }
+    }
+    #[inline(always)]
+    fn by<L: TractionLaw<R::Group>>(
+        &self,
+        law: &L,
+        around: &Around<R::Group>,
+        state: &[R],
+        rate: &mut [R],
+    ) -> RowReaction<R> {
+        R::vectorized(Sum {
+            row: self,
+            law,
+            around,
+            state,
+            rate,
+        })
+    }
+    #[inline(always)]
+    fn place(
+        &self,
+        cage: &CageMotion<R::Group>,
+        from: usize,
+        ball: &BallInSpace<R::Group>,
+    ) -> PocketPlace<R::Group> {
+        let seat = [
+            R::load_group(&self.seats[0], from),
+            R::load_group(&self.seats[1], from),
+        ];
+        self.ball.pocket.place(cage, seat, ball, self.is_tied())
+    }
+    /// One group of balls, for inspection.
+    pub(super) fn inspect(
+        &self,
+        around: &Around<R::Group>,
+        state: &[R],
+        from: usize,
+    ) -> (BetweenRaces<R::Group>, InPocket<R::Group>) {
+        let ball = BallState::load(&lists(state, 0, self.balls), from);
+        let space = ball.in_space(Turned::to(ball.azimuth));
+        let rings = [&around.inner, &around.outer];
+        let between = (self.ball).between(&self.traction, &self.nodes, rings, &space);
+        let place = self.place(&around.cage, from, &space);
+        let radius = self.ball.radius;
+        let pocket = (self.ball.pocket).react(&around.cage, &space, radius, &place);
+        (between, pocket)
+    }
+}
+
+/// The pass over the balls.
+struct Sum<'a, R: Real, L> {
+    row: &'a Row<R>,
+    law: &'a L,
+    around: &'a Around<R::Group>,
+    state: &'a [R],
+    rate: &'a mut [R],
+}
+
+impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
+    type Output = RowReaction<R>;
+    #[inline(always)]
+    fn run(self) -> RowReaction<R> {
+        let Sum { row, around, .. } = self;
+        let (n, law) = (row.balls, &row.ball);
+        let states = lists(self.state, 0, n);
+        let inverse_mass = law.mass.recip();
+        let inverse_inertia =
+            inverse_mass * (<R::Group as Real>::splat(0.4) * law.radius.square()).recip();
+        let (mut on_inner, mut on_outer) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
+        let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 5>::new(n));
+        let mut pocket_heats = BallSums::<R, 2>::new(n);
+        let mut from = 0;
+        while from < n {
+            let ball = BallState::load(&states, from);
+            let turned = Turned::to(ball.azimuth);
+            let space = ball.in_space(turned);
+            let rings = [&around.inner, &around.outer];
+            let between = law.between(self.law, &row.nodes, rings, &space);
+            let [t_i, t_o] = &between.touch;
+            let [f_i, f_o] = &between.traction;
+            let [mut on_ball, inner] = t_i.on_ball_and_ring(f_i);
+            let [by_outer, outer] = t_o.on_ball_and_ring(f_o);
+            on_ball.add(by_outer);
+
+            let place = row.place(&around.cage, from, &space);
+            if law.pocket.may_press(&place) {
+                let p = law.pocket.react(&around.cage, &space, law.radius, &place);
+                on_ball.add(p.on_ball);
+                on_cage.add(from, &p.on_cage.to_array());
+                pocket_heats.add(from, &[p.damping_heat, p.sliding_heat]);
+            }
+
+            let along = ball.radius * ball.orbit_speed;
+            let mut force = turned.to_cylinder(on_ball.force * inverse_mass + law.gravity);
+            force.y -= law.orbit_drag * along * inverse_mass;
+            let moment = turned.to_cylinder(on_ball.moment) - ball.spin * law.spin_drag;
+            let rates = ball.rates(force, moment * inverse_inertia).to_array();
+            let mut k = 0;
+            while k < BALL_STATES {
+                R::store_group(rates[k], &mut self.rate[k * n..(k + 1) * n], from);
+                k += 1;
+            }
+            on_inner.add(from, &inner.to_array());
+            on_outer.add(from, &outer.to_array());
+            heats.add(
+                from,
+                &[
+                    (t_i.load.force - t_i.load.elastic) * t_i.closing,
+                    (t_o.load.force - t_o.load.elastic) * t_o.closing,
+                    f_i.heat,
+                    f_o.heat,
+                    law.orbit_drag * along.square() + law.spin_drag * ball.spin.length_squared(),
+                ],
+            );
+            from += R::GROUP;
+        }
+        let [d_i, d_o, s_i, s_o, drag] = heats.total();
+        let [damping, friction] = pocket_heats.total();
+        RowReaction {
+            on_inner: SpatialWrench::from_array(on_inner.total()),
+            on_outer: SpatialWrench::from_array(on_outer.total()),
+            on_cage: SpatialWrench::from_array(on_cage.total()),
+            heats: [d_i, d_o, s_i, s_o, drag, damping, friction],
+        }
+    }
+}

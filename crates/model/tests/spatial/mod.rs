@@ -1,0 +1,9 @@
+//! Physics sentences about bearings in space.
+
+mod balances;
+mod bits;
+mod closed_forms;
+mod planar_limit;
+mod setup;
+mod statics;
+mod turning;
