@@ -1,7 +1,7 @@
 //! Measured channels beside predicted columns, and inputs estimated from them.
 
 use crate::outcomes::number;
-use auxbear::outcome::Outcome;
+use auxbear::outcome::{Outcome, Value};
 use auxbear::run::{Options, build};
 use auxbear::scenario::{BuiltIn, Scenario, StudyFile};
 use auxbear::study::Study;
@@ -90,6 +90,50 @@ fn with_the_inputs_that_made_it_only_noise_is_left() {
     assert!(warned.contains(&"AB2341") && !warned.contains(&"AB2342"));
     let apart = number(&run, "measured.rotor.y.drop_2.rms_difference_from_drop_1");
     assert!((apart / number(&run, "measured.rotor.y.drop_2.rms_difference") - 1.0).abs() < 0.01);
+}
+
+/// The shipped measurement, of which only rows at some instants are kept.
+fn kept(keep: fn(f64) -> bool) -> Outcome {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("a.toml"), DROP).unwrap();
+    let file = "data/measured_drop.csv";
+    let text = fs::read_to_string(shipped("measured_drop").with_file_name(file)).unwrap();
+    let time = |line: &str| {
+        line.split([',', ';'])
+            .next()
+            .and_then(|own| own.parse().ok())
+    };
+    let lines = text.lines().filter(|line| time(line).is_none_or(keep));
+    let lines: Vec<&str> = lines.collect();
+    fs::create_dir_all(folder.path().join(file).parent().unwrap()).unwrap();
+    fs::write(folder.path().join(file), lines.join("\n")).unwrap();
+    ran(&read(&folder.path().join("a.toml"), &TRUTH).unwrap()).unwrap()
+}
+
+#[test]
+fn nothing_is_compared_in_a_gap_and_a_late_file_shows_no_first_contact() {
+    let codes = |run: &Outcome| -> Vec<&str> { run.warnings.iter().map(|own| own.code).collect() };
+    let gap = kept(|time| !(0.0402..0.0498).contains(&time));
+    assert!(codes(&gap).contains(&"AB2344"), "{:?}", codes(&gap));
+    let (time, own) = (
+        gap.column("time").unwrap(),
+        gap.column("measured.rotor.y").unwrap(),
+    );
+    for (time, value) in time.values.iter().zip(&own.values) {
+        assert_eq!(value.is_nan(), (0.01015..0.01975).contains(time), "{time}");
+    }
+    assert!((number(&gap, MISFIT) - 1.0).abs() < 0.1);
+    let late = kept(|time| time > 0.0395);
+    assert!(codes(&late).contains(&"AB2343") && !codes(&late).contains(&"AB2344"));
+    for name in ["first_contact", "phase_at_release"] {
+        let own = late
+            .quantity(&format!("measured.rotor.{name}.measured"))
+            .unwrap();
+        let Value::None { why } = &own.value else {
+            panic!("{name}: {own:?}");
+        };
+        assert!(why.contains("begins after the release"), "{why}");
+    }
 }
 
 /// The file was written from other inputs than those of the scenario; the bounds are far wider than what is found.

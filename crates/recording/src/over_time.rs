@@ -163,6 +163,15 @@ fn converted(name: &str, file: &str, wanted: Wanted) -> Result<[f64; 2], Unread>
     let place = if own.is_some() { "" } else { " in the file" };
     let needed = || format!("a unit of the kind of {unit} is needed{place}");
     let refused = || unread(Code::ChannelUnit, found(), needed());
+    if let Some(given) = own
+        && let (Some(one), Some(other)) = (to_si(file.trim(), unit), to_si(given.trim(), unit))
+        && !file.trim().is_empty()
+        && one != other
+    {
+        let found = format!("channel \"{name}\" in {}, and {given}", file.trim());
+        let needed = "one of the two units is needed: without the key that of the file counts";
+        return Err(unread(Code::ChannelUnit, found, needed.to_string()));
+    }
     let [offset, factor] = to_si(text, unit).ok_or_else(refused)?;
     Ok([offset, factor * scale])
 }

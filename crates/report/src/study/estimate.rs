@@ -3,7 +3,7 @@
 use super::cells::{amount, scaled, short, table};
 use crate::page::escape_text as plain;
 use run::study::answer::Answer;
-use run::study::estimate::{Estimate, Estimated};
+use run::study::estimate::{Estimate, Estimated, UNEXPLAINED};
 
 const HEAD: [&str; 5] = [
     "input",
@@ -50,7 +50,7 @@ pub fn note(found: &Estimate) -> String {
         short(found.misfit),
         found.runs
     );
-    if found.misfit > MISFIT {
+    if found.misfit > UNEXPLAINED {
         text.push_str(" The residuals are larger than the noise: an input that was kept, the clock or the model is off; the uncertainty counts their size, not their cause.");
     }
     if let Some(member) = found.rival {
@@ -70,9 +70,6 @@ pub fn note(found: &Estimate) -> String {
     }
     text
 }
-
-/// Residuals above this are no noise of the stated deviation.
-const MISFIT: f64 = 1.5;
 
 /// The section of the page.
 pub(super) fn html(answer: &Answer) -> String {

@@ -20,8 +20,12 @@ type Found = Result<f64, String>;
 const THRESHOLD: (f64, f64) = (6.0, 0.02);
 /// Share of full speed at which a race has spun up.
 const SPUN_UP: f64 = 0.95;
+/// Rows a turn that a whirl needs.
+const A_TURN: f64 = 8.0;
 /// The whirl counts outside this share of the clearance, as `whirl_turns` does.
 const WHIRLS: f64 = 0.5;
+
+const LATE: &str = "the file begins after the release";
 
 fn no(why: &str) -> Found {
     Err(why.to_string())
@@ -48,6 +52,10 @@ impl Compared {
     fn threshold(&self) -> f64 {
         let (deviations, share) = THRESHOLD;
         (deviations * self.deviation.unwrap_or(0.0)).max(share * self.range())
+    }
+    /// Whether it begins more than two rows after an instant.
+    fn begins_late(&self, time: f64) -> bool {
+        matches!(self.time[..], [first, second, ..] if first > time + 2.0 * (second - first))
     }
     /// The first row from an instant on.
     fn row(&self, time: f64) -> usize {
@@ -96,6 +104,9 @@ pub(super) fn of_curve(list: &mut List, curve: &Curve, run: Option<(&Compared, &
 
 /// Time to 95 % of the rotor's speed at the release; without a rotor of the largest predicted speed.
 fn spin_up(own: &Compared, values: &[f64], run: &Run) -> Found {
+    if own.begins_late(run.release) {
+        return no(LATE);
+    }
     let largest = |values: &[f64]| {
         values
             .iter()
@@ -117,6 +128,9 @@ fn spin_up(own: &Compared, values: &[f64], run: &Run) -> Found {
 fn impact(own: &Compared, values: &[f64], release: f64) -> [Found; 4] {
     if values.is_empty() {
         return from_fn(|_| no(NOTHING_COMMON));
+    }
+    if own.begins_late(release) {
+        return from_fn(|_| no(LATE));
     }
     let (first, level) = (own.row(release).min(values.len() - 1), own.threshold());
     // what a load cell shows before the release
@@ -144,6 +158,9 @@ fn impact(own: &Compared, values: &[f64], release: f64) -> [Found; 4] {
 
 /// Instant of the first reversal of a displacement, and how far it comes back until the next.
 fn turning(own: &Compared, values: &[f64], release: f64) -> [Found; 2] {
+    if own.begins_late(release) {
+        return from_fn(|_| no(LATE));
+    }
     let first = own.row(release);
     let rows = reversals(values.get(first..).unwrap_or_default(), own.threshold());
     let row = |k: usize| rows.get(k).map(|row| first + row);
@@ -237,7 +254,12 @@ impl Orbit<'_> {
     /// Phase at the release, first contact and whirl of both curves.
     fn features(&self, run: &Run) -> [[Found; 3]; 2] {
         let points = self.points(run);
+        if run.all[self.axes[0]].begins_late(run.release) {
+            return from_fn(|_| from_fn(|_| no(LATE)));
+        }
         let clearance = self.clearance(run);
+        let interval = self.axes.map(|axis| run.curves[axis].interval());
+        let interval = interval[0].max(interval[1]);
         let first = points.time.partition_point(|own| *own < run.release);
         let [measured, mut predicted] = [0, 1].map(|side| {
             let of: &[[f64; 2]] = &points.sides[side];
@@ -257,7 +279,10 @@ impl Orbit<'_> {
             let contact = reached(&points.time, &radii, clearance, first);
             let contact = contact.map(|(_, time)| time - run.release);
             let contact = contact.ok_or_else(|| "the clearance is not crossed".to_string());
-            [phase, contact, whirl(&points.time, of, WHIRLS * clearance)]
+            // the predicted curve has no samples but the rows
+            let interval = [interval, 0.0][side];
+            let turns = whirl(&points.time, of, WHIRLS * clearance, interval);
+            [phase, contact, turns]
         });
         if let (Ok(measured), Ok(phase)) = (&measured[0], &mut predicted[0]) {
             // the difference of two phases is the shorter way
@@ -275,9 +300,9 @@ impl Orbit<'_> {
     }
 }
 
-/// Net angle about the line of levitation over the time outside a radius.
-fn whirl(time: &[f64], points: &[[f64; 2]], radius: f64) -> Found {
-    let (mut angle, mut outside) = (0.0, 0.0);
+/// Net angle about the line of levitation over the time outside a radius, of what is sampled at an interval.
+fn whirl(time: &[f64], points: &[[f64; 2]], radius: f64, interval: f64) -> Found {
+    let (mut angle, mut outside, mut rows) = (0.0_f64, 0.0, 0);
     for row in 1..points.len() {
         let [from, to] = [points[row - 1], points[row]];
         if [from, to].iter().any(|[x, y]| x.hypot(*y) < radius) {
@@ -285,8 +310,12 @@ fn whirl(time: &[f64], points: &[[f64; 2]], radius: f64) -> Found {
         }
         angle += (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
         outside += time[row] - time[row - 1];
+        rows += 1;
     }
     match angle.abs() >= TAU {
+        true if angle.abs() * A_TURN * interval.max(outside / f64::from(rows)) > TAU * outside => {
+            no("fewer than eight rows or samples a turn")
+        }
         true => Ok(angle / outside),
         false => no("it goes round less than once outside half the clearance"),
     }

@@ -25,6 +25,8 @@ use units::{Unit, number_text};
 
 /// Values before the release that a deviation is estimated from, at least.
 const FEWEST: usize = 16;
+/// Samples further apart than this times the median interval have a gap between them.
+const GAP: f64 = 3.5;
 /// Standard deviations of the band whose share is told.
 const BAND: f64 = 2.0;
 /// What names of results and columns begin with.
@@ -39,6 +41,8 @@ pub(crate) struct Curve {
     unit: &'static str,
     times: Vec<f64>,
     values: Vec<f64>,
+    /// Between samples further apart than this it has no value, s.
+    longest: f64,
 }
 
 /// A measured and a predicted curve at the rows of a run that the file covers.
@@ -108,7 +112,10 @@ impl Curve {
         let (times, values): (Vec<f64>, Vec<f64>) = (rows.iter())
             .map(|[time, value]| (time + given.clock_offset, *value))
             .unzip();
+        let mut intervals: Vec<f64> = times.windows(2).map(|two| two[1] - two[0]).collect();
+        intervals.sort_by(f64::total_cmp);
         let curve = Curve {
+            longest: GAP * intervals[intervals.len() / 2],
             name: given.name(),
             given: given.clone(),
             unit: column.unit,
@@ -133,9 +140,32 @@ impl Curve {
         [self.times[0], self.times[self.times.len() - 1]]
     }
 
-    /// Its value at an instant, straight between its samples; not a number outside.
+    /// Its value at an instant, straight between its samples; not a number outside and in a gap.
     fn at(&self, time: f64) -> f64 {
-        between(&self.times, &self.values, time).unwrap_or(f64::NAN)
+        let next = self.times.partition_point(|own| *own < time);
+        // a row at a sample but for rounding has its value
+        let rounding = 1e-6 * self.longest;
+        let gap = |two: &[f64]| {
+            let inside = time - two[0] > rounding && two[1] - time > rounding;
+            inside && two[1] - two[0] > self.longest
+        };
+        match self.times.get(next.saturating_sub(1)..=next) {
+            Some(two) if next > 0 && gap(two) => f64::NAN,
+            _ => between(&self.times, &self.values, time).unwrap_or(f64::NAN),
+        }
+    }
+
+    /// Median interval of its samples, s.
+    fn interval(&self) -> f64 {
+        self.longest / GAP
+    }
+
+    /// Its gaps within a run, from and to, s.
+    fn gaps(&self, begin: f64, end: f64) -> impl Iterator<Item = [f64; 2]> {
+        let inside = move |two: &&[f64]| two[1] > begin && two[0] < end;
+        let wide = |two: &&[f64]| two[1] - two[0] > self.longest;
+        let gaps = self.times.windows(2).filter(inside).filter(wide);
+        gaps.map(|two| [two[0], two[1]])
     }
 
     /// Standard deviation: as given, or of the second differences of the values before the release, which an orbit that is sampled

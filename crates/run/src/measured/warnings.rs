@@ -17,11 +17,12 @@ problem::warnings! {
         PhaseDiffers { part: text, measured: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), predicted.to_degrees());
         PhaseUnknown "AB2342" Note ("The measured channels do not show the phase of the orbit at the release. Impacts after the first depend on the angle of the unbalance at the release, an input (rotor.unbalance_angle).");
         PartOfRun { part: text, from: "s", to: "s", end: "s" } "AB2343" Note ("File of {part} covers {from:.4} s to {to:.4} s of a run of {end:.4} s: compared there.");
+        Gaps { part: text, gaps: "", from: "s", to: "s" } "AB2344" Uncertain ("Channel of {part} has gaps ({gaps:.0}), the first from {from:.4} s to {to:.4} s: nothing is compared there, and features that fall into one are not those of the machine.");
     }
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
-    use MeasuredWarning::{Coarse, PartOfRun, PhaseDiffers, PhaseUnknown};
+    use MeasuredWarning::{Coarse, Gaps, PartOfRun, PhaseDiffers, PhaseUnknown};
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
         .outcome
@@ -41,6 +42,15 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 part,
                 interval,
                 rows,
+            });
+        }
+        let mut gaps = curve.gaps(*begin, *end);
+        if let Some([from, to]) = gaps.next() {
+            list.push(Gaps {
+                part: part(),
+                gaps: 1.0 + gaps.count() as f64,
+                from,
+                to,
             });
         }
         if from > begin + interval || to < end - interval {

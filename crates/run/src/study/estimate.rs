@@ -32,6 +32,8 @@ const STEPS: [f64; 3] = [1e-3, 1e-5, 2e-2];
 const DETERMINED: f64 = 0.144;
 /// Two inputs whose coefficient is larger are determined together alone.
 const TOGETHER: f64 = 0.95;
+/// Misfit from which on noise does not explain the residuals.
+pub const UNEXPLAINED: f64 = 1.5;
 /// A member as good as the best one, by its misfit, and so many deviations away, is another estimate.
 const RIVAL: (f64, f64) = (1.05, 5.0);
 /// Nearest to a bound, as a share of both.
@@ -135,7 +137,14 @@ impl Study {
             (0..N).any(|k| (shares[k] - place[k]).abs() > RIVAL.1 * deviations[k].unwrap_or(1.0))
         };
         let mut rivals = known.filter(|(own, k)| *own <= RIVAL.0 * misfit && far(self.shares(*k)));
-        let inputs = (0..N).map(|k| self.input(k, place[k], deviations[k], &correlation[k]));
+        let inputs = (0..N).map(|k| {
+            let mut own = self.input(k, place[k], deviations[k], &correlation[k]);
+            if own.why.is_empty() && misfit > UNEXPLAINED {
+                own.why = "only if the rest of the model holds: noise does not explain the misfit"
+                    .to_string();
+            }
+            own
+        });
         let independent = at.iter().map(|own| own.len() as f64 / repetition(own));
         Some(Ok(Estimate {
             rival: rivals.next().map(|(_, member)| member),
@@ -156,12 +165,12 @@ impl Study {
         let together = (0..coefficients.len()).find(|i| beside(*i));
         let edge = deviation.unwrap_or(0.0).clamp(EDGE, 0.5);
         let why = match (deviation, together) {
-            (None, _) => "not determined: the curves do not depend on it alone".to_string(),
+            (None, _) => "not determined: the curves do not depend on it".to_string(),
             (Some(own), _) if own > DETERMINED => {
                 "not determined: hardly better than its bounds".to_string()
             }
             (_, Some(i)) => format!(
-                "determined together with {} alone",
+                "determined only together with {}",
                 self.file.inputs[i].vary.path
             ),
             _ if at < edge || at > 1.0 - edge => {
