@@ -90,9 +90,9 @@ fn spatial(
     }
     let rotor = machine.rotor.as_mut().expect("it has one");
     rotor.levitation = None;
-    rotor.faces.truncate(1);
+    rotor.landing.faces.truncate(1);
     // as in the plane at the release: rotor and cages are free
-    rotor.contact.radial_clearance = 2.5e-4;
+    rotor.landing.contact.radial_clearance = 2.5e-4;
     for row in &mut machine.rows {
         if let CageGuide::OuterLand(land) = &mut row.cage.guide {
             land.contact.radial_clearance = 1.5e-4;

@@ -28,6 +28,7 @@ pub use crate::heats::{HEATS, OWN_HEATS};
 use crate::motion::Motion;
 use crate::mount::{Mount, MountParts, MountReaction, WholeMount};
 use crate::rotor::GeometricCentre;
+use crate::spatial::Spatial;
 use crate::surface_heat::Surfaces;
 use crate::system::layout::Layout;
 use crate::system::rig::fixture::{Acting, Fixture, FixtureOver};
@@ -132,6 +133,10 @@ impl AuxiliaryBearingConstants {
         } else {
             self.mount_parts.preload = -(gravity * mass);
         }
+        if let BearingConstants::Spatial(own) = &mut self.bearing {
+            let along = own.rows[0].ball.gravity.z;
+            own.mount.free_position.z = -along * mass / own.mount.axial_stiffness;
+        }
     }
 }
 
@@ -166,8 +171,12 @@ pub mod probe {
     pub const MOUNT_FORCE: usize = 11;
     /// First of the largest u²Q of a ball at both races, (m/s)² N.
     pub const LARGEST_SKIDS: usize = 12;
+    /// Penetration of a shoulder of the rotor into a face of the inner race, m; -∞ where there is none.
+    pub const AXIAL_PENETRATION: usize = 14;
+    /// Normal force on these faces, N.
+    pub const AXIAL_FORCE: usize = 15;
     /// Number of them.
-    pub const COUNT: usize = 14;
+    pub const COUNT: usize = 16;
 }
 
 /// Where an auxiliary bearing stands in the state, in the ledger and among the probes of its machine.
@@ -241,6 +250,10 @@ pub fn lay_races(layout: &mut Layout, part: &AuxiliaryBearingConstants) -> [Body
         debug_assert!(readings.start == ARM && outer == HOUSING);
         return [shaft, outer];
     }
+    if part.spatial().is_some() {
+        return ["inner_race", "outer_race"]
+            .map(|ring| layout.body(&part.name, &format!("bearing.{ring}"), BodyAt::in_space));
+    }
     let inner = layout.body(&part.name, "bearing.inner_race", BodyAt::free);
     let outer = match (housing, part.is_bushing()) {
         (Some(_), _) => BodyAt::STILL,
@@ -256,6 +269,8 @@ pub struct AuxiliaryBearing<R: Real> {
     pub(crate) contact: JournalContact<R>,
     pub(crate) inner_race: RaceConstants<R>,
     pub(crate) bearing: Bearing<R>,
+    /// Rings, rows and landing surfaces of a bearing in space.
+    pub(crate) spatial: Option<Box<Spatial<R>>>,
     pub(crate) mount: WholeMount<R>,
     pub(crate) outer_moving_mass: R,
     outer_weighing_mass: R,
@@ -334,6 +349,7 @@ impl<R: Real> AuxiliaryBearing<R> {
             contact: Gather::<R>::gather(&|lane| &constants(lane).contact),
             inner_race: Gather::<R>::gather(&|lane| &constants(lane).inner_race),
             bearing: Bearing::gather(&|lane| &constants(lane).bearing),
+            spatial: Spatial::gather(constants).map(Box::new),
             mount: WholeMount::gather(&|lane| {
                 (&constants(lane).mount, &constants(lane).mount_parts)
             }),
@@ -510,6 +526,8 @@ impl<R: Real> AuxiliaryBearing<R> {
                 mount.length_squared().sqrt(),
                 bearing.largest_skids[0],
                 bearing.largest_skids[1],
+                R::splat(f64::NEG_INFINITY),
+                zero,
             ];
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
         }

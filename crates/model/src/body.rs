@@ -3,11 +3,14 @@
 //! ```text
 //!   centre in the plane    x y, ẋ ẏ
 //!   turn about the axis    φ, Ω        after them
+//!   in space               13 states of a rigid body, then its turned angle φ
 //! ```
 //! A body has a centre that moves, or a turn, or both: freedoms that it lacks have no channels. Axial motion and tilt are none that
 //! a planar part asks for.
 
 use crate::motion::Body;
+use crate::spatial::part::{BODY_NAMES, SPIN, orientation_scale};
+use crate::spatial::rigid_body::{BODY_STATES, RigidBody};
 use number::{Real, Vec2};
 use std::ops::Range;
 
@@ -17,6 +20,12 @@ pub struct BodyAt {
     first: usize,
     moves: bool,
     turns: bool,
+    /// Channels from the position of its centre to the velocity.
+    to_velocity: usize,
+    /// The same to the angle and to the spin.
+    to_angle: usize,
+    to_spin: usize,
+    in_space: bool,
 }
 
 impl BodyAt {
@@ -26,6 +35,20 @@ impl BodyAt {
             first,
             moves: true,
             turns: true,
+            to_velocity: 2,
+            to_angle: 4,
+            to_spin: 5,
+            in_space: false,
+        }
+    }
+    /// A body with all six freedoms.
+    pub const fn in_space(first: usize) -> Self {
+        BodyAt {
+            to_velocity: 3,
+            to_angle: BODY_STATES,
+            to_spin: SPIN,
+            in_space: true,
+            ..Self::free(first)
         }
     }
     /// A body whose centre moves and that does not turn.
@@ -39,14 +62,15 @@ impl BodyAt {
     pub const fn turning(first: usize) -> Self {
         BodyAt {
             moves: false,
+            to_angle: 0,
+            to_spin: 1,
             ..Self::free(first)
         }
     }
     /// A body that neither moves nor turns: it has no channels.
     pub const STILL: Self = BodyAt {
-        first: 0,
-        moves: false,
         turns: false,
+        ..Self::turning(0)
     };
     /// The same, taken as one that does not turn.
     pub const fn without_turn(self) -> Self {
@@ -58,6 +82,9 @@ impl BodyAt {
     /// Its channels.
     #[inline(always)]
     pub const fn channels(self) -> Range<usize> {
+        if self.in_space {
+            return self.first..self.first + BODY_STATES + 1;
+        }
         let count = if self.moves { 4 } else { 0 } + if self.turns { 2 } else { 0 };
         self.first..self.first + count
     }
@@ -69,29 +96,47 @@ impl BodyAt {
     /// Channels of their rates.
     #[inline(always)]
     pub const fn velocity(self) -> [usize; 2] {
-        [self.first + 2, self.first + 3]
+        [
+            self.first + self.to_velocity,
+            self.first + self.to_velocity + 1,
+        ]
     }
     /// Channel of its angle.
     #[inline(always)]
     pub const fn angle(self) -> usize {
-        self.first + if self.moves { 4 } else { 0 }
+        self.first + self.to_angle
     }
     /// Channel of its spin.
     #[inline(always)]
     pub const fn spin(self) -> usize {
-        self.angle() + 1
+        self.first + self.to_spin
     }
     /// Names of its channels, of a body of that name.
     pub fn names(self, body: &str) -> impl Iterator<Item = String> {
-        let centre = ["x", "y", "x_speed", "y_speed"].map(|name| (name, self.moves));
-        let turn = ["angle", "speed"].map(|name| (name, self.turns));
-        let names = centre.into_iter().chain(turn).filter(|name| name.1);
+        let planar = !self.in_space;
+        let centre = ["x", "y", "x_speed", "y_speed"].map(|name| (name, self.moves && planar));
+        let turn = ["angle", "speed"].map(|name| (name, self.turns && planar));
+        let space = BODY_NAMES.into_iter().chain(["angle"]);
+        let names = centre
+            .into_iter()
+            .chain(turn)
+            .chain(space.map(move |name| (name, !planar)));
         let body = body.to_string();
+        let names = names.filter(|name| name.1);
         names.map(move |(name, _)| format!("{body}.{name}"))
+    }
+    /// Its states at rest, where they are not zero.
+    pub fn rest(self, state: &mut [f64]) {
+        if self.in_space {
+            state[self.first + 6] = 1.0;
+        }
     }
     /// Its motion in a state; what it has no freedom for is zero.
     #[inline(always)]
     pub fn motion<R: Real>(self, state: &[R]) -> Body<R> {
+        if self.in_space {
+            return self.motion_in_space(state);
+        }
         let mut body = Body::planar(Vec2::zero(), Vec2::zero(), R::zero(), R::zero());
         if self.moves {
             body.position = pair(state, self.centre());
@@ -101,6 +146,10 @@ impl BodyAt {
             (body.angle, body.spin) = (state[self.angle()], state[self.spin()]);
         }
         body
+    }
+    #[inline(never)]
+    fn motion_in_space<R: Real>(self, state: &[R]) -> Body<R> {
+        RigidBody::read(&state[self.first..]).seen(state[self.angle()])
     }
     /// Writes the rates of its centre, where that moves.
     #[inline(always)]
@@ -124,6 +173,12 @@ impl BodyAt {
         }
         if self.turns {
             self.turn_at(scale, 1.0, spin);
+        }
+        if self.in_space {
+            let body = &mut scale[self.channels()];
+            (body[2], body[5]) = (length, speed);
+            // tilt and its rate by what they do at a lever of 1 cm
+            orientation_scale(body, 100.0 * length, 100.0 * speed);
         }
     }
 }

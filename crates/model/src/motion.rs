@@ -13,7 +13,7 @@ pub struct Body<R> {
     pub position: Vec2<R>,
     /// Centre along the axis, m.
     pub axial: R,
-    /// Tilt about x and y, rad.
+    /// Tilt about x and y: of its axis -a_y and a_x, for small ones in rad.
     pub tilt: Vec2<R>,
     /// Angle about the axis, rad.
     pub angle: R,

@@ -12,7 +12,7 @@ use problem::warning::Declared;
 use scenario::LubricantWarning;
 use scenario::notes::ValueWarning;
 use simulate::assumptions::{ASSUMED, AssumptionWarning};
-use simulate::bearing::warning_table::{BearingWarning, HeatWarning};
+use simulate::bearing::warning_table::{BearingWarning, HeatWarning, SpatialWarning};
 use simulate::coast_down::warnings::CoastDownWarning;
 use simulate::drop::warning_table::{DropWarning, ShaftWarning};
 use simulate::levitated::LevitationWarning;
@@ -28,6 +28,7 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
         AssumptionWarning::DECLARED,
         BearingWarning::DECLARED,
         HeatWarning::DECLARED,
+        SpatialWarning::DECLARED,
         DropWarning::DECLARED,
         ShaftWarning::DECLARED,
         CoastDownWarning::DECLARED,

@@ -11,8 +11,11 @@ pub type Key = problem::key::Key<SystemName>;
 pub const LANDING_FRICTION: Range = Range::FromTo(0.0, 5.0);
 
 /// That there are balls.
-const WITH_BALLS: &[Condition] = &[Condition::new("bearing.fidelity", &["planar", "rolling"])
-    .because("a bushing has neither balls nor races; mount.moving_mass is its ring")];
+const WITH_BALLS: &[Condition] =
+    &[
+        Condition::new("bearing.fidelity", &["planar", "rolling", "spatial"])
+            .because("a bushing has neither balls nor races; mount.moving_mass is its ring"),
+    ];
 
 /// One section of a scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -115,6 +115,13 @@ impl Values {
     /// A shaft whose weight the radial bearings carry in part, or not at all.
     fn inclined(&self) -> Option<Warning> {
         let gravity = self.number("gravity.acceleration")?;
+        // what carries the rest is computed
+        if self
+            .number("gravity.axial")
+            .is_some_and(|axial| axial != 0.0)
+        {
+            return None;
+        }
         let share = axial_share(gravity);
         (self.system().falls() && share > 0.0).then(|| {
             let angle = share.asin();

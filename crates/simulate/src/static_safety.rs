@@ -37,6 +37,10 @@ pub fn safety_under(radial: f64, bearing: &Bearing) -> Result<f64, String> {
 
 /// Why there is none under any load.
 pub fn no_safety(bearing: &Bearing) -> Option<String> {
+    if bearing.spatial.is_some() {
+        let why = "what loads a bearing in space has an axial part: see peak_hertz_pressure";
+        return Some(why.to_string());
+    }
     let why = safety_under(0.0, bearing).err();
     why.filter(|why| why.ends_with(NOT_GIVEN))
 }

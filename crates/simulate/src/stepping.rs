@@ -140,6 +140,7 @@ impl Asked<'_> {
             }
             Known::Nothing => "balls that roll have nothing stiff",
             Known::NotControllers => "controllers of magnets have no tangents",
+            Known::NotSpace => "bearings in space have no tangents",
             Known::NotMounts => "parts of a mount besides spring and damper have no tangents",
         };
         let what = what.to_string();

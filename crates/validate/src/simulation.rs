@@ -240,6 +240,7 @@ pub(super) fn constants(
             machine.rotor_inertia,
             machine.unbalance_eccentricity,
         ),
+        axial: None,
         levitation: Levitation {
             stiffness: machine.levitation_stiffness,
             damping: machine.levitation_damping,
@@ -340,7 +341,7 @@ fn at(machine: &RotorMachine) -> &BearingAt {
 fn planar(machine: &RotorMachine) -> &PlanarConstants {
     match &machine.constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing,
-        BearingConstants::Rolling(_) => unreachable!("reference machines are planar"),
+        _ => unreachable!("reference machines are planar"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is asked of a bearing, read from the words of a command.
 
 use catalogue::Bearing;
+use model::spatial::Arrangement;
 use model::spatial::statics::RaceControl;
 use physics::groove::{centre_distance, free_contact_angle};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE};
@@ -8,25 +9,6 @@ use problem::{Code, Problem, Result, did_you_mean};
 use std::f64::consts::FRAC_PI_3;
 use units::parse_quantity;
 
-/// How rows stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arrangement {
-    /// One row.
-    Single,
-    /// DB.
-    BackToBack,
-    /// DF.
-    FaceToFace,
-    /// DT.
-    Tandem,
-}
-
-const ARRANGEMENTS: [(&str, Arrangement); 4] = [
-    ("single", Arrangement::Single),
-    ("DB", Arrangement::BackToBack),
-    ("DF", Arrangement::FaceToFace),
-    ("DT", Arrangement::Tandem),
-];
 const CONTROLS: [(&str, RaceControl); 4] = [
     ("half", RaceControl::Half),
     ("outer", RaceControl::Outer),
@@ -179,7 +161,7 @@ impl Asked {
             needed("inner_groove_curvature")?,
             needed("outer_groove_curvature")?,
         ];
-        let arrangement = typed.word("--arrangement", &ARRANGEMENTS)?;
+        let arrangement = typed.word("--arrangement", &Arrangement::WORDS)?;
         typed.either(["--preload", "--offset"])?;
         typed.either(["--contact-angle", "--clearance"])?;
         for option in ["--preload", "--offset"] {
@@ -272,7 +254,9 @@ impl Asked {
     }
     /// Words of the arrangement and of the hypothesis.
     pub fn words(&self) -> [&'static str; 2] {
-        let arrangement = ARRANGEMENTS.iter().find(|own| own.1 == self.arrangement);
+        let arrangement = Arrangement::WORDS
+            .iter()
+            .find(|own| own.1 == self.arrangement);
         let control = CONTROLS.iter().find(|own| own.1 == self.control);
         [
             arrangement.map_or("", |own| own.0),

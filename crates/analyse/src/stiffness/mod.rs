@@ -14,15 +14,10 @@ pub mod warnings;
 pub use answer::Answer;
 pub use asked::{Asked, Typed};
 
-use asked::Arrangement;
-use model::spatial::race::RaceGroove;
+use model::spatial::RowGeometry;
 use model::spatial::statics::ball::Running;
 use model::spatial::statics::{RingLoad, StaticBall, StaticRow, StaticRows};
-use physics::groove::{
-    axis_over_root_approach, centre_distance, contact_surface_radius, pure_axial_load,
-};
 use physics::hertz::{BallRace, NotAPoint, PointContact, Race};
-use physics::load_zone::joint_stiffness;
 use physics::materials::{BEARING_STEEL, ball_mass, contact_modulus};
 use problem::{Code, Problem, Result};
 
@@ -51,85 +46,37 @@ impl Asked {
         })
     }
 
-    /// The row at a place, its contact angle of a sign; 0 for grooves that stand opposite each other.
-    fn row(&self, contacts: &Contacts, place: f64, sign: f64, offset: f64) -> StaticRow {
-        let (cosine, sine) = (self.free_angle.cos(), self.free_angle.sin());
-        let groove = |contact: &PointContact, curvature: f64, out: f64, place: f64| RaceGroove {
-            centre_radius: 0.5 * self.pitch_diameter + out * cosine,
-            place,
-            slack: (curvature - 0.5) * self.ball_diameter,
-            stiffness: contact.stiffness,
-            half_axis: axis_over_root_approach(contact),
-            half_curvature: 0.5
-                / contact_surface_radius(0.5 * self.ball_diameter, curvature * self.ball_diameter),
+    /// Rows, with the offset of a pair.
+    fn rows(&self, contacts: &Contacts) -> Option<(StaticRows, f64)> {
+        let geometry = RowGeometry {
+            arrangement: self.arrangement,
+            spacing: self.spacing,
+            balls: self.balls,
+            ball_diameter: self.ball_diameter,
+            pitch_diameter: self.pitch_diameter,
+            curvatures: self.curvatures,
+            free_angle: self.free_angle,
+            opposite: self.opposite,
+            reversed: false,
+            contacts: [contacts.inner, contacts.outer],
         };
-        let [inner, outer] = self.curvatures.map(|f| (f - 0.5) * self.ball_diameter);
-        let (to_inner, to_outer) = (sign * (inner * sine + 0.5 * offset), -sign * outer * sine);
-        StaticRow {
+        let offset = match (self.offset, self.preload) {
+            (Some(offset), _) => offset,
+            (None, Some(preload)) => geometry.offset_of(preload)?,
+            (None, None) => 0.0,
+        };
+        let rows = geometry.grooves(offset).into_iter();
+        let rows = rows.map(|(_, [inner, outer])| StaticRow {
             balls: self.balls,
             first_azimuth: 0.0,
             ball: StaticBall {
                 radius: 0.5 * self.ball_diameter,
                 mass: ball_mass(self.ball_diameter, self.ball_material.density),
-                inner: groove(&contacts.inner, self.curvatures[0], inner, place + to_inner),
-                outer: groove(
-                    &contacts.outer,
-                    self.curvatures[1],
-                    -outer,
-                    place + to_outer,
-                ),
+                inner,
+                outer,
             },
-        }
-    }
-
-    /// Distance by which a pair is closed under a preload, m: twice the axial displacement of one row.
-    fn offset_of(&self, contacts: &Contacts, preload: f64) -> Option<f64> {
-        let stiffness = joint_stiffness(contacts.inner.stiffness, contacts.outer.stiffness);
-        let distance = centre_distance(self.curvatures, self.ball_diameter);
-        let at =
-            |angle: f64| pure_axial_load(self.balls, stiffness, distance, self.free_angle, angle);
-        let (mut low, mut high) = (self.free_angle, 1.5);
-        if at(high)[0] < preload {
-            return None;
-        }
-        for _ in 0..200 {
-            let middle = 0.5 * (low + high);
-            if at(middle)[0] < preload {
-                low = middle
-            } else {
-                high = middle
-            }
-        }
-        Some(2.0 * at(high)[1])
-    }
-
-    /// Rows, with the offset of a pair.
-    fn rows(&self, contacts: &Contacts) -> Option<(StaticRows, f64)> {
-        let offset = match (self.offset, self.preload) {
-            (Some(offset), _) => offset,
-            (None, Some(preload)) => self.offset_of(contacts, preload)?,
-            (None, None) => 0.0,
-        };
-        let half = 0.5 * self.spacing;
-        let rows = match self.arrangement {
-            Arrangement::Single => {
-                let sign = if self.opposite { 0.0 } else { 1.0 };
-                vec![self.row(contacts, 0.0, sign, 0.0)]
-            }
-            // rows by rising place; the sign is that of the thrust the row takes on the inner ring
-            Arrangement::BackToBack => vec![(-half, 1.0), (half, -1.0)]
-                .into_iter()
-                .map(|(place, sign)| self.row(contacts, place, sign, offset))
-                .collect(),
-            Arrangement::FaceToFace => vec![(-half, -1.0), (half, 1.0)]
-                .into_iter()
-                .map(|(place, sign)| self.row(contacts, place, sign, offset))
-                .collect(),
-            Arrangement::Tandem => [-half, half]
-                .map(|place| self.row(contacts, place, 1.0, 0.0))
-                .to_vec(),
-        };
-        Some((StaticRows(rows), offset))
+        });
+        Some((StaticRows(rows.collect()), offset))
     }
 }
 

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`Rolling`] | [`rolling`] | roll always; loads are quasi-static |
 //! | [`Planar`] | [`planar`] | each ball moves by its own equations ([`ball`]) |
+//! | [`SpatialBearing`] | [`spatial`](crate::spatial) | the same in space; it acts with rings, contact and mount as a whole |
 //!
 //! Both may have a steady friction moment: as a whole, or shared by the balls ([`steady_moment`]). Without one, oil resists the
 //! rolling of each ball ([`inlet_couples`]). What the pockets take
@@ -39,10 +40,12 @@ pub mod steady_moment;
 pub mod tangents;
 
 use crate::motion::Motion;
+use crate::spatial::SpatialBearing;
 pub use acceleration_loss::AccelerationLoss;
 pub use ball_states::seat;
 pub use lubricant_state::{LubricantAt, LubricantConstants};
 use number::Real;
+use physics::angular_contact::radial_stiffness;
 use physics::load_zone::{cosines, displacement, joint_stiffness};
 use physics::rolling::RollingSet;
 use physics::traction::SlidingContact;
@@ -65,6 +68,8 @@ pub enum BearingConstants {
     Rolling(RollingConstants),
     /// Every ball by its own equations.
     Planar(PlanarConstants),
+    /// Every ball by its own equations, in space.
+    Spatial(SpatialBearing),
 }
 
 /// A bearing over `R`.
@@ -74,6 +79,8 @@ pub enum Bearing<R: Real> {
     Rolling(Rolling<R>),
     /// Every ball by its own equations.
     Planar(Planar<R>),
+    /// In space, where it acts [as a whole](crate::spatial::Spatial).
+    Spatial,
 }
 
 impl BearingConstants {
@@ -82,6 +89,7 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.balls,
             BearingConstants::Planar(bearing) => bearing.balls,
+            BearingConstants::Spatial(bearing) => bearing.balls(),
         }
     }
     /// Displacement of the inner race under a radial load at rest, m, one ball on the load line; 0 of a bushing.
@@ -96,6 +104,14 @@ impl BearingConstants {
                 let radial = ball.outer_track - ball.inner_track - 2.0 * ball.radius;
                 let stiffness = joint_stiffness(ball.inner_stiffness, ball.outer_stiffness);
                 (stiffness, 2.0 * radial)
+            }
+            // a preloaded one: each ball as it stands between concentric rings
+            BearingConstants::Spatial(bearing) => {
+                let ball = &bearing.rows[0].ball;
+                let [radial, axial] = ball.groove_distance();
+                let cosine = radial.abs() / radial.hypot(axial).max(f64::MIN_POSITIVE);
+                let stiffness = joint_stiffness(ball.inner.stiffness, ball.outer.stiffness);
+                (radial_stiffness(stiffness, cosine.acos()), 0.0)
             }
         };
         match self.balls() {
@@ -112,6 +128,7 @@ impl BearingConstants {
         let (first, balls) = match self {
             BearingConstants::Rolling(_) => (rolling::STATES, 1),
             BearingConstants::Planar(bearing) => (bearing.first_ball_state(), bearing.balls),
+            BearingConstants::Spatial(bearing) => return bearing.state_name(state),
         };
         if state < first {
             return format!("cage.{}", CAGE[state]);
@@ -132,6 +149,31 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(_) => rolling::STATES,
             BearingConstants::Planar(bearing) => bearing.states(),
+            BearingConstants::Spatial(bearing) => bearing.states(),
+        }
+    }
+    /// Which of its states is the speed of the cage; none where it follows the race.
+    pub fn cage_speed_state(&self) -> Option<usize> {
+        match self {
+            BearingConstants::Rolling(_) => None,
+            BearingConstants::Planar(_) => Some(1),
+            BearingConstants::Spatial(_) => Some(crate::spatial::part::SPIN),
+        }
+    }
+    /// Which of its states is the azimuth of a ball; none where the balls have none.
+    pub fn azimuth_state(&self, ball: usize) -> Option<usize> {
+        match self {
+            BearingConstants::Rolling(_) => None,
+            BearingConstants::Planar(bearing) => Some(bearing.azimuth_channel(ball)),
+            BearingConstants::Spatial(bearing) => Some(bearing.azimuth_channel(ball)),
+        }
+    }
+    /// What balls that may slide do to the races, where it is told.
+    pub fn race_laws(&self) -> Option<&[RaceContact; 2]> {
+        match self {
+            BearingConstants::Rolling(_) => None,
+            BearingConstants::Planar(bearing) => bearing.races.as_ref(),
+            BearingConstants::Spatial(bearing) => bearing.races.as_ref(),
         }
     }
     /// The slow state of the lubricant, where it has one.
@@ -139,6 +181,7 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.lubricant.as_ref(),
             BearingConstants::Planar(bearing) => bearing.lubricant.as_ref(),
+            BearingConstants::Spatial(_) => None,
         }
     }
     /// The same bearing with its lubricant in the state of the law, for good.
@@ -147,6 +190,7 @@ impl BearingConstants {
         match &mut self {
             BearingConstants::Rolling(bearing) => bearing.lubricant = None,
             BearingConstants::Planar(bearing) => bearing.lubricant = None,
+            BearingConstants::Spatial(_) => {}
         }
         self
     }
@@ -192,6 +236,7 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.set.balls_mass + bearing.cage_mass,
             BearingConstants::Planar(bearing) => bearing.mass_of_cage() - bearing.free_cage_mass(),
+            BearingConstants::Spatial(bearing) => bearing.tied_mass(),
         }
     }
     /// Mass of balls and cage that move by their own states, kg.
@@ -201,6 +246,7 @@ impl BearingConstants {
             BearingConstants::Planar(bearing) => {
                 bearing.balls as f64 * bearing.ball.mass + bearing.free_cage_mass()
             }
+            BearingConstants::Spatial(bearing) => bearing.free_mass(),
         }
     }
     /// Masses and radii of balls and cage.
@@ -208,6 +254,7 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.set,
             BearingConstants::Planar(bearing) => bearing.set(),
+            BearingConstants::Spatial(bearing) => bearing.set,
         }
     }
     /// Power that the contact films keep at the rates of the bearing's states, W: C Θ̇, which other nodes have yet to receive.
@@ -229,6 +276,9 @@ impl BearingConstants {
     /// Ball radii by a ten-thousandth of the ball. Speeds of cage and balls along the orbit count a hundred times more
     /// than the spin: pocket impacts live on their small differences, and nearly all of the energy residual arises there.
     pub fn error_scale(&self, scale: &mut [f64], spin: f64, speed: f64) {
+        if let BearingConstants::Spatial(bearing) = self {
+            return bearing.error_scale(scale, spin, speed);
+        }
         scale[0] = 1.0;
         if let BearingConstants::Planar(bearing) = self {
             let (radius, n) = (bearing.ball.radius, bearing.balls);
@@ -258,6 +308,7 @@ impl BearingConstants {
         let separation = match self {
             BearingConstants::Rolling(_) => &Separation::CentredCage,
             BearingConstants::Planar(bearing) => &bearing.separation,
+            BearingConstants::Spatial(bearing) => return bearing.may_make(heat),
         };
         match heat {
             "cage_land_damping" | "cage_land_friction" => {
@@ -270,7 +321,7 @@ impl BearingConstants {
                 !matches!(separation, Separation::Neighbours(_))
             }
             "inlet_rolling" => match self {
-                BearingConstants::Rolling(_) => false,
+                BearingConstants::Rolling(_) | BearingConstants::Spatial(_) => false,
                 BearingConstants::Planar(bearing) => bearing.resisting_inlets().is_some(),
             },
             _ => true,
@@ -281,13 +332,15 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.ball.inner_track_growth != 0.0,
             BearingConstants::Planar(bearing) => bearing.ball.inner_track_growth != 0.0,
+            BearingConstants::Spatial(_) => false,
         }
     }
-    /// Energies and angular momentum at a state.
+    /// Energies and angular momentum at a state; of one in space see [`content`](crate::spatial::AssemblyConstants::content).
     pub fn energy(&self, motion: &Motion<f64>, state: &[f64]) -> BearingEnergy {
         match self {
             BearingConstants::Rolling(bearing) => bearing.energy(motion, state),
             BearingConstants::Planar(bearing) => bearing.energy(motion, state),
+            BearingConstants::Spatial(_) => BearingEnergy::default(),
         }
     }
     /// States of a bearing at rest with concentric races.
@@ -295,6 +348,7 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.rest(state),
             BearingConstants::Planar(bearing) => bearing.rest(state),
+            BearingConstants::Spatial(bearing) => bearing.rest(state),
         }
         if let Some(lubricant) = self.lubricant() {
             lubricant.rest(&mut state[self.lubricant_states()..]);
@@ -305,6 +359,7 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => state[0] + seat(ball, bearing.balls),
             BearingConstants::Planar(bearing) => bearing.motion(state, ball).azimuth,
+            BearingConstants::Spatial(bearing) => bearing.azimuth(state, ball),
         }
     }
     /// Azimuth of a ball, rad, and its contacts at the inner and at the outer race; a ball that rolls has no slip.
@@ -317,6 +372,11 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.contacts(motion, state, ball),
             BearingConstants::Planar(bearing) => bearing.contacts(motion, state, ball),
+            BearingConstants::Spatial(bearing) => {
+                let found = bearing.contacts(motion, state, ball);
+                let slides = found.races.touch.map(|touch| touch.slides());
+                (bearing.azimuth(state, ball), slides)
+            }
         }
     }
     /// Cage speed, rad/s.
@@ -327,6 +387,7 @@ impl BearingConstants {
                 bearing.set.cage_speed(speed) + motion.outer.spin
             }
             BearingConstants::Planar(_) => state[1],
+            BearingConstants::Spatial(_) => state[crate::spatial::part::SPIN],
         }
     }
 }
@@ -341,15 +402,16 @@ impl<R: Real> Bearing<R> {
             BearingConstants::Rolling(_) => {
                 Bearing::Rolling(Rolling::gather(&|lane| match machine(lane) {
                     BearingConstants::Rolling(bearing) => bearing,
-                    BearingConstants::Planar(_) => panic!("lanes share the fidelity"),
+                    _ => panic!("lanes share the fidelity"),
                 }))
             }
             BearingConstants::Planar(_) => {
                 Bearing::Planar(Planar::gather(&|lane| match machine(lane) {
                     BearingConstants::Planar(bearing) => bearing,
-                    BearingConstants::Rolling(_) => panic!("lanes share the fidelity"),
+                    _ => panic!("lanes share the fidelity"),
                 }))
             }
+            BearingConstants::Spatial(_) => Bearing::Spatial,
         }
     }
 
@@ -379,6 +441,7 @@ impl<R: Real> Bearing<R> {
         match self {
             Bearing::Rolling(bearing) => bearing.react(motion, held_load, state, rate, detail),
             Bearing::Planar(bearing) => bearing.react(motion, held_load, state, rate, detail),
+            Bearing::Spatial => BearingReaction::zero(),
         }
     }
 
@@ -387,7 +450,7 @@ impl<R: Real> Bearing<R> {
     pub fn planar(&self) -> Option<&Planar<R>> {
         match self {
             Bearing::Planar(bearing) => Some(bearing),
-            Bearing::Rolling(_) => None,
+            Bearing::Rolling(_) | Bearing::Spatial => None,
         }
     }
 
@@ -398,6 +461,7 @@ impl<R: Real> Bearing<R> {
         match self {
             Bearing::Rolling(bearing) => bearing.angular_momentum_rate(race_acceleration),
             Bearing::Planar(bearing) => bearing.angular_momentum_rate(state, rate),
+            Bearing::Spatial => R::zero(),
         }
     }
 }

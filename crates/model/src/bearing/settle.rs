@@ -87,6 +87,8 @@ impl BearingConstants {
                 let series = soft(b.ball.inner_stiffness) + soft(b.ball.outer_stiffness);
                 (series.powf(-1.5), b.interference())
             }
+            // no rig has one
+            BearingConstants::Spatial(_) => return Vec2::zero(),
         };
         let directions = (0..self.balls()).map(|j| {
             let (s, c) = self.azimuth(state, j).sin_cos();

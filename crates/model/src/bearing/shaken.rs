@@ -13,7 +13,7 @@ impl<R: Real> Bearing<R> {
     #[inline(always)]
     pub fn shake(&self, by: Vec2<R>, state: &[R], rate: &mut [R]) -> Masses<R> {
         match self {
-            Bearing::Rolling(_) => Masses::none(),
+            Bearing::Rolling(_) | Bearing::Spatial => Masses::none(),
             Bearing::Planar(bearing) => R::vectorized(Shake {
                 bearing,
                 by,

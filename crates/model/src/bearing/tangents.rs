@@ -50,6 +50,8 @@ pub enum Known {
     NotMounts,
     /// Nothing: controllers have no tangents.
     NotControllers,
+    /// Nothing: bearings in space have no tangents.
+    NotSpace,
 }
 
 impl BearingConstants {
@@ -61,6 +63,7 @@ impl BearingConstants {
                 Separation::CentredCage => Known::All,
                 Separation::FreeCage(_) | Separation::Neighbours(_) => Known::Races,
             },
+            BearingConstants::Spatial(_) => Known::NotSpace,
         }
     }
 }

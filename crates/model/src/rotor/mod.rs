@@ -17,13 +17,17 @@
 //! The kinetic energy ½ η̇_GᴴMη̇_G + ½ Ω Im(η̇ᴴGη) + ½ I_G Ω² is that of a round rotor whose spin is one angle φ: the second
 //! term makes both jΩGη̇ and p. Derived; checked against an independent implementation.
 //!
-//! Assumes: one real shape for both planes, small tilt, M and K diagonal in the coordinates. Does not model: torsion, axial motion, stress stiffening, shafts that are not round.
+//! Where bearings in space carry it, it moves along its axis too: [`in_space`].
+//!
+//! Assumes: one real shape for both planes, small tilt, M and K diagonal in the coordinates. Does not model: torsion, stress stiffening, shafts that are not round.
 
 pub mod constants;
+pub mod in_space;
 pub mod motion;
 pub mod shaft;
 
 pub use constants::{Coordinate, RotorConstants, TorqueTables, Unbalance};
+pub use in_space::{AxialConstants, SpatialNode};
 pub use motion::{GeometricCentre, Node, RotorAt, RotorMotion};
 
 use crate::table::Lines;

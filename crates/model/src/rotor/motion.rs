@@ -11,13 +11,15 @@ pub struct RotorAt {
     pub first: usize,
     /// Number of coordinates.
     pub coordinates: usize,
+    /// Whether it moves along its axis: place and speed behind the spin.
+    pub axial: bool,
 }
 
 impl RotorAt {
     /// Number of channels.
     #[inline(always)]
     pub fn channels(&self) -> usize {
-        4 * self.coordinates + 2
+        4 * self.coordinates + if self.axial { 4 } else { 2 }
     }
     /// Channels of x, y, ẋ or ẏ, blocks 0 to 3, of all coordinates.
     #[inline(always)]
@@ -35,6 +37,11 @@ impl RotorAt {
     pub fn spin(&self) -> usize {
         self.angle() + 1
     }
+    /// Channel of the place along the axis, where it moves along it; that of the speed follows.
+    #[inline(always)]
+    pub fn place(&self) -> usize {
+        self.spin() + 1
+    }
     /// Names of the channels, of a rotor of that name: of a point its own, else those of its modes.
     pub fn names(&self, rotor: &str) -> Vec<String> {
         let mut names = Vec::with_capacity(self.channels());
@@ -47,7 +54,9 @@ impl RotorAt {
                 });
             }
         }
-        names.extend(["angle", "speed"].map(|name| format!("{rotor}.{name}")));
+        let along: &[_] = if self.axial { &["z", "z_speed"] } else { &[] };
+        let names_of_all = ["angle", "speed"].iter().chain(along);
+        names.extend(names_of_all.map(|name| format!("{rotor}.{name}")));
         names
     }
     /// Motion of the rotor in a state.

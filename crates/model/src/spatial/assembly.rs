@@ -9,12 +9,13 @@
 //! A body that does not exist keeps its states.
 
 use super::ball::BALL_STATES;
+use super::landing::LandingReaction;
 use super::mount::SpatialMount;
-use super::pocket::{CageMotion, InPocket};
+use super::pocket::CageMotion;
 use super::race::RingMotion;
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::rotor::{Rotor, SpatialRotor};
-use super::row::{Around, BetweenRaces, CageGuide, Row, RowConstants, SpatialLand};
+use super::row::{Around, BallContacts, CageGuide, Detail, Row, RowConstants, SpatialLand};
 use number::{Gather, Real, Vec3, Vectorized, constants};
 
 /// Energy accounts in the order of the states: work that became heat, then work that was supplied.
@@ -106,10 +107,11 @@ pub struct AssemblyProbe<R> {
 }
 
 /// An assembly over `R`.
+#[derive(Clone, Debug)]
 pub struct Assembly<R: Real> {
-    gravity: Vec3<R>,
-    inner: InnerRing<R>,
-    outer: OuterRing<R>,
+    pub(super) gravity: Vec3<R>,
+    pub(super) inner: InnerRing<R>,
+    pub(super) outer: OuterRing<R>,
     /// Mass that moves with the outer ring, kg.
     outer_mass: R,
     rows: Vec<Row<R>>,
@@ -133,6 +135,16 @@ impl AssemblyConstants {
     /// Number of states.
     pub fn states(&self) -> usize {
         self.first_account() + LEDGER.len()
+    }
+    /// Contacts and pocket of a ball of a row.
+    pub fn ball(&self, row: usize, ball: usize, state: &[f64]) -> BallContacts<f64> {
+        let [inner, outer, cage] =
+            [1, 2, 3 + row].map(|body| RigidBody::read(&state[self.body(body)..]));
+        self.rows[row].contacts(
+            [&inner, &outer, &cage],
+            &state[self.first_ball_state(row)..],
+            ball,
+        )
     }
     /// Place of the outer ring at which its mount must be free so that its weight and that of all it carries leave it at the origin, m.
     pub fn balanced_free_position(&self) -> Vec3<f64> {
@@ -188,40 +200,19 @@ impl<R: Real> Assembly<R> {
             rate,
         })
     }
-
-    /// Contacts and pocket of a ball, for inspection.
-    pub fn ball(&self, row: usize, ball: usize, state: &[R]) -> BallContacts<R::Group> {
-        let bodies = Bodies {
-            inner: RigidBody::read(&state[BODY_STATES..]),
-            outer: RigidBody::read(&state[2 * BODY_STATES..]),
-            on_inner: SpatialWrench::zero(),
-            on_outer: SpatialWrench::zero(),
-            power: [R::zero(); LEDGER.len()],
-        };
-        let cage = RigidBody::read(&state[BODY_STATES * (3 + row)..]);
-        let before: usize = self.rows[..row].iter().map(|row| row.balls).sum();
-        let first = BODY_STATES * (3 + self.rows.len()) + BALL_STATES * before;
-        let (races, pocket) =
-            self.rows[row].inspect(&around(&bodies, &cage), &state[first..], ball);
-        BallContacts { races, pocket }
-    }
-}
-
-/// A ball in its races and in its pocket.
-#[derive(Clone, Copy, Debug)]
-pub struct BallContacts<R> {
-    /// At inner and outer race.
-    pub races: BetweenRaces<R>,
-    /// In its pocket.
-    pub pocket: InPocket<R>,
 }
 
 /// Rings, what acts on them and the powers of the accounts.
 pub(super) struct Bodies<R> {
     pub inner: RigidBody<R>,
-    outer: RigidBody<R>,
+    pub outer: RigidBody<R>,
     pub on_inner: SpatialWrench<R>,
-    on_outer: SpatialWrench<R>,
+    pub on_outer: SpatialWrench<R>,
+    /// Moment about the axis through the origin on balls and cages from outside: weight and drag, N m.
+    pub external: R,
+    /// Normal force between cages and lands, N.
+    pub land_force: R,
+    /// Powers of the accounts, W.
     pub power: [R; LEDGER.len()],
 }
 
@@ -235,6 +226,28 @@ fn around<R: Real>(bodies: &Bodies<R>, cage: &RigidBody<R>) -> Around<R::Group> 
 }
 
 impl<R: Real> Bodies<R> {
+    /// Both rings from their states.
+    #[inline(always)]
+    pub fn read(inner: &[R], outer: &[R]) -> Self {
+        Bodies {
+            inner: RigidBody::read(inner),
+            outer: RigidBody::read(outer),
+            on_inner: SpatialWrench::zero(),
+            on_outer: SpatialWrench::zero(),
+            external: R::zero(),
+            land_force: R::zero(),
+            power: [R::zero(); LEDGER.len()],
+        }
+    }
+    /// What a rotor that has landed does to the inner ring, and the heats.
+    #[inline(always)]
+    pub fn land(&mut self, landed: &LandingReaction<R>) {
+        self.on_inner.add(landed.on_ring);
+        self.power[BORE] += landed.bore.heats[0];
+        self.power[BORE + 1] += landed.bore.heats[1];
+        self.power[FACE] += landed.face.heats[0];
+        self.power[FACE + 1] += landed.face.heats[1];
+    }
     /// A cage: its land, its drag, its rates.
     #[inline(always)]
     fn move_cage(
@@ -248,6 +261,8 @@ impl<R: Real> Bodies<R> {
         let drag = row.cage_drag;
         on_cage.moment += cage.spin * -drag;
         self.power[DRAG] += drag * cage.spin.length_squared();
+        let weight = gravity * row.cage.mass;
+        self.external += cage.position.cross(weight).z - drag * cage.spin.z;
         match &row.guide {
             CageGuide::Tied => {
                 // its place follows the outer ring, which has the forces of its pockets: their couple no ring that is held feels
@@ -269,6 +284,7 @@ impl<R: Real> Bodies<R> {
                     );
                     on_cage.add(r.on_cylinder);
                     self.on_outer.add(r.on_bore);
+                    self.land_force += r.normal_force;
                     self.power[LAND] += r.damping_heat;
                     self.power[LAND + 1] += r.friction_heat;
                     k += 1;
@@ -281,6 +297,7 @@ impl<R: Real> Bodies<R> {
                     let r = (land.contact).at_station::<true>(inner, inner.position, cage, station);
                     on_cage.add(r.on_bore);
                     self.on_inner.add(r.on_cylinder);
+                    self.land_force += r.normal_force;
                     self.power[LAND] += r.damping_heat;
                     self.power[LAND + 1] += r.friction_heat;
                     k += 1;
@@ -307,10 +324,10 @@ impl<R: Real> SpatialLand<R> {
 
 const DRAG: usize = 4;
 const SUPPORT: usize = 7;
-pub(super) const BORE: usize = 8;
+const BORE: usize = 8;
 pub(super) const AMB: usize = 10;
 const LAND: usize = 11;
-pub(super) const FACE: usize = 13;
+const FACE: usize = 13;
 const SETTLING: usize = 15;
 
 /// All rates.
@@ -329,41 +346,88 @@ impl<R: Real> Vectorized for Rates<'_, R> {
             state,
             rate,
         } = self;
-        let mut bodies = Bodies {
-            inner: RigidBody::read(&state[BODY_STATES..]),
-            outer: RigidBody::read(&state[2 * BODY_STATES..]),
-            on_inner: SpatialWrench::zero(),
-            on_outer: SpatialWrench::zero(),
-            power: [R::zero(); LEDGER.len()],
-        };
-        let mut first = BODY_STATES * (3 + assembly.rows.len());
+        let mut bodies = Bodies::read(&state[BODY_STATES..], &state[2 * BODY_STATES..]);
+        let (own, end) = (3 * BODY_STATES, assembly.first_account());
+        assembly.act(
+            &mut bodies,
+            (&state[own..end], &mut rate[own..end]),
+            &mut [],
+        );
+        let probe = assembly.move_rings(&mut bodies, state, rate);
+        rate[end..end + LEDGER.len()].copy_from_slice(&bodies.power);
+        probe
+    }
+}
+
+impl<R: Real> Assembly<R> {
+    /// Number of balls of all rows.
+    #[inline(always)]
+    pub(super) fn balls(&self) -> usize {
+        let mut balls = 0;
         let mut index = 0;
-        while index < assembly.rows.len() {
-            let row = &assembly.rows[index];
-            let place = BODY_STATES * (3 + index);
+        while index < self.rows.len() {
+            balls += self.rows[index].balls;
+            index += 1;
+        }
+        balls
+    }
+    #[inline(always)]
+    fn first_account(&self) -> usize {
+        BODY_STATES * (3 + self.rows.len()) + BALL_STATES * self.balls()
+    }
+    /// Cages and balls, whose states follow each other: their rates, and what they do to the rings. The detail of the balls is filled
+    /// where asked, see [`super::row`].
+    #[inline(always)]
+    pub(super) fn act(
+        &self,
+        bodies: &mut Bodies<R>,
+        (state, rate): (&[R], &mut [R]),
+        detail: &mut [R],
+    ) {
+        let balls = self.balls();
+        let mut first = BODY_STATES * self.rows.len();
+        let (mut index, mut before) = (0, 0);
+        while index < self.rows.len() {
+            let row = &self.rows[index];
+            let place = BODY_STATES * index;
             index += 1;
             let cage = RigidBody::read(&state[place..]);
-            let around = around(&bodies, &cage);
-            let balls = first..first + BALL_STATES * row.balls;
-            first = balls.end;
-            let reaction = row.react(&around, &state[balls.clone()], &mut rate[balls]);
+            let around = around(bodies, &cage);
+            let own = first..first + BALL_STATES * row.balls;
+            first = own.end;
+            let into = Detail {
+                list: &mut *detail,
+                before,
+                balls,
+            };
+            before += row.balls;
+            let reaction = row.react(&around, &state[own.clone()], &mut rate[own], into);
             let own = &mut rate[place..place + BODY_STATES];
-            bodies.move_cage(row, &cage, reaction.on_cage, (assembly.gravity, own));
+            bodies.move_cage(row, &cage, reaction.on_cage, (self.gravity, own));
             bodies.on_inner.add(reaction.on_inner);
             bodies.on_outer.add(reaction.on_outer);
+            bodies.external += reaction.external;
             let mut k = 0;
             while k < reaction.heats.len() {
                 bodies.power[k] += reaction.heats[k];
                 k += 1;
             }
         }
-        let probe = assembly.move_rings(&mut bodies, state, rate);
-        rate[first..first + LEDGER.len()].copy_from_slice(&bodies.power);
-        probe
     }
-}
-
-impl<R: Real> Assembly<R> {
+    /// Gives tied cages, whose rates these are, the acceleration of the outer ring.
+    #[inline(always)]
+    pub(super) fn carry_cages(&self, acceleration: Vec3<R>, rate: &mut [R]) {
+        let mut index = 0;
+        while index < self.rows.len() {
+            if self.rows[index].is_tied() {
+                let at = BODY_STATES * index + 3;
+                rate[at] = acceleration.x;
+                rate[at + 1] = acceleration.y;
+                rate[at + 2] = acceleration.z;
+            }
+            index += 1;
+        }
+    }
     /// Rotor and rings, when all balls and cages have acted.
     #[inline(always)]
     fn move_rings(&self, bodies: &mut Bodies<R>, state: &[R], rate: &mut [R]) -> AssemblyProbe<R> {
@@ -396,20 +460,11 @@ impl<R: Real> Assembly<R> {
         }
         self.move_inner(bodies, &mut rate[BODY_STATES..2 * BODY_STATES]);
         let acceleration = self.move_outer(bodies, &mut rate[2 * BODY_STATES..3 * BODY_STATES]);
-        let mut index = 0;
-        while index < self.rows.len() {
-            if self.rows[index].is_tied() {
-                let at = BODY_STATES * (3 + index) + 3;
-                rate[at] = acceleration.x;
-                rate[at + 1] = acceleration.y;
-                rate[at + 2] = acceleration.z;
-            }
-            index += 1;
-        }
+        self.carry_cages(acceleration, &mut rate[3 * BODY_STATES..]);
         probe
     }
     #[inline(always)]
-    fn move_inner(&self, bodies: &mut Bodies<R>, rate: &mut [R]) {
+    pub(super) fn move_inner(&self, bodies: &mut Bodies<R>, rate: &mut [R]) {
         let (ring, body) = (&self.inner, &bodies.inner);
         let turn = body.spin.dot(body.axis);
         let tilting = body.spin - body.axis * turn;
@@ -431,7 +486,7 @@ impl<R: Real> Assembly<R> {
     }
     /// Returns the acceleration of the outer ring.
     #[inline(always)]
-    fn move_outer(&self, bodies: &mut Bodies<R>, rate: &mut [R]) -> Vec3<R> {
+    pub(super) fn move_outer(&self, bodies: &mut Bodies<R>, rate: &mut [R]) -> Vec3<R> {
         let (ring, body) = (&self.outer, &bodies.outer);
         let by_mount = ring.mount.wrench(body);
         bodies.power[SUPPORT] += ring.mount.heat(body);

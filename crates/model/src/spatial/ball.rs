@@ -40,6 +40,32 @@ constants! {
     }
 }
 
+impl SpatialBall<f64> {
+    /// From the centre of the inner groove to that of the outer one, rings concentric: radially and along the axis, m.
+    pub fn groove_distance(&self) -> [f64; 2] {
+        [
+            self.outer.centre_radius - self.inner.centre_radius,
+            self.outer.place - self.inner.place,
+        ]
+    }
+    /// Where it rests between concentric rings: radius and place along the axis, m. Pressed by both races alike, or in the middle of
+    /// the gap.
+    pub fn between_rings(&self) -> [f64; 2] {
+        let [i, o] = [&self.inner, &self.outer];
+        let [radial, axial] = self.groove_distance();
+        let distance = radial.hypot(axial);
+        let approach = distance - i.slack - o.slack;
+        let share = if approach > 0.0 {
+            1.0 / (1.0 + (i.stiffness / o.stiffness).powf(2.0 / 3.0))
+        } else {
+            0.5
+        };
+        // grooves whose centres are one press nothing, in no direction
+        let part = (i.slack + share * approach) / distance.max(f64::MIN_POSITIVE);
+        [i.centre_radius + radial * part, i.place + axial * part]
+    }
+}
+
 /// States of a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallState<R> {

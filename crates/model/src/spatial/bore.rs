@@ -20,10 +20,18 @@ pub struct StationReaction<R> {
     pub on_bore: SpatialWrench<R>,
     /// d, m; negative when open.
     pub penetration: R,
+    /// ḋ, m/s.
+    pub penetration_speed: R,
+    /// Slip along the circumference, bore less cylinder, m/s.
+    pub slip: R,
     /// N, N.
     pub normal_force: R,
+    /// Rate of its elastic part, N/s.
+    pub elastic_rate: R,
     /// |friction|, N.
     pub friction: R,
+    /// Friction on the cylinder along the circumference, N.
+    pub along: R,
     /// Heat of contact damping, W.
     pub damping_heat: R,
     /// Heat of sliding, W.
@@ -51,18 +59,27 @@ impl<R: Real> JournalContact<R> {
             on_cylinder: SpatialWrench::zero(),
             on_bore: SpatialWrench::zero(),
             penetration: d,
+            penetration_speed: zero,
+            slip: zero,
             normal_force: zero,
+            elastic_rate: zero,
             friction: zero,
+            along: zero,
             damping_heat: zero,
             friction_heat: zero,
         };
-        if !d.greater(zero).any() {
+        let touching = d.greater(zero).any();
+        if LINEAR && !touching {
             return reaction;
         }
         let c = middle + n * (self.bore_radius + R::splat(0.5) * d);
         let (arm_a, arm_b) = (c - cylinder.position, c - bore.position);
         let u = cylinder.velocity_at(arm_a) - bore.velocity_at(arm_b);
         let d_rate = n.dot(u);
+        reaction.penetration_speed = d_rate;
+        if !touching {
+            return reaction;
+        }
         let load = if LINEAR {
             linear_contact(self.stiffness, self.damping, d, d_rate)
         } else {
@@ -74,8 +91,12 @@ impl<R: Real> JournalContact<R> {
         let force = -(n * load.force) - slip * (friction / size);
         reaction.on_cylinder.add_at(force, arm_a);
         reaction.on_bore.add_at(-force, arm_b);
+        reaction.slip = bore.axis.cross(n).dot(-u);
         reaction.normal_force = load.force;
+        reaction.elastic_rate =
+            self.exponent * load.elastic * d_rate / d.abs().max(R::splat(1e-30));
         reaction.friction = friction;
+        reaction.along = reaction.slip * (friction / size);
         reaction.damping_heat = (load.force - load.elastic) * d_rate;
         reaction.friction_heat = friction * size;
         reaction

@@ -10,6 +10,7 @@
 use super::assembly::AssemblyConstants;
 use super::ball::{BallState, SpatialBall, Turned};
 use super::face::Face;
+use super::landing::LandingConstants;
 use super::race::RaceGroove;
 use super::rigid_body::{Inertia, RigidBody};
 use super::rotor::SpatialRotor;
@@ -24,6 +25,8 @@ use physics::contact::ball_race_energy;
 pub struct SpatialContent<R> {
     /// T, J.
     pub kinetic: R,
+    /// Its part of turning, J.
+    pub turning: R,
     /// V, J.
     pub potential: R,
     /// N s.
@@ -39,7 +42,9 @@ pub struct SpatialContent<R> {
 impl<R: Real> SpatialContent<R> {
     fn add_body(&mut self, inertia: &Inertia<R>, body: &RigidBody<R>, gravity: Vec3<R>) {
         let momentum = body.velocity * inertia.mass;
-        self.kinetic += inertia.kinetic_energy(body);
+        let turning = inertia.turning_energy(body);
+        self.turning += turning;
+        self.kinetic += turning + R::splat(0.5) * momentum.dot(body.velocity);
         self.potential -= gravity.dot(body.position) * inertia.mass;
         self.add_momentum(momentum, body.position, inertia.angular_momentum(body));
     }
@@ -79,6 +84,7 @@ impl AssemblyConstants {
         let gravity: Vec3<R> = over(&self.gravity);
         let mut all = SpatialContent {
             kinetic: R::zero(),
+            turning: R::zero(),
             potential: R::zero(),
             momentum: Vec3::zero(),
             momentum_terms: R::zero(),
@@ -130,7 +136,9 @@ fn add_ball<R: Real>(
     let space = at.in_space(Turned::to(at.azimuth));
     let inertia = R::splat(0.4) * ball.mass * ball.radius.square();
     let momentum = space.velocity * ball.mass;
-    all.kinetic += half * (momentum.dot(space.velocity) + inertia * space.spin.length_squared());
+    let turning = half * inertia * space.spin.length_squared();
+    all.turning += turning;
+    all.kinetic += half * momentum.dot(space.velocity) + turning;
     all.add_momentum(momentum, space.position, space.spin * inertia);
     all.potential -= ball.gravity.dot(space.position) * ball.mass;
     for (race, ring) in [(&ball.inner, inner), (&ball.outer, outer)] {
@@ -179,13 +187,11 @@ fn land_energy<R: Real>(guide: &CageGuide<R>, [inner, outer, cage]: [&RigidBody<
     at(land.middle - land.half_width) + at(land.middle + land.half_width)
 }
 
-impl SpatialRotor {
-    /// Energy of its contacts and of its levitation, J.
-    fn energy<R: Real>(&self, body: &RigidBody<R>, inner: &RigidBody<R>, gravity: Vec3<R>) -> R {
+impl LandingConstants {
+    /// Energy of its contacts with a rotor whose axis goes through a point, J.
+    pub fn energy<R: Real>(&self, body: &RigidBody<R>, centre: Vec3<R>, inner: &RigidBody<R>) -> R {
         let half = R::splat(0.5);
         let contact: JournalContact<R> = over(&self.contact);
-        let [d1, _] = body.transverse_axes();
-        let centre = body.position - d1 * R::splat(self.eccentricity);
         let mut energy = R::zero();
         for station in &self.stations {
             let clearance = contact.radial_clearance;
@@ -204,6 +210,17 @@ impl SpatialRotor {
                 energy += half * share * d.square();
             }
         }
+        energy
+    }
+}
+
+impl SpatialRotor {
+    /// Energy of its contacts and of its levitation, J.
+    fn energy<R: Real>(&self, body: &RigidBody<R>, inner: &RigidBody<R>, gravity: Vec3<R>) -> R {
+        let half = R::splat(0.5);
+        let [d1, _] = body.transverse_axes();
+        let centre = body.position - d1 * R::splat(self.eccentricity);
+        let mut energy = self.landing.energy(body, centre, inner);
         if let Some((levitation, stations)) = &self.levitation {
             let mass = R::splat(self.inertia.mass);
             if levitation.carries {

@@ -9,8 +9,12 @@
 //! | [`row`] | a row of balls with its cage |
 //! | [`bore`], [`face`] | rotor and inner ring, cage and land; shoulder and face |
 //! | [`mount`] | the outer ring in its mount |
-//! | [`rotor`] | the rotor with its contacts and its levitation |
+//! | [`landing`] | where a rotor lands on an inner ring |
+//! | [`rotor`] | the rigid rotor with its levitation |
 //! | [`assembly`] | rows on shared rings, mount and rotor: states, rates, energy accounts |
+//! | [`arrangement`] | how rows stand, and their preload |
+//! | [`part`] | such a bearing as a part of a machine |
+//! | [`record`] | what is watched of it in a run |
 //! | [`energy`] | energies and momenta of an assembly |
 //! | [`frame`] | the bearing's frame in that of the machine |
 //! | [`statics`] | quasi-static equilibrium, stiffness, ISO/TS 16281 |
@@ -22,22 +26,29 @@
 //! Source: derived; book/src/theory/spatial.md. Does not model: films but by their law of traction, hysteresis, flexible rings,
 //! elastic pockets, balls that touch balls, a ring that whirls in its fit.
 
+pub mod arrangement;
 pub mod assembly;
 pub mod ball;
 pub mod bore;
 pub mod energy;
 pub mod face;
 pub mod frame;
+pub mod landing;
 pub mod mount;
+pub mod part;
 pub mod pocket;
 pub mod race;
+pub mod record;
 pub mod rigid_body;
 pub mod rotor;
 pub mod row;
 pub mod statics;
 
+pub use arrangement::{Arrangement, RowGeometry};
 pub use assembly::{Assembly, AssemblyConstants, AssemblyProbe, InnerRing, LEDGER, OuterRing};
 pub use ball::SpatialBall;
 pub use frame::Frame;
+pub use landing::{Landing, LandingConstants};
+pub use part::{Spatial, SpatialBearing};
 pub use rotor::{SpatialLevitation, SpatialRotor};
 pub use row::{CageConstants, CageGuide, RowConstants, SpatialLand};

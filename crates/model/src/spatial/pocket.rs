@@ -44,6 +44,16 @@ pub struct CageMotion<R> {
 }
 
 impl<R: Real> CageMotion<R> {
+    /// Of a body.
+    pub fn of(body: &RigidBody<R>) -> CageMotion<R> {
+        CageMotion {
+            position: body.position,
+            velocity: body.velocity,
+            spin: body.spin,
+            axes: body.transverse_axes(),
+            axis: body.axis,
+        }
+    }
     /// Of a body, for a group of balls.
     #[inline(always)]
     pub fn grouped(body: &RigidBody<R>) -> CageMotion<R::Group> {

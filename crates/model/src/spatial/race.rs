@@ -53,6 +53,15 @@ pub struct RingMotion<R> {
 }
 
 impl<R: Real> RingMotion<R> {
+    /// Of a body.
+    pub fn of(body: &RigidBody<R>) -> RingMotion<R> {
+        RingMotion {
+            position: body.position,
+            velocity: body.velocity,
+            spin: body.spin,
+            axis: body.axis,
+        }
+    }
     /// Of a body, for a group of balls.
     #[inline(always)]
     pub fn grouped(body: &RigidBody<R>) -> RingMotion<R::Group> {
@@ -226,6 +235,10 @@ impl<R: Real> Touch<R> {
             place,
             back,
         }
+    }
+    /// The contact as the plane sees it: slip along rolling.
+    pub fn slides(&self) -> SlidingContact<R> {
+        self.at(self.slip.y)
     }
     #[inline(always)]
     fn at(&self, slip: R) -> SlidingContact<R> {

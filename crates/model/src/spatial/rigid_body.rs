@@ -7,7 +7,8 @@
 //!   m v̇ = F + m g;   L = I_t ω + (I_a - I_t)(ω·a)a;   h = M - ω × L;   ω̇ = h/I_t + (1/I_a - 1/I_t)(h·a)a
 //! ```
 
-use number::{Real, Vec3, constants};
+use crate::motion::Body;
+use number::{Real, Vec2, Vec3, constants};
 
 /// States of a body.
 pub const BODY_STATES: usize = 13;
@@ -120,6 +121,34 @@ impl<R: Real> RigidBody<R> {
             axis,
         }
     }
+    /// A body whose motion a part sees: its turn about the axis is not known.
+    pub fn of(body: &Body<R>) -> Self {
+        let (one, zero) = (R::one(), R::zero());
+        let Vec2 { x, y } = body.tilt;
+        let up = (one - x.square() - y.square()).max(zero).sqrt();
+        RigidBody {
+            position: Vec3::new(body.position.x, body.position.y, body.axial),
+            velocity: Vec3::new(body.velocity.x, body.velocity.y, body.axial_speed),
+            scalar: one,
+            vector: Vec3::zero(),
+            spin: Vec3::new(body.tilt_rate.x, body.tilt_rate.y, body.spin),
+            axis: Vec3::new(y, -x, up),
+        }
+    }
+    /// What a part sees of its motion.
+    pub fn seen(&self, angle: R) -> Body<R> {
+        let across = |v: Vec3<R>| Vec2::new(v.x, v.y);
+        Body {
+            position: across(self.position),
+            axial: self.position.z,
+            tilt: Vec2::new(-self.axis.y, self.axis.x),
+            angle,
+            velocity: across(self.velocity),
+            axial_speed: self.velocity.z,
+            tilt_rate: across(self.spin),
+            spin: self.spin.z,
+        }
+    }
     /// Axes d1 and d2.
     #[inline(always)]
     pub fn transverse_axes(&self) -> [Vec3<R>; 2] {
@@ -177,9 +206,8 @@ impl<R: Real> Inertia<R> {
     pub fn held_acceleration(&self, body: &RigidBody<R>, moment: Vec3<R>) -> Vec3<R> {
         body.axis * (moment.dot(body.axis) / self.axial)
     }
-    /// Kinetic energy, J.
-    pub fn kinetic_energy(&self, body: &RigidBody<R>) -> R {
-        let turning = body.spin.dot(self.angular_momentum(body));
-        R::splat(0.5) * (self.mass * body.velocity.length_squared() + turning)
+    /// Kinetic energy of its turning, J.
+    pub fn turning_energy(&self, body: &RigidBody<R>) -> R {
+        R::splat(0.5) * body.spin.dot(self.angular_momentum(body))
     }
 }

@@ -5,10 +5,9 @@
 //!   levitation at stations s:  F = -(k_a x_⊥ + c_a v_⊥ + m g_⊥)/n of C + s a_r;  along the axis at C; each direction carries its weight
 //! ```
 
-use super::assembly::{AMB, AssemblyProbe, BORE, Bodies, FACE};
-use super::face::{Face, FaceNodes};
+use super::assembly::{AMB, AssemblyProbe, Bodies};
+use super::landing::{Landing, LandingConstants, gather_list};
 use super::rigid_body::{Inertia, RigidBody, SpatialWrench};
-use crate::contact::JournalContact;
 use number::{Gather, Real, Vec3, constants};
 
 constants! {
@@ -36,33 +35,19 @@ pub struct SpatialRotor {
     pub inertia: Inertia<f64>,
     /// Distance of the centre of mass from the axis along d1, m.
     pub eccentricity: f64,
-    /// Rotor and bore of the inner ring; stiffness at one station.
-    pub contact: JournalContact<f64>,
-    /// Stations of the contact on the inner ring's axis, m.
-    pub stations: Vec<f64>,
-    /// Shoulders on faces of the inner ring.
-    pub faces: Vec<Face<f64>>,
-    /// Directions of a face's nodes, cosine and sine.
-    pub face_nodes: Vec<[f64; 2]>,
+    /// Where it lands on the inner ring.
+    pub landing: LandingConstants,
     /// Levitation, and its stations on the rotor's axis, m.
     pub levitation: Option<(SpatialLevitation<f64>, Vec<f64>)>,
 }
 
 /// The rotor over `R`.
+#[derive(Clone, Debug)]
 pub(super) struct Rotor<R> {
     pub inertia: Inertia<R>,
     eccentricity: R,
-    contact: JournalContact<R>,
-    stations: Vec<R>,
-    faces: Vec<Face<R>>,
-    nodes: FaceNodes<R>,
+    landing: Landing<R>,
     levitation: Option<(SpatialLevitation<R>, Vec<R>)>,
-}
-
-/// A list of constants, one a lane.
-fn gather_list<'a, R: Real, T: Gather<R> + 'a>(machine: &dyn Fn(usize) -> &'a [T]) -> Vec<T::Out> {
-    let one = |k: usize| T::gather(&|lane| &machine(lane)[k]);
-    (0..machine(0).len()).map(one).collect()
 }
 
 /// The part of a vector across the bearing's axis.
@@ -73,10 +58,6 @@ fn transverse<R: Real>(v: Vec3<R>) -> Vec3<R> {
 
 impl<R: Real> Rotor<R> {
     pub(super) fn gather<'a>(machine: &dyn Fn(usize) -> &'a SpatialRotor) -> Self {
-        let sides = |k: usize| {
-            let first = &machine(0).face_nodes;
-            first.iter().map(|node| R::splat(node[k])).collect()
-        };
         let of_levitation = |lane: usize| {
             let levitation = machine(lane).levitation.as_ref();
             levitation.expect("lanes share whether the rotor is levitated")
@@ -84,13 +65,7 @@ impl<R: Real> Rotor<R> {
         Rotor {
             inertia: Gather::gather(&|lane| &machine(lane).inertia),
             eccentricity: Gather::<R>::gather(&|lane| &machine(lane).eccentricity),
-            contact: Gather::gather(&|lane| &machine(lane).contact),
-            stations: gather_list(&|lane| &machine(lane).stations),
-            faces: gather_list(&|lane| &machine(lane).faces),
-            nodes: FaceNodes {
-                cosines: sides(0),
-                sines: sides(1),
-            },
+            landing: Landing::gather(&|lane| &machine(lane).landing),
             levitation: machine(0).levitation.as_ref().map(|_| {
                 (
                     Gather::gather(&|lane| &of_levitation(lane).0),
@@ -112,31 +87,18 @@ impl<R: Real> Rotor<R> {
         let [d1, _] = body.transverse_axes();
         let from_mass = d1 * -self.eccentricity;
         let centre = body.position + from_mass;
-        let mut k = 0;
-        while k < self.stations.len() {
-            let r =
-                (self.contact).at_station::<false>(body, centre, &bodies.inner, self.stations[k]);
-            on_rotor.add(r.on_cylinder);
-            bodies.on_inner.add(r.on_bore);
-            bodies.power[BORE] += r.damping_heat;
-            bodies.power[BORE + 1] += r.friction_heat;
-            probe.bore_normal_force += r.normal_force;
-            probe.bore_friction += r.friction;
-            probe.bore_penetration = probe.bore_penetration.max(r.penetration);
-            k += 1;
-        }
-        let mut k = 0;
-        while k < self.faces.len() {
-            let r = self.faces[k].react(&self.nodes, body, centre, &bodies.inner);
-            on_rotor.add(r.on_rotor);
-            bodies.on_inner.add(r.on_ring);
-            bodies.power[FACE] += r.damping_heat;
-            bodies.power[FACE + 1] += r.friction_heat;
-            probe.face_normal_force += r.normal_force;
-            probe.face_friction += r.friction;
-            probe.face_penetration = probe.face_penetration.max(r.penetration);
-            k += 1;
-        }
+        let landed = self.landing.react(body, centre, &bodies.inner);
+        on_rotor.add(landed.on_rotor);
+        bodies.land(&landed);
+        *probe = AssemblyProbe {
+            bore_normal_force: landed.bore.normal_force,
+            bore_friction: landed.bore.friction,
+            bore_penetration: landed.bore.penetration.max(R::zero()),
+            face_normal_force: landed.face.normal_force,
+            face_friction: landed.face.friction,
+            face_penetration: landed.face.penetration.max(R::zero()),
+            ..*probe
+        };
         if let Some((levitation, stations)) = &self.levitation {
             let weight = gravity * self.inertia.mass;
             let zero = R::zero();

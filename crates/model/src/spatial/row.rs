@@ -1,11 +1,13 @@
 //! A row of balls with its cage, between two rings.
 //!
-//! Adds up, in one pass over the balls, what they do to inner ring, outer ring and cage, and the heats.
+//! Adds up, in one pass over the balls, what they do to inner ring, outer ring and cage, and the heats. Where asked it fills a detail:
+//! inner load, outer load (N), inner slip, outer slip along rolling (m/s), pocket force, inner traction, outer traction along rolling
+//! (N), each value for the balls of all rows in turn.
 
 use super::ball::{BALL_STATES, BallState, SpatialBall, Turned};
 use super::pocket::{CageMotion, InPocket, PocketPlace};
 use super::race::{BallInSpace, RingMotion, Touch, Traction as ContactTraction, traction};
-use super::rigid_body::{Inertia, SpatialWrench};
+use super::rigid_body::{Inertia, RigidBody, SpatialWrench};
 use crate::bearing::ball::gather_group;
 use crate::bearing::ball_sums::BallSums;
 use crate::bearing::seat;
@@ -38,6 +40,35 @@ pub struct CageConstants {
     pub drag: f64,
     /// What guides it.
     pub guide: CageGuide<f64>,
+}
+
+impl CageConstants {
+    /// Whether it moves with the outer ring.
+    pub fn is_tied(&self) -> bool {
+        matches!(self.guide, CageGuide::Tied)
+    }
+}
+
+impl RowConstants {
+    /// Contacts and pocket of a ball between inner ring, outer ring and cage, in the states of its row.
+    pub fn contacts(
+        &self,
+        [inner, outer, cage]: [&RigidBody<f64>; 3],
+        state: &[f64],
+        ball: usize,
+    ) -> BallContacts<f64> {
+        let own = lists(state, 0, self.balls).map(|list| list[ball]);
+        let own = BallState::from_array(own);
+        let space = own.in_space(Turned::to(own.azimuth));
+        let rings = [&RingMotion::of(inner), &RingMotion::of(outer)];
+        let (sine, cosine) = seat(ball, self.balls).sin_cos();
+        let (law, cage) = (&self.ball, CageMotion::of(cage));
+        let place = (law.pocket).place(&cage, [cosine, sine], &space, self.cage.is_tied());
+        BallContacts {
+            races: law.between(&self.traction, &self.nodes, rings, &space),
+            pocket: law.pocket.react(&cage, &space, law.radius, &place),
+        }
+    }
 }
 
 /// What guides a cage.
@@ -108,6 +139,17 @@ pub(super) struct RowReaction<R> {
     pub on_cage: SpatialWrench<R>,
     /// Damping inner and outer, slip and spin inner and outer, drag, damping and friction of pockets, W.
     pub heats: [R; 7],
+    /// Moment of weight and drag about the axis through the origin, N m.
+    pub external: R,
+}
+
+/// Where the detail of the balls goes, an empty list where nobody asks.
+pub(super) struct Detail<'a, R> {
+    pub list: &'a mut [R],
+    /// Balls of the rows before.
+    pub before: usize,
+    /// Balls of all rows.
+    pub balls: usize,
 }
 
 /// Bodies around a row.
@@ -125,6 +167,15 @@ pub struct BetweenRaces<R> {
     pub touch: [Touch<R>; 2],
     /// Their traction.
     pub traction: [ContactTraction<R>; 2],
+}
+
+/// A ball in its races and in its pocket.
+#[derive(Clone, Copy, Debug)]
+pub struct BallContacts<R> {
+    /// At inner and outer race.
+    pub races: BetweenRaces<R>,
+    /// In its pocket.
+    pub pocket: InPocket<R>,
 }
 
 /// The lists of ball states that begin at a state.
@@ -185,14 +236,15 @@ impl<R: Real> Row<R> {
         around: &Around<R::Group>,
         state: &[R],
         rate: &mut [R],
+        detail: Detail<'_, R>,
     ) -> RowReaction<R> {
         // the law is chosen once a call, not once a ball
         match &self.traction {
-            Traction::Tanh(law) => self.by(law, around, state, rate),
-            Traction::FourParameter(law) => self.by(law, around, state, rate),
-            Traction::Dry(law) => self.by(law, around, state, rate),
-            Traction::Lubricated(law) => self.by(law, around, state, rate),
-            Traction::Algebraic(law) => self.by(law, around, state, rate),
+            Traction::Tanh(law) => self.by(law, around, (state, rate), detail),
+            Traction::FourParameter(law) => self.by(law, around, (state, rate), detail),
+            Traction::Dry(law) => self.by(law, around, (state, rate), detail),
+            Traction::Lubricated(law) => self.by(law, around, (state, rate), detail),
+            Traction::Algebraic(law) => self.by(law, around, (state, rate), detail),
         }
     }
     #[inline(always)]
@@ -200,8 +252,8 @@ impl<R: Real> Row<R> {
         &self,
         law: &L,
         around: &Around<R::Group>,
-        state: &[R],
-        rate: &mut [R],
+        (state, rate): (&[R], &mut [R]),
+        detail: Detail<'_, R>,
     ) -> RowReaction<R> {
         R::vectorized(Sum {
             row: self,
@@ -209,6 +261,7 @@ impl<R: Real> Row<R> {
             around,
             state,
             rate,
+            detail,
         })
     }
     #[inline(always)]
@@ -224,22 +277,6 @@ impl<R: Real> Row<R> {
         ];
         self.ball.pocket.place(cage, seat, ball, self.is_tied())
     }
-    /// One group of balls, for inspection.
-    pub(super) fn inspect(
-        &self,
-        around: &Around<R::Group>,
-        state: &[R],
-        from: usize,
-    ) -> (BetweenRaces<R::Group>, InPocket<R::Group>) {
-        let ball = BallState::load(&lists(state, 0, self.balls), from);
-        let space = ball.in_space(Turned::to(ball.azimuth));
-        let rings = [&around.inner, &around.outer];
-        let between = (self.ball).between(&self.traction, &self.nodes, rings, &space);
-        let place = self.place(&around.cage, from, &space);
-        let radius = self.ball.radius;
-        let pocket = (self.ball.pocket).react(&around.cage, &space, radius, &place);
-        (between, pocket)
-    }
 }
 
 /// The pass over the balls.
@@ -249,12 +286,13 @@ struct Sum<'a, R: Real, L> {
     around: &'a Around<R::Group>,
     state: &'a [R],
     rate: &'a mut [R],
+    detail: Detail<'a, R>,
 }
 
 impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
     type Output = RowReaction<R>;
     #[inline(always)]
-    fn run(self) -> RowReaction<R> {
+    fn run(mut self) -> RowReaction<R> {
         let Sum { row, around, .. } = self;
         let (n, law) = (row.balls, &row.ball);
         let states = lists(self.state, 0, n);
@@ -262,7 +300,7 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
         let inverse_inertia =
             inverse_mass * (<R::Group as Real>::splat(0.4) * law.radius.square()).recip();
         let (mut on_inner, mut on_outer) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
-        let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 5>::new(n));
+        let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
         let mut pocket_heats = BallSums::<R, 2>::new(n);
         let mut from = 0;
         while from < n {
@@ -278,8 +316,10 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             on_ball.add(by_outer);
 
             let place = row.place(&around.cage, from, &space);
+            let mut in_pocket = <R::Group as Real>::zero();
             if law.pocket.may_press(&place) {
                 let p = law.pocket.react(&around.cage, &space, law.radius, &place);
+                in_pocket = p.load.force;
                 on_ball.add(p.on_ball);
                 on_cage.add(from, &p.on_cage.to_array());
                 pocket_heats.add(from, &[p.damping_heat, p.sliding_heat]);
@@ -287,7 +327,10 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
 
             let along = ball.radius * ball.orbit_speed;
             let mut force = turned.to_cylinder(on_ball.force * inverse_mass + law.gravity);
-            force.y -= law.orbit_drag * along * inverse_mass;
+            let drag = law.orbit_drag * along;
+            // the weight along the track, less the drag
+            let outside = turned.to_cylinder(law.gravity).y * law.mass - drag;
+            force.y -= drag * inverse_mass;
             let moment = turned.to_cylinder(on_ball.moment) - ball.spin * law.spin_drag;
             let rates = ball.rates(force, moment * inverse_inertia).to_array();
             let mut k = 0;
@@ -304,18 +347,42 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
                     (t_o.load.force - t_o.load.elastic) * t_o.closing,
                     f_i.heat,
                     f_o.heat,
-                    law.orbit_drag * along.square() + law.spin_drag * ball.spin.length_squared(),
+                    drag * along + law.spin_drag * ball.spin.length_squared(),
+                    ball.radius * outside - law.spin_drag * ball.spin.z,
                 ],
             );
+            if !self.detail.list.is_empty() {
+                let values = [
+                    t_i.load.force,
+                    t_o.load.force,
+                    t_i.slip.y,
+                    t_o.slip.y,
+                    in_pocket,
+                    f_i.force.y,
+                    f_o.force.y,
+                ];
+                let Detail {
+                    list,
+                    before,
+                    balls,
+                } = &mut self.detail;
+                let mut k = 0;
+                while k < values.len() {
+                    let first = k * *balls + *before;
+                    R::store_group(values[k], &mut list[first..first + n], from);
+                    k += 1;
+                }
+            }
             from += R::GROUP;
         }
-        let [d_i, d_o, s_i, s_o, drag] = heats.total();
+        let [d_i, d_o, s_i, s_o, drag, external] = heats.total();
         let [damping, friction] = pocket_heats.total();
         RowReaction {
             on_inner: SpatialWrench::from_array(on_inner.total()),
             on_outer: SpatialWrench::from_array(on_outer.total()),
             on_cage: SpatialWrench::from_array(on_cage.total()),
             heats: [d_i, d_o, s_i, s_o, drag, damping, friction],
+            external,
         }
     }
 }

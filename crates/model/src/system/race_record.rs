@@ -13,7 +13,7 @@
 //! Source: derived; book/src/theory/heat.md. Range: a flash is one of the end of a step; where u²Q is not the largest but the entrainment is smaller, of a look.
 
 use super::sampling::Peak;
-use crate::bearing::{BearingConstants, PlanarConstants};
+use crate::bearing::BearingConstants;
 use crate::motion::Motion;
 use physics::traction::SlidingContact;
 use std::f64::consts::PI;
@@ -145,21 +145,13 @@ impl RaceRecord {
                     seen.pass(self.last[ball][race], now[race]);
                 }
             }
-            if let BearingConstants::Planar(bearing) = seen.bearing {
-                self.dents_and_flashes(bearing, seen, ball, &contacts);
-            }
+            self.dents_and_flashes(seen, ball, &contacts);
             self.last[ball] = now;
         }
     }
 
-    fn dents_and_flashes(
-        &mut self,
-        bearing: &PlanarConstants,
-        seen: &Seen,
-        ball: usize,
-        contacts: &[SlidingContact<f64>; 2],
-    ) {
-        let Some(laws) = &bearing.races else {
+    fn dents_and_flashes(&mut self, seen: &Seen, ball: usize, contacts: &[SlidingContact<f64>; 2]) {
+        let Some(laws) = seen.bearing.race_laws() else {
             return;
         };
         for (race, contact) in contacts.iter().enumerate() {
@@ -172,7 +164,11 @@ impl RaceRecord {
             if score <= NEAR_RECORD * of.flash.score {
                 continue;
             }
-            let (power, surfaces) = bearing.sliding(seen.state, contacts)[race];
+            let (power, surfaces) = match seen.bearing {
+                BearingConstants::Planar(own) => own.sliding(seen.state, contacts)[race],
+                BearingConstants::Spatial(own) => own.sliding(&seen.motion, seen.state, ball)[race],
+                BearingConstants::Rolling(_) => continue,
+            };
             let rise = law.skidding.flash(power, load, surfaces);
             if rise > of.flash.rise.value {
                 let time = seen.time;

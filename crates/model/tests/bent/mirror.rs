@@ -20,7 +20,7 @@ fn in_modes(rotor: rotor::Rotor) -> Shaft {
 fn planar(bearing: &BearingConstants) -> &PlanarConstants {
     match bearing {
         BearingConstants::Planar(bearing) => bearing,
-        BearingConstants::Rolling(_) => panic!("the bearings are planar here"),
+        _ => panic!("the bearings are planar here"),
     }
 }
 

@@ -280,6 +280,7 @@ pub fn reference() -> MachineConstants {
     let rotor_mass = 8.0;
     let mut constants = MachineConstants {
         rotor: RotorConstants::point(rotor_mass, 0.01, 5e-6),
+        axial: None,
         levitation: Levitation {
             stiffness: 1e6,
             damping: 1e3,
@@ -361,7 +362,7 @@ pub fn balance_mount(constants: &mut MachineConstants) {
 pub fn planar(constants: &mut MachineConstants) -> &mut PlanarConstants {
     match &mut constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing,
-        BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
+        _ => panic!("the bearing is planar here"),
     }
 }
 
@@ -394,7 +395,7 @@ pub fn bearing_part<'a>(machine: &RotorMachine, state: &'a [f64]) -> &'a [f64] {
 pub fn ball_of(machine: &RotorMachine, state: &[f64], ball: usize) -> BallMotion<f64> {
     match &machine.constants.bearings[0].bearing {
         BearingConstants::Planar(bearing) => bearing.motion(bearing_part(machine, state), ball),
-        BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
+        _ => panic!("the bearing is planar here"),
     }
 }
 
@@ -513,6 +514,7 @@ pub fn random_state(machine: &RotorMachine, random: &mut Random) -> Vec<f64> {
 
     let own = BEARING..machine.layout().ledger();
     match &c.bearings[0].bearing {
+        BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
         BearingConstants::Rolling(_) => state[own.start] = random.within(7.0),
         BearingConstants::Planar(bearing) => {
             let (cage_angle, cage_speed) = (random.within(7.0), random.within(600.0));

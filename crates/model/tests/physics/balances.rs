@@ -115,6 +115,7 @@ fn spins(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> Vec<(f64, f64, 
         (race, state[INNER + 5], rate[INNER + 5]),
     ];
     match &machine.constants.bearings[0].bearing {
+        BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
         BearingConstants::Rolling(b) => {
             list.push((b.set.inner_inertia(), state[INNER + 5], rate[INNER + 5]));
         }
@@ -191,6 +192,7 @@ fn momentum_changes_by_outer_forces_alone() {
 /// rolling balls the friction moment, the outer race's share of what turns them, and what speeds them up.
 fn moment_on_outer_race(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> f64 {
     match &machine.constants.bearings[0].bearing {
+        BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
         BearingConstants::Rolling(b) => {
             let (_, probe) = machine.inspect(state);
             let mut push = vec2(0.0, 0.0);
@@ -351,6 +353,7 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         // the ground keeps the outer race from turning
         outer.add(-moment_on_outer_race(machine, state, rate));
         match &c.bearings[0].bearing {
+            BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
             BearingConstants::Rolling(b) => {
                 // the angular momentum of the balls that the inner race does not feel
                 change.add(b.set.outer_inertia() * rate[INNER + 5]);

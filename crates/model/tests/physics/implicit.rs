@@ -61,6 +61,7 @@ fn unit(machine: &RotorMachine, channel: usize, g: f64) -> f64 {
         .bearings
         .iter()
         .find_map(|part| match &part.bearing {
+            BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
             BearingConstants::Planar(bearing) => Some(bearing),
             BearingConstants::Rolling(_) => None,
         });

@@ -93,6 +93,7 @@ fn ball_loads_balance_the_weight_and_share_it_by_statics() {
         let mut rolls = planar_machine.clone();
         let_roll(&mut rolls);
         let stiffness = match &rolls.bearings[0].bearing {
+            BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
             BearingConstants::Rolling(bearing) => bearing.ball.series_stiffness,
             BearingConstants::Planar(_) => panic!("the balls roll here"),
         };

@@ -54,6 +54,7 @@ struct Measured {
 
 fn planar_of(machine: &RotorMachine) -> &PlanarConstants {
     match &machine.constants.bearings[0].bearing {
+        BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
         BearingConstants::Planar(bearing) => bearing,
         BearingConstants::Rolling(_) => panic!("the bearing is planar here"),
     }

@@ -125,6 +125,7 @@ fn heat_that_films_keep_reaches_the_bearing_when_they_give_it() {
             breakdown: 0.0,
         });
         match &mut c.bearing {
+            BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
             BearingConstants::Rolling(bearing) => bearing.lubricant = lubricant,
             BearingConstants::Planar(bearing) => bearing.lubricant = lubricant,
         }
@@ -165,6 +166,7 @@ fn turned(constants: &RigConstants, angle: f64) -> RigConstants {
     c.load_direction = turn(c.load_direction);
     c.gravity = turn(c.gravity);
     match &mut c.bearing {
+        BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
         BearingConstants::Planar(bearing) => {
             bearing.ball.gravity = turn(bearing.ball.gravity);
             bearing.first_ball_angle += angle;

@@ -311,9 +311,8 @@ fn friction_only_heats_at_every_set_of_nodes() {
         for law in [TANH, FOUR, ALGEBRAIC] {
             let machine = bearing(O, law, &nodes, Guide::Balls);
             let state = random_state(&machine, &mut random, 3.0);
-            let assembly = Assembly::<f64>::gather(&|_| &machine);
             for ball in 0..9 {
-                let ball = assembly.ball(1, ball, &state);
+                let ball = machine.ball(1, ball, &state);
                 for (touch, traction) in ball.races.touch.iter().zip(&ball.races.traction) {
                     let (u, d, m) = (touch.slip, touch.turning, traction.couple);
                     let power = traction.force.x * u.x

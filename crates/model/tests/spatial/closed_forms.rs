@@ -32,7 +32,13 @@ pub fn run(machine: &AssemblyConstants, state: &mut [f64], time: f64, steps: usi
 fn lone_rotor() -> (AssemblyConstants, Vec<f64>) {
     let mut machine = machine(bearing(SINGLE, TANH, &middle(), Guide::Balls), true);
     machine.rotor.as_mut().unwrap().levitation = None;
-    machine.rotor.as_mut().unwrap().contact.radial_clearance = 10.0;
+    machine
+        .rotor
+        .as_mut()
+        .unwrap()
+        .landing
+        .contact
+        .radial_clearance = 10.0;
     let mut state = vec![0.0; machine.states()];
     for body in 0..4 {
         state[machine.body(body) + 6] = 1.0;
@@ -49,7 +55,7 @@ fn a_tilted_rotor_precesses_as_euler_says() {
     let (mut machine, mut state) = lone_rotor();
     machine.gravity = Vec3::zero();
     let rotor = machine.rotor.as_mut().unwrap();
-    rotor.faces.clear();
+    rotor.landing.faces.clear();
     rotor.eccentricity = 0.0;
     let (axial, transverse) = (rotor.inertia.axial, rotor.inertia.transverse);
     let (spin, across) = (800.0, 30.0);
@@ -81,8 +87,8 @@ fn a_rotor_falls_freely_to_the_face() {
         machine.rows[0].ball.inner.slack,
         machine.rows[0].ball.outer.slack,
     ) = (1.0, 1.0);
-    machine.rotor.as_mut().unwrap().faces.truncate(1);
-    machine.rotor.as_mut().unwrap().faces[0].shoulder += 2e-4;
+    machine.rotor.as_mut().unwrap().landing.faces.truncate(1);
+    machine.rotor.as_mut().unwrap().landing.faces[0].shoulder += 2e-4;
     let fall = (2.0 * 2e-4 / 9.81_f64).sqrt();
     run(&machine, &mut state, 0.999 * fall, 200);
     let expected = -0.5 * 9.81 * (0.999 * fall).powi(2);

@@ -3,6 +3,7 @@
 mod balances;
 mod bits;
 mod closed_forms;
+mod in_machine;
 mod planar_limit;
 mod setup;
 mod statics;

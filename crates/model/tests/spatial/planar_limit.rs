@@ -69,11 +69,11 @@ fn assembly(p: &Value) -> AssemblyConstants {
     ball.pocket.friction = n("mu_c");
     ball.pocket.inverse_reference_speed = 1.0 / n("u0c");
     let rotor = machine.rotor.as_mut().unwrap();
-    rotor.faces.clear();
+    rotor.landing.faces.clear();
     rotor.inertia.mass = n("m_r");
     rotor.inertia.axial = n("I_r");
     rotor.eccentricity = n("e_u");
-    let contact = &mut rotor.contact;
+    let contact = &mut rotor.landing.contact;
     contact.radial_clearance = n("c0");
     contact.bore_radius = n("R0");
     contact.stiffness = n("kr");
@@ -171,7 +171,7 @@ fn planar_reference_points_are_those_of_the_bearing_in_space() {
             let content = machine.content(&state);
             assert!((content.kinetic / number(point, "kinetic") - 1.0).abs() < 1e-11);
             for (ball, theirs) in point["per_ball"].as_array().unwrap().iter().enumerate() {
-                let ours = assembly.ball(0, ball, &state);
+                let ours = machine.ball(0, ball, &state);
                 let loads = [0, 1].map(|k| ours.races.touch[k].load.force);
                 let theirs = list(theirs);
                 for k in 0..2 {

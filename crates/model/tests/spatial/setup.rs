@@ -9,8 +9,8 @@ use model::spatial::pocket::SpatialPocket;
 use model::spatial::race::RaceGroove;
 use model::spatial::rigid_body::Inertia;
 use model::spatial::{
-    AssemblyConstants, CageConstants, CageGuide, InnerRing, OuterRing, RowConstants, SpatialBall,
-    SpatialLand, SpatialRotor,
+    AssemblyConstants, CageConstants, CageGuide, InnerRing, LandingConstants, OuterRing,
+    RowConstants, SpatialBall, SpatialLand, SpatialRotor,
 };
 use number::Vec3;
 use physics::contact_nodes::{ContactNode, legendre, matched, middle};
@@ -236,10 +236,12 @@ pub fn machine(mut bearing: AssemblyConstants, tilted: bool) -> AssemblyConstant
             transverse: 0.05,
         },
         eccentricity: 5e-6,
-        contact: surfaces(10.0 / 9.0, 2.5e8),
-        stations: if tilted { vec![-5e-3, 6e-3] } else { vec![0.0] },
-        faces: vec![face(1.0), face(-1.0)],
-        face_nodes: face_nodes(12),
+        landing: LandingConstants {
+            contact: surfaces(10.0 / 9.0, 2.5e8),
+            stations: if tilted { vec![-5e-3, 6e-3] } else { vec![0.0] },
+            faces: vec![face(1.0), face(-1.0)],
+            face_nodes: face_nodes(12),
+        },
         levitation: Some((
             SpatialLevitation {
                 stiffness: 1e6,

@@ -39,6 +39,7 @@ impl Context<'_> {
     /// Everything about a bearing that moves; the bore is that of the key named, the load whether any presses on it.
     pub fn bearing(&self, bearing: &Bearing, bore: Option<(&str, f64)>, loaded: bool) -> Check {
         let (ball, pitch) = (bearing.ball_diameter, bearing.pitch_diameter);
+        self.spatial(bearing)?;
         self.geometry(bearing.ball_count, ball, pitch)?;
         self.bore(bore, pitch - ball)?;
         self.enough_balls(bearing, loaded)?;

@@ -45,7 +45,7 @@ const TANH_OR_DRY: &[Condition] = &[traction(&["tanh", "dry"])];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
-    Key::new("bearing.fidelity", Kind::Word(Modelled::WORDS), "planar", "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster; bushing has no balls, its ring (mount.moving_mass) does not turn and the rotor rubs on it: no other key of [bearing] then has an effect.")
+    Key::new("bearing.fidelity", Kind::Word(Modelled::WORDS), "planar", "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster; spatial moves balls, cages and rings in space, with contact angles and thrust, for a machine; bushing has no balls, its ring (mount.moving_mass) does not turn and the rotor rubs on it: no other key of [bearing] then has an effect.")
         .default("planar", "slip of the balls matters while a race is brought to speed").only(MOVING),
     Key::new("bearing.name", Kind::Text, "6005", "Name in the bearing catalogue.").optional("all dimensions stand in this file"),
     Key::new("bearing.type", Kind::Word(BearingType::WORDS), "deep groove", "Type of the bearing: it chooses factors of the friction moment, and whether there is a contact angle.")

@@ -13,6 +13,8 @@ pub enum Fidelity {
     Planar = "planar",
     /// Pure rolling.
     Rolling = "rolling",
+    /// Each ball and the cage move in space.
+    Spatial = "spatial",
 }
 }
 
@@ -23,6 +25,8 @@ pub enum Modelled {
     Planar = "planar",
     /// A rolling bearing whose balls roll.
     Rolling = "rolling",
+    /// A rolling bearing, ball by ball in space.
+    Spatial = "spatial",
     /// A ring that does not turn.
     Bushing = "bushing",
 }

@@ -4,6 +4,7 @@ pub mod checks;
 pub mod checks_fits;
 pub mod checks_lubricant;
 pub mod checks_separation;
+pub mod checks_spatial;
 pub mod derive;
 pub mod factors;
 pub mod fits;
@@ -12,18 +13,21 @@ pub mod keys;
 pub mod keys_cage;
 pub mod keys_lubricant_state;
 pub mod keys_moment;
+pub mod keys_spatial;
 pub mod kind;
 pub mod lubricant;
 pub mod lubricant_state;
 pub mod moment;
 pub mod separation;
 pub mod source;
+pub mod spatial;
 
 use crate::bearing::fits::{Fits, Growth};
 use crate::bearing::kind::{BallMaterial, BearingType, Fidelity};
 use crate::bearing::lubricant_state::LubricantState;
 use crate::bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 use crate::bearing::separation::Separation;
+use crate::bearing::spatial::Spatial;
 use crate::section::Section;
 use crate::values::Values;
 use physics::lubricant::{FVA_3, Lubricant, NAPHTHENIC_100, POLYALPHAOLEFIN_100};
@@ -41,6 +45,8 @@ pub struct Bearing {
     pub kind: BearingType,
     /// How it is modelled.
     pub fidelity: Fidelity,
+    /// What it has in space; none in the plane.
+    pub spatial: Option<Spatial>,
     /// Number of balls.
     pub ball_count: usize,
     /// Diameter of a ball, m.
@@ -212,10 +218,12 @@ pub struct Drag {
 pub fn bearing(values: &Values) -> Bearing {
     let bearing = values.section("bearing");
     let drag = values.section("bearing.drag");
+    let fidelity = bearing.choice("fidelity");
     Bearing {
         name: values.text("bearing.name"),
         kind: bearing.choice("type"),
-        fidelity: bearing.choice("fidelity"),
+        fidelity,
+        spatial: (fidelity == Fidelity::Spatial).then(|| Spatial::of(values, &bearing)),
         ball_count: bearing.count("ball_count") as usize,
         ball_diameter: bearing.number("ball_diameter"),
         pitch_diameter: bearing.number("pitch_diameter"),

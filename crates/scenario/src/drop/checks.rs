@@ -28,6 +28,7 @@ impl Context<'_> {
                 own.bearing(bearing, Some(("contact.bore_diameter", bore)), true)?;
             }
             own.air_clearance(part)?;
+            own.part_in_space(drop, part)?;
             own.warms(drop, part)?;
             own.mount(part)?;
             if let Some(bearing) = &part.bearing {
@@ -38,6 +39,7 @@ impl Context<'_> {
                 own.levitated_orbit(drop, part, body)?;
             }
         }
+        self.thrust(drop)?;
         let bearings = drop.auxiliary_bearings.iter();
         let bearings = bearings.filter_map(|part| part.bearing.as_ref());
         self.output(&drop.run, bearings.map(|bearing| bearing.ball_count).sum())

@@ -99,7 +99,7 @@ pub(crate) const KEYS: &[Key] = &[
         .positive().optional("the amounts of [[rotor.unbalance]] count as they are").only(SHAFT) },
     Key::new("rotor.balance_planes", Kind::Texts, "[\"drive_end\", \"other_end\"]", "Names of the two [[rotor.node]] in whose planes rotor.balance_grade leaves residual unbalance: shares by the levers of the mass centre, angles on the rotor drawn from repeat.seed.")
         .optional("rotor.balance_grade scales the amounts of [[rotor.unbalance]]").only(SHAFT),
-    Key::new("gravity.acceleration", Kind::Quantity("m/s^2"), "9.81 m/s^2", "Acceleration of gravity in the plane of the bearing. Of an inclined shaft less is left of it, of a vertical one nothing, and the axial drop is not described: such a run warns.")
+    Key::new("gravity.acceleration", Kind::Quantity("m/s^2"), "9.81 m/s^2", "Acceleration of gravity in the plane of the bearing. Of an inclined shaft less is left of it, of a vertical one nothing: the rest is gravity.axial, without which the axial drop is not described and a run warns.")
         .not_negative().default("9.81 m/s^2", "usual rounded value near sea level"),
     Key::new("gravity.direction", Kind::Quantity("rad"), "-90 deg", "Direction of gravity, from x.").default("-90 deg", "downwards"),
     Key::new("levitation.stiffness", Kind::Quantity("N/m"), "1e6 N/m", "Stiffness of the levitation at one plane.").positive().only(DROP),

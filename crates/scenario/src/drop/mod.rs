@@ -137,6 +137,8 @@ pub struct Gravity {
     pub acceleration: f64,
     /// Direction, rad from x.
     pub direction: f64,
+    /// Along the shaft, m/s².
+    pub axial: f64,
 }
 
 /// Standard gravity, m/s².
@@ -163,6 +165,8 @@ pub struct Levitation {
     pub offset_x: f64,
     /// Centre of levitation along y, m.
     pub offset_y: f64,
+    /// Stiffness and damping of the axial magnet, N/m and N s/m, where there is one.
+    pub axial: Option<[f64; 2]>,
 }
 
 /// Contact of rotor and inner race: F = k dⁿ(1 + a ḋ).
@@ -192,7 +196,25 @@ pub struct Contact {
     pub modulus: f64,
     /// Wear coefficient k, m²/N.
     pub wear_coefficient: Option<f64>,
+    /// Faces that meet shoulders of the rotor.
+    pub faces: Faces,
 }
+
+/// Faces of the inner ring that meet shoulders of the rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Faces {
+    /// Axial gap that closes towards the end of the shaft, m; none without a shoulder there.
+    pub gap_to_end: Option<f64>,
+    /// The same towards its start.
+    pub gap_to_start: Option<f64>,
+    /// Mean radius, m, where it is given.
+    pub radius: Option<f64>,
+    /// Stiffness of a whole face, N/m.
+    pub stiffness: f64,
+}
+
+/// Stiffness of a face where none is given, N/m: order of magnitude of flat steel.
+const FACE_STIFFNESS: f64 = 2e8;
 
 /// Depth of the rotor's layer where none is given, m.
 const ROTOR_DEPTH: f64 = 10e-3;
@@ -243,6 +265,10 @@ pub struct Mount {
     pub damping: f64,
     /// Mass of the outer race with what moves with it, kg.
     pub moving_mass: f64,
+    /// Stiffness along the axis, N/m.
+    pub axial_stiffness: f64,
+    /// Damping along the axis, N s/m.
+    pub axial_damping: f64,
     /// What it has besides spring and damper.
     pub parts: MountParts,
 }
@@ -315,6 +341,7 @@ impl Drop {
             gravity: Gravity {
                 acceleration: gravity.number("acceleration"),
                 direction: gravity.number("direction"),
+                axial: gravity.maybe("axial").unwrap_or(0.0),
             },
             base: Base::of(values, &cases)?,
             levitation: Levitation {
@@ -322,6 +349,7 @@ impl Drop {
                 damping: levitation("damping"),
                 offset_x: levitation("offset_x"),
                 offset_y: levitation("offset_y"),
+                axial: axial_magnet(&values.section("levitation")),
             },
             auxiliary_bearings: (all.iter()).map(auxiliary_bearing).collect(),
             run: Run::from_values(values),
@@ -343,14 +371,17 @@ impl Drop {
 fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
     let followed = values.chosen("heat.network") == Some(Network::On);
     let mount = values.section("mount");
+    let (stiffness, damping) = (mount.number("stiffness"), mount.number("damping"));
     AuxiliaryBearing {
         name: values.bearing.clone().unwrap_or_default(),
         planes: values.planes(),
         contact: contact(&values.section("contact")),
         mount: Mount {
-            stiffness: mount.number("stiffness"),
-            damping: mount.number("damping"),
+            stiffness,
+            damping,
             moving_mass: mount.number("moving_mass"),
+            axial_stiffness: mount.maybe("axial_stiffness").unwrap_or(stiffness),
+            axial_damping: mount.maybe("axial_damping").unwrap_or(damping),
             parts: MountParts::of(&mount),
         },
         bearing: (values.chosen("bearing.fidelity") != Some(Modelled::Bushing))
@@ -358,6 +389,12 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
         // what it carries is known when the whole rotor is
         warm: followed.then(|| Box::new(Warm::from_values(values, 0.0))),
     }
+}
+
+/// Stiffness and damping of the axial magnet.
+fn axial_magnet(levitation: &Section<'_>) -> Option<[f64; 2]> {
+    let stiffness = levitation.maybe("axial_stiffness")?;
+    Some([stiffness, levitation.maybe("axial_damping").unwrap_or(0.0)])
 }
 
 fn body(rotor: &Section<'_>) -> RigidBody {
@@ -413,6 +450,12 @@ fn contact(contact: &Section<'_>) -> Contact {
         metals: ["rotor", "race"].map(|body| metal(contact, body)),
         modulus: contact.number("surface.modulus"),
         wear_coefficient: contact.maybe("surface.wear_coefficient"),
+        faces: Faces {
+            gap_to_end: contact.maybe("gap_to_end"),
+            gap_to_start: contact.maybe("gap_to_start"),
+            radius: contact.maybe("face_radius"),
+            stiffness: contact.maybe("face_stiffness").unwrap_or(FACE_STIFFNESS),
+        },
     }
 }
 

@@ -34,6 +34,16 @@ pub(crate) fn bearing(
     let plane = Plane::of(bearing, contacts);
     let growth = bearing.inner_track_growth();
     Ok(match bearing.fidelity {
+        // built with what it lands on: bearing::spatial
+        Fidelity::Spatial => {
+            let allowed = "\"planar\" is needed where the rotor does not move along its axis";
+            return Err(problem_at(
+                Code::NotModelled,
+                "bearing.fidelity",
+                "\"spatial\"",
+                allowed,
+            ));
+        }
         Fidelity::Planar => BearingConstants::Planar(PlanarConstants {
             balls: bearing.ball_count,
             ball: ball_constants(bearing, contacts, &plane, gravity),

@@ -3,11 +3,14 @@
 use crate::bearing::film::Films;
 use crate::bearing::run::BearingRun;
 use model::auxiliary_bearing::probe::{
-    LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
+    AXIAL_FORCE, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
 };
 use model::bearing::ball_states::CAGE_PLACE;
 use model::bearing::{BearingConstants, LubricantAt, Separation};
 use model::body::BodyAt;
+use model::spatial::SpatialBearing;
+use model::spatial::part::SPIN;
+use model::spatial::rigid_body::BODY_STATES;
 use model::system::energy::Balance;
 use model::system::layout::{Entry, Layout};
 use model::system::machine::RotorMachine;
@@ -82,8 +85,10 @@ impl<'a> Table<'a> {
     /// Place of a cage that is free to move, and the largest forces on it.
     fn cage(&mut self) {
         let run = self.run;
-        let BearingConstants::Planar(bearing) = run.bearing else {
-            return;
+        let bearing = match run.bearing {
+            BearingConstants::Planar(bearing) => bearing,
+            BearingConstants::Spatial(bearing) => return self.cages_in_space(bearing),
+            BearingConstants::Rolling(_) => return,
         };
         let [pocket, land] = [LARGEST_POCKET_FORCE, LAND_FORCE].map(|kind| run.at.probe(kind));
         let has_cage = !full_complement(run.bearing);
@@ -98,6 +103,47 @@ impl<'a> Table<'a> {
             "bearing.cage.x": "m", "cage centre, to the right" when is_free => row.state[place];
             "bearing.cage.y": "m", "cage centre, upwards" when is_free => row.state[place + 1];
             "bearing.cage.land_force": "N", "normal force of cage and land" when is_guided => row.probe[land];
+        }
+    }
+
+    /// Rings and cages of a bearing in space along and about the axis, and its faces.
+    fn cages_in_space(&mut self, bearing: &SpatialBearing) {
+        let at = self.run.at;
+        let [pocket, land, force] =
+            [LARGEST_POCKET_FORCE, LAND_FORCE, AXIAL_FORCE].map(|kind| at.probe(kind));
+        let guided = bearing.may_make("cage_land_friction");
+        columns! { self.columns, |row|
+            "bearing.inner_race.z": "m", "inner ring along the axis, towards the end of the shaft" => at.motion(row.state).inner.axial;
+            "bearing.inner_race.tilt_x": "rad", "tilt of the inner ring about x" => at.motion(row.state).inner.tilt.x;
+            "bearing.inner_race.tilt_y": "rad", "tilt of the inner ring about y" => at.motion(row.state).inner.tilt.y;
+            "bearing.outer_race.z": "m", "outer rings along the axis, towards the end of the shaft" => at.motion(row.state).outer.axial;
+            "bearing.contact.axial_force": "N", "force between shoulders of the rotor and faces of the inner ring" when bearing.stops() => row.probe[force];
+            "bearing.cage.largest_pocket_force": "N", "largest force between a ball and its pocket" => row.probe[pocket];
+            "bearing.cage.land_force": "N", "normal force of cages and lands" when guided => row.probe[land];
+        }
+        for cage in 1..bearing.rows.len() {
+            let number = cage + 1;
+            let speed = at.bearing + cage * BODY_STATES + SPIN;
+            columns! { self.columns, |row|
+                "bearing.cage_{number}.speed": "rad/s", "spin of the cage of row {number}" => row.state[speed];
+            }
+        }
+        for ball in 0..bearing.balls() {
+            let number = ball + 1;
+            let angle = move |row: &Row, race: usize| {
+                let found = bearing.contacts(&at.motion(row.state), &row.state[at.own()], ball);
+                let touch = &found.races.touch[race];
+                match touch.load.force > 0.0 {
+                    true => {
+                        touch.triad.normal[1].asin() * (1.0 - 2.0 * f64::from(u8::from(race == 0)))
+                    }
+                    false => 0.0,
+                }
+            };
+            columns! { self.columns, |row|
+                "bearing.ball_{number:02}.inner_angle": "rad", "contact angle at the inner race, positive where the inner ring is pressed towards the end of the shaft; 0 without load" => angle(row, 0);
+                "bearing.ball_{number:02}.outer_angle": "rad", "contact angle at the outer race, likewise" => angle(row, 1);
+            }
         }
     }
 
@@ -133,7 +179,7 @@ impl<'a> Table<'a> {
         let run = self.run;
         let n = run.bearing.balls();
         let known = match run.bearing {
-            BearingConstants::Planar(_) => DETAILS.len(),
+            BearingConstants::Planar(_) | BearingConstants::Spatial(_) => DETAILS.len(),
             BearingConstants::Rolling(_) => LOADS,
         };
         let films = Films::of(run);

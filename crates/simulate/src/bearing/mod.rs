@@ -13,6 +13,7 @@ pub(crate) mod races;
 pub(crate) mod run;
 pub(crate) mod severity;
 pub(crate) mod skid;
+pub(crate) mod spatial;
 pub mod steady;
 pub(crate) mod traction;
 pub(crate) mod warm;

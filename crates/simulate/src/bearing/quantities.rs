@@ -4,7 +4,7 @@ use crate::bearing::pressure::PressureFactors;
 use crate::bearing::run::BearingRun;
 use crate::bearing::{film, races, severity, skid};
 use model::bearing::lubricant_state::LubricantAt;
-use model::bearing::{BearingConstants, LubricantConstants, PlanarConstants, Separation};
+use model::bearing::{BearingConstants, LubricantConstants, PlanarConstants};
 use outcome::list::results;
 use outcome::list::{List, origins};
 use physics::traction::Traction;
@@ -26,7 +26,7 @@ impl<'a> BearingSetup<'a> {
     pub fn planar(&self) -> Option<&'a PlanarConstants> {
         match self.constants {
             BearingConstants::Planar(planar) => Some(planar),
-            BearingConstants::Rolling(_) => None,
+            BearingConstants::Rolling(_) | BearingConstants::Spatial(_) => None,
         }
     }
 }
@@ -41,14 +41,14 @@ pub(crate) fn balls(list: &mut List, setup: &BearingSetup, run: Option<&BearingR
         skid::skids(list, &(), run.and_then(BearingRun::skids).as_ref());
     }
     races_and_lubricant(list, setup, run);
-    if let Some(planar) = setup.planar() {
-        cage(list, &planar.separation, run);
+    if let Some(apart) = Apart::of(setup.constants) {
+        cage(list, &apart, run);
     }
 }
 
 /// What the races saw of the balls, and what the lubricant came to.
 pub(crate) fn races_and_lubricant(list: &mut List, setup: &BearingSetup, run: Option<&BearingRun>) {
-    if setup.planar().is_some() {
+    if setup.constants.race_laws().is_some() {
         races::races(list, &(), run.and_then(|run| run.record?.races.as_ref()));
     }
     if let Some(part) = setup.constants.lubricant() {
@@ -82,20 +82,34 @@ results! {
         "lubricant_drag_factor_at_end": number "1", LUBRICANT, "factor on the speed-dependent moment at the end" => at.drag_factor;
     }
     /// Largest forces on the cage, or between the balls, and what their friction took.
-    fn cage(separation: &Separation<f64>, run: &BearingRun) {
-        "peak_ball_ball_force": number "N", CAGE_FORCE, "largest force between two balls" when neighbours(separation) => run.peaks()[2].value;
-        "peak_pocket_force": number "N", CAGE_FORCE, "largest force between ball and pocket" when !neighbours(separation) => run.peaks()[2].value;
-        "peak_cage_land_force": number "N", CAGE_FORCE, "largest force between cage and land" when matches!(separation, Separation::FreeCage(Some(_))) => {
+    fn cage(apart: &Apart, run: &BearingRun) {
+        "peak_ball_ball_force": number "N", CAGE_FORCE, "largest force between two balls" when apart.neighbours => run.peaks()[2].value;
+        "peak_pocket_force": number "N", CAGE_FORCE, "largest force between ball and pocket" when !apart.neighbours => run.peaks()[2].value;
+        "peak_cage_land_force": number "N", CAGE_FORCE, "largest force between cage and land" when apart.land => {
             run.peaks()[3].value
         };
-        "ball_ball_friction_energy": number "J", CAGE_FRICTION, "friction heat between the balls" when neighbours(separation) => run.cage_friction();
-        "cage_friction_energy": number "J", CAGE_FRICTION, "friction heat of pockets and land" when !neighbours(separation) => run.cage_friction();
+        "ball_ball_friction_energy": number "J", CAGE_FRICTION, "friction heat between the balls" when apart.neighbours => run.cage_friction();
+        "cage_friction_energy": number "J", CAGE_FRICTION, "friction heat of pockets and land" when !apart.neighbours => run.cage_friction();
     }
 }
 
-/// Whether the balls touch each other.
-fn neighbours(separation: &Separation<f64>) -> bool {
-    matches!(separation, Separation::Neighbours(_))
+/// What keeps balls apart that move by themselves.
+struct Apart {
+    /// The next ball.
+    neighbours: bool,
+    /// A cage on a land.
+    land: bool,
+}
+
+impl Apart {
+    /// None where balls roll always.
+    fn of(bearing: &BearingConstants) -> Option<Self> {
+        let may = |heat| bearing.may_make(heat);
+        bearing.cage_speed_state().map(|_| Apart {
+            neighbours: may("ball_ball_friction"),
+            land: may("cage_land_friction"),
+        })
+    }
 }
 
 impl BearingRun<'_> {
@@ -111,7 +125,9 @@ impl BearingRun<'_> {
     /// What the balls lost sliding on both races, J.
     pub fn ball_slip(&self) -> Result<f64, String> {
         match self.bearing {
-            BearingConstants::Planar(_) => Ok(self.slips().iter().sum()),
+            BearingConstants::Planar(_) | BearingConstants::Spatial(_) => {
+                Ok(self.slips().iter().sum())
+            }
             BearingConstants::Rolling(_) => {
                 Err("balls do not slip in the rolling fidelity".to_string())
             }

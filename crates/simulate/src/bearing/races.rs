@@ -5,7 +5,6 @@ use crate::bearing::severity::STEEL_CHANGES;
 use crate::bearing::warm::{Followed, Heated};
 use crate::bearing::warning_table::BearingWarning;
 use crate::coast_down::build::ICE_POINT;
-use model::bearing::BearingConstants;
 use model::system::layout::of_part;
 use model::system::race_record::RaceRecord;
 use outcome::list::results;
@@ -32,8 +31,8 @@ pub(crate) fn used_by([inner, outer]: &[Vec<f64>; 2]) -> f64 {
 impl BearingRun<'_> {
     /// What the races have seen of balls that may slide.
     fn races_of_balls(&self) -> Option<&RaceRecord> {
-        let planar = matches!(self.bearing, BearingConstants::Planar(_));
-        self.record?.races.as_ref().filter(|_| planar)
+        self.bearing.race_laws()?;
+        self.record?.races.as_ref()
     }
     /// A contact of ball and race that got too hot, and by how much it warmed, K.
     pub fn hot_skid(&self) -> Option<(f64, Warning)> {

@@ -31,7 +31,7 @@ impl<'a> Skids<'a> {
     pub fn of(run: &'a BearingRun<'a>) -> Option<Skids<'a>> {
         match run.bearing {
             BearingConstants::Planar(bearing) => Some(Skids { run, bearing }),
-            BearingConstants::Rolling(_) => None,
+            BearingConstants::Rolling(_) | BearingConstants::Spatial(_) => None,
         }
     }
 

@@ -61,7 +61,9 @@ pub(crate) fn steady(
     // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
     let drive = match constants {
         BearingConstants::Planar(_) => Drive::step(speed),
-        BearingConstants::Rolling(_) => Drive::Torque(Table::constant(0.0)),
+        BearingConstants::Rolling(_) | BearingConstants::Spatial(_) => {
+            Drive::Torque(Table::constant(0.0))
+        }
     };
     let machine = RotorMachine::on_rig(RigConstants {
         race: *race,
@@ -92,6 +94,7 @@ pub(crate) fn steady(
 /// A machine that the model refuses, reported with the key that decides.
 pub(crate) fn refused(refusal: Refusal) -> Box<Problem> {
     let key = match refusal {
+        Refusal::InSpace => "bearing.fidelity",
         Refusal::DragToGround => "bearing.drag",
         Refusal::LossCreatesEnergy | Refusal::LossExceedsInertia => "bearing.acceleration_loss",
         Refusal::NegativeLoad => "drive.radial_load",

@@ -46,6 +46,22 @@ problem::warnings! {
     }
 }
 
+problem::warnings! {
+    /// Of a bearing in space.
+    pub enum SpatialWarning {
+        RowUnloaded { row: "", time: "s" } "AB2411" Uncertain, each
+            ("Row {row} carries nothing at {:.2} ms: its balls are held by the outer race alone, slow down against the others and skid when they are pressed again. More preload keeps a row pressed.", 1e3 * time);
+        RunOver { ball: "", race: words, time: "s", angle: "rad", load: "N" } "AB2412" Destroys, each
+            ("The contact ellipse of ball {ball} reaches over the shoulder of the {race} groove at {:.2} ms (contact angle {:.0} deg, {load:.0} N): the stress at that edge is not computed and may be several times that of the ellipse. From there on loads and angles are those of a groove that goes on.", 1e3 * time, angle.to_degrees());
+        NoThrust { moved: "m" } "AB2413" Invalid, each
+            ("No bearing in space has a shoulder in its way (contact.gap_to_start, contact.gap_to_end): nothing stops the rotor along its axis, and it has moved by {:.2} mm.", 1e3 * moved);
+        LeavesOut "AB2414" Uncertain
+            ("Of this bearing in space are not followed: growth of the rings with speed and warmth, and so of the preload; tilt of the outer rings; the share of its life. A hot inner ring, or one at high speed, presses its balls more than this run knows.");
+        ShoulderUnknown { angle: "rad" } "AB2415" Uncertain, each
+            ("Whether a contact leaves its groove is not judged, since bearing.shoulder_height is not given: contact angles reach {:.0} deg.", angle.to_degrees());
+    }
+}
+
 /// What a pressure beyond its limit does to steel.
 pub(crate) const DENTS: &str =
     "permanent dents must be expected, and the elastic contact law is outside its range";

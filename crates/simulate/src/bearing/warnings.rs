@@ -140,10 +140,13 @@ pub(crate) fn films(run: &BearingRun, bearing: &Bearing) -> Vec<Warning> {
 
 /// A moment law that stays away although the bearing turns for long.
 pub(crate) fn no_moment(bearing: &Bearing) -> Option<Warning> {
-    (bearing.moment == Moment::None).then(|| match bearing.fidelity {
-        Fidelity::Planar => BearingWarning::NoMoment.into(),
-        Fidelity::Rolling => AssumptionWarning::RollsWithoutMoment.into(),
-    })
+    let none = bearing.moment == Moment::None;
+    match bearing.fidelity {
+        Fidelity::Planar => none.then(|| BearingWarning::NoMoment.into()),
+        Fidelity::Rolling => none.then(|| AssumptionWarning::RollsWithoutMoment.into()),
+        // slip and spin in its contacts resist
+        Fidelity::Spatial => None,
+    }
 }
 
 /// What the rolling fidelity takes for granted.
@@ -158,6 +161,7 @@ pub(crate) fn kind(bearing: &Bearing) -> Vec<Warning> {
         list.push(BearingWarning::Hybrid.into());
     }
     match bearing.kind {
+        _ if bearing.spatial.is_some() => {}
         BearingType::DeepGroove => {}
         BearingType::FourPointContact => list.push(AssumptionWarning::FourPointContact.into()),
         BearingType::AngularContact => list.push(angular_contact(bearing)),
@@ -190,7 +194,7 @@ pub fn preload_left(
     peak: Option<(f64, f64)>,
 ) -> Option<Warning> {
     let preload = bearing.axial_preload;
-    if preload <= 0.0 || bearing.contact_angle <= 0.0 {
+    if preload <= 0.0 || bearing.contact_angle <= 0.0 || bearing.spatial.is_some() {
         return None;
     }
     let limit = radial_load_that_unloads_a_ball(preload, bearing.contact_angle);
@@ -243,7 +247,7 @@ pub(crate) fn assumed(
     // what only skidding balls have
     let planar = ["bearing.cage.", "bearing.traction.", "bearing.drag."];
     let counts = |path: &str| {
-        bearing.is_none_or(|bearing| bearing.fidelity == Fidelity::Planar)
+        bearing.is_none_or(|bearing| bearing.fidelity != Fidelity::Rolling)
             || !planar.iter().any(|p| path.starts_with(p))
     };
     let values = scenario.resolved.values.iter();

@@ -4,6 +4,7 @@ use crate::bearing;
 use crate::bearing::pressure::PressureFactors;
 use crate::bearing::steady::{SteadyFinding, SteadyPoint};
 use crate::drop::Drop;
+use crate::drop::axial;
 use crate::drop::base;
 use crate::drop::clearances;
 use crate::drop::housings;
@@ -21,7 +22,7 @@ use model::levitation::Levitation;
 use model::mount::{Housing, Mount};
 use model::rotor::RotorConstants;
 use model::system::machine::{Event, MachineConstants};
-use number::Vec2;
+use number::{Vec2, Vec3};
 use problem::Problem;
 use scenario::several::path_of;
 use scenario::{AuxiliaryBearing, Spin};
@@ -74,6 +75,9 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
         if let (Some(given), Some(built)) = (&drop.shaft, &shaft) {
             let [x, y] = given.places[k].misalignment;
             constants.node = built.nodes[k].clone();
+            if let BearingConstants::Spatial(own) = &mut constants.bearing {
+                (own.rotation, own.lever) = built.turns[k].clone();
+            }
             constants.datum = Vec2::new(x, y);
             constants.mount_parts.on = built.stands[k].clone();
         }
@@ -148,10 +152,21 @@ fn bearing_of(
     let gravity = gravity(drop);
     let (sine, cosine) = drop.gravity.direction.sin_cos();
     let contacts = bearing::contacts::ball_contacts(given)?;
-    let constants = bearing::build::bearing(given, &contacts, gravity)?;
+    let constants = match &given.spatial {
+        Some(own) => {
+            let gravity = Vec3::new(gravity.x, gravity.y, drop.gravity.axial);
+            let built = bearing::spatial::bearing(part, (given, own), &contacts, gravity)?;
+            BearingConstants::Spatial(built)
+        }
+        None => bearing::build::bearing(given, &contacts, gravity)?,
+    };
+    let rows = match &constants {
+        BearingConstants::Spatial(own) => own.rows.len() as f64,
+        _ => 1.0,
+    };
     let inner_race = RaceConstants {
-        mass: given.inner_race_mass,
-        inertia: given.inner_race_inertia,
+        mass: given.inner_race_mass * rows,
+        inertia: given.inner_race_inertia * rows,
         centre_held: given.inner_race_centre_held,
         torque: given.inner_race_torque,
     };
@@ -258,7 +273,8 @@ fn constants(
     let knots = knots.map(|time| (time, Event::Knot));
     let shaken = base.iter().flat_map(BaseConstants::knots);
     let shaken = shaken.map(|time| (time, Event::Knot));
-    let known = known.into_iter().chain(knots).chain(shaken).collect();
+    let mut known: Vec<_> = known.into_iter().chain(knots).chain(shaken).collect();
+    axial::switches(drop, &mut known, &mut at_speeds);
     let mut constants = MachineConstants {
         rotor: RotorConstants {
             torque: torque.clone(),
@@ -270,6 +286,7 @@ fn constants(
                 drop.body.unbalance_eccentricity,
             )
         },
+        axial: axial::motion(drop, mass),
         // a magnetic bearing stands beside each row of the auxiliary ones
         levitation: Levitation {
             stiffness: drop.levitation.stiffness * drop.rows(),

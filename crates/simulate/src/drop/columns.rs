@@ -54,6 +54,13 @@ fn of_rotor(setup: Setup, run: &BearingRun) -> Vec<Column> {
     }
     let spin = setup.machine.layout().rotor.spin();
     columns! { table.columns, |row| "rotor.speed": "rad/s", "spin of the rotor" => row.state[spin]; }
+    let rotor = setup.machine.layout().rotor;
+    if rotor.axial {
+        columns! { table.columns, |row|
+            "rotor.z": "m", "rotor along its axis from the start, towards the end of the shaft" => row.state[rotor.place()];
+            "rotor.z_speed": "m/s", "its speed" => row.state[rotor.place() + 1];
+        }
+    }
     if let Some(base) = &setup.machine.constants.base {
         columns! { table.columns, |row|
             "base.acceleration_x": "m/s^2", "acceleration of the base along x; displacements are relative to the base" => base.acceleration(row.time).x;

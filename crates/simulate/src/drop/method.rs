@@ -59,7 +59,7 @@ fn stiffest(built: &Built) -> f64 {
     let parts = built.constants.bearings.iter();
     let stiffnesses = parts.filter_map(|part| match &part.bearing {
         BearingConstants::Planar(bearing) => Some(stiffness(built, part, bearing)),
-        BearingConstants::Rolling(_) => None,
+        BearingConstants::Rolling(_) | BearingConstants::Spatial(_) => None,
     });
     stiffnesses.fold(0.0, f64::max)
 }

@@ -1,5 +1,6 @@
 //! Runs a drop and names what came out.
 
+mod axial;
 mod base;
 mod body;
 pub mod build;

@@ -12,6 +12,9 @@ use crate::drop::{base, events, magnets, mount_results, shaft_results, surfaces}
 use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
+use model::auxiliary_bearing::probe::AXIAL_FORCE;
+use model::spatial::SpatialBearing;
+use model::spatial::record::SpatialRecord;
 use model::system::energy::{Content, Flows};
 use model::system::machine::record::BearingRecord;
 use outcome::Quantity;
@@ -52,9 +55,13 @@ fn of_bearing(list: &mut List, (setup, k): (Setup, usize), run: Option<&Landed>)
         spin_up(list, &(), run);
         balls(list, &own, run.map(|run| &run.balls));
         load(list, own.given, run);
-        let life_of = run.and_then(|run| run.life(own.given));
-        let rating = own.given.dynamic_load_rating;
-        life(list, &(rating, setup.heated(k)), life_of.as_ref());
+        if let Some(space) = constants.spatial() {
+            in_space(list, space, run);
+        } else {
+            let life_of = run.and_then(|run| run.life(own.given));
+            let rating = own.given.dynamic_load_rating;
+            life(list, &(rating, setup.heated(k)), life_of.as_ref());
+        }
     }
     mount_force(list, &(), run);
     if constants.mount_parts.any() {
@@ -131,6 +138,45 @@ impl<'a> Landed<'a> {
         });
         Life::of(given, self.record.races.as_ref()?, factor)
     }
+    /// What was seen of a bearing in space.
+    fn space<T>(&self, of: impl Fn(&SpatialRecord) -> Option<T>) -> Result<T, String> {
+        let none = || "rotor and face never touched in this run".to_string();
+        self.record.spatial.as_deref().and_then(of).ok_or_else(none)
+    }
+    fn landed_first(&self) -> Result<&'static str, String> {
+        let bore = self.record.contacts.first().map(|contact| contact.start);
+        let face = self.space(|own| own.first_axial_contact).ok();
+        match (bore, face) {
+            (None, None) => Err("the rotor touched neither bore nor face in this run".to_string()),
+            (Some(bore), Some(face)) if bore < face => Ok("bore"),
+            (Some(_), None) => Ok("bore"),
+            _ => Ok("face"),
+        }
+    }
+    /// Force on the faces in the last row, N.
+    fn axial_force_at_end(&self) -> Result<f64, String> {
+        let at = self.context.setup.machine.layout().bearings[self.k];
+        let row = self.context.finished.record.rows().next_back();
+        row.map(|row| row.probe[at.probe(AXIAL_FORCE)])
+            .ok_or_else(|| "this run kept no rows".to_string())
+    }
+    fn angle(&self, race: usize) -> Result<f64, String> {
+        let seen = |own: &SpatialRecord| Some(own.largest_angles[race].value);
+        let angle = self.space(seen).unwrap_or_default();
+        let none = || "no ball was pressed".to_string();
+        (angle > 0.0).then_some(angle).ok_or_else(none)
+    }
+    fn unloaded(&self) -> Vec<f64> {
+        let times = self.record.spatial.iter().flat_map(|own| &own.unloaded);
+        times
+            .map(|time| time.map_or(f64::NAN, |time| self.after(time)))
+            .collect()
+    }
+    fn run_over(&self) -> Result<f64, String> {
+        let own = self.record.spatial.as_deref().and_then(|own| own.run_over);
+        let none = || "no contact reached the shoulder of its groove".to_string();
+        own.map(|own| self.after(own.time)).ok_or_else(none)
+    }
     fn whirl_direction(&self) -> &'static str {
         let turns = self.record.whirl_turns;
         match turns * self.context.setup.machine.constants.speed.signum() > 0.0 {
@@ -179,6 +225,27 @@ results! {
         };
         "inner_race_turns": number "", TURNS, "turns of the inner race" => run.record.turns;
         "cubic_mean_load": number "N", MEAN_LOAD, "cubic mean load over these turns" => run.mean_load();
+    }
+    /// What a bearing in space does along its axis.
+    fn in_space(setup: &SpatialBearing, run: &Landed) {
+        "landed_first": text "", AXIAL, "where the rotor landed first: in the bore or on a face" in note "Peak contact force: landed first in/on the" when setup.stops() => {
+            run.landed_first()
+        };
+        "time_to_first_axial_contact": instant "s", AXIAL, "first contact of a shoulder and a face after the release" in instants_after_release "axial contact" when setup.stops() => {
+            run.space(|own| own.first_axial_contact.map(|time| run.after(time)))
+        };
+        "peak_axial_force": number "N" headline, AXIAL, "largest force between shoulder and face" in tile "Peak axial force" when setup.stops() => {
+            run.space(|own| own.first_axial_contact.map(|_| own.axial_force.value))
+        };
+        "axial_force_at_end": number "N", AXIAL, "force between shoulder and face at the end" in note "Peak axial force: at the end [N]" when setup.stops() => run.axial_force_at_end();
+        "peak_inner_contact_angle": number "rad", ANGLES, "largest contact angle at the inner race" => run.angle(0);
+        "peak_outer_contact_angle": number "rad", ANGLES, "largest contact angle at the outer race" => run.angle(1);
+        "row_unloaded_times": list "s", UNLOADED, "when each row first carried nothing, by its place along the shaft; NaN where it always did" when setup.rows.len() > 1 => {
+            run.unloaded()
+        };
+        "shoulder_run_over_time": instant "s", RUN_OVER, "when a contact ellipse first reached over the shoulder of its groove", unless {
+            not_given("bearing.shoulder_height", setup.groove_ends)
+        } => run.run_over();
     }
     fn mount_force(setup: &(), run: &Landed) {
         "peak_mount_force": number "N", MOUNT_FORCE, "largest force of the mount on the housing" => run.record.largest_mount_force.value;
@@ -360,6 +427,18 @@ origins! {
     SAFETY: law "s0 = C0/P0, P0 = max(F_r, X0 F_r + Y0 F_a) with F_r = peak_bearing_load and F_a = bearing.axial_preload",
         source "ISO 76 (from memory), crates/physics/src/static_load.rs",
         valid "assumes that a short peak dents as a load at rest, and the usual share of the most loaded ball: peak_hertz_pressure says what that ball carries";
+    AXIAL: law "shoulder plane against nodes of a face, N = max(0, k d(1 + a ḋ)) each, friction μ N against the slip; largest at the ends of the steps",
+        source "derived, book/src/theory/spatial.md, crates/model/src/spatial/face.rs",
+        valid "rigid shoulder, plane face; stiffness and damping as given";
+    ANGLES: law "|α| of the loaded contacts, sin α = n·a of that ring; largest of eight looks a turn, more where loads change",
+        source "derived, book/src/theory/spatial.md, crates/model/src/spatial/record.rs",
+        valid "torus-shaped grooves without end: see shoulder_run_over_time";
+    UNLOADED: law "first look at which no ball of a row is pressed by its inner race, of a row that had one",
+        source "crates/model/src/spatial/record.rs",
+        valid "eight looks a turn, more where loads change";
+    RUN_OVER: law "|α| + a_H/r > acos(1 - h/r_g): the ellipse reaches the shoulder",
+        source "derived, book/src/theory/spatial.md, crates/model/src/spatial/record.rs",
+        valid "errs to the safe side by 4 %; from there on the stress at the edge is not known, and the contact is computed as if its groove went on";
     MOUNT_FORCE: law "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
         source mount_results::SOURCE,
         valid "force of the outer race on its housing";

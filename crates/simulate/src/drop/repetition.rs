@@ -8,7 +8,6 @@ use crate::drop::build::{self, Built};
 use crate::drop::each::{self, One};
 use crate::ending;
 use crate::ensemble::Member;
-use model::bearing::BearingConstants;
 use number::Vec2;
 use outcome::host::{self, in_pool};
 use outcome::joined::Joined;
@@ -318,10 +317,8 @@ fn perturb(drop: &Drop, member: &mut Member, k: usize) {
     let shift = Vec2::new(normal(), normal()) * drop.repeat.rotor_position_deviation;
     let angles: Vec<Vec<f64>> = (machine.constants.bearings.iter())
         .map(|part| {
-            let balls = match &part.bearing {
-                BearingConstants::Planar(bearing) => bearing.balls,
-                BearingConstants::Rolling(_) => 0,
-            };
+            let moves = |ball: &usize| part.bearing.azimuth_state(*ball).is_some();
+            let balls = (0..part.bearing.balls()).take_while(moves).count();
             (0..balls)
                 .map(|_| normal() * drop.repeat.ball_angle_deviation)
                 .collect()

@@ -27,6 +27,8 @@ pub struct BuiltShaft {
     pub cutoff: f64,
     /// Row of each auxiliary bearing's node.
     pub nodes: Vec<Vec<f64>>,
+    /// Of each: the row of its rotation, and its place along the shaft from the centre of mass, m.
+    pub turns: Vec<(Vec<f64>, f64)>,
     /// Row of the housing on which each of them stands; none on the ground.
     pub stands: Vec<Option<Vec<f64>>>,
     /// Nodes whose displacement is watched, along the shaft.
@@ -167,10 +169,17 @@ pub(crate) fn build(
     (constants.places).extend((0..rotor.housings.len()).map(housing));
     let stands = (shaft.places.iter()).map(|own| own.on.map(housing));
     let nodes = shaft.nodes.iter().map(|node| at(*node)).collect();
+    let centre = rotor::properties(rotor).centre;
+    let turn = |node: &usize| {
+        let row = within.basis.shapes.row(rotor.displacement(*node) + 1);
+        (row.iter().copied().collect(), rotor.nodes[*node] - centre)
+    };
+    let turns = shaft.nodes.iter().map(turn).collect();
     Ok(BuiltShaft {
         rotor: constants,
         cutoff,
         nodes,
+        turns,
         places,
         against,
         stands: stands.collect(),
@@ -216,6 +225,11 @@ fn basis(drop: &Drop, shaft: &Shaft, matrices: &Matrices) -> Result<(Basis, f64)
     let coming = unbalances::loaded(shaft);
     let loaded = (shaft.nodes.iter().chain(&shaft.model.pushed)).chain(&coming);
     kept.extend(loaded.map(|node| rotor.displacement(*node)));
+    let parts = shaft.nodes.iter().zip(&drop.auxiliary_bearings);
+    let in_space = parts.filter(|(_, part)| {
+        (part.bearing.as_ref()).is_some_and(|bearing| bearing.spatial.is_some())
+    });
+    kept.extend(in_space.map(|(node, _)| rotor.displacement(*node) + 1));
     if let Some(levitation) = &shaft.model.levitation {
         let nodes = levitation.magnets.iter().map(|(_, at, _)| *at);
         kept.extend(nodes.map(|node| rotor.displacement(node)));

@@ -3,7 +3,7 @@
 use crate::assumptions::speed_rating;
 use crate::bearing::severity::{HOT_RACE, inner_race_rise};
 use crate::bearing::warm;
-use crate::bearing::warning_table::{CLOSES, RUNS_AWAY};
+use crate::bearing::warning_table::{CLOSES, RUNS_AWAY, SpatialWarning};
 use crate::bearing::warnings as shared;
 use crate::drop::context::Context;
 use crate::drop::multirate::results::After;
@@ -82,6 +82,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     list.extend(graded(shaft_results::resonance(context)));
     list.extend(one_motion(context));
     list.extend(each(&|k| graded(preload(context, k))));
+    list.extend(each(&|k| graded(in_space(context, k))));
+    list.extend(graded(no_thrust(context)));
     list.extend(each(&|k| {
         let mut list = graded(loads(context, k));
         list.extend(damping(context, k));
@@ -169,6 +171,51 @@ fn preload(context: &Context, k: usize) -> Option<Graded> {
     let bearing = context.setup.given(k).bearing.as_ref()?;
     let warning = shared::preload_left(bearing, ("weight", weight), peak)?;
     Some((peak.map_or(weight, |(force, _)| force.max(weight)), warning))
+}
+
+/// What a bearing in space is driven to, and what is not followed of it.
+fn in_space(context: &Context, k: usize) -> Vec<Graded> {
+    let Some(own) = &context.record(k).spatial else {
+        return Vec::new();
+    };
+    let mut list = Vec::new();
+    if let Some(over) = own.run_over {
+        let warning = SpatialWarning::RunOver {
+            ball: over.ball as f64 + 1.0,
+            race: ["inner", "outer"][over.race].to_string(),
+            time: over.time,
+            angle: over.angle,
+            load: over.load,
+        };
+        list.push((over.load, warning.into()));
+    }
+    for (row, time) in own.unloaded.iter().enumerate() {
+        let Some(time) = *time else { continue };
+        let row = row as f64 + 1.0;
+        list.push((-time, SpatialWarning::RowUnloaded { row, time }.into()));
+    }
+    let angle = own
+        .largest_angles
+        .iter()
+        .fold(0.0, |m: f64, own| m.max(own.value));
+    let part = &context.setup.machine.constants.bearings[k];
+    if part.spatial().is_some_and(|own| own.groove_ends.is_none()) {
+        list.push((angle, SpatialWarning::ShoulderUnknown { angle }.into()));
+    }
+    list.push((0.0, SpatialWarning::LeavesOut.into()));
+    list
+}
+
+/// A rotor that moves along its axis where nothing stops it.
+fn no_thrust(context: &Context) -> Option<Graded> {
+    let machine = context.setup.machine;
+    let rotor = machine.layout().rotor;
+    let mut parts = (machine.constants.bearings.iter()).filter_map(|part| part.spatial());
+    if !rotor.axial || parts.any(|own| own.stops()) {
+        return None;
+    }
+    let moved = context.finished.ending.state[rotor.place()].abs();
+    Some((moved, SpatialWarning::NoThrust { moved }.into()))
 }
 
 /// Balls that traction cannot turn.
@@ -269,7 +316,7 @@ fn of_bearing(scenario: &Scenario, context: &Context, k: usize) -> Vec<Warning> 
     list.extend(shared::moment(scenario, &given.name, bearing));
     if bearing.drag.orbit != 0.0 || bearing.drag.spin != 0.0 || bearing.drag.cage != 0.0 {
         let warning = match bearing.fidelity {
-            Fidelity::Planar => DropWarning::Dragged,
+            Fidelity::Planar | Fidelity::Spatial => DropWarning::Dragged,
             Fidelity::Rolling => DropWarning::DragIgnored,
         };
         list.push(warning.into());

@@ -106,7 +106,7 @@ impl Context<'_> {
     fn slip_at_end(&self) -> Result<f64, String> {
         let turns = self.ending.state[SHAFT.spin()].abs() > 0.05 * self.rig.speed;
         match (self.rig.bearing.fidelity, turns) {
-            (Fidelity::Rolling, _) => {
+            (Fidelity::Rolling | Fidelity::Spatial, _) => {
                 Err("the rolling fidelity takes the balls to roll".to_string())
             }
             (Fidelity::Planar, false) => Err("the shaft hardly turns at the end".to_string()),

@@ -149,7 +149,9 @@ impl Context<'_> {
     /// Why balls have no slip at the end.
     fn if_balls_slide(&self) -> Result<(), String> {
         match self.spin_up.bearing.fidelity {
-            Fidelity::Rolling => Err("the rolling fidelity takes the balls to roll".to_string()),
+            Fidelity::Rolling | Fidelity::Spatial => {
+                Err("the rolling fidelity takes the balls to roll".to_string())
+            }
             Fidelity::Planar if self.is_fast(self.ending.state[INNER.spin()]) => Ok(()),
             Fidelity::Planar => Err("the inner race hardly turns at the end".to_string()),
         }

@@ -258,6 +258,7 @@ pub(super) fn machine(
             drag_square: torque("drag", "b"),
             ..coordinates.constants()
         },
+        axial: None,
         levitation: Levitation {
             stiffness: 0.0,
             damping: 0.0,

@@ -80,7 +80,7 @@ impl Classes {
 fn planar(machine: &RotorMachine, k: usize) -> Result<&PlanarConstants, String> {
     match &machine.constants.bearings[k].bearing {
         BearingConstants::Planar(bearing) => Ok(bearing),
-        BearingConstants::Rolling(_) => Err("a bearing without states of its balls".to_string()),
+        _ => Err("a bearing without states of its balls in the plane".to_string()),
     }
 }
 

@@ -10,8 +10,8 @@ use model::spatial::pocket::SpatialPocket;
 use model::spatial::race::RaceGroove;
 use model::spatial::rigid_body::{BODY_STATES, Inertia};
 use model::spatial::{
-    AssemblyConstants, CageConstants, CageGuide, Frame, InnerRing, OuterRing, RowConstants,
-    SpatialBall, SpatialLand, SpatialRotor,
+    AssemblyConstants, CageConstants, CageGuide, Frame, InnerRing, LandingConstants, OuterRing,
+    RowConstants, SpatialBall, SpatialLand, SpatialRotor,
 };
 use number::Vec3;
 use physics::contact_nodes::ContactNode;
@@ -249,22 +249,24 @@ impl Params<'_> {
         Ok(SpatialRotor {
             inertia: self.inertia(["m_r", "Ir_a", "Ir_t"])?,
             eccentricity: self.number("e_u")?,
-            contact: JournalContact {
-                radial_clearance: self.number("c0")?,
-                bore_radius: self.positive("R0")?,
-                stiffness: self.number("kr")? / stations.len() as f64,
-                exponent: self.number("nrx")?,
-                damping: self.number("ar")?,
-                friction: self.number("mur")?,
-                inverse_reference_speed: 1.0 / self.positive("u0r")?,
+            landing: LandingConstants {
+                contact: JournalContact {
+                    radial_clearance: self.number("c0")?,
+                    bore_radius: self.positive("R0")?,
+                    stiffness: self.number("kr")? / stations.len() as f64,
+                    exponent: self.number("nrx")?,
+                    damping: self.number("ar")?,
+                    friction: self.number("mur")?,
+                    inverse_reference_speed: 1.0 / self.positive("u0r")?,
+                },
+                stations,
+                faces: match self.number("face")? {
+                    0.0 => Vec::new(),
+                    side @ (1.0 | -1.0) => vec![face(side)?],
+                    other => return Err(format!("face is {other}, not -1, 0 or 1")),
+                },
+                face_nodes: cosines.iter().zip(&sines).map(|(c, s)| [*c, *s]).collect(),
             },
-            stations,
-            faces: match self.number("face")? {
-                0.0 => Vec::new(),
-                side @ (1.0 | -1.0) => vec![face(side)?],
-                other => return Err(format!("face is {other}, not -1, 0 or 1")),
-            },
-            face_nodes: cosines.iter().zip(&sines).map(|(c, s)| [*c, *s]).collect(),
             levitation: if levitation.carries || levitation.carries_axially {
                 Some((levitation, self.list("sa")?))
             } else {

@@ -4,8 +4,8 @@ use super::given::{Params, inward, rates_outward};
 use crate::compare::{Worst, part};
 use crate::machines::json::{list, number, numbers};
 use crate::report::{Row, Tolerance};
-use model::spatial::assembly::BallContacts;
 use model::spatial::rigid_body::BODY_STATES;
+use model::spatial::row::BallContacts;
 use model::spatial::{Assembly, AssemblyConstants};
 use number::Vec3;
 use serde_json::Value;
@@ -83,7 +83,7 @@ fn point(given: &Value, place: &str, worst: &mut Worst) -> Result<(), String> {
             compared.add(name, unit, [dy[*k], ours[*k]]);
         }
     }
-    balls(given, place, (&machine, &assembly, &state), worst)?;
+    balls(given, place, (&machine, &state), worst)?;
 
     let theirs: [f64; 8] = numbers(given, "globals")?;
     let ours = [
@@ -135,7 +135,7 @@ fn point(given: &Value, place: &str, worst: &mut Worst) -> Result<(), String> {
 fn balls(
     given: &Value,
     place: &str,
-    (machine, assembly, state): (&AssemblyConstants, &Assembly<f64>, &[f64]),
+    (machine, state): (&AssemblyConstants, &[f64]),
     worst: &mut Worst,
 ) -> Result<(), String> {
     let theirs: Vec<Vec<f64>> = part(&given["per_ball"])?;
@@ -143,7 +143,7 @@ fn balls(
     for (row, constants) in machine.rows.iter().enumerate() {
         let free = !matches!(constants.cage.guide, model::spatial::CageGuide::Tied);
         ours.extend(
-            (0..constants.balls).map(|ball| columns(&assembly.ball(row, ball, state), free)),
+            (0..constants.balls).map(|ball| columns(&machine.ball(row, ball, state), free)),
         );
     }
     let wide = theirs.iter().all(|columns| columns.len() == 32);

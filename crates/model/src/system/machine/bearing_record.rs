@@ -10,13 +10,14 @@ use super::RotorMachine;
 use super::travel::Travel;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
-    BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE,
-    LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED,
+    AXIAL_FORCE, AXIAL_PENETRATION, BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD,
+    LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE,
+    PENETRATION, SLIP_SPEED,
 };
-use crate::bearing::BearingConstants;
 use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
 use crate::contact::ContactReaction;
 use crate::heats::HEATS;
+use crate::spatial::record::SpatialRecord;
 use crate::surface_heat::{Motions, Seen, SurfaceHeat};
 use crate::system::race_record::{RaceRecord, Seen as BallsSeen};
 use crate::system::rig::Drive;
@@ -69,6 +70,8 @@ pub struct BearingRecord {
     pub cubed_load_turns: f64,
     /// What its races have seen of their balls; none of a bushing.
     pub races: Option<RaceRecord>,
+    /// What is of one in space alone.
+    pub spatial: Option<Box<SpatialRecord>>,
     pub(super) rises: Vec<Rise>,
     /// The watched forces at the start of the last step, N, and its length, s.
     last_forces: ([f64; WATCHED.len()], f64),
@@ -133,9 +136,9 @@ fn rises(machine: &RotorMachine, bearing: usize, speed: f64) -> Vec<Rise> {
     let at = machine.layout().bearings[bearing];
     let race = |share: f64| Rise::through(at.inner.spin(), share * speed);
     let mut rises = vec![race(0.5), race(0.95)];
-    if matches!(part, BearingConstants::Planar(_)) {
+    if let Some(cage) = part.cage_speed_state() {
         let ratio = part.rolling_cage_ratio();
-        rises.push(Rise::through(at.bearing + 1, 0.95 * speed * ratio));
+        rises.push(Rise::through(at.bearing + cage, 0.95 * speed * ratio));
     }
     rises
 }
@@ -168,6 +171,7 @@ impl BearingRecord {
             turns: 0.0,
             cubed_load_turns: 0.0,
             races: (!part.is_bushing()).then(|| RaceRecord::new(part.bearing.balls(), speed)),
+            spatial: part.spatial().map(|own| Box::new(SpatialRecord::new(own))),
             rises: match machine.controlled() {
                 true => Vec::new(),
                 false => rises(machine, bearing, speed),
@@ -243,6 +247,14 @@ impl BearingRecord {
             }
         }
         self.last_forces = (start, length);
+        if let Some(own) = &mut self.spatial {
+            let depth = at.probe(AXIAL_PENETRATION);
+            own.faces(
+                [step.start, step.end],
+                [step.start_probe(depth), step.end_probe(depth)],
+                step.end_probe(at.probe(AXIAL_FORCE)),
+            );
+        }
         let normal = at.probe(NORMAL_FORCE);
         self.impulse += 0.5 * length * (step.start_probe(normal) + step.end_probe(normal));
         let spins = [
@@ -348,6 +360,10 @@ impl BearingRecord {
 
     /// Looks at the balls of the bearing in a state.
     pub(super) fn look(&mut self, machine: &RotorMachine, time: f64, state: &[f64]) {
+        let part = &machine.constants.bearings[self.bearing];
+        if let (Some(record), Some(own)) = (&mut self.spatial, part.spatial()) {
+            record.look(own, time, &self.at.motion(state), &state[self.at.own()]);
+        }
         if let Some(races) = &mut self.races {
             races.look(&BallsSeen {
                 bearing: &machine.constants.bearings[self.bearing].bearing,
@@ -392,10 +408,11 @@ impl BearingRecord {
         let cage = spin * part.bearing.rolling_cage_ratio();
         let slip = step.end_probe(at.probe(SLIP_SPEED));
         let slow = |error: f64, speed: f64| error.abs() < ROLLING_SLIP * speed.abs();
-        let with_cage = matches!(part.bearing, BearingConstants::Planar(_));
+        let slips = |state: usize| step.end_state(at.bearing + state) - cage;
+        let cage_rolls = (part.bearing.cage_speed_state()).is_none_or(|own| slow(slips(own), cage));
         let rolls = step.end_probe(at.probe(NORMAL_FORCE)) > 0.0
             && slow(slip, spin * part.contact.bore_radius)
-            && (!with_cage || slow(step.end_state(at.bearing + 1) - cage, cage))
+            && cage_rolls
             && (self.whirl_turns - self.whirled).abs() < WHIRLING_TURNS;
         match rolls {
             true => self.rolled += cage.abs() * (step.end - step.start) / (2.0 * PI),
@@ -478,6 +495,9 @@ fn contact_at(step: &mut Step<RotorMachine>, bearing: usize, theta: f64) -> Cont
     // both races; the one ring of a bushing ends behind its spin
     let ends = [at.inner, at.outer].map(|race| race.channels().end);
     let state = step.leading_state(theta, ends[0].max(ends[1]));
+    if let Some(found) = machine.one.contact_in_space(bearing, state) {
+        return found;
+    }
     let rotor = machine.layout().rotor.motion(state);
     let centre = machine.one.nodes[bearing].centre(&rotor);
     (machine.constants.bearings[bearing].contact).react(

@@ -5,7 +5,7 @@ use crate::base::BaseConstants;
 use crate::force::ForceConstants;
 use crate::levitation::Levitation;
 use crate::magnets::{ControlEvent, MagnetsConstants};
-use crate::rotor::{RotorConstants, Unbalance};
+use crate::rotor::{AxialConstants, RotorConstants, Unbalance};
 use crate::schedule::Schedule;
 use crate::seal::SealConstants;
 use crate::system::rig::refusal::{self, Refusal};
@@ -16,6 +16,8 @@ use number::Vec2;
 pub struct MachineConstants {
     /// The whole rotor; on a rig what drives the race.
     pub rotor: RotorConstants,
+    /// How the rotor moves along its axis, where bearings in space carry it.
+    pub axial: Option<AxialConstants<f64>>,
     /// Levitation of a point rotor, active before release only.
     pub levitation: Levitation<f64>,
     /// Magnets with their controllers, or with currents that decay after the release.
@@ -97,6 +99,8 @@ pub enum Event {
     Knot,
     /// The unbalance of that place among those that come on the way is there.
     Unbalance(usize),
+    /// The axial magnet holds with this share of its force.
+    Thrust(f64),
     /// A load acts at that place among the loaded nodes, N, in the place of the one before.
     Load(usize, Vec2<f64>),
     /// Something happens to the controllers of the magnets.
@@ -141,6 +145,9 @@ impl MachineConstants {
             Some("a rig has one bearing")
         } else if self.base.is_some() && self.bearings.iter().any(|part| on_rig(&part)) {
             Some("the base of a rig stands still")
+        } else if self.axial.is_none() != self.bearings.iter().all(|part| part.spatial().is_none())
+        {
+            Some("a rotor moves along its axis where bearings in space carry it")
         } else if rows.any(|row| row.len() != count || still(row)) {
             Some("a node has an entry for each coordinate, and moves with one of them")
         } else if self.at_speeds.len() > MOST_SPEEDS {

@@ -76,6 +76,8 @@ pub struct Layout {
     pub magnets: Range<usize>,
     probes: usize,
     watched_probes: usize,
+    /// States of the first bearing up to the speed of its cage.
+    to_cage: usize,
 }
 
 impl Deref for Layout {
@@ -94,6 +96,7 @@ impl Layout {
         let rotor = RotorAt {
             first: ROTOR,
             coordinates: own.coordinates.len(),
+            axial: constants.axial.is_some(),
         };
         let fixture = parts[0].fixture.as_deref();
         let clutch = fixture.is_some_and(|own| matches!(own.drive, Drive::Clutch(_)));
@@ -175,13 +178,19 @@ impl Layout {
             channels.impulses_of("", fixture.housing.iter().map(|_| "bearing_impulse"));
             channels.works_of("", WORKS);
         }
-        // balls that roll find the largest loads in the list of all, a rig their sum
+        // balls that roll, and those in space, find the largest loads in the list of all, a rig their sum
         let looks = |part: &AuxiliaryBearingConstants| {
-            fixture.is_some() || matches!(part.bearing, BearingConstants::Rolling(_))
+            fixture.is_some() || !matches!(part.bearing, BearingConstants::Planar(_))
         };
         let watched_probes = match (parts.iter().any(looks), &bearings[..]) {
             (false, _) => parts.len() * probe::COUNT,
-            (true, [only]) => only.detail + 2 * only.balls,
+            (true, [only]) => {
+                let lists = match parts[0].bearing {
+                    BearingConstants::Spatial(_) => DETAIL_PER_BALL,
+                    _ => 2,
+                };
+                only.detail + lists * only.balls
+            }
             (true, _) => probes,
         };
         Layout {
@@ -192,6 +201,7 @@ impl Layout {
             magnets,
             probes,
             watched_probes,
+            to_cage: parts[0].bearing.cage_speed_state().unwrap_or(1) + 1,
         }
     }
     /// Number of probes.
@@ -204,7 +214,7 @@ impl Layout {
     }
     /// Number of first channels watched in every step: rotor, races, and the cage of the first bearing.
     pub fn watched_channels(&self) -> usize {
-        (self.bearings[0].bearing + 2).min(self.ledger())
+        (self.bearings[0].bearing + self.to_cage).min(self.ledger())
     }
 
     /// The magnitude that matters in each channel: a tolerance of 1e-6 allows errors of one millionth of it a step.
@@ -217,7 +227,9 @@ impl Layout {
         if let Some(fixture) = &constants.bearings[0].fixture {
             return self.error_scale_on_rig(constants, fixture);
         }
-        let gravity = constants.gravity.length_squared().sqrt().max(LEAST_GRAVITY);
+        let along = constants.axial.map_or(0.0, |axial| axial.gravity);
+        let gravity = (constants.gravity.length_squared() + along * along).sqrt();
+        let gravity = gravity.max(LEAST_GRAVITY);
         let spin = constants.speed.abs().max(match constants.rotor.driven() {
             true => RUN_UP_SPIN,
             false => 10.0,
@@ -242,6 +254,10 @@ impl Layout {
         }
         scale[rotor.angle()] = 1.0;
         scale[rotor.spin()] = spin;
+        if rotor.axial {
+            scale[rotor.place()] = 0.01 * smallest;
+            scale[rotor.place() + 1] = 0.3 * fall(smallest);
+        }
         if let Some(magnets) = &constants.magnets {
             magnets.error_scale(&mut scale[self.magnets.clone()], 0.01 * smallest);
         }

@@ -13,6 +13,7 @@ use super::{Mode, RotorMachine};
 use crate::auxiliary_bearing::{HEATS, SOURCES};
 use crate::bearing::BearingEnergy;
 use crate::mount::MountReaction;
+use crate::spatial::rigid_body::{BODY_STATES, RigidBody};
 use crate::system::energy::{Balance, Content, Flows};
 use number::Vec2;
 use solve::Machine;
@@ -33,7 +34,17 @@ impl RotorMachine {
             angular_momentum: rotor.angular_momentum,
         };
         let parts = self.layout().bearings.iter().zip(&c.bearings);
+        let [translation, potential] = self.one.axial_content(state);
+        content.translation += translation;
+        content.potential += potential;
         for (k, (at, part)) in parts.enumerate() {
+            if part.spatial().is_some() {
+                if k == 0 {
+                    content.potential += rotor.weight + rotor.elastic;
+                }
+                self.add_in_space(k, state, &mut content);
+                continue;
+            }
             let races = at.motion(state);
             let (inner, outer) = (&races.inner, &races.outer);
             let (race, outer_mass) = (&part.inner_race, part.outer_moving_mass());
@@ -71,6 +82,32 @@ impl RotorMachine {
             content.angular_momentum += planes * bearing.angular_momentum;
         }
         content
+    }
+
+    /// Adds what a bearing in space stores, about its datum.
+    fn add_in_space(&self, k: usize, state: &[f64], content: &mut Content) {
+        let (at, part) = (&self.layout().bearings[k], &self.constants.bearings[k]);
+        let (Some(own), Some(rotor)) = (part.spatial(), self.one.node_in_space(k, state)) else {
+            return;
+        };
+        // the rotor's place in the assembly's own list is empty here
+        let mut list = vec![0.0; BODY_STATES];
+        list[6] = 1.0;
+        let rings = [at.inner, at.outer].map(|ring| ring.channels().start);
+        for first in rings {
+            list.extend(&state[first..first + BODY_STATES]);
+        }
+        let inner = RigidBody::read(&list[BODY_STATES..]);
+        list.extend(&state[at.own()]);
+        let found = part.assembly().content(&list);
+        let landed = own.landing.energy(&rotor, rotor.position, &inner);
+        let mount = &self.one.bearings[k].mount;
+        let outer = at.motion(state).outer;
+        let [mounted, moving] = mount.energy(outer.position, &state[at.of_mount()]);
+        content.translation += part.planes * (found.kinetic - found.turning + moving);
+        content.spin += part.planes * found.turning;
+        content.potential += part.planes * (found.potential + landed + mounted);
+        content.angular_momentum += part.planes * found.angular_momentum.z;
     }
 
     /// What the ledger channels of a state have summed up, of all rows of each bearing.

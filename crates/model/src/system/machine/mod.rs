@@ -12,6 +12,7 @@
 //! |---|---|
 //! | [`layout`] | where everything stands in the state |
 //! | [`rate`] | the equations of motion |
+//! | `in_space` | bearings in space, and the rotor along its axis |
 //! | [`start`] | the levitated state at release |
 //! | [`ledger`] | energies, momentum, what closes |
 //! | [`tangents`] | what is stiff, for linearly implicit steps |
@@ -30,6 +31,7 @@
 
 pub mod bearing_record;
 pub mod constants;
+mod in_space;
 pub mod layout;
 pub mod ledger;
 pub mod rate;
@@ -55,6 +57,7 @@ use ::levitation::OfAxes;
 pub use constants::{
     AtSpeed, Event, MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES, MachineConstants, Reached,
 };
+use in_space::InSpace;
 use layout::Layout;
 use number::{Gather, Real, Vec2};
 use solve::{Batch, Machine};
@@ -64,6 +67,8 @@ use solve::{Batch, Machine};
 pub struct Mode<R> {
     /// Levitation.
     pub levitation: R,
+    /// Axial magnet: share of its force.
+    pub thrust: R,
     /// Brake of the rotor: share of its torque.
     pub brake: R,
     /// What the drive of the rotor has more than at the start, N m.
@@ -92,6 +97,7 @@ impl Mode<f64> {
     fn happen(&mut self, event: Event) {
         match event {
             Event::Brake(share) => self.brake = share,
+            Event::Thrust(share) => self.thrust = share,
             Event::Drive(torque) => self.driving = torque,
             Event::Load(place, force) => self.loads[place] = force,
             Event::Unbalance(plane) => self.unbalances |= 1 << plane,
@@ -131,6 +137,8 @@ pub struct Machines<R: Real> {
     base: Option<Base<R>>,
     gravity: Vec2<R>,
     bearings: Vec<AuxiliaryBearing<R>>,
+    /// The rotor along its axis, and its nodes in bearings in space.
+    space: Option<InSpace<R>>,
     /// The rotor's node in each.
     nodes: Vec<Node<R>>,
     /// Of each, the housing on which it stands; none on the ground.
@@ -244,6 +252,7 @@ impl RotorMachine {
         let [load, drive] = (self.fixture()).map_or(nothing, |fixture| fixture.pieces(time));
         Mode {
             levitation: f64::from(u8::from(self.levitated)),
+            thrust: 1.0,
             brake: 0.0,
             driving: 0.0,
             loads: [Vec2::zero(); MOST_LOADED],
@@ -424,6 +433,7 @@ impl<R: Real> Machines<R> {
                 })
             }),
             gravity: Gather::<R>::gather(&|lane| &constants(lane).gravity),
+            space: InSpace::gather(constants),
             bearings: bearings
                 .map(|k| AuxiliaryBearing::gather(&|lane| &constants(lane).bearings[k]))
                 .collect(),
@@ -578,6 +588,7 @@ impl<R: Real> Batch<R> for Machines<R> {
     fn gather_mode(modes: &dyn Fn(usize) -> Mode<f64>) -> Mode<R> {
         Mode {
             levitation: R::from_lanes(|lane| modes(lane).levitation),
+            thrust: R::from_lanes(|lane| modes(lane).thrust),
             brake: R::from_lanes(|lane| modes(lane).brake),
             driving: R::from_lanes(|lane| modes(lane).driving),
             loads: std::array::from_fn(|k| Vec2 {

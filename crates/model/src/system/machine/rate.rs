@@ -1,5 +1,6 @@
 //! The equations of motion of a machine.
 
+use super::in_space::SpatialActs;
 use super::layout::ROTOR_SOURCES;
 use super::{Machines, Mode};
 use crate::auxiliary_bearing::{AtNode, Outlet};
@@ -14,7 +15,7 @@ const KEPT: usize = 2;
 
 /// Rates of the rotor's coordinates: of x, y, ẋ, ẏ.
 #[inline(always)]
-fn blocks<R>(rate: &mut [R], coordinates: usize) -> [&mut [R]; 4] {
+pub(super) fn blocks<R>(rate: &mut [R], coordinates: usize) -> [&mut [R]; 4] {
     let (x, rest) = rate.split_at_mut(coordinates);
     let (y, rest) = rest.split_at_mut(coordinates);
     let (vx, rest) = rest.split_at_mut(coordinates);
@@ -119,6 +120,9 @@ impl<R: Real> Machines<R> {
         }
         let mut kept: [Option<AtNode<'_, R>>; KEPT] = [None; KEPT];
         for (k, node) in self.nodes.iter().enumerate() {
+            if self.bearings[k].spatial.is_some() {
+                continue;
+            }
             let there = self.at_node(k, state, &rotor, acting);
             let (on_journal, planes) = (&there.contact.on_journal, self.bearings[k].planes);
             node.push(on_journal.force * planes, [&mut *force_x, &mut *force_y]);
@@ -159,6 +163,11 @@ impl<R: Real> Machines<R> {
             moment += centre.arm.cross(own);
             pushing += own.dot(centre.velocity);
             pulled += centre.position.cross(own);
+        }
+        let mut in_space = SpatialActs::none();
+        if let Some(space) = &self.space {
+            in_space = self.act_in_space(space, mode, &rotor, state, (&mut *rate, &mut *probe));
+            moment += in_space.moment;
         }
         if self.housed {
             pulled += self.push_housings(&rotor, state, rate);
@@ -203,7 +212,7 @@ impl<R: Real> Machines<R> {
                 rate[layout.heat(heat)] = value;
             }
         }
-        rate[layout.source(0)] = levitation.0;
+        rate[layout.source(0)] = levitation.0 + in_space.magnet;
         rate[layout.source(1)] = torques.driving * rotor.spin;
         debug_assert!(ROTOR_SOURCES.len() == 2);
         if let Some(source) = of_rotor.magnets {
@@ -221,6 +230,9 @@ impl<R: Real> Machines<R> {
         // auxiliary bearings: what they say of angular momentum is about their datum
         let mut impulse = self.rotor.weight_moment(&rotor, gravity);
         for (k, (part, at)) in self.bearings.iter().zip(&layout.bearings).enumerate() {
+            if part.spatial.is_some() {
+                continue;
+            }
             let motion = at.motion(state);
             let held_load = acting.map_or(zero, |acting| acting.held_load);
             let reaction = part.bearing(at, (&motion, held_load), state, rate, probe);
@@ -277,5 +289,13 @@ impl<R: Real> Machines<R> {
             rate[layout.source(source)] = shaking;
         }
         rate[layout.angular_impulse()] = impulse + (pulled + shaft.external - torques.drag);
+        if self.space.is_some() {
+            // what stands beside the first bearing in the plane
+            let beside = match self.bearings[0].spatial {
+                Some(_) => held_at + torques.driving,
+                None => zero,
+            };
+            rate[layout.angular_impulse()] += in_space.external + beside;
+        }
     }
 }

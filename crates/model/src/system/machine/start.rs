@@ -1,7 +1,6 @@
 //! The levitated state at release: a steady orbit above bearings at rest.
 
 use super::{MachineConstants, RotorMachine};
-use crate::bearing::BearingConstants;
 use number::Vec2;
 use physics::unbalance::whirl;
 
@@ -76,6 +75,9 @@ impl RotorMachine {
         state[rotor.spin()] = self.constants.speed;
         for (at, part) in self.layout().bearings.iter().zip(&self.constants.bearings) {
             part.bearing.rest(&mut state[at.own()]);
+            for ring in [at.inner, at.outer] {
+                ring.rest(&mut state);
+            }
         }
         let control = self.constants.magnets.iter();
         for control in control.filter_map(|own| own.control()) {
@@ -114,9 +116,9 @@ impl RotorMachine {
         self.displace(state, rotor, Vec2::zero());
         let parts = self.layout().bearings.iter().zip(&self.constants.bearings);
         for (k, (at, part)) in parts.enumerate() {
-            if let BearingConstants::Planar(bearing) = &part.bearing {
-                for ball in 0..bearing.balls {
-                    state[at.bearing + bearing.azimuth_channel(ball)] += ball_angle(k, ball);
+            for ball in 0..part.bearing.balls() {
+                if let Some(channel) = part.bearing.azimuth_state(ball) {
+                    state[at.bearing + channel] += ball_angle(k, ball);
                 }
             }
         }

@@ -92,7 +92,7 @@ impl RotorMachine {
         // balls that roll turn with the shaft; others keep their own motion
         let rolling = match &part.bearing {
             BearingConstants::Rolling(bearing) => bearing.set.inner_inertia(),
-            BearingConstants::Planar(_) => 0.0,
+            BearingConstants::Planar(_) | BearingConstants::Spatial(_) => 0.0,
         };
         let shaft = part.inner_race.inertia + rolling;
         let shared = (flywheel * state[driver] + shaft * state[race]) / (flywheel + shaft);

@@ -105,6 +105,7 @@ impl RigConstants {
         }
         MachineConstants {
             rotor: drive.rotor(),
+            axial: None,
             levitation: Levitation::NONE,
             magnets: None,
             seals: Vec::new(),

@@ -13,6 +13,8 @@ pub enum Refusal {
     LossCreatesEnergy,
     /// An acceleration loss per acceleration so large that braking would have no answer.
     LossExceedsInertia,
+    /// A bearing in space.
+    InSpace,
     /// A radial load below zero.
     NegativeLoad,
     /// A step of speed on balls that always roll: they would need an infinite torque.
@@ -41,6 +43,7 @@ impl fmt::Display for Refusal {
             Refusal::DragToGround => f.write_str(
                 "with the steady moment shared by the balls nothing may drag on balls or cage from the ground",
             ),
+            Refusal::InSpace => f.write_str("a rig has a bearing of the plane"),
             Refusal::LossCreatesEnergy => f.write_str(
                 "the acceleration loss is negative somewhere: it would create energy",
             ),
@@ -107,6 +110,7 @@ pub fn of_bearing(
                 }
             }
         }
+        BearingConstants::Spatial(_) => return Err(Refusal::InSpace),
     }
     Ok(())
 }

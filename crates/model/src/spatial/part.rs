@@ -1,0 +1,475 @@
+//! A bearing in space as a part of a machine: rows on shared rings, the landing surfaces of the inner one, the mount of the outer one.
+//!
+//! ```text
+//!   states   inner ring, outer ring: 13 and the turned angle each;  own: a cage for each row (13), then the rows' balls, nine lists each
+//!   outer ring   across the axis the mount as in the plane, along it and against tilt [`SpatialMount`]; without tilt it keeps its orientation
+//! ```
+//! Frame: origin at the datum of the bearing, axes of the machine. The rotor's node comes in as a body, the wrench on it goes out, about
+//! the point C of its axis.
+//!
+//! Does not model: growth of the inner ring with speed, a steady friction moment, mounts on housings that move, a base that moves.
+
+use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
+use super::ball::{BALL_STATES, BallState};
+use super::landing::{Landing, LandingConstants, LandingReaction};
+use super::mount::SpatialMount;
+use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
+use super::row::{BallContacts, CageGuide, RowConstants};
+use crate::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, Outlet, probe};
+use crate::bearing::ball_sums::largest;
+use crate::bearing::{self, BearingConstants, RaceContact, seat};
+use crate::contact::ContactReaction;
+use crate::heats::HEATS;
+use crate::motion::{Motion, Wrench};
+use number::{Real, Vec2, Vec3};
+use physics::rolling::RollingSet;
+
+/// What a bearing in space has besides what every auxiliary bearing has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpatialBearing {
+    /// Rows by rising place, each with the gravity on its balls; the cage of the first turns as results say.
+    pub rows: Vec<RowConstants>,
+    /// Balls and cages in the plane: how they roll.
+    pub set: RollingSet<f64>,
+    /// Row of the rotation of the rotor's node in it; zero of a point.
+    pub rotation: Vec<f64>,
+    /// That node's place along the axis from the rotor's centre of mass, m.
+    pub lever: f64,
+    /// Inertia of the inner ring about an axis across, kg m².
+    pub inner_transverse: f64,
+    /// Inertias of the outer ring about its axis and across, kg m², where it tilts and twists in its mount.
+    pub outer_inertias: Option<[f64; 2]>,
+    /// The mount along the axis and against tilt; across the axis it is that of the part.
+    pub mount: SpatialMount<f64>,
+    /// Azimuth of the first ball of each row at the start, rad.
+    pub first_ball_angle: f64,
+    /// Where the rotor lands; the contact of one station.
+    pub landing: LandingConstants,
+    /// Angles at which the grooves of inner and outer race end, rad, where they are known.
+    pub groove_ends: Option<[f64; 2]>,
+    /// What its balls do to the inner and to the outer race, for the record alone.
+    pub races: Option<[RaceContact; 2]>,
+}
+
+/// Names of the states of a body in space.
+pub const BODY_NAMES: [&str; BODY_STATES] = [
+    "x",
+    "y",
+    "z",
+    "x_speed",
+    "y_speed",
+    "z_speed",
+    "orientation_w",
+    "orientation_x",
+    "orientation_y",
+    "orientation_z",
+    "x_spin",
+    "y_spin",
+    "speed",
+];
+const BALL_NAMES: [&str; BALL_STATES] = [
+    "radius",
+    "radial_speed",
+    "azimuth",
+    "orbit_speed",
+    "z",
+    "z_speed",
+    "radial_spin",
+    "tangential_spin",
+    "spin",
+];
+/// Among the states of a body: that of its turning about the axis of the frame.
+pub const SPIN: usize = BODY_STATES - 1;
+const AZIMUTH: usize = 2;
+
+impl SpatialBearing {
+    /// Number of balls of all rows.
+    pub fn balls(&self) -> usize {
+        self.rows.iter().map(|row| row.balls).sum()
+    }
+    /// Number of its own states.
+    pub fn states(&self) -> usize {
+        BODY_STATES * self.rows.len() + BALL_STATES * self.balls()
+    }
+    /// Row of a ball, its place in it, and the first state of that row's balls.
+    fn place(&self, ball: usize) -> (&RowConstants, usize, usize) {
+        let (mut first, mut left) = (BODY_STATES * self.rows.len(), ball);
+        for row in &self.rows {
+            if left < row.balls {
+                return (row, left, first);
+            }
+            left -= row.balls;
+            first += BALL_STATES * row.balls;
+        }
+        panic!("a bearing of {} balls has no ball {ball}", self.balls())
+    }
+    /// Channel of the azimuth of a ball among its own states.
+    pub fn azimuth_channel(&self, ball: usize) -> usize {
+        let (row, own, first) = self.place(ball);
+        first + AZIMUTH * row.balls + own
+    }
+    /// Name of one of its states.
+    pub fn state_name(&self, state: usize) -> String {
+        let (row, of) = (state / BODY_STATES, state % BODY_STATES);
+        if row < self.rows.len() {
+            return match row {
+                0 => format!("cage.{}", BODY_NAMES[of]),
+                row => format!("cage_{}.{}", row + 1, BODY_NAMES[of]),
+            };
+        }
+        let (mut ball, mut left) = (0, state - BODY_STATES * self.rows.len());
+        for row in &self.rows {
+            if left < BALL_STATES * row.balls {
+                ball += left % row.balls + 1;
+                return format!("ball_{ball:02}.{}", BALL_NAMES[left / row.balls]);
+            }
+            left -= BALL_STATES * row.balls;
+            ball += row.balls;
+        }
+        panic!("no state {state}")
+    }
+    /// Its own states at rest between concentric rings, with the preload of its rows.
+    pub fn rest(&self, state: &mut [f64]) {
+        state.fill(0.0);
+        let (sine, cosine) = (0.5 * self.first_ball_angle).sin_cos();
+        for (index, row) in self.rows.iter().enumerate() {
+            let cage = &mut state[BODY_STATES * index..];
+            let [_, axial] = row.ball.between_rings();
+            (cage[2], cage[6], cage[9]) = (axial, cosine, sine);
+        }
+        let mut first = BODY_STATES * self.rows.len();
+        for row in &self.rows {
+            let [radius, axial] = row.ball.between_rings();
+            for j in 0..row.balls {
+                let azimuth = self.first_ball_angle + seat(j, row.balls);
+                for (k, value) in [(0, radius), (AZIMUTH, azimuth), (4, axial)] {
+                    state[first + k * row.balls + j] = value;
+                }
+            }
+            first += BALL_STATES * row.balls;
+        }
+    }
+    /// The magnitude that matters in each of its own states; `spin` is a speed of the inner ring, `speed` one of centres.
+    pub fn error_scale(&self, scale: &mut [f64], spin: f64, speed: f64) {
+        let radius = self.rows[0].ball.radius;
+        for index in 0..self.rows.len() {
+            let body = &mut scale[BODY_STATES * index..BODY_STATES * (index + 1)];
+            orientation_scale(body, 1e-4, 0.01 * spin);
+            body[..3].fill(1e-4 * radius);
+            body[3..6].fill(speed);
+            body[SPIN] = 0.01 * spin;
+        }
+        let mut first = BODY_STATES * self.rows.len();
+        for row in &self.rows {
+            let turning = spin * self.set.inner_track_radius / row.ball.radius;
+            let of_list = [
+                1e-4 * radius,
+                speed,
+                1.0,
+                0.01 * spin,
+                1e-4 * radius,
+                speed,
+                turning,
+                turning,
+                turning,
+            ];
+            for value in of_list {
+                scale[first..first + row.balls].fill(value);
+                first += row.balls;
+            }
+        }
+    }
+    /// Azimuth of a ball, rad.
+    pub fn azimuth(&self, state: &[f64], ball: usize) -> f64 {
+        state[self.azimuth_channel(ball)]
+    }
+    /// State of a ball.
+    pub fn ball(&self, state: &[f64], ball: usize) -> BallState<f64> {
+        let (row, own, first) = self.place(ball);
+        BallState::from_array(std::array::from_fn(|k| state[first + k * row.balls + own]))
+    }
+    /// Contacts and pocket of a ball.
+    pub fn contacts(&self, motion: &Motion<f64>, state: &[f64], ball: usize) -> BallContacts<f64> {
+        let (row, own, first) = self.place(ball);
+        let index = (self.rows.iter()).position(|other| std::ptr::eq(other, row));
+        let cage = RigidBody::read(&state[BODY_STATES * index.unwrap_or(0)..]);
+        let rings = [&motion.inner, &motion.outer].map(RigidBody::of);
+        row.contacts([&rings[0], &rings[1], &cage], &state[first..], own)
+    }
+    /// What slip and spin at the contacts of a ball heat: power, W, and the speeds of the surfaces of ball and race past the contact, m/s.
+    pub fn sliding(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        ball: usize,
+    ) -> [(f64, [f64; 2]); 2] {
+        let races = self.contacts(motion, state, ball).races;
+        [0, 1].map(|race| {
+            let contact = races.touch[race].slides();
+            let half = 0.5 * contact.slip;
+            let speeds = [contact.entrainment - half, contact.entrainment + half];
+            (races.traction[race].heat, speeds)
+        })
+    }
+    /// Whether a shoulder of the rotor may meet a face.
+    pub fn stops(&self) -> bool {
+        !self.landing.faces.is_empty()
+    }
+    /// Whether a kind of heat may be made in it.
+    pub fn may_make(&self, heat: &str) -> bool {
+        match heat {
+            "cage_land_damping" | "cage_land_friction" => {
+                let lands = |row: &RowConstants| {
+                    matches!(
+                        row.cage.guide,
+                        CageGuide::OuterLand(_) | CageGuide::InnerLand(_)
+                    )
+                };
+                self.rows.iter().any(lands)
+            }
+            "ball_ball_damping" | "ball_ball_friction" | "inlet_rolling" | "steady_moment" => false,
+            _ => true,
+        }
+    }
+    /// Mass of its cages that moves with the outer ring, kg.
+    pub fn tied_mass(&self) -> f64 {
+        let tied = self.rows.iter().filter(|row| row.cage.is_tied());
+        tied.map(|row| row.cage.inertia.mass).sum()
+    }
+    /// Mass of balls and cages that move by their own states, kg.
+    pub fn free_mass(&self) -> f64 {
+        let rows = self.rows.iter();
+        let all = rows.map(|row| row.cage.inertia.mass + row.balls as f64 * row.ball.mass);
+        all.sum::<f64>() - self.tied_mass()
+    }
+}
+
+/// The magnitude that matters in the orientation of a body: of its tilt, rad, and of the rate of that, rad/s; its turn counts whole.
+pub fn orientation_scale(body: &mut [f64], tilt: f64, rate: f64) {
+    body[6..10].copy_from_slice(&[1.0, tilt, tilt, 1.0]);
+    body[10..12].fill(rate);
+}
+
+impl AuxiliaryBearingConstants {
+    /// What it is in space, where it is.
+    pub fn spatial(&self) -> Option<&SpatialBearing> {
+        match &self.bearing {
+            BearingConstants::Spatial(own) => Some(own),
+            _ => None,
+        }
+    }
+    /// Its rows, rings and mount in space; across the axis the mount is left to its own law.
+    ///
+    /// # Panics
+    /// When it is none in space.
+    pub fn assembly(&self) -> AssemblyConstants {
+        let own = self.spatial().expect("a bearing in space");
+        let race = &self.inner_race;
+        let [axial, transverse] = own.outer_inertias.unwrap_or([1.0; 2]);
+        AssemblyConstants {
+            gravity: own.rows[0].ball.gravity,
+            inner: InnerRing {
+                inertia: Inertia {
+                    mass: race.mass,
+                    axial: race.inertia,
+                    transverse: own.inner_transverse,
+                },
+                held: race.centre_held,
+                torque: race.torque,
+                force: Vec3::zero(),
+                moment: Vec3::zero(),
+                settling: 0.0,
+                tilt_settling: 0.0,
+            },
+            outer: OuterRing {
+                inertia: Inertia {
+                    mass: self.outer_race_mass,
+                    axial,
+                    transverse,
+                },
+                turns: own.outer_inertias.is_some(),
+                mount: own.mount,
+            },
+            rows: own.rows.clone(),
+            rotor: None,
+        }
+    }
+}
+
+/// A bearing in space over `R`.
+#[derive(Clone, Debug)]
+pub struct Spatial<R: Real> {
+    assembly: Assembly<R>,
+    landing: Landing<R>,
+}
+
+/// What a bearing in space does to its machine.
+#[derive(Clone, Copy, Debug)]
+pub struct SpatialReaction<R> {
+    /// On the rotor about C.
+    pub on_rotor: SpatialWrench<R>,
+    /// Moment from outside about the axis through the datum, N m.
+    pub external: R,
+}
+
+impl<R: Real> Spatial<R> {
+    pub(crate) fn gather<'a>(
+        machine: &dyn Fn(usize) -> &'a AuxiliaryBearingConstants,
+    ) -> Option<Self> {
+        machine(0).spatial()?;
+        let each: Vec<AssemblyConstants> =
+            (0..R::LANES).map(|lane| machine(lane).assembly()).collect();
+        let landing = |lane: usize| {
+            &machine(lane)
+                .spatial()
+                .expect("lanes share the fidelity")
+                .landing
+        };
+        Some(Spatial {
+            assembly: Assembly::gather(&|lane| &each[lane]),
+            landing: Landing::gather(&landing),
+        })
+    }
+
+    /// Rates of rings, cages and balls, heats, sources and probes of a bearing whose rotor does this, its mount across the axis with
+    /// this force, N, and heat, W.
+    pub(crate) fn react(
+        &self,
+        at: &BearingAt,
+        rotor: &RigidBody<R>,
+        (across, heat): (Vec2<R>, R),
+        into: Outlet<'_, R>,
+    ) -> SpatialReaction<R> {
+        let Outlet {
+            heat: first_heat,
+            source,
+            state,
+            rate,
+            probe,
+        } = into;
+        let zero = R::zero();
+        let (inner_at, outer_at) = (at.inner.channels(), at.outer.channels());
+        let mut bodies = Bodies::read(&state[inner_at.clone()], &state[outer_at.clone()]);
+        let landed = self.landing.react(rotor, rotor.position, &bodies.inner);
+        bodies.land(&landed);
+        let balls = self.assembly.balls();
+        let detail = if probe.is_empty() {
+            &mut [][..]
+        } else {
+            let end = at.detail + bearing::DETAIL_PER_BALL * balls;
+            &mut probe[at.detail..end]
+        };
+        let own = at.own();
+        let both = (&state[own.clone()], &mut rate[own.clone()]);
+        self.assembly.act(&mut bodies, both, detail);
+
+        let by_balls = bodies.on_outer.force;
+        let across = Vec3::new(across.x, across.y, zero);
+        bodies.on_outer.force += across;
+        let along = self.assembly.outer.mount.wrench(&bodies.outer);
+        let external = bodies.external + self.from_outside(&bodies, along, across);
+        self.assembly.move_inner(&mut bodies, &mut rate[inner_at]);
+        let acceleration = (self.assembly).move_outer(&mut bodies, &mut rate[outer_at]);
+        self.assembly.carry_cages(acceleration, &mut rate[own]);
+        for (body, at) in [(&bodies.inner, at.inner), (&bodies.outer, at.outer)] {
+            rate[at.angle()] = body.spin.dot(body.axis);
+        }
+
+        let power = &bodies.power;
+        let mut heats = [zero; HEATS];
+        heats[..7].copy_from_slice(&power[..7]);
+        heats[8..10].copy_from_slice(&power[AMB + 1..AMB + 3]);
+        heats[HEATS - 3] = power[7] + heat;
+        heats[HEATS - 2] = landed.bore.heats[0] + landed.face.heats[0];
+        heats[HEATS - 1] = landed.bore.heats[1] + landed.face.heats[1];
+        rate[first_heat..first_heat + HEATS].copy_from_slice(&heats);
+        rate[source] = power[16];
+        rate[source + 1] = zero;
+        if !probe.is_empty() {
+            let of_mount = across + along.force;
+            let largest = |list| largest(&probe[at.detail..], balls, list);
+            let loads = [largest(0), largest(1)];
+            let skids = [0, 1].map(|race| skid(&probe[at.detail..], balls, race));
+            let values = [
+                landed.bore.penetration,
+                landed.bore.penetration_speed,
+                landed.bore.normal_force,
+                landed.bore.elastic_rate,
+                landed.bore.along,
+                landed.bore.slip,
+                loads[0],
+                loads[1],
+                largest(4),
+                bodies.land_force,
+                by_balls.length_squared().sqrt(),
+                of_mount.length_squared().sqrt(),
+                skids[0],
+                skids[1],
+                landed.face.penetration,
+                landed.face.normal_force,
+            ];
+            let own: [R; probe::COUNT] = values;
+            probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&own);
+        }
+        SpatialReaction {
+            on_rotor: landed.on_rotor,
+            external,
+        }
+    }
+
+    /// Moment about the axis through the origin by drive, mount, weights, what holds the inner ring and what keeps the outer one from
+    /// turning.
+    fn from_outside(&self, bodies: &Bodies<R>, along: SpatialWrench<R>, across: Vec3<R>) -> R {
+        let Assembly {
+            gravity,
+            inner,
+            outer,
+            ..
+        } = &self.assembly;
+        let (ring, outer_ring) = (&bodies.inner, &bodies.outer);
+        let on_inner = match inner.held {
+            true => -bodies.on_inner.force,
+            false => *gravity * inner.inertia.mass,
+        };
+        let on_outer = across + along.force + *gravity * outer.inertia.mass;
+        let mut moment = inner.torque * ring.axis.z
+            + ring.position.cross(on_inner).z
+            + outer_ring.position.cross(on_outer).z;
+        if outer.turns {
+            moment += along.moment.z;
+        } else {
+            moment -= bodies.on_outer.moment.z;
+        }
+        moment
+    }
+    /// The contact of a rotor in the bore, as the plane has it; `rings` is the inner ring's states.
+    pub(crate) fn contact(&self, rotor: &RigidBody<R>, ring: &[R]) -> ContactReaction<R> {
+        let LandingReaction { bore, .. } =
+            (self.landing).react(rotor, rotor.position, &RigidBody::read(ring));
+        ContactReaction {
+            on_journal: Wrench::zero(),
+            on_bore: Wrench::zero(),
+            penetration: bore.penetration,
+            penetration_speed: bore.penetration_speed,
+            normal_force: bore.normal_force,
+            elastic_force: bore.normal_force,
+            friction_force: bore.along,
+            slip_speed: bore.slip,
+            damping_heat: bore.heats[0],
+            friction_heat: bore.heats[1],
+        }
+    }
+}
+
+/// Largest u²Q of a ball at a race, from the detail.
+fn skid<R: Real>(detail: &[R], balls: usize, race: usize) -> R {
+    let mut largest = R::zero();
+    for ball in 0..balls {
+        let (load, slip) = (
+            detail[race * balls + ball],
+            detail[(2 + race) * balls + ball],
+        );
+        largest = largest.max(load * slip.square());
+    }
+    largest
+}

@@ -1,0 +1,108 @@
+//! What is watched of a bearing in space during a run, besides what is of every bearing: an observer.
+//!
+//! Contact angles, rows without load and ellipses that reach over the shoulder are seen at the looks at the balls, a few a turn and
+//! whenever their loads change; faces at the ends of the steps.
+
+use super::part::SpatialBearing;
+use crate::motion::Motion;
+use crate::system::sampling::Peak;
+
+/// An ellipse that is cut off by the shoulder of its groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunOver {
+    /// When first, s.
+    pub time: f64,
+    /// Ball, from 0.
+    pub ball: usize,
+    /// 0 at the inner, 1 at the outer race.
+    pub race: usize,
+    /// Contact angle there, rad.
+    pub angle: f64,
+    /// Load there, N.
+    pub load: f64,
+}
+
+/// Everything kept of a bearing in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpatialRecord {
+    /// Largest size of a contact angle at the inner and at the outer race, rad.
+    pub largest_angles: [Peak; 2],
+    /// When each row was first without a ball that both races press, having had one, s.
+    pub unloaded: Vec<Option<f64>>,
+    /// The first ellipse over a shoulder.
+    pub run_over: Option<RunOver>,
+    /// Largest force on the faces, N.
+    pub axial_force: Peak,
+    /// When a shoulder first met a face, s.
+    pub first_axial_contact: Option<f64>,
+    /// Which rows have carried something.
+    loaded: Vec<bool>,
+}
+
+impl SpatialRecord {
+    /// Nothing seen yet.
+    pub fn new(bearing: &SpatialBearing) -> Self {
+        SpatialRecord {
+            largest_angles: [Peak::NONE; 2],
+            unloaded: vec![None; bearing.rows.len()],
+            run_over: None,
+            axial_force: Peak::NONE,
+            first_axial_contact: None,
+            loaded: vec![false; bearing.rows.len()],
+        }
+    }
+    /// Sees the faces at both ends of a step: penetrations, m, and the force at its end, N.
+    pub fn faces(&mut self, times: [f64; 2], depths: [f64; 2], force: f64) {
+        self.axial_force.raise(force, times[1]);
+        if self.first_axial_contact.is_some() || depths[1] <= 0.0 {
+            return;
+        }
+        let share = match depths[0] < 0.0 {
+            true => depths[0] / (depths[0] - depths[1]),
+            false => 0.0,
+        };
+        self.first_axial_contact = Some(times[0] + share * (times[1] - times[0]));
+    }
+    /// Looks at the balls.
+    pub fn look(
+        &mut self,
+        bearing: &SpatialBearing,
+        time: f64,
+        motion: &Motion<f64>,
+        state: &[f64],
+    ) {
+        let mut first = 0;
+        for (index, row) in bearing.rows.iter().enumerate() {
+            let mut pressed = false;
+            for ball in first..first + row.balls {
+                let found = bearing.contacts(motion, state, ball);
+                for (race, touch) in found.races.touch.iter().enumerate() {
+                    let load = touch.load.force;
+                    if load <= 0.0 {
+                        continue;
+                    }
+                    pressed |= race == 0;
+                    let angle = touch.triad.normal[1].asin().abs();
+                    self.largest_angles[race].raise(angle, time);
+                    let beyond = bearing
+                        .groove_ends
+                        .is_some_and(|ends| angle + touch.half_axis / row.ball.radius > ends[race]);
+                    if beyond && self.run_over.is_none() {
+                        self.run_over = Some(RunOver {
+                            time,
+                            ball,
+                            race,
+                            angle,
+                            load,
+                        });
+                    }
+                }
+            }
+            first += row.balls;
+            if self.loaded[index] && !pressed {
+                self.unloaded[index].get_or_insert(time);
+            }
+            self.loaded[index] |= pressed;
+        }
+    }
+}

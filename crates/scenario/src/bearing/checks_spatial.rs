@@ -1,0 +1,160 @@
+//! Checks of bearings in space, and of a thrust that no bearing carries.
+
+use crate::bearing::Bearing;
+use crate::bearing::fits::Growth;
+use crate::bearing::kind::BearingType;
+use crate::bearing::moment::Moment;
+use crate::bearing::separation::Separation;
+use crate::bearing::spatial::Arrangement;
+use crate::checks::{Check, Context};
+use crate::drop::{AuxiliaryBearing, Drop};
+use problem::Code;
+
+const FIDELITY: &str = "bearing.fidelity";
+
+impl Context<'_> {
+    /// What is not computed of a bearing in space, and what its rows need.
+    pub fn spatial(&self, bearing: &Bearing) -> Check {
+        let Some(own) = &bearing.spatial else {
+            return Ok(());
+        };
+        let (refuse, kept) = (
+            |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed),
+            "is needed beside bearing.fidelity = \"spatial\"",
+        );
+        if !self.values.system().bends() {
+            let needed = "\"spatial\" is computed where system = \"machine\": there the rotor moves along its axis and tilts; \"planar\" is needed here";
+            return self.refuse_value(Code::NotModelled, FIDELITY, needed);
+        }
+        if matches!(bearing.separation, Separation::FullComplement(_)) {
+            return refuse("bearing.separation", &format!("\"cage\" {kept}"));
+        }
+        if bearing.moment != Moment::None {
+            let needed = format!(
+                "\"none\" {kept}: slip and spin in its contacts are what resists, and no moment is shared"
+            );
+            return refuse("bearing.moment.law", &needed);
+        }
+        if bearing.lubricant_state.is_some() {
+            let needed = format!("no [bearing.lubricant_state] {kept}");
+            return refuse("bearing.lubricant_state.kind", &needed);
+        }
+        if bearing.inner_race_growth != Growth::None {
+            let needed = format!("\"none\" {kept}: rings of bearings in space do not grow");
+            return refuse("bearing.inner_race_growth", &needed);
+        }
+        let angular = bearing.kind == BearingType::AngularContact;
+        let clearance = "bearing.operating_diametral_clearance";
+        if angular && bearing.operating_diametral_clearance != 0.0 {
+            let needed = "0 m is needed: of an angular contact bearing in space bearing.contact_angle says how its grooves stand, and bearing.axial_preload how they are pressed";
+            return refuse(clearance, needed);
+        }
+        if !angular && bearing.operating_diametral_clearance < 0.0 {
+            let needed = "0 m or more is needed: grooves of a deep groove bearing in space that are pressed radially have no contact angle";
+            return refuse(clearance, needed);
+        }
+        let arrangement = "bearing.arrangement";
+        if own.arrangement == Arrangement::Single {
+            if bearing.axial_preload > 0.0 {
+                let needed = "bearing.arrangement = \"DB\" or \"DF\" is needed: nothing presses a single row but the rotor's thrust";
+                return refuse("bearing.axial_preload", needed);
+            }
+            return Ok(());
+        }
+        if !angular {
+            let needed = "\"single\" is needed of bearings without a contact angle (bearing.type = \"angular contact\" has one)";
+            return refuse(arrangement, needed);
+        }
+        if own.row_spacing <= 0.0 {
+            let found = format!("{} without bearing.row_spacing", self.text(arrangement));
+            let needed = "the distance of the rows is needed, which is their width where they stand side by side";
+            return self.refuse(Code::MissingKey, arrangement, found, needed);
+        }
+        match (own.arrangement, bearing.axial_preload > 0.0) {
+            (Arrangement::Tandem, true) => refuse(
+                "bearing.axial_preload",
+                "none is needed of a tandem, whose rows do not press on each other",
+            ),
+            (Arrangement::BackToBack | Arrangement::FaceToFace, false) => {
+                let found = format!("{} without bearing.axial_preload", self.text(arrangement));
+                let needed =
+                    "a preload above 0 N is needed: without it the pair is unloaded at rest";
+                self.refuse(Code::MissingKey, arrangement, found, needed)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What is not computed of a machine whose rotor moves along its axis.
+    pub(crate) fn part_in_space(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+        let in_space = |part: &AuxiliaryBearing| {
+            (part.bearing.as_ref()).is_some_and(|own| own.spatial.is_some())
+        };
+        if !in_space(part) {
+            return Ok(());
+        }
+        let refuse = |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed);
+        if drop.coast_down.is_some() {
+            let needed = "\"duration\" is needed beside bearing.fidelity = \"spatial\": its coast-down is not computed in quasi-steady steps";
+            return refuse("run.until", needed);
+        }
+        if part.warm.is_some() {
+            let needed = "\"off\" is needed beside bearing.fidelity = \"spatial\": how its rings warm is not computed";
+            return refuse("heat.network", needed);
+        }
+        if self.values.text("mount.on").is_some() {
+            let needed = "a mount on ground is needed beside bearing.fidelity = \"spatial\"";
+            return refuse("mount.on", needed);
+        }
+        Ok(())
+    }
+
+    /// A thrust that something carries: the weight along the shaft by a bearing with a face in its way.
+    pub(crate) fn thrust(&self, drop: &Drop) -> Check {
+        const AXIAL: &str = "gravity.axial";
+        let bearings = || drop.auxiliary_bearings.iter();
+        let in_space = |part: &&AuxiliaryBearing| {
+            (part.bearing.as_ref()).is_some_and(|own| own.spatial.is_some())
+        };
+        let any = bearings().any(|part| in_space(&part));
+        if any && drop.base.is_some() {
+            let found = "a base that moves beside bearing.fidelity = \"spatial\"";
+            let needed = "bearings of the plane are needed on a base that moves";
+            return self.refuse(Code::Conflict, FIDELITY, found, needed);
+        }
+        if !any {
+            let keys = [
+                AXIAL,
+                "levitation.axial_stiffness",
+                "levitation.axial_damping",
+            ];
+            let given = |path: &&str| self.values.number(path).is_some_and(|value| value != 0.0);
+            return match keys.into_iter().find(given) {
+                Some(path) => {
+                    let needed = "a bearing with bearing.fidelity = \"spatial\" is needed beside it: planar ones carry no thrust";
+                    self.refuse_value(Code::Conflict, path, needed)
+                }
+                None => Ok(()),
+            };
+        }
+        let axial = drop.gravity.axial;
+        let key = match axial < 0.0 {
+            true => "contact.gap_to_start",
+            false => "contact.gap_to_end",
+        };
+        let stops = |part: &AuxiliaryBearing| match axial < 0.0 {
+            true => part.contact.faces.gap_to_start,
+            false => part.contact.faces.gap_to_end,
+        };
+        if axial != 0.0
+            && !bearings()
+                .filter(in_space)
+                .any(|part| stops(part).is_some())
+        {
+            let found = format!("{} without {key} of a bearing in space", self.text(AXIAL));
+            let needed = "a shoulder that meets a face is needed: nothing else holds the rotor along its axis, and it would fall through its bearings";
+            return self.refuse(Code::MissingKey, AXIAL, found, needed);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,281 @@
+//! From a bearing of a scenario to one in space.
+
+use crate::bearing::contacts::BallContacts;
+use crate::bearing::traction::traction;
+use model::contact::JournalContact;
+use model::spatial::ball::SpatialBall;
+use model::spatial::face::Face;
+use model::spatial::mount::SpatialMount;
+use model::spatial::part::SpatialBearing;
+use model::spatial::pocket::SpatialPocket;
+use model::spatial::rigid_body::Inertia;
+use model::spatial::{
+    Arrangement, CageConstants, CageGuide, LandingConstants, RowConstants, RowGeometry, SpatialLand,
+};
+use number::Vec3;
+use physics::contact_nodes::{ContactNode, legendre, matched, middle};
+use physics::groove::{centre_distance, free_contact_angle};
+use physics::hertz::PointContact;
+use physics::rolling::RollingSet;
+use problem::{Code, Problem};
+use scenario::{
+    AuxiliaryBearing, Bearing, BearingType, Cage, ContactNodes, Guidance, Land, Separation,
+    Spatial, ThrustSide, problem_at,
+};
+use std::f64::consts::TAU;
+
+/// Transverse over axial inertia of a cage: a thin ring has 0.5, its width adds a little.
+const CAGE_TRANSVERSE: f64 = 0.55;
+/// Half the distance of the stations of a land, m.
+const HALF_LAND: f64 = 2e-3;
+/// Width of a row over its ball diameter where the bearing's is not known.
+const WIDTH: f64 = 1.6;
+/// Nodes of a face: tilt stiffness and friction torque of a ring of contact need eight.
+const FACE_NODES: usize = 12;
+
+/// A bearing in space at no node yet, with gravity in the frame of the machine.
+pub(crate) fn bearing(
+    part: &AuxiliaryBearing,
+    (given, own): (&Bearing, &Spatial),
+    contacts: &BallContacts,
+    gravity: Vec3<f64>,
+) -> Result<SpatialBearing, Box<Problem>> {
+    let geometry = geometry(given, own, contacts);
+    let offset = match given.axial_preload > 0.0 {
+        true => geometry.offset_of(given.axial_preload).ok_or_else(|| {
+            let found = format!("{} N, which no contact angle carries", given.axial_preload);
+            let allowed = "a smaller preload is needed";
+            problem_at(Code::Impossible, "bearing.axial_preload", found, allowed)
+        })?,
+        false => 0.0,
+    };
+    let ends = own.shoulder_height.map(|height| {
+        geometry
+            .curvatures
+            .map(|f| (1.0 - height / (f * given.ball_diameter)).acos())
+    });
+    if let Some(end) =
+        ends.and_then(|ends| ends.into_iter().find(|end| geometry.free_angle >= *end))
+    {
+        let found = format!(
+            "a contact angle of {:.1} deg at rest",
+            geometry.free_angle.to_degrees()
+        );
+        let allowed = format!(
+            "a higher shoulder is needed: with bearing.shoulder_height the groove ends at {:.1} deg",
+            end.to_degrees()
+        );
+        return Err(problem_at(
+            Code::OutOfRange,
+            "bearing.shoulder_height",
+            found,
+            allowed,
+        ));
+    }
+    let Separation::Cage(cage) = &given.separation else {
+        let allowed = "\"cage\" is needed of a bearing in space";
+        return Err(problem_at(
+            Code::NotModelled,
+            "bearing.separation",
+            "none",
+            allowed,
+        ));
+    };
+    let law = traction(given, contacts)?;
+    let nodes = nodes(own.nodes, contacts);
+    let rows: Vec<RowConstants> = geometry
+        .grooves(offset)
+        .into_iter()
+        .map(|(place, [inner, outer])| RowConstants {
+            balls: given.ball_count,
+            ball: SpatialBall {
+                radius: 0.5 * given.ball_diameter,
+                mass: contacts.ball_mass,
+                inner,
+                outer,
+                damping_time: given.contact_damping_time,
+                orbit_drag: given.drag.orbit,
+                spin_drag: given.drag.spin,
+                gravity,
+                pocket: pocket(given, cage),
+            },
+            nodes: nodes.clone(),
+            traction: law,
+            cage: CageConstants {
+                inertia: Inertia {
+                    mass: cage.mass,
+                    axial: cage.inertia,
+                    transverse: CAGE_TRANSVERSE * cage.inertia,
+                },
+                drag: given.drag.cage,
+                guide: guide(&cage.guidance, place),
+            },
+        })
+        .collect();
+    let count = rows.len() as f64;
+    let width = (own.row_width).unwrap_or(WIDTH * given.ball_diameter);
+    let whole = (count - 1.0) * own.row_spacing + width;
+    let (mass, inertia) = (
+        given.inner_race_mass * count,
+        given.inner_race_inertia * count,
+    );
+    let zero = 0.0;
+    Ok(SpatialBearing {
+        set: RollingSet {
+            balls_mass: count * given.rolling_set().balls_mass,
+            ..given.rolling_set()
+        },
+        rotation: vec![0.0],
+        lever: 0.0,
+        inner_transverse: 0.5 * inertia + mass * whole * whole / 12.0,
+        outer_inertias: None,
+        mount: SpatialMount {
+            radial_stiffness: zero,
+            axial_stiffness: part.mount.axial_stiffness,
+            radial_damping: zero,
+            axial_damping: part.mount.axial_damping,
+            tilt_stiffness: zero,
+            turn_damping: zero,
+            torsion_stiffness: zero,
+            free_position: Vec3::zero(),
+        },
+        first_ball_angle: given.first_ball_angle,
+        landing: landing(part, given, whole),
+        groove_ends: ends,
+        races: Some(contacts.races(given)),
+        rows,
+    })
+}
+
+fn geometry(given: &Bearing, own: &Spatial, contacts: &BallContacts) -> RowGeometry {
+    let curvatures = [given.inner_groove_curvature, given.outer_groove_curvature];
+    let angular = given.kind == BearingType::AngularContact;
+    let distance = centre_distance(curvatures, given.ball_diameter);
+    RowGeometry {
+        arrangement: match own.arrangement {
+            scenario::Arrangement::Single => Arrangement::Single,
+            scenario::Arrangement::BackToBack => Arrangement::BackToBack,
+            scenario::Arrangement::FaceToFace => Arrangement::FaceToFace,
+            scenario::Arrangement::Tandem => Arrangement::Tandem,
+        },
+        spacing: own.row_spacing,
+        balls: given.ball_count,
+        ball_diameter: given.ball_diameter,
+        pitch_diameter: given.pitch_diameter,
+        curvatures,
+        free_angle: match angular {
+            true => given.contact_angle,
+            false => free_contact_angle(given.operating_diametral_clearance, distance),
+        },
+        opposite: !angular,
+        reversed: own.thrust_side == ThrustSide::Start,
+        contacts: [
+            PointContact {
+                stiffness: contacts.inner_stiffness,
+                ..contacts.inner
+            },
+            PointContact {
+                stiffness: contacts.outer_stiffness,
+                ..contacts.outer
+            },
+        ],
+    }
+}
+
+fn nodes(asked: ContactNodes, contacts: &BallContacts) -> Vec<ContactNode<f64>> {
+    match asked {
+        ContactNodes::Matched => {
+            matched(0.5 * (contacts.inner.ellipticity + contacts.outer.ellipticity))
+        }
+        ContactNodes::One => middle(),
+        ContactNodes::Three => legendre(3),
+        ContactNodes::Five => legendre(5),
+        ContactNodes::Nine => legendre(9),
+    }
+}
+
+fn pocket(given: &Bearing, cage: &Cage) -> SpatialPocket<f64> {
+    SpatialPocket {
+        circle: 0.5 * given.pitch_diameter,
+        gap: cage.pocket_gap,
+        stiffness: match cage.pocket_contact {
+            true => cage.pocket_stiffness,
+            false => 0.0,
+        },
+        damping: cage.pocket_damping,
+        friction: cage.pocket_friction_coefficient,
+        inverse_reference_speed: 1.0 / cage.pocket_friction_reference_speed,
+    }
+}
+
+/// What guides the cage of a row at a place along the axis, m.
+fn guide(guidance: &Guidance, place: f64) -> CageGuide<f64> {
+    let on = |land: &Land, bore: f64, middle: f64| SpatialLand {
+        contact: JournalContact {
+            radial_clearance: land.radial_clearance,
+            bore_radius: bore,
+            stiffness: 0.5 * land.stiffness,
+            exponent: 1.0,
+            damping: land.damping,
+            friction: land.friction_coefficient,
+            inverse_reference_speed: 1.0 / land.friction_reference_speed,
+        },
+        middle,
+        half_width: HALF_LAND,
+    };
+    match guidance {
+        Guidance::Centred => CageGuide::Tied,
+        Guidance::Balls => CageGuide::Balls,
+        // the cage has the bore
+        Guidance::InnerLand(land) => {
+            CageGuide::InnerLand(on(land, 0.5 * land.diameter + land.radial_clearance, 0.0))
+        }
+        Guidance::OuterLand(land) => CageGuide::OuterLand(on(land, 0.5 * land.diameter, place)),
+    }
+}
+
+/// Stations at the edges of the landing surface, or one in the middle; faces at both sides of the inner ring.
+fn landing(part: &AuxiliaryBearing, given: &Bearing, width: f64) -> LandingConstants {
+    let contact = &part.contact;
+    let stations = match contact.width {
+        Some(width) => vec![-0.5 * width, 0.5 * width],
+        None => vec![0.0],
+    };
+    let bore = 0.5 * contact.bore_diameter;
+    let faces = &contact.faces;
+    let half = 0.5 * width;
+    let face = |side: f64, gap: f64| Face {
+        side,
+        shoulder: side * (half + gap),
+        place: side * half,
+        radius: faces
+            .radius
+            .unwrap_or(0.5 * (bore + given.inner_track_radius())),
+        stiffness: faces.stiffness,
+        damping: contact.damping,
+        friction: contact.friction_coefficient,
+        inverse_reference_speed: 1.0 / contact.friction_reference_speed,
+    };
+    // a rotor that moves to the end brings the shoulder below the ring to it
+    let both = [(-1.0, faces.gap_to_end), (1.0, faces.gap_to_start)];
+    let angle = |k: usize| TAU * k as f64 / FACE_NODES as f64;
+    LandingConstants {
+        contact: JournalContact {
+            radial_clearance: contact.radial_air_clearance,
+            bore_radius: bore,
+            stiffness: contact.stiffness / stations.len() as f64,
+            exponent: contact.exponent,
+            damping: contact.damping,
+            friction: contact.friction_coefficient,
+            inverse_reference_speed: 1.0 / contact.friction_reference_speed,
+        },
+        stations,
+        faces: both
+            .into_iter()
+            .filter_map(|(side, gap)| Some(face(side, gap?)))
+            .collect(),
+        face_nodes: (0..FACE_NODES)
+            .map(|k| [angle(k).cos(), angle(k).sin()])
+            .collect(),
+    }
+}
