@@ -1,0 +1,207 @@
+//! What a channel shows before the release: its mean, the synchronous orbit, and its noise, which is what is left.
+//!
+//! ```text
+//!   v = mean + c cos φ + s sin φ + noise        φ angle that the rotor turns from the release on: at the release the orbit is c
+//! ```
+//! The speed is that of the run, corrected by what the orbit itself shows.
+//!
+//! Source: least squares; uncertainties by the autocorrelation of the residuals.
+//! Valid: a speed that differs from that of the run by a constant; other motions of the rotor before the release count as noise.
+
+use super::Curve;
+use outcome::Outcome;
+use statistics::interpolation::between;
+use statistics::least_squares::LeastSquares;
+use statistics::noise::Noise;
+use statistics::uncertain::Uncertain;
+use std::array::from_fn;
+use std::f64::consts::TAU;
+
+/// Values before the release that a deviation is estimated from, at least.
+const FEWEST: usize = 16;
+/// Turns before the release that are used, at most.
+const TURNS: f64 = 64.0;
+/// An orbit corrects the speed from so many standard uncertainties on.
+const SHOWN: f64 = 6.0;
+/// Rounds of that correction.
+const ROUNDS: usize = 4;
+/// Median of the size of a normal number of deviation 1.
+const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
+/// Rounding averages out where noise spreads values over several steps: where their deviation is this share of a step at least; rounding alone
+/// has 1/√12 of it.
+const SPREAD: f64 = 0.42;
+
+/// Angle of the rotor over time, rad from an instant on.
+pub(super) struct Turning {
+    times: Vec<f64>,
+    angles: Vec<f64>,
+    /// Before the run, rad/s.
+    speed: f64,
+}
+
+impl Turning {
+    /// Of a run whose rotor turns.
+    pub fn of(outcome: &Outcome, release: f64) -> Option<Turning> {
+        let [times, speeds] = ["time", "rotor.speed"].map(|name| outcome.column(name));
+        let (times, speeds) = (&times?.values, &speeds?.values);
+        let speed = *speeds.first().filter(|speed| **speed != 0.0)?;
+        let mut angle = 0.0;
+        let angles = (0..times.len()).map(|row| {
+            let before = row.saturating_sub(1);
+            angle += 0.5 * (speeds[row] + speeds[before]) * (times[row] - times[before]);
+            angle
+        });
+        let angles: Vec<f64> = angles.collect();
+        let start = between(times, &angles, release)?;
+        let angles = angles.iter().map(|angle| angle - start).collect();
+        Some(Turning {
+            times: times.clone(),
+            angles,
+            speed,
+        })
+    }
+
+    fn at(&self, time: f64) -> f64 {
+        let first = self.times[0];
+        let inside = between(&self.times, &self.angles, time);
+        inside.unwrap_or_else(|| self.angles[0] + self.speed * (time - first))
+    }
+}
+
+/// A channel before the release.
+#[derive(Debug, Default)]
+pub(super) struct Before {
+    /// Mean, where there are values.
+    pub mean: Option<Uncertain>,
+    /// Displacement by the synchronous orbit at the release, where the rotor turns once at least.
+    pub orbit: Option<Uncertain>,
+    /// Noise of the channel, where it is known.
+    pub noise: Option<Noise>,
+}
+
+impl Curve {
+    /// Before a release, from which instants count.
+    pub(super) fn before(&self, release: f64, turning: Option<&Turning>) -> Before {
+        let last = self.times.partition_point(|time| *time < release);
+        let angle = |time: &f64| turning.map_or(0.0, |own| own.at(*time));
+        let far = |time: &f64| angle(time).abs() > TURNS * TAU;
+        let first = self.times[..last].partition_point(far);
+        let (times, values) = (&self.times[first..last], &self.values[first..last]);
+        let since: Vec<f64> = times.iter().map(|time| time - release).collect();
+        let angles: Vec<f64> = times.iter().map(angle).collect();
+        let turns = angles.first().is_some_and(|angle| angle.abs() >= TAU);
+        let enough = values.len() >= FEWEST;
+        let orbit = (enough && turns).then(|| synchronous(&since, angles, values));
+        let alone = || {
+            let ([mean], noise) = solved(vec![[1.0]; values.len()], values).filter(|_| enough)?;
+            Some((mean, None, noise))
+        };
+        let found = orbit
+            .flatten()
+            .map(|([mean, orbit], noise)| (mean, Some(orbit), noise));
+        let (mean, orbit, noise) = match found.or_else(alone) {
+            Some((mean, orbit, noise)) => (Some(mean), orbit, noise),
+            None => (None, None, self.scatter()),
+        };
+        let noise = self.noise(noise);
+        let rounding = noise
+            .as_ref()
+            .map_or(0.0, |noise| noise.rounding / 12_f64.sqrt());
+        let rounded = |own: Uncertain| Uncertain::new(own.value, own.deviation.hypot(rounding));
+        Before {
+            mean: mean.map(rounded),
+            orbit,
+            noise,
+        }
+    }
+
+    /// Noise with the deviation that the file gives, or with that of rounding at least.
+    fn noise(&self, found: Option<Noise>) -> Option<Noise> {
+        let mut noise = found.unwrap_or_default();
+        let step = self.step();
+        let least = step / 12_f64.sqrt();
+        if noise.deviation < SPREAD * step {
+            noise.rounding = step;
+        }
+        if noise.deviation < least {
+            // rounding alone: of a channel that stands still it repeats itself, of one that moves it does not
+            (noise.deviation, noise.correlation) = (least, Vec::new());
+        }
+        let given = self.given.deviation.as_ref().map(|(value, ..)| *value);
+        noise.deviation = given.unwrap_or(noise.deviation);
+        let largest = (self.values.iter()).fold(0.0, |most: f64, own| most.max(own.abs()));
+        // less is rounding of numbers
+        (noise.deviation > 1e-9 * largest).then_some(noise)
+    }
+
+    /// White noise by the median second difference, which impacts do not raise: of a file without a stretch before the release.
+    fn scatter(&self) -> Option<Noise> {
+        let second = |three: &[f64]| (three[0] - 2.0 * three[1] + three[2]).abs();
+        let mut all: Vec<f64> = self.values.windows(3).map(second).collect();
+        all.sort_by(f64::total_cmp);
+        let median = all.get(all.len() / 2).filter(|_| all.len() >= FEWEST)?;
+        let deviation = median / (NORMAL_MEDIAN * 6_f64.sqrt());
+        Some(Noise {
+            deviation,
+            ..Noise::default()
+        })
+    }
+
+    /// Step of rounded values: the smallest change, of which nearly all others are multiples, where some neighbours are equal; else 0.
+    fn step(&self) -> f64 {
+        let changes: Vec<f64> = self
+            .values
+            .windows(2)
+            .map(|two| (two[1] - two[0]).abs())
+            .collect();
+        let known = changes.iter().filter(|change| **change > 0.0);
+        let step = known.clone().copied().fold(f64::INFINITY, f64::min);
+        let whole = |change: &&f64| (*change / step - (*change / step).round()).abs() < 0.1;
+        let (count, changed, whole) = (
+            changes.len(),
+            known.clone().count(),
+            known.filter(whole).count(),
+        );
+        let rounded = 20 * changed < 19 * count && 10 * whole > 9 * changed;
+        if rounded { step } else { 0.0 }
+    }
+}
+
+/// Coefficients of values with their uncertainty, and the noise that is left.
+fn solved<const N: usize>(
+    rows: Vec<[f64; N]>,
+    values: &[f64],
+) -> Option<([Uncertain; N], Option<Noise>)> {
+    let fit = LeastSquares::new(rows)?;
+    let coefficients = fit.coefficients(values);
+    let noise = Noise::of(&fit.residuals(&coefficients, values), N);
+    let variance = |weights: &Vec<f64>| noise.as_ref().map_or(0.0, |noise| noise.variance(weights));
+    let variances = fit.weights().each_ref().map(variance);
+    let found = from_fn(|k| Uncertain::new(coefficients[k], variances[k].sqrt()));
+    Some((found, noise))
+}
+
+/// Mean and synchronous orbit at the release, by times from it and angles of the rotor.
+fn synchronous(
+    times: &[f64],
+    mut angles: Vec<f64>,
+    values: &[f64],
+) -> Option<([Uncertain; 2], Option<Noise>)> {
+    let rows = angles.iter().map(|angle| [1.0, angle.cos(), angle.sin()]);
+    let ([mut mean, mut cosine, mut sine], mut noise) = solved(rows.collect(), values)?;
+    let size = cosine.value.hypot(sine.value);
+    let shown = size > SHOWN * cosine.deviation.max(sine.deviation);
+    for _ in 0..if shown { ROUNDS } else { 0 } {
+        // what a speed that differs adds, in time over the length of the stretch
+        let rows = times.iter().zip(&angles).map(|(time, angle)| {
+            let slope = (sine.value * angle.cos() - cosine.value * angle.sin()) / size;
+            [1.0, angle.cos(), angle.sin(), slope * time / -times[0]]
+        });
+        let rate;
+        ([mean, cosine, sine, rate], noise) = solved(rows.collect(), values)?;
+        let turned = (rate.value / size).clamp(-1.0, 1.0);
+        let both = angles.iter_mut().zip(times);
+        both.for_each(|(angle, time)| *angle += turned * time / -times[0]);
+    }
+    Some(([mean, cosine], noise))
+}
