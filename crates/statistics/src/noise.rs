@@ -9,7 +9,7 @@
 pub struct Noise {
     /// Standard deviation of a value.
     pub deviation: f64,
-    /// Autocorrelation at lags 1, 2 ... up to the first that is not positive.
+    /// Autocorrelation at lags 1, 2 ... up to the first that white noise may have as well.
     pub correlation: Vec<f64>,
     /// Step of the values where noise does not spread them over several: its error does not average out while a curve stays within one.
     pub rounding: f64,
@@ -28,10 +28,12 @@ impl Noise {
         if whole.is_nan() || whole <= 0.0 {
             return None;
         }
+        // white noise has autocorrelations of this size
+        let least = (residuals.len() as f64).powf(-0.5);
         let lags = (1..residuals.len() / 2).map(|lag| product(lag) / whole);
         let mut noise = Noise {
             deviation: 0.0,
-            correlation: lags.take_while(|own| *own > 0.0).collect(),
+            correlation: lags.take_while(|own| *own > least).collect(),
             rounding: 0.0,
         };
         let count = residuals.len() as f64;

@@ -447,28 +447,22 @@ impl Orbit<'_> {
     }
 }
 
-/// Net angle about the line of levitation over the time outside a radius; of a stretch outside, the noise of its ends alone is left.
+/// Net angle about the line of levitation over the time outside a radius; of each stretch outside, the noise of both ends is left.
 fn whirl(radii: Samples, points: &[[f64; 2]], radius: f64) -> Found {
     let (mut angle, mut outside, mut rows, mut ends) = (0.0_f64, 0.0, 0, 0.0);
-    let mut inside = true;
-    for row in 1..points.len() {
-        let [from, to] = [points[row - 1], points[row]];
-        let [near, far] = [radii.values[row - 1], radii.values[row]];
-        let was_inside = inside;
-        inside = near < radius || far < radius;
-        if inside != was_inside {
-            // a stretch begins, or ended
-            ends += near.max(radius).powi(-2);
+    let is_outside = |row: &usize| radii.values.get(*row).is_some_and(|own| *own >= radius);
+    for row in (0..points.len()).filter(is_outside) {
+        let followed = is_outside(&(row + 1));
+        let preceded = row > 0 && is_outside(&(row - 1));
+        if followed != preceded {
+            ends += radii.values[row].powi(-2);
         }
-        if inside {
-            continue;
+        if followed {
+            let [from, to] = [points[row], points[row + 1]];
+            angle += (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
+            outside += radii.times[row + 1] - radii.times[row];
+            rows += 1;
         }
-        angle += (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
-        outside += radii.times[row] - radii.times[row - 1];
-        rows += 1;
-    }
-    if !inside {
-        ends += radius.powi(-2);
     }
     match angle.abs() >= TAU {
         true if angle.abs() * A_TURN > TAU * f64::from(rows) => {
