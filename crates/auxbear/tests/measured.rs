@@ -281,7 +281,7 @@ fn a_coarse_file_of_a_part_of_the_run_is_compared_there() {
     }
 }
 
-/// A whirl needs samples enough to show its sense: a backward one of 80 Hz has it with 12 a turn; with fewer than two a turn of the rotor
+/// A whirl needs samples enough to show its sense: a backward one of 80 Hz has it with 12 a turn; with fewer than four a turn of the rotor
 /// at 200 Hz it might be a forward one.
 #[test]
 fn a_whirl_of_few_samples_a_turn_has_its_sense_or_none() {
@@ -290,7 +290,7 @@ fn a_whirl_of_few_samples_a_turn_has_its_sense_or_none() {
     for (step, rate, said) in [
         (1e-3, -80.0, ""),
         (1e-3, -140.0, "fewer than eight samples a turn"),
-        (4.9e-3, -10.0, "fewer than two samples a turn of the rotor"),
+        (4.9e-3, -10.0, "fewer than four samples a turn of the rotor"),
     ] {
         let run = against(&tables, "x [mm]; y [mm]", step, |time| {
             let angle: f64 = TAU * rate * time;

@@ -29,14 +29,6 @@ impl<const N: usize> LeastSquares<N> {
         })
     }
 
-    /// The coefficients of values.
-    pub fn coefficients(&self, values: &[f64]) -> [f64; N] {
-        self.weights().map(|own| {
-            let both = own.into_iter().zip(values);
-            both.map(|(weight, value)| weight * value).sum()
-        })
-    }
-
     /// Values less those of coefficients.
     pub fn residuals(&self, coefficients: &[f64; N], values: &[f64]) -> Vec<f64> {
         let model =

@@ -17,6 +17,9 @@ use crate::noise::Noise;
 use crate::uncertain::Uncertain;
 use std::ops::Range;
 
+/// Rounds of a search for a crossing or an extremum, at most, and the step that ends it, in deviations.
+const ROUNDS: usize = 20;
+const CLOSE: f64 = 0.02;
 /// A crossing is one where the sum of the values beyond the level from there on exceeds its own deviation so many times.
 const SURE: f64 = 4.0;
 /// Windows end where the higher polynomial twice differed by more than the first, or once by more than the second, of so many deviations.
@@ -46,15 +49,12 @@ pub struct Samples<'a> {
     pub noise: &'a Noise,
 }
 
-/// Polynomial about an instant: value, slope and half the second derivative there, each with its variance.
+/// Polynomial about an instant: value, slope and half the second derivative there.
 #[derive(Clone, Copy, Debug)]
 struct Polynomial {
-    value: f64,
-    slope: f64,
-    bend: f64,
-    variance: f64,
-    slope_variance: f64,
-    bend_variance: f64,
+    value: Uncertain,
+    slope: Uncertain,
+    bend: Uncertain,
     /// How far the window reaches from the instant.
     reach: f64,
 }
@@ -114,15 +114,15 @@ impl Samples<'_> {
             else {
                 break;
             };
-            let rate = own.slope.abs().max(own.slope_variance.sqrt());
-            let step = (level - own.value) / rate;
-            let deviation = own.variance.sqrt() / rate;
+            let rate = own.slope.value.abs().max(own.slope.deviation);
+            let deviation = own.value.deviation / rate;
             // the row itself scatters by the noise over the slope
             let scatter = (self.noise.deviation / (rate * (end - begin)))
                 .cbrt()
                 .powi(2);
             let reach = (end - begin) * (1.0 + 2.0 * scatter) + 2.0 * deviation;
-            let next = (time.value + step).clamp(begin - reach, end + reach);
+            let next = time.value + (level - own.value.value) / rate;
+            let next = next.clamp(begin - reach, end + reach);
             let moved = (next - time.value).abs();
             time = Uncertain::new(next, deviation);
             if moved < CLOSE * deviation {
@@ -172,21 +172,19 @@ impl Samples<'_> {
             let Some(own) = self.polynomial(found.time.value, Side::Around, from) else {
                 break;
             };
-            let bend = (-sense * own.bend).max(own.bend_variance.sqrt());
-            let step = sense * own.slope / (2.0 * bend);
+            let bend = (-sense * own.bend.value).max(own.bend.deviation);
+            let step = sense * own.slope.value / (2.0 * bend);
             let step = step.clamp(-0.5 * own.reach, 0.5 * own.reach);
+            let deviation = own.slope.deviation / (2.0 * bend);
             // noise of the slope puts the vertex beyond the curve
-            let beyond = sense * own.slope_variance / (4.0 * bend);
-            let deviation = own.slope_variance.sqrt() / (2.0 * bend);
-            let value = own.value + 0.5 * own.slope * step - beyond;
+            let beyond = sense * bend * deviation.powi(2);
+            let value = own.value.value + 0.5 * own.slope.value * step - beyond;
             // of rounding the share of the window that stays within one step of the vertex
-            let share = (self.noise.rounding / (bend * own.reach * own.reach))
-                .min(1.0)
-                .sqrt();
-            let rounding = share * self.noise.rounding / 12_f64.sqrt();
+            let share = (self.noise.rounding / (bend * own.reach * own.reach)).min(1.0);
+            let rounding = share.sqrt() * self.noise.rounding / 12_f64.sqrt();
             found = Extremum {
                 time: Uncertain::new(found.time.value + step, deviation),
-                value: Uncertain::new(value, own.variance.sqrt().hypot(rounding)),
+                value: Uncertain::new(value, own.value.deviation.hypot(rounding)),
             };
             if step.abs() <= CLOSE * deviation {
                 break;
@@ -210,15 +208,10 @@ impl Samples<'_> {
             }
             let start = next - half;
             half += 1 + half / 4;
-            let Some((own, [difference, variance, lower])) = self.fitted(at, start..end) else {
+            let Some((own, sum, fails)) = self.fitted(at, start..end) else {
                 continue;
             };
-            let square = difference * difference;
-            failed += HOLDS
-                .iter()
-                .filter(|most| square > most.powi(2) * variance)
-                .count();
-            let sum = lower + (square - variance).max(0.0);
+            failed += fails;
             if best.is_none_or(|(least, _)| sum < least) {
                 best = Some((sum, own));
             }
@@ -229,55 +222,36 @@ impl Samples<'_> {
         best.map(|(_, own)| own)
     }
 
-    /// Polynomial of a window; how far the value of one two degrees lower differs, the variance of that, and that of the lower value.
-    fn fitted(&self, at: f64, window: Range<usize>) -> Option<(Polynomial, [f64; 3])> {
+    /// Polynomial of a window; variance of the one two degrees lower plus square of what that lacks, and how many bounds this passes.
+    fn fitted(&self, at: f64, window: Range<usize>) -> Option<(Polynomial, f64, usize)> {
         let (times, values) = (&self.times[window.clone()], &self.values[window]);
-        let reach = (at - times[0])
-            .abs()
-            .max((times[times.len() - 1] - at).abs());
+        let reach = (at - times[0]).max(times[times.len() - 1] - at);
         let lower = LeastSquares::new(powers::<3>(times, at, reach))?.weights();
         let higher = LeastSquares::new(powers::<5>(times, at, reach)).map(|fit| fit.weights());
         let weights = match &higher {
             Some([value, slope, bend, ..]) => [value, slope, bend],
             None => lower.each_ref(),
         };
-        let apart: Vec<f64> = weights[0]
-            .iter()
-            .zip(&lower[0])
-            .map(|(a, b)| a - b)
-            .collect();
-        let [value, slope, bend] = weights.map(|own| sum(own, values));
-        let variances = weights.map(|own| self.noise.variance(own));
+        let both = weights[0].iter().zip(&lower[0]);
+        let apart: Vec<f64> = both.map(|(a, b)| a - b).collect();
+        let apart = self.noise.weighted(&apart, values);
+        let lower = self.noise.weighted(&lower[0], values);
+        let coefficient = |k: usize| {
+            let scale = reach.powi(-(k as i32));
+            let own = self.noise.weighted(weights[k], values);
+            Uncertain::new(scale * own.value, scale * own.deviation)
+        };
         let own = Polynomial {
-            value,
-            slope: slope / reach,
-            bend: bend / (reach * reach),
-            variance: variances[0],
-            slope_variance: variances[1] / (reach * reach),
-            bend_variance: variances[2] / reach.powi(4),
+            value: coefficient(0),
+            slope: coefficient(1),
+            bend: coefficient(2),
             reach,
         };
-        Some((
-            own,
-            [
-                sum(&apart, values),
-                self.noise.variance(&apart),
-                self.noise.variance(&lower[0]),
-            ],
-        ))
+        let lack = (apart.value.powi(2) - apart.deviation.powi(2)).max(0.0);
+        let passed = |bound: &&f64| apart.value.abs() > **bound * apart.deviation;
+        let fails = HOLDS.iter().filter(passed).count();
+        Some((own, lower.deviation.powi(2) + lack, fails))
     }
-}
-
-/// Rounds of a search for a crossing or an extremum, at most, and the step that ends it, in deviations.
-const ROUNDS: usize = 20;
-const CLOSE: f64 = 0.02;
-
-fn sum(weights: &[f64], values: &[f64]) -> f64 {
-    weights
-        .iter()
-        .zip(values)
-        .map(|(weight, value)| weight * value)
-        .sum()
 }
 
 /// Powers of the distance from an instant over the reach.

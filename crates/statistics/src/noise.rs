@@ -4,6 +4,8 @@
 //!   var Σ w(i) e(i) = s² Σ Σ w(i) w(j) ρ(|i-j|)        τ = 1 + 2 Σ ρ(k): one sample in τ is independent
 //! ```
 
+use crate::uncertain::Uncertain;
+
 /// Noise of one deviation and autocorrelation throughout.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Noise {
@@ -47,16 +49,17 @@ impl Noise {
         1.0 + 2.0 * self.correlation.iter().sum::<f64>()
     }
 
-    /// Variance of a weighted sum of neighbouring samples.
-    pub fn variance(&self, weights: &[f64]) -> f64 {
-        let product = |lag: usize| -> f64 {
-            let both = weights.iter().zip(weights.get(lag..).unwrap_or_default());
+    /// A weighted sum of neighbouring values.
+    pub fn weighted(&self, weights: &[f64], values: &[f64]) -> Uncertain {
+        let product = |lag: usize, of: &[f64]| -> f64 {
+            let both = weights.get(lag..).unwrap_or_default().iter().zip(of);
             both.map(|(a, b)| a * b).sum()
         };
+        let alone = product(0, weights);
         let lags = (1..).zip(&self.correlation);
-        let shared: f64 = lags.map(|(lag, own)| own * product(lag)).sum();
-        let alone = product(0);
+        let shared: f64 = lags.map(|(lag, own)| own * product(lag, weights)).sum();
         // the autocorrelation is an estimate, and cut off: no sum of samples is better than so
-        self.deviation.powi(2) * (alone + 2.0 * shared).max(1e-2 * alone)
+        let variance = (alone + 2.0 * shared).max(1e-2 * alone);
+        Uncertain::new(product(0, values), self.deviation * variance.sqrt())
     }
 }

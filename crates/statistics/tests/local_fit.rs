@@ -1,6 +1,5 @@
 //! Crossings and extrema of known curves beneath noise: the stated uncertainty is that of the errors.
 
-use statistics::least_squares::LeastSquares;
 use statistics::local_fit::{Samples, Side};
 use statistics::noise::Noise;
 use statistics::random::Random;
@@ -58,8 +57,9 @@ fn errors_of_crossings_and_extrema_are_as_large_as_stated() {
                     .collect()
             };
             let before = values(&all[..count], |_| 0.0);
-            let fit = LeastSquares::new(vec![[1.0]; count]).unwrap();
-            let own = Noise::of(&fit.residuals(&fit.coefficients(&before), &before), 1).unwrap();
+            let mean = before.iter().sum::<f64>() / count as f64;
+            let rest: Vec<f64> = before.iter().map(|own| own - mean).collect();
+            let own = Noise::of(&rest, 1).unwrap();
             let values = values(&all[count..], curve);
             of(Samples {
                 times: &times,
@@ -143,7 +143,9 @@ fn a_mean_of_shared_noise_is_as_uncertain_as_its_repetition_says() {
     let values = noise(&mut Random::new(5), 40_000, 0.6);
     let own = Noise::of(&values, 0).unwrap();
     assert!((own.deviation - 1.0).abs() < 0.05 && (own.repetition() - 4.0).abs() < 0.4);
-    let mean = own.variance(&[1e-2; 100]);
+    let mean = own.weighted(&[1e-2; 100], &[1.0; 100]);
+    assert!((mean.value - 1.0).abs() < 1e-12);
+    let mean = mean.deviation.powi(2);
     assert!((mean / (own.repetition() * own.deviation.powi(2) / 100.0) - 1.0).abs() < 0.1);
     assert_eq!(Noise::of(&[0.0; 10], 1), None);
 }

@@ -10,11 +10,10 @@
 
 use super::Curve;
 use outcome::Outcome;
-use statistics::interpolation::between;
+use statistics::interpolation::{between, held};
 use statistics::least_squares::LeastSquares;
 use statistics::noise::Noise;
 use statistics::uncertain::Uncertain;
-use std::array::from_fn;
 use std::f64::consts::TAU;
 
 /// Values before the release that a deviation is estimated from, at least.
@@ -31,41 +30,24 @@ const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 /// has 1/√12 of it.
 const SPREAD: f64 = 0.42;
 
-/// Angle of the rotor over time, rad from an instant on.
-pub(super) struct Turning {
-    times: Vec<f64>,
-    angles: Vec<f64>,
-    /// Before the run, rad/s.
-    speed: f64,
-}
+/// Instants, s, and angles of the rotor from the release on, rad, of a run whose rotor turns; before the run it has the first speed.
+pub(super) type Turning = [Vec<f64>; 2];
 
-impl Turning {
-    /// Of a run whose rotor turns.
-    pub fn of(outcome: &Outcome, release: f64) -> Option<Turning> {
-        let [times, speeds] = ["time", "rotor.speed"].map(|name| outcome.column(name));
-        let (times, speeds) = (&times?.values, &speeds?.values);
-        let speed = *speeds.first().filter(|speed| **speed != 0.0)?;
-        let mut angle = 0.0;
-        let angles = (0..times.len()).map(|row| {
-            let before = row.saturating_sub(1);
-            angle += 0.5 * (speeds[row] + speeds[before]) * (times[row] - times[before]);
-            angle
-        });
-        let angles: Vec<f64> = angles.collect();
-        let start = between(times, &angles, release)?;
-        let angles = angles.iter().map(|angle| angle - start).collect();
-        Some(Turning {
-            times: times.clone(),
-            angles,
-            speed,
-        })
-    }
-
-    fn at(&self, time: f64) -> f64 {
-        let first = self.times[0];
-        let inside = between(&self.times, &self.angles, time);
-        inside.unwrap_or_else(|| self.angles[0] + self.speed * (time - first))
-    }
+pub(super) fn turning(outcome: &Outcome, release: f64) -> Option<Turning> {
+    let [times, speeds] = ["time", "rotor.speed"].map(|name| outcome.column(name));
+    let (mut times, mut speeds) = (times?.values.clone(), speeds?.values.clone());
+    let speed = *speeds.first().filter(|speed| **speed != 0.0)?;
+    times.insert(0, times[0] - (TURNS + 1.0) * TAU / speed.abs());
+    speeds.insert(0, speed);
+    let mut angle = 0.0;
+    let turned = |row: usize| {
+        let before = row.saturating_sub(1);
+        angle += 0.5 * (speeds[row] + speeds[before]) * (times[row] - times[before]);
+        angle
+    };
+    let angles: Vec<f64> = (0..times.len()).map(turned).collect();
+    let start = between(&times, &angles, release)?;
+    Some([times, angles.iter().map(|angle| angle - start).collect()])
 }
 
 /// A channel before the release.
@@ -83,7 +65,7 @@ impl Curve {
     /// Before a release, from which instants count.
     pub(super) fn before(&self, release: f64, turning: Option<&Turning>) -> Before {
         let last = self.times.partition_point(|time| *time < release);
-        let angle = |time: &f64| turning.map_or(0.0, |own| own.at(*time));
+        let angle = |time: &f64| turning.map_or(0.0, |[times, angles]| held(times, angles, *time));
         let far = |time: &f64| angle(time).abs() > TURNS * TAU;
         let first = self.times[..last].partition_point(far);
         let (times, values) = (&self.times[first..last], &self.values[first..last]);
@@ -173,12 +155,14 @@ fn solved<const N: usize>(
     values: &[f64],
 ) -> Option<([Uncertain; N], Option<Noise>)> {
     let fit = LeastSquares::new(rows)?;
-    let coefficients = fit.coefficients(values);
-    let noise = Noise::of(&fit.residuals(&coefficients, values), N);
-    let variance = |weights: &Vec<f64>| noise.as_ref().map_or(0.0, |noise| noise.variance(weights));
-    let variances = fit.weights().each_ref().map(variance);
-    let found = from_fn(|k| Uncertain::new(coefficients[k], variances[k].sqrt()));
-    Some((found, noise))
+    let weights = fit.weights();
+    let coefficients = |noise: &Noise| weights.each_ref().map(|own| noise.weighted(own, values));
+    let exact = coefficients(&Noise::default()).map(|own| own.value);
+    let noise = Noise::of(&fit.residuals(&exact, values), N);
+    Some((
+        coefficients(noise.as_ref().unwrap_or(&Noise::default())),
+        noise,
+    ))
 }
 
 /// Mean and synchronous orbit at the release, by times from it and angles of the rotor.

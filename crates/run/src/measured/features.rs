@@ -9,14 +9,15 @@
 //! Instants and extrema come from local fits whose windows follow the noise of the channel; the predicted curve has none. A force may jump: its
 //! contact begins and ends anywhere between two samples. The phase of the measured orbit is that of the stretch before the release.
 
+use super::before::Before;
 use super::{Compared, Curve, NO_DEVIATION, NOTHING_COMMON, Run, root_mean_square};
 use outcome::list::{List, origins, results};
 use statistics::interpolation::between;
-use statistics::local_fit::{Samples, Side};
+use statistics::local_fit::{Crossing, Samples, Side};
 use statistics::noise::Noise;
 use statistics::uncertain::Uncertain;
 use std::array::from_fn;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 type Found = Result<Uncertain, String>;
 
@@ -30,6 +31,8 @@ const CONTACT_NOISE: f64 = 2.0;
 const SPUN_UP: f64 = 0.95;
 /// Samples a turn that a whirl needs.
 const A_TURN: f64 = 8.0;
+/// Samples a turn of the rotor that show the sense of a whirl, also of one that is three times as fast.
+const OF_THE_ROTOR: f64 = 4.0;
 /// The whirl counts outside this share of the clearance, as `whirl_turns` does.
 const WHIRLS: f64 = 0.5;
 /// Standard uncertainties of the orbit from which on it has a phase.
@@ -41,42 +44,36 @@ fn no(why: &str) -> Found {
     Err(why.to_string())
 }
 
-/// The tables of one kind of channel: a function for measured, predicted and their difference.
+/// Features of the measured and of the predicted curve, and whether the noise of the former is known.
+type Both<const N: usize> = ([[Found; N]; 2], bool);
+
+/// A table of features.
 type Table<const N: usize> = fn(&mut List, &(), Option<&[Result<f64, String>; N]>);
 
-/// Adds a table five times: measured, its uncertainty, predicted, the difference, and its uncertainty; the latter two where noise is known.
-fn sides<const N: usize>(
-    list: &mut List,
-    name: &str,
-    table: Table<N>,
-    both: Option<([[Found; N]; 2], bool)>,
-) {
-    let all = both.map(|([measured, predicted], known)| {
+/// Adds a table five times: measured with its uncertainty, predicted, the difference with its uncertainty, these where noise is known.
+fn sides<const N: usize>(list: &mut List, name: &str, table: Table<N>, both: Option<Both<N>>) {
+    let sides = both.map(|([measured, predicted], known)| {
         let difference = from_fn(|k| Ok(measured[k].clone()?.minus(predicted[k].clone()?)));
         let value = |of: &[Found; N]| from_fn(|k| of[k].clone().map(|own| own.value));
         let spread = |of: &[Found; N]| {
-            from_fn(|k| match of[k].clone() {
-                Ok(_) if !known => Err(NO_DEVIATION.to_string()),
-                own => own.map(|own| own.deviation),
+            let known = known.then_some(()).ok_or(NO_DEVIATION);
+            from_fn(|k| {
+                of[k]
+                    .clone()
+                    .and_then(|own| known.map(|()| own.deviation).map_err(str::to_string))
             })
         };
+        let [measured, difference] = [measured, difference].map(|own| [value(&own), spread(&own)]);
         [
-            value(&measured),
-            spread(&measured),
-            value(&predicted),
-            value(&difference),
-            spread(&difference),
+            measured.to_vec(),
+            vec![value(&predicted)],
+            difference.to_vec(),
         ]
+        .concat()
     });
-    let names = [
-        "measured",
-        "uncertainty",
-        "predicted",
-        "difference",
-        "difference_uncertainty",
-    ];
-    for (k, side) in (0..).zip(names) {
-        let own = all.as_ref().map(|all| &all[k]);
+    let names = "measured uncertainty predicted difference difference_uncertainty";
+    for (k, side) in names.split(' ').enumerate() {
+        let own = sides.as_ref().map(|sides| &sides[k]);
         list.named(&[name, side], |list| table(list, &(), own));
     }
 }
@@ -88,31 +85,41 @@ impl Compared {
         let noise = 2.0 * (largest + BEYOND) * self.deviation().unwrap_or(0.0);
         noise.max(THRESHOLD * self.range())
     }
-    /// Whether it begins more than two samples after an instant.
-    fn begins_late(&self, time: f64) -> bool {
-        matches!(self.time[..], [first, second, ..] if first > time + 2.0 * (second - first))
+    /// Whether it begins more than two samples after the release.
+    fn begins_late(&self) -> bool {
+        matches!(self.time[..], [first, second, ..] if first > 2.0 * (second - first))
     }
-    /// The first sample from an instant on.
-    fn row(&self, time: f64) -> usize {
-        self.time.partition_point(|own| *own < time)
-    }
-    /// A feature of the measured and of the predicted curve, the latter without noise.
+    /// Features of the measured curve, with the mean before the release, and of the predicted one, without noise.
     fn both<const N: usize>(
         &self,
-        of: impl Fn(Samples, usize) -> [Found; N],
-    ) -> ([[Found; N]; 2], bool) {
-        let own = self.before.noise.clone();
-        let known = own.is_some();
+        of: impl Fn(Samples, Option<Uncertain>) -> [Found; N],
+    ) -> Both<N> {
+        let Before { mean, noise, .. } = &self.before;
         let sides = [
-            (&self.measured, own.unwrap_or_default()),
-            (&self.predicted, Noise::default()),
+            (&self.measured, noise.clone().unwrap_or_default(), *mean),
+            (&self.predicted, Noise::default(), None),
         ];
-        let [measured, predicted] = sides.each_ref().map(|(values, noise)| Samples {
-            times: &self.time,
-            values,
-            noise,
+        let sides = sides.map(|(values, noise, mean)| {
+            let times = &self.time;
+            match values.is_empty() || self.begins_late() {
+                true => from_fn(|_| {
+                    no(if values.is_empty() {
+                        NOTHING_COMMON
+                    } else {
+                        LATE
+                    })
+                }),
+                false => of(
+                    Samples {
+                        times,
+                        values,
+                        noise: &noise,
+                    },
+                    mean,
+                ),
+            }
         });
-        ([of(measured, 0), of(predicted, 1)], known)
+        (sides, noise.is_some())
     }
 }
 
@@ -122,71 +129,55 @@ pub(super) fn of_curve(list: &mut List, curve: &Curve, run: Option<(&Compared, &
     let ends = |ends: &[&str]| ends.iter().any(|end| column.ends_with(end));
     match curve.unit {
         "N" if ends(&["force"]) => {
-            let of = |(own, run): (&Compared, &Run)| {
-                own.both(|samples, side| impact(own, samples, side, run.release))
-            };
-            sides(list, name, force, run.map(of));
+            let of = run.map(|(own, _)| own.both(|samples, mean| impact(own, samples, mean)));
+            sides(list, name, force, of);
         }
         "m" if ends(&[".x", ".y"]) => {
-            let of = |(own, run): (&Compared, &Run)| {
-                own.both(|samples, _| turning(own, samples, run.release))
-            };
-            sides(list, name, displacement, run.map(of));
+            let of = run.map(|(own, _)| own.both(|samples, _| turning(own, samples)));
+            sides(list, name, displacement, of);
         }
         "rad/s" if ends(&["inner_race.speed"]) => {
             let of =
-                |(own, run): (&Compared, &Run)| own.both(|samples, _| [spin_up(own, samples, run)]);
-            sides(list, name, speed, run.map(of));
+                run.map(|(own, run)| own.both(|samples, _| [spin_up(own, samples, run.spin())]));
+            sides(list, name, speed, of);
         }
         _ => {}
     }
 }
 
-/// Time to 95 % of the rotor's speed at the release; without a rotor of the largest predicted speed.
-fn spin_up(own: &Compared, samples: Samples, run: &Run) -> Found {
-    if own.begins_late(run.release) {
-        return no(LATE);
-    }
+/// First sample after the release.
+fn first(times: &[f64]) -> usize {
+    times
+        .partition_point(|time| *time < 0.0)
+        .min(times.len() - 1)
+}
+
+/// Time to 95 % of a speed; without a rotor of the largest predicted one.
+fn spin_up(own: &Compared, samples: Samples, spin: f64) -> Found {
     let sizes = |values: &[f64]| values.iter().map(|own| own.abs()).collect::<Vec<f64>>();
-    let full = match run.spin() {
+    let full = match spin {
         0.0 => sizes(&own.predicted).into_iter().fold(0.0, f64::max),
         spin => spin,
     };
-    let speeds = sizes(samples.values);
-    let samples = Samples {
-        values: &speeds,
-        ..samples
-    };
-    let crossing = samples.crossing(SPUN_UP * full, own.row(run.release), Side::Around);
-    let time = crossing.map(|own| own.time.minus(Uncertain::exact(run.release)));
+    let values = &sizes(samples.values);
+    let samples = Samples { values, ..samples };
+    let crossing = samples.crossing(SPUN_UP * full, first(samples.times), Side::Around);
+    let time = crossing.map(|own| own.time);
     time.ok_or_else(|| "95 % of the speed is not reached".to_string())
 }
 
-/// First contact, its duration and impulse, and the peak of a force above what the load cell shows before the release.
-fn impact(own: &Compared, samples: Samples, side: usize, release: f64) -> [Found; 4] {
-    if samples.values.is_empty() {
-        return from_fn(|_| no(NOTHING_COMMON));
-    }
-    if own.begins_late(release) {
-        return from_fn(|_| no(LATE));
-    }
-    let first = own.row(release).min(samples.values.len() - 1);
+/// First contact, its duration and impulse, and the peak of a force above its mean before the release.
+fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 4] {
+    let first = first(samples.times);
     let level = (THRESHOLD * own.range()).max(CONTACT_NOISE * own.deviation().unwrap_or(0.0));
-    let before = own.before.mean.filter(|_| side == 0);
-    let base = before.unwrap_or(Uncertain::new(
-        samples.values[first],
-        samples.noise.deviation,
-    ));
-    let excess: Vec<f64> = samples
-        .values
-        .iter()
-        .map(|value| value - base.value)
-        .collect();
+    let alone = Uncertain::new(samples.values[first], samples.noise.deviation);
+    let base = mean.unwrap_or(alone);
+    let values: Vec<f64> = samples.values.iter().map(|own| own - base.value).collect();
     let samples = Samples {
-        values: &excess,
+        values: &values,
         ..samples
     };
-    let largest = (0..excess.len()).max_by(|a, b| excess[*a].total_cmp(&excess[*b]));
+    let largest = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
     let peak = samples.extremum(largest.unwrap_or(first), 1.0, 0).value;
     let peak = Ok(Uncertain::new(
         peak.value,
@@ -196,72 +187,48 @@ fn impact(own: &Compared, samples: Samples, side: usize, release: f64) -> [Found
         let none = || no("the force does not rise above the threshold");
         return [none(), none(), none(), peak];
     };
-    let lasts = || "the contact lasts to the end".to_string();
     let end = samples.jump(level, -1.0, begin.row);
-    let impulse = end.map(|end| {
+    let end = end.ok_or("the contact lasts to the end".to_string());
+    let impulse = end.clone().map(|end| {
         let (from, to) = (begin.row.saturating_sub(1), end.row);
-        let time = |row: usize| own.time[row.clamp(from, to)];
-        let weights: Vec<f64> = (from..=to)
-            .map(|row| 0.5 * (time(row + 1) - time(row.saturating_sub(1))))
-            .collect();
-        let sum = weights
-            .iter()
-            .zip(&excess[from..])
-            .map(|(weight, force)| weight * force)
-            .sum();
-        // where between two samples it begins and ends is not known: by that times the force there, on a straight line through two samples
-        let at_edge =
-            |row: usize, next: usize| 1.5 * excess[row] - 0.5 * excess[next.min(excess.len() - 1)];
-        let last = to.saturating_sub(1);
-        let edges = [
-            (begin, at_edge(begin.row, begin.row + 1)),
-            (end, at_edge(last, last.saturating_sub(1))),
-        ];
-        let edges = edges.map(|(edge, force)| (force * edge.time.deviation).powi(2));
-        let offset = (base.deviation * weights.iter().sum::<f64>()).powi(2);
-        let variance = samples.noise.variance(&weights) + edges[0] + edges[1] + offset;
-        Uncertain::new(sum, variance.sqrt())
+        let time = |row: usize| samples.times[row.clamp(from, to)];
+        let weight = |row: usize| 0.5 * (time(row + 1) - time(row.saturating_sub(1)));
+        let weights: Vec<f64> = (from..=to).map(weight).collect();
+        let sum = samples.noise.weighted(&weights, &values[from..=to]);
+        // where between two samples it begins and ends is not known: by that times the force there, on a line through two samples
+        let edge = |edge: Crossing, row: usize, next: usize| {
+            edge.time.deviation * (1.5 * values[row] - 0.5 * values[next])
+        };
+        let begins = edge(begin, begin.row, (begin.row + 1).min(to));
+        let ends = edge(end, to - 1, to.saturating_sub(2));
+        let offset = base.deviation * weights.iter().sum::<f64>();
+        Uncertain::new(
+            sum.value,
+            sum.deviation.hypot(offset).hypot(begins).hypot(ends),
+        )
     });
-    [
-        Ok(begin.time.minus(Uncertain::exact(release))),
-        end.map(|end| end.time.minus(begin.time)).ok_or_else(lasts),
-        impulse.ok_or_else(lasts),
-        peak,
-    ]
+    let lasts = end.map(|end| end.time.minus(begin.time));
+    [Ok(begin.time), lasts, impulse, peak]
 }
 
 /// Instant of the first reversal of a displacement, and how far it comes back until the next.
-fn turning(own: &Compared, samples: Samples, release: f64) -> [Found; 2] {
-    if own.begins_late(release) {
-        return from_fn(|_| no(LATE));
-    }
-    let first = own.row(release);
-    let rows = reversals(
-        samples.values.get(first..).unwrap_or_default(),
-        own.threshold(),
-    );
+fn turning(own: &Compared, samples: Samples) -> [Found; 2] {
+    let first = first(samples.times);
+    let rows = reversals(&samples.values[first..], own.threshold());
     let found = |k: usize| {
-        let (row, sense) = *rows
+        let (row, sense) = rows
             .get(k)
             .ok_or("the displacement does not turn by more than the threshold")?;
-        Ok::<_, String>(samples.extremum(first + row, sense, first))
+        Ok::<_, String>(samples.extremum(first + row, *sense, first))
     };
-    let rebound = || {
-        let apart = found(1)?.value.minus(found(0)?.value);
-        Ok(Uncertain::new(apart.value.abs(), apart.deviation))
-    };
-    [
-        found(0).map(|own| own.time.minus(Uncertain::exact(release))),
-        rebound(),
-    ]
+    let apart = found(1).and_then(|next| Ok(next.value.minus(found(0)?.value)));
+    let rebound = apart.map(|own| Uncertain::new(own.value.abs(), own.deviation));
+    [found(0).map(|own| own.time), rebound]
 }
 
 /// Rows of the extrema between which values change by more than a threshold, with 1 of a maximum and -1 of a minimum.
 fn reversals(values: &[f64], least: f64) -> Vec<(usize, f64)> {
-    let Some(start) = values.first() else {
-        return Vec::new();
-    };
-    let (mut rows, mut sense, mut extreme) = (Vec::new(), 0.0, (0, *start));
+    let (mut rows, mut sense, mut extreme) = (Vec::new(), 0.0, (0, values[0]));
     for (row, value) in values.iter().enumerate() {
         let ahead = value - extreme.1;
         if sense == 0.0 {
@@ -311,20 +278,18 @@ impl Orbit<'_> {
     fn points(&self, run: &Run) -> Points {
         let [x, y] = self.axes.map(|axis| &run.all[axis]);
         let noise = x.before.noise.clone().zip(y.deviation());
-        let noise = noise.map(|(x, y)| Noise {
-            deviation: x.deviation.hypot(y) * 0.5_f64.sqrt(),
-            ..x
-        });
         let mut points = Points {
             time: Vec::new(),
             sides: [Vec::new(), Vec::new()],
-            noise,
+            noise: noise.map(|(x, y)| Noise {
+                deviation: x.deviation.hypot(y) / 2_f64.sqrt(),
+                ..x
+            }),
         };
         for (row, time) in x.time.iter().enumerate() {
-            let measured = run.curves[self.axes[1]].at(*time);
-            if let Some(predicted) =
-                between(&y.time, &y.predicted, *time).filter(|_| measured.is_finite())
-            {
+            let measured = run.curves[self.axes[1]].at(time + run.release);
+            let predicted = between(&y.time, &y.predicted, *time);
+            if let Some(predicted) = predicted.filter(|_| measured.is_finite()) {
                 points.time.push(*time);
                 points.sides[0].push([x.measured[row], measured]);
                 points.sides[1].push([x.predicted[row], predicted]);
@@ -341,38 +306,25 @@ impl Orbit<'_> {
         own?.clearance
     }
 
-    /// Phases at the release, rad: of the measured orbit before it and of the run there; else of both at the first sample.
-    fn phases(&self, run: &Run, points: &Points, first: usize) -> [Found; 2] {
-        let orbit = self.axes.map(|axis| run.all[axis].before.orbit);
-        let sides = match orbit {
-            [Some(x), Some(y)] => {
-                let predicted =
-                    ["x", "y"].map(|axis| run.at(&format!("{}.{axis}", self.place), run.release));
-                [
-                    Some([x, y]),
-                    predicted[0]
-                        .zip(predicted[1])
-                        .map(|(x, y)| [x, y].map(Uncertain::exact)),
-                ]
-            }
-            _ => {
-                let deviation = points.noise.as_ref().map_or(0.0, |noise| noise.deviation);
-                let at = |side: usize, deviation: f64| {
-                    let point = points.sides[side].get(first)?;
-                    Some(point.map(|own| Uncertain::new(own, deviation)))
+    /// Phases at the release, rad: of the measured orbit before it and of the run there.
+    fn phases(&self, run: &Run) -> [Found; 2] {
+        let measured = self.axes.map(|axis| run.all[axis].before.orbit);
+        let predicted =
+            ["x", "y"].map(|axis| run.at(&format!("{}.{axis}", self.place), run.release));
+        let [measured, mut predicted] = [measured, predicted.map(|own| own.map(Uncertain::exact))]
+            .map(|point| {
+                let [Some(x), Some(y)] = point else {
+                    return no("the file does not show a turn before the release");
                 };
-                [at(0, deviation), at(1, 0.0)]
-            }
-        };
-        let [measured, mut predicted] = sides.map(|point| {
-            let [x, y] = point.ok_or("the file does not cover the release")?;
-            let radius = x.value.hypot(y.value);
-            if radius <= SHOWN * x.deviation.max(y.deviation) {
-                return no("the orbit at the release is not above three standard uncertainties");
-            }
-            let across = (x.deviation * y.value).hypot(y.deviation * x.value) / radius;
-            Ok(Uncertain::new(y.value.atan2(x.value), across / radius))
-        });
+                let radius = x.value.hypot(y.value);
+                if radius <= SHOWN * x.deviation.max(y.deviation) {
+                    return no(
+                        "the orbit at the release is not above three standard uncertainties",
+                    );
+                }
+                let across = (x.deviation * y.value).hypot(y.deviation * x.value) / radius;
+                Ok(Uncertain::new(y.value.atan2(x.value), across / radius))
+            });
         if let (Ok(measured), Ok(phase)) = (&measured, &mut predicted) {
             // the difference of two phases is the shorter way
             phase.value += TAU * ((measured.value - phase.value) / TAU).round();
@@ -381,61 +333,43 @@ impl Orbit<'_> {
     }
 
     /// Phase at the release, first contact and whirl of both curves, and whether their noise is known.
-    fn features(&self, run: &Run) -> ([[Found; 3]; 2], bool) {
+    fn features(&self, run: &Run) -> Both<3> {
         let points = self.points(run);
         let known = points.noise.is_some();
-        if run.all[self.axes[0]].begins_late(run.release) {
+        if points.time.is_empty() || run.all[self.axes[0]].begins_late() {
             return (from_fn(|_| from_fn(|_| no(LATE))), known);
         }
-        let clearance = self.clearance(run);
-        let first = points.time.partition_point(|own| *own < run.release);
         let interval = self.axes.map(|axis| run.curves[axis].interval());
-        let interval = interval[0].max(interval[1]);
-        let noises = [points.noise.clone().unwrap_or_default(), Noise::default()];
-        let phases = self.phases(run, &points, first);
-        let mut side = 0;
-        let sides = phases.map(|phase| {
-            let (of, noise) = (&points.sides[side], &noises[side]);
-            side += 1;
-            let Some(clearance) = clearance else {
-                let why = "no bearing with a clearance is at this place";
-                return [phase, no(why), no(why)];
+        let is_coarse = interval[0].max(interval[1]) * run.spin() * OF_THE_ROTOR > TAU;
+        let noises = [points.noise.unwrap_or_default(), Noise::default()];
+        let of = |(of, noise): (&Vec<[f64; 2]>, &Noise)| {
+            let Some(clearance) = self.clearance(run) else {
+                return from_fn(|_| no("no bearing with a clearance is at this place"));
             };
-            let radii: Vec<f64> = of.iter().map(|[x, y]| x.hypot(*y)).collect();
-            let samples = Samples {
-                times: &points.time,
-                values: &radii,
+            let values: &Vec<f64> = &of.iter().map(|[x, y]| x.hypot(*y)).collect();
+            let times = &points.time;
+            let radii = Samples {
+                times,
+                values,
                 noise,
             };
-            let contact = samples.crossing(clearance, first, Side::Before);
-            let contact = contact.map(|own| own.time.minus(Uncertain::exact(run.release)));
-            let contact = contact.ok_or_else(|| "the clearance is not crossed".to_string());
-            let turns = match self.fastest(run, WHIRLS * clearance) * interval {
-                angle if angle > TAU / A_TURN => {
-                    no("fewer than eight samples a turn of the predicted whirl")
-                }
-                _ if run.spin() * interval > PI => {
-                    no("fewer than two samples a turn of the rotor: they do not show the sense")
-                }
-                _ => whirl(samples, of, WHIRLS * clearance),
+            let contact = radii.crossing(clearance, first(times), Side::Before);
+            let contact = contact.map(|own| own.time);
+            let turns = match is_coarse {
+                true => no("fewer than four samples a turn of the rotor do not show the sense"),
+                false => whirl(radii, of, WHIRLS * clearance),
             };
+            [
+                contact.ok_or_else(|| "the clearance is not crossed".to_string()),
+                turns,
+            ]
+        };
+        let mut others = points.sides.iter().zip(&noises).map(of);
+        let sides = self.phases(run).map(|phase| {
+            let [contact, turns] = others.next().unwrap_or_else(|| from_fn(|_| no(LATE)));
             [phase, contact, turns]
         });
         (sides, known)
-    }
-
-    /// Rate of the predicted whirl at the rows of the run, rad/s.
-    fn fastest(&self, run: &Run, radius: f64) -> f64 {
-        let column = |name: &str| run.outcome.column(name).map_or(&[][..], |own| &own.values);
-        let [x, y] = ["x", "y"].map(|axis| column(&format!("{}.{axis}", self.place)));
-        let points: Vec<[f64; 2]> = x.iter().zip(y).map(|(x, y)| [*x, *y]).collect();
-        let radii: Vec<f64> = points.iter().map(|[x, y]| x.hypot(*y)).collect();
-        let samples = Samples {
-            times: column("time"),
-            values: &radii,
-            noise: &Noise::default(),
-        };
-        whirl(samples, &points, radius).map_or(0.0, |rate| rate.value.abs())
     }
 
     fn error(&self, run: &Run) -> Result<f64, String> {
@@ -489,7 +423,7 @@ pub(super) fn of_orbits(list: &mut List, curves: &[Curve], run: Option<&Run>) {
 /// Phases at the release of the pairs that show them: measured and predicted, rad.
 pub(super) fn phases(curves: &[Curve], run: &Run) -> Vec<(String, [Uncertain; 2])> {
     let pairs = orbits(curves).into_iter().filter_map(|own| {
-        let [measured, predicted] = own.features(run).0.map(|[phase, ..]| phase.ok());
+        let [measured, predicted] = own.phases(run).map(Result::ok);
         Some((own.name, [measured?, predicted?]))
     });
     pairs.collect()
@@ -541,7 +475,7 @@ origins! {
     ORBIT_ERROR: law "sqrt(mean |c_measured - c_predicted|^2) over the samples",
         source HERE,
         valid "errors of place and of phase alike";
-    PHASE: law "atan2(y, x) of the synchronous orbit of the 64 turns before the release at most; the predicted one of the centre at the release, within half a turn of the measured one; without a turn before it both at the first sample",
+    PHASE: law "atan2(y, x) of the synchronous orbit of the 64 turns before the release at most; the predicted one of the centre at the release, within half a turn of the measured one",
         source "crates/run/src/measured/before.rs",
         valid "an orbit above three standard uncertainties; the angle of the unbalance at the release is an input";
     CROSSING: law "distance from the line of levitation, by a local fit before it, reaches the radial air clearance",
@@ -549,5 +483,5 @@ origins! {
         valid "a race that is centred until then, sensors whose zero is the line of levitation";
     WHIRL: law "net angle about the line of levitation over the time outside half the clearance",
         source HERE,
-        valid "once round at least; eight samples a turn or more";
+        valid "once round at least; eight samples a turn or more, and four a turn of the rotor";
 }

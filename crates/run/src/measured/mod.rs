@@ -49,6 +49,7 @@ pub(crate) struct Curve {
 /// A measured and a predicted curve at the samples of a file that lie within the run.
 #[derive(Debug, Default)]
 pub(crate) struct Compared {
+    /// From the release on, s.
     pub time: Vec<f64>,
     pub measured: Vec<f64>,
     pub predicted: Vec<f64>,
@@ -219,7 +220,7 @@ impl Curve {
         for (time, measured) in self.within(outcome) {
             let predicted = between(times, values, time).filter(|own| own.is_finite());
             if let Some(predicted) = predicted {
-                compared.time.push(time);
+                compared.time.push(time - release);
                 compared.measured.push(measured);
                 compared.predicted.push(predicted);
             }
@@ -249,7 +250,7 @@ impl Compared {
         root_mean_square(self.differences(), NOTHING_COMMON)
     }
 
-    /// The largest difference, and its instant.
+    /// The largest difference, and its instant after the release.
     fn largest(&self) -> Result<(f64, f64), String> {
         let all = self.differences().zip(self.time.iter().copied());
         let largest = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
@@ -296,7 +297,7 @@ pub(crate) fn add(curves: &[Curve], outcome: &mut Outcome) {
         return;
     }
     let release = counted_from(&outcome.quantities).unwrap_or(0.0);
-    let turning = Turning::of(outcome, release);
+    let turning = before::turning(outcome, release);
     let compared = |curve: &Curve| curve.compared(outcome, release, turning.as_ref());
     let all: Vec<Compared> = curves.iter().map(compared).collect();
     let run = Run {
@@ -322,7 +323,7 @@ pub(crate) fn columns(curves: &[Curve], times: &[f64]) -> Vec<Column> {
 pub(crate) fn residuals(curves: &[Curve], outcome: &Outcome) -> Vec<Vec<f64>> {
     let release = counted_from(&outcome.quantities).unwrap_or(0.0);
     let first = curves.iter().filter(|curve| curve.given.drop == 1);
-    let turning = Turning::of(outcome, release);
+    let turning = before::turning(outcome, release);
     let each = first.map(|curve| curve.compared(outcome, release, turning.as_ref()));
     each.filter_map(|own| own.residuals()).collect()
 }
@@ -341,6 +342,14 @@ impl Run<'_> {
     fn at(&self, column: &str, time: f64) -> Option<f64> {
         let [times, values] = ["time", column].map(|name| self.outcome.column(name));
         between(&times?.values, &values?.values, time)
+    }
+
+    /// Misfit of all channels of the first drop.
+    fn misfit(&self) -> Result<f64, String> {
+        let both = self.curves.iter().zip(self.all);
+        let first = both.filter(|(curve, _)| curve.given.drop == 1);
+        let all = first.filter_map(|(_, own)| own.residuals());
+        root_mean_square(all.flatten(), NO_DEVIATION)
     }
 
     /// Speed of the rotor at the release, rad/s; 0 without one.
@@ -373,14 +382,14 @@ pub(crate) fn name(curves: &[Curve], run: Option<&Run>) -> Vec<Quantity> {
 results! {
     fn overall(setup: &(), run: &Run) {
         "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" => {
-            root_mean_square(residuals(run.curves, run.outcome).concat().into_iter(), NO_DEVIATION)
+run.misfit()
         };
     }
     fn difference(curve: &Curve, run: &(&Compared, &Run)) {
         "measured.*.deviation": number "of the column", DEVIATION, "standard deviation of the channel" in measured_difference "deviation of the channel" => run.0.deviation().ok_or_else(|| NO_DEVIATION.to_string());
         "measured.*.rms_difference": number "of the column", RMS, "root mean square of measured less predicted" in measured_difference "rms difference" => run.0.rms();
         "measured.*.largest_difference": number "of the column", LARGEST, "largest difference of measured less predicted" in measured_difference "largest difference" => run.0.largest().map(|(value, _)| value);
-        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => run.0.largest().map(|(_, time)| time);
+        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => run.0.largest().map(|(_, time)| time + run.1.release);
         "measured.*.relative_difference": number "1" headline, RELATIVE, "rms difference over the range of the prediction" in measured_difference "over the range [%]" => run.0.relative();
         "measured.*.misfit": number "1", MISFIT, "rms difference over the standard deviation of the channel" in measured_difference "over the deviation" => run.0.misfit();
         "measured.*.share_within_band": number "1", SHARE, "share of the samples within two standard deviations" in measured_difference "within two deviations [%]" => run.0.share();

@@ -126,7 +126,7 @@ fn curves(
 
 /// Values of results.
 fn values(curves: &[Curve], outcome: &Outcome) -> BTreeMap<String, f64> {
-    let turning = Turning::of(outcome, 0.0);
+    let turning = before::turning(outcome, 0.0);
     let compared = |curve: &Curve| curve.compared(outcome, 0.0, turning.as_ref());
     let all: Vec<Compared> = curves.iter().map(compared).collect();
     let run = Run {
