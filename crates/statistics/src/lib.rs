@@ -22,6 +22,7 @@ pub mod linear;
 pub mod local_fit;
 pub mod noise;
 pub mod normal;
+pub mod quantile;
 pub mod random;
 pub mod share;
 pub mod simplex;

@@ -13,6 +13,7 @@ use outcome::Outcome;
 use statistics::interpolation::{between, held};
 use statistics::least_squares::LeastSquares;
 use statistics::noise::Noise;
+use statistics::quantile;
 use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
@@ -24,8 +25,6 @@ const TURNS: f64 = 64.0;
 const SHOWN: f64 = 6.0;
 /// Rounds of that correction.
 const ROUNDS: usize = 4;
-/// Median of the size of a normal number of deviation 1.
-const NORMAL_MEDIAN: f64 = 0.674_489_750_196_081_7;
 /// Rounding averages out where noise spreads values over several steps: where their deviation is this share of a step at least; rounding alone
 /// has 1/√12 of it.
 const SPREAD: f64 = 0.42;
@@ -83,7 +82,9 @@ impl Curve {
             .map(|([mean, orbit], noise)| (mean, Some(orbit), noise));
         let (mean, orbit, noise) = match found.or_else(alone) {
             Some((mean, orbit, noise)) => (Some(mean), orbit, noise),
-            None => (None, None, self.scatter()),
+            // of the whole, by differences that impacts do not raise
+            None if self.values.len() >= FEWEST => (None, None, Some(white(&self.values))),
+            None => (None, None, None),
         };
         let noise = self.noise(noise);
         let rounding = noise
@@ -100,7 +101,7 @@ impl Curve {
     /// Noise with the deviation that the file gives, or with that of rounding at least.
     fn noise(&self, found: Option<Noise>) -> Option<Noise> {
         let mut noise = found.unwrap_or_default();
-        let step = self.step();
+        let step = quantile::step(&self.values);
         let least = step / 12_f64.sqrt();
         if noise.deviation < SPREAD * step {
             noise.rounding = step;
@@ -114,38 +115,6 @@ impl Curve {
         let largest = (self.values.iter()).fold(0.0, |most: f64, own| most.max(own.abs()));
         // less is rounding of numbers
         (noise.deviation > 1e-9 * largest).then_some(noise)
-    }
-
-    /// White noise by the median second difference, which impacts do not raise: of a file without a stretch before the release.
-    fn scatter(&self) -> Option<Noise> {
-        let second = |three: &[f64]| (three[0] - 2.0 * three[1] + three[2]).abs();
-        let mut all: Vec<f64> = self.values.windows(3).map(second).collect();
-        all.sort_by(f64::total_cmp);
-        let median = all.get(all.len() / 2).filter(|_| all.len() >= FEWEST)?;
-        let deviation = median / (NORMAL_MEDIAN * 6_f64.sqrt());
-        Some(Noise {
-            deviation,
-            ..Noise::default()
-        })
-    }
-
-    /// Step of rounded values: the smallest change, of which nearly all others are multiples, where some neighbours are equal; else 0.
-    fn step(&self) -> f64 {
-        let changes: Vec<f64> = self
-            .values
-            .windows(2)
-            .map(|two| (two[1] - two[0]).abs())
-            .collect();
-        let known = changes.iter().filter(|change| **change > 0.0);
-        let step = known.clone().copied().fold(f64::INFINITY, f64::min);
-        let whole = |change: &&f64| (*change / step - (*change / step).round()).abs() < 0.1;
-        let (count, changed, whole) = (
-            changes.len(),
-            known.clone().count(),
-            known.filter(whole).count(),
-        );
-        let rounded = 20 * changed < 19 * count && 10 * whole > 9 * changed;
-        if rounded { step } else { 0.0 }
     }
 }
 
@@ -188,4 +157,12 @@ fn synchronous(
         both.for_each(|(angle, time)| *angle += turned * time / -times[0]);
     }
     Some(([mean, cosine], noise))
+}
+
+/// White noise of values that are smooth but for it.
+fn white(values: &[f64]) -> Noise {
+    Noise {
+        deviation: quantile::noise(values, [1.0, -2.0, 1.0]),
+        ..Noise::default()
+    }
 }
