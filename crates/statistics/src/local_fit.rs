@@ -6,7 +6,7 @@
 //!    ·     |    ·    2. the window with the smallest variance of the quadratic plus square of what it lacks
 //!          at        3. the higher polynomial of that window: what the quadratic lacks there is of the size of its noise
 //! ```
-//! Without noise the smallest window is taken.
+//! Without noise the smallest window is taken, of four samples.
 //!
 //! Source: local polynomial regression; the higher degree for the estimate as in robust bias-corrected inference (Calonico, Cattaneo and Farrell, from memory).
 //! Valid: noise of one deviation and autocorrelation; uncertainties of the first order. A crossing needs values that go beyond the level by more than

@@ -46,8 +46,9 @@ function differenceTable(run) {
 function featureTable(run) {
   const rows = rowsIn(run, "measured_features");
   if (!rows.length) return null;
+  const spreadOf = ({ quantity, words, value }) => (value === null ? "–" : numberIn(words, value, quantity.unit, 2));
   const body = rows.map(([key, entries]) => {
-    const side = (end) => element("td", {}, entries.filter(({ name }) => name.endsWith(`.${end}`)).map(cellOf));
+    const side = (end) => element("td", {}, entries.filter(({ name }) => name.endsWith(`.${end}`)).map(end.endsWith("uncertainty") ? spreadOf : cellOf));
     const channel = key.slice("measured.".length, key.lastIndexOf("."));
     return element("tr", {}, element("td", { class: "name" }, element("code", {}, channel)), element("td", {}, entries[0].words.replace(/ \[.*\]$/, "")), ["measured", "uncertainty", "predicted", "difference", "difference_uncertainty"].map(side));
   });

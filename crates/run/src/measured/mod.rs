@@ -127,7 +127,7 @@ impl Curve {
         if last >= 0.0 && first <= end {
             return Ok(curve);
         }
-        let [first, last] = [first, last].map(|time| number_text(1e-6 * (1e6 * time).round()));
+        let [first, last] = [first, last].map(|time| number_text((1e6 * time).round() / 1e6));
         let found = format!("a file from {first} s to {last} s on the clock of the run");
         let end = number_text(end);
         let needed = format!(

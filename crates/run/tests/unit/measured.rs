@@ -206,3 +206,27 @@ fn errors_of_features_are_as_large_as_stated() {
         );
     }
 }
+
+/// Few samples a turn, filters and rounding once made the noise of a channel look so large that its misfit was 0.7 beside a wrong clearance.
+#[test]
+fn a_clearance_off_by_half_a_per_cent_shows_in_any_channel() {
+    let scenario = machine();
+    let clearance = ["contact.radial_air_clearance", "0.25125 mm"].map(str::to_string);
+    let other = scenario.with(&[clearance.into()]).unwrap();
+    let never = AtomicBool::new(false);
+    let run = |of: &Scenario| crate::built(of).unwrap().run(&Options::unwatched(&never));
+    let (right, wrong) = (run(&scenario), run(&other));
+    for (kind, interval) in [
+        (Kind::White, 1e-3),
+        (Kind::Filtered(0.8), 1e-4),
+        (Kind::Rounded(3.0, 1.0), 1e-4),
+    ] {
+        let channels = curves(&scenario, &right, interval, Some((kind, 1)));
+        let [right, wrong] =
+            [&right, &wrong].map(|run| values(&channels, run)["measured.rotor.y.misfit"]);
+        assert!(
+            (right - 1.0).abs() < 0.3 && wrong > 3.0,
+            "{kind:?}: {right} {wrong}"
+        );
+    }
+}
