@@ -173,6 +173,9 @@ impl Samples<'_> {
                 break;
             };
             let bend = (-sense * own.bend.value).max(own.bend.deviation);
+            if bend <= 0.0 {
+                break;
+            }
             let step = sense * own.slope.value / (2.0 * bend);
             let step = step.clamp(-0.5 * own.reach, 0.5 * own.reach);
             let deviation = own.slope.deviation / (2.0 * bend);

@@ -127,6 +127,9 @@ fn without_noise_fits_are_exact() {
     let crossing = samples(&line).crossing(7.25, 0, Side::Before).unwrap();
     assert_eq!((crossing.row, crossing.time.value), (8, 7.25));
     assert!(samples(&line).crossing(19.5, 0, Side::Around).is_none());
+    // a plateau has no vertex: its middle stands for it
+    let flat = samples(&[2.0; 20]).extremum(3, 1.0, 0);
+    assert_eq!((flat.time.value, flat.value.value), (9.0, 2.0));
     // a jump lies anywhere between its rows
     let jump: Vec<f64> = times
         .iter()
