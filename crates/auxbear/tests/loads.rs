@@ -147,6 +147,12 @@ fn a_force_comes_from_a_file() {
     write("time (ms),impact\n0,0\n1,250\n2,0\n");
     let unit = read("channel_x = \"impact\"").unwrap_err();
     assert!(unit.contains("without a unit"), "{unit}");
+    write("time (ms),impact (m/s^2)\n0,0\n1,250\n2,0\n");
+    let other = read("channel_x = \"impact\"").unwrap_err();
+    assert!(
+        other.contains("in m/s^2; a unit of the kind of N is needed"),
+        "{other}"
+    );
     let nothing = parsed(&(free() + "[[rotor.force]]\nat = \"0.15 m\"\n"), &[]).unwrap_err();
     assert!(
         nothing.contains("times with x, y or torque, or file"),

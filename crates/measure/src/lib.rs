@@ -24,9 +24,10 @@ pub mod inertia;
 mod kernel;
 pub mod order;
 pub mod pulse;
-mod quantile;
 pub mod shaft;
 pub mod spectrum;
 pub mod speed;
 mod state_space;
 pub mod torque_sensor;
+
+use statistics::quantile;

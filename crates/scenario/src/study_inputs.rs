@@ -207,9 +207,9 @@ pub(super) fn estimable(file: &str, scenario: &Scenario, inputs: &[StudyInput]) 
     let refuse = |key: &str, found: String, allowed: &str| {
         Err(Problem::new(Code::StudyDesign, file, found, allowed).on_key(key))
     };
-    if scenario.measured.is_empty() {
-        let found = "a scenario without measured channels".to_string();
-        let allowed = "tables [[measured]] in it are needed: an estimate compares with them";
+    if scenario.measured.iter().all(|own| own.drop > 1) {
+        let found = "a scenario without measured channels of drop 1".to_string();
+        let allowed = "tables [[measured]] of it are needed: an estimate compares with them";
         return refuse("scenario", found, allowed);
     }
     let bounded =

@@ -1,5 +1,5 @@
-//! Normal numbers, random streams, simplex, small systems, numbers with their uncertainty, and designs of many runs: which values member k takes,
-//! and what the results of all members say.
+//! Normal numbers, random streams, simplex, small systems, numbers with their uncertainty, noise of channels and fits beside it, and designs
+//! of many runs: which values member k takes, and what the results of all members say.
 //!
 //! ```text
 //!   Design ──(seed, k)──▶ coordinates in (0, 1) ──Correlation──▶ Distribution ──▶ values
@@ -17,8 +17,12 @@ pub mod distribution;
 pub mod elementary;
 pub mod indices;
 pub mod interpolation;
+pub mod least_squares;
 pub mod linear;
+pub mod local_fit;
+pub mod noise;
 pub mod normal;
+pub mod quantile;
 pub mod random;
 pub mod share;
 pub mod simplex;

@@ -46,16 +46,17 @@ function differenceTable(run) {
 function featureTable(run) {
   const rows = rowsIn(run, "measured_features");
   if (!rows.length) return null;
+  const spreadOf = ({ quantity, words, value }) => (value === null ? "–" : numberIn(words, value, quantity.unit, 2));
   const body = rows.map(([key, entries]) => {
-    const side = (end) => element("td", {}, entries.filter(({ name }) => name.endsWith(`.${end}`)).map(cellOf));
+    const side = (end) => element("td", {}, entries.filter(({ name }) => name.endsWith(`.${end}`)).map(end.endsWith("uncertainty") ? spreadOf : cellOf));
     const channel = key.slice("measured.".length, key.lastIndexOf("."));
-    return element("tr", {}, element("td", { class: "name" }, element("code", {}, channel)), element("td", {}, entries[0].words.replace(/ \[.*\]$/, "")), ["measured", "predicted", "difference"].map(side));
+    return element("tr", {}, element("td", { class: "name" }, element("code", {}, channel)), element("td", {}, entries[0].words.replace(/ \[.*\]$/, "")), ["measured", "uncertainty", "predicted", "difference", "difference_uncertainty"].map(side));
   });
-  return tableOfRows("held", ["Channel", "Feature", "Measured", "Predicted", "Difference"], body);
+  return tableOfRows("held", ["Channel", "Feature", "Measured", "Uncertainty", "Predicted", "Difference", "Uncertainty"], body);
 }
 
 function measuredSection(runs) {
-  const lead = element("p", { class: "lead" }, "At the rows of the run that the file covers; differences are measured less predicted. Features of both curves by the same estimator, instants after the release. The phase at the release is an input: impacts after the first depend on it.");
+  const lead = element("p", { class: "lead" }, "At the samples of the file within the run; differences are measured less predicted. Features of both curves by the same estimator with standard uncertainties, instants after the release. The phase at the release is an input: impacts after the first depend on it.");
   const of = (run) => [...[...measuredOf(run)].map(([column, channels]) => measuredFigure(run, column, channels)), differenceTable(run), featureTable(run)];
   return section("measured", "Measured beside predicted", lead, runs.map(of));
 }

@@ -125,7 +125,7 @@ function rowsIn(run, figure) {
 }
 
 // Units other than those of results that the words of a figure may ask for.
-const ASKED_UNITS = { "[%]": ["%", 100], "[Hz]": ["Hz", 1 / (2 * Math.PI)] };
+const ASKED_UNITS = { "[%]": ["%", 100], "[Hz]": ["Hz", 1 / (2 * Math.PI)], "[deg]": ["deg", 180 / Math.PI] };
 
 // The unit and the factor that words ask for; none where they leave both to the size of the value.
 function askedUnit(words) {

@@ -28,6 +28,12 @@ pub(super) fn scaled(name: &str, unit: &str, values: impl Iterator<Item = f64>) 
         "" | "1" => return (1.0, plain(name)),
         // unbalance
         "kg m" => return (1e6, format!("{}, g mm", plain(name))),
+        "rad" => {
+            return (
+                180.0 / std::f64::consts::PI,
+                format!("{}, deg", plain(name)),
+            );
+        }
         "rad/s" => return (30.0 / std::f64::consts::PI, format!("{}, rpm", plain(name))),
         "s" | "m" | "N" | "J" | "W" | "Pa" | "N m" | "N/m" if most > 0.0 => {
             (most.log10() / 3.0 - 0.1).floor().clamp(-3.0, 3.0) as i32

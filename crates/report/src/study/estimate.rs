@@ -44,9 +44,9 @@ pub fn rows(found: &Estimate) -> Vec<[String; 5]> {
 
 /// What qualifies the rows, in sentences.
 pub fn note(found: &Estimate) -> String {
-    let [rows, independent] = found.rows.map(f64::round);
+    let [samples, independent] = found.rows.map(f64::round);
     let mut text = format!(
-        "Misfit {} over {rows} rows, of which {independent} count as independent; {} runs besides the members.",
+        "Misfit {} over {samples} samples, of which {independent} count as independent; {} runs besides the members.",
         short(found.misfit),
         found.runs
     );

@@ -1,4 +1,4 @@
-//! Features of a measured and of a predicted curve, each by one estimator for both, at the same rows.
+//! Features of a measured and of a predicted curve, each by one estimator for both, at the samples of the file, with their uncertainty.
 //!
 //! ```text
 //!   force          first contact, its duration and impulse, peak       begins where it rises above a threshold
@@ -6,24 +6,37 @@
 //!   inner race     spin-up time                                        95 % of the rotor's speed at the release
 //!   x and y        phase at the release, first contact, whirl          of a point in the plane
 //! ```
-//! The threshold is six standard deviations of the channel, and a fiftieth of the range of the prediction at least.
+//! Instants and extrema come from local fits whose windows follow the noise of the channel; the predicted curve has none. A force may jump: its
+//! contact begins and ends anywhere between two samples. The phase of the measured orbit is that of the stretch before the release.
 
-use super::{Compared, Curve, NOTHING_COMMON, Run, root_mean_square};
+use super::before::Before;
+use super::{Compared, Curve, NO_DEVIATION, NOTHING_COMMON, Run, root_mean_square};
 use outcome::list::{List, origins, results};
 use statistics::interpolation::between;
+use statistics::local_fit::{Crossing, Samples, Side};
+use statistics::noise::Noise;
+use statistics::uncertain::Uncertain;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-type Found = Result<f64, String>;
+type Found = Result<Uncertain, String>;
 
-/// Standard deviations of a threshold, and the share of the predicted range that it is at least.
-const THRESHOLD: (f64, f64) = (6.0, 0.02);
+/// Share of the predicted range that a threshold is at least.
+const THRESHOLD: f64 = 0.02;
+/// Deviations of an extremum of noise beyond the largest expected one that still count as noise.
+const BEYOND: f64 = 1.0;
+/// Deviations of its noise that the threshold of a force is at least.
+const CONTACT_NOISE: f64 = 2.0;
 /// Share of full speed at which a race has spun up.
 const SPUN_UP: f64 = 0.95;
-/// Rows a turn that a whirl needs.
+/// Samples a turn that a whirl needs.
 const A_TURN: f64 = 8.0;
+/// Samples a turn of the rotor that show the sense of a whirl, also of one that is three times as fast.
+const OF_THE_ROTOR: f64 = 4.0;
 /// The whirl counts outside this share of the clearance, as `whirl_turns` does.
 const WHIRLS: f64 = 0.5;
+/// Standard uncertainties of the orbit from which on it has a phase.
+const SHOWN: f64 = 3.0;
 
 const LATE: &str = "the file begins after the release";
 
@@ -31,155 +44,191 @@ fn no(why: &str) -> Found {
     Err(why.to_string())
 }
 
-/// Adds a table three times: measured, predicted, difference.
-fn sides<const N: usize>(
-    list: &mut List,
-    name: &str,
-    table: fn(&mut List, &(), Option<&[Found; N]>),
-    both: Option<[[Found; N]; 2]>,
-) {
-    let all = both.map(|[measured, predicted]| {
-        let difference = from_fn(|k| Ok(measured[k].clone()? - predicted[k].clone()?));
-        [measured, predicted, difference]
+/// Features of the measured and of the predicted curve, and whether the noise of the former is known.
+type Both<const N: usize> = ([[Found; N]; 2], bool);
+
+/// A table of features.
+type Table<const N: usize> = fn(&mut List, &(), Option<&[Result<f64, String>; N]>);
+
+/// Adds a table five times: measured with its uncertainty, predicted, the difference with its uncertainty, these where noise is known.
+fn sides<const N: usize>(list: &mut List, name: &str, table: Table<N>, both: Option<Both<N>>) {
+    let sides = both.map(|([measured, predicted], known)| {
+        let difference = from_fn(|k| Ok(measured[k].clone()?.minus(predicted[k].clone()?)));
+        let value = |of: &[Found; N]| from_fn(|k| of[k].clone().map(|own| own.value));
+        let spread = |of: &[Found; N]| {
+            let known = known.then_some(()).ok_or(NO_DEVIATION);
+            from_fn(|k| {
+                of[k]
+                    .clone()
+                    .and_then(|own| known.map(|()| own.deviation).map_err(str::to_string))
+            })
+        };
+        let [measured, difference] = [measured, difference].map(|own| [value(&own), spread(&own)]);
+        [
+            measured.to_vec(),
+            vec![value(&predicted)],
+            difference.to_vec(),
+        ]
+        .concat()
     });
-    for (k, side) in (0..).zip(["measured", "predicted", "difference"]) {
-        let own = all.as_ref().map(|all| &all[k]);
+    let names = "measured uncertainty predicted difference difference_uncertainty";
+    for (k, side) in names.split(' ').enumerate() {
+        let own = sides.as_ref().map(|sides| &sides[k]);
         list.named(&[name, side], |list| table(list, &(), own));
     }
 }
 
 impl Compared {
+    /// What noise alone does not reach, from its highest to its lowest value among so many, and a share of the range of the prediction.
     fn threshold(&self) -> f64 {
-        let (deviations, share) = THRESHOLD;
-        (deviations * self.deviation.unwrap_or(0.0)).max(share * self.range())
+        let largest = (2.0 * (self.time.len().max(2) as f64).ln()).sqrt();
+        let noise = 2.0 * (largest + BEYOND) * self.deviation().unwrap_or(0.0);
+        noise.max(THRESHOLD * self.range())
     }
-    /// Whether it begins more than two rows after an instant.
-    fn begins_late(&self, time: f64) -> bool {
-        matches!(self.time[..], [first, second, ..] if first > time + 2.0 * (second - first))
+    /// Whether it begins more than two samples after the release.
+    fn begins_late(&self) -> bool {
+        matches!(self.time[..], [first, second, ..] if first > 2.0 * (second - first))
     }
-    /// The first row from an instant on.
-    fn row(&self, time: f64) -> usize {
-        self.time.partition_point(|own| *own < time)
+    /// Features of the measured curve, with the mean before the release, and of the predicted one, without noise.
+    fn both<const N: usize>(
+        &self,
+        of: impl Fn(Samples, Option<Uncertain>) -> [Found; N],
+    ) -> Both<N> {
+        let Before { mean, noise, .. } = &self.before;
+        let sides = [
+            (&self.measured, noise.clone().unwrap_or_default(), *mean),
+            (&self.predicted, Noise::default(), None),
+        ];
+        let sides = sides.map(|(values, noise, mean)| {
+            let times = &self.time;
+            match values.is_empty() || self.begins_late() {
+                true => from_fn(|_| {
+                    no(if values.is_empty() {
+                        NOTHING_COMMON
+                    } else {
+                        LATE
+                    })
+                }),
+                false => of(
+                    Samples {
+                        times,
+                        values,
+                        noise: &noise,
+                    },
+                    mean,
+                ),
+            }
+        });
+        (sides, noise.is_some())
     }
-}
-
-/// Row and instant at which values reach a level, straight between rows; from a row on.
-fn reached(time: &[f64], values: &[f64], level: f64, from: usize) -> Option<(usize, f64)> {
-    let row = (from..values.len()).find(|row| values[*row] >= level)?;
-    if row == from {
-        return Some((row, time[row]));
-    }
-    let (before, after) = (values[row - 1], values[row]);
-    let share = (level - before) / (after - before);
-    Some((row, time[row - 1] + share * (time[row] - time[row - 1])))
 }
 
 /// Features of one channel by what its column is.
 pub(super) fn of_curve(list: &mut List, curve: &Curve, run: Option<(&Compared, &Run)>) {
     let (name, column) = (curve.name.as_str(), curve.given.column.as_str());
     let ends = |ends: &[&str]| ends.iter().any(|end| column.ends_with(end));
-    let values = |own: &'_ Compared| [own.measured.clone(), own.predicted.clone()];
     match curve.unit {
         "N" if ends(&["force"]) => {
-            let of = |(own, run): (&Compared, &Run)| {
-                values(own).map(|values| impact(own, &values, run.release))
-            };
-            sides(list, name, force, run.map(of));
+            let of = run.map(|(own, _)| own.both(|samples, mean| impact(own, samples, mean)));
+            sides(list, name, force, of);
         }
         "m" if ends(&[".x", ".y"]) => {
-            let of = |(own, run): (&Compared, &Run)| {
-                values(own).map(|values| turning(own, &values, run.release))
-            };
-            sides(list, name, displacement, run.map(of));
+            let of = run.map(|(own, _)| own.both(|samples, _| turning(own, samples)));
+            sides(list, name, displacement, of);
         }
         "rad/s" if ends(&["inner_race.speed"]) => {
-            let of = |(own, run): (&Compared, &Run)| {
-                values(own).map(|values| [spin_up(own, &values, run)])
-            };
-            sides(list, name, speed, run.map(of));
+            let of =
+                run.map(|(own, run)| own.both(|samples, _| [spin_up(own, samples, run.spin())]));
+            sides(list, name, speed, of);
         }
         _ => {}
     }
 }
 
-/// Time to 95 % of the rotor's speed at the release; without a rotor of the largest predicted speed.
-fn spin_up(own: &Compared, values: &[f64], run: &Run) -> Found {
-    if own.begins_late(run.release) {
-        return no(LATE);
-    }
-    let largest = |values: &[f64]| {
-        values
-            .iter()
-            .fold(0.0, |most: f64, own| most.max(own.abs()))
+/// First sample after the release.
+fn first(times: &[f64]) -> usize {
+    times
+        .partition_point(|time| *time < 0.0)
+        .min(times.len() - 1)
+}
+
+/// Time to 95 % of a speed; without a rotor of the largest predicted one.
+fn spin_up(own: &Compared, samples: Samples, spin: f64) -> Found {
+    let sizes = |values: &[f64]| values.iter().map(|own| own.abs()).collect::<Vec<f64>>();
+    let full = match spin {
+        0.0 => sizes(&own.predicted).into_iter().fold(0.0, f64::max),
+        spin => spin,
     };
-    let rotor = run
-        .outcome
-        .column("rotor.speed")
-        .zip(run.outcome.column("time"));
-    let full = rotor.and_then(|(speed, time)| between(&time.values, &speed.values, run.release));
-    let level = SPUN_UP * full.map_or_else(|| largest(&own.predicted), f64::abs);
-    let speeds: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    let time = reached(&own.time, &speeds, level, own.row(run.release));
-    let time = time.map(|(_, time)| time - run.release);
+    let values = &sizes(samples.values);
+    let samples = Samples { values, ..samples };
+    let crossing = samples.crossing(SPUN_UP * full, first(samples.times), Side::Around);
+    let time = crossing.map(|own| own.time);
     time.ok_or_else(|| "95 % of the speed is not reached".to_string())
 }
 
-/// First contact, its duration and impulse, and the peak of a force.
-fn impact(own: &Compared, values: &[f64], release: f64) -> [Found; 4] {
-    if values.is_empty() {
-        return from_fn(|_| no(NOTHING_COMMON));
-    }
-    if own.begins_late(release) {
-        return from_fn(|_| no(LATE));
-    }
-    let (first, level) = (own.row(release).min(values.len() - 1), own.threshold());
-    // what a load cell shows before the release
-    let base = values[..=first].iter().sum::<f64>() / (first + 1) as f64;
-    let excess: Vec<f64> = values.iter().map(|value| value - base).collect();
-    let peak = excess.iter().copied().fold(0.0, f64::max);
-    let Some((row, begin)) = reached(&own.time, &excess, level, first) else {
-        let none = || no("the force does not rise above the threshold");
-        return [none(), none(), none(), Ok(peak)];
+/// First contact, its duration and impulse, and the peak of a force above its mean before the release.
+fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 4] {
+    let first = first(samples.times);
+    let level = (THRESHOLD * own.range()).max(CONTACT_NOISE * own.deviation().unwrap_or(0.0));
+    let alone = Uncertain::new(samples.values[first], samples.noise.deviation);
+    let base = mean.unwrap_or(alone);
+    let values: Vec<f64> = samples.values.iter().map(|own| own - base.value).collect();
+    let samples = Samples {
+        values: &values,
+        ..samples
     };
-    let below: Vec<f64> = excess.iter().map(|value| -value).collect();
-    let end = reached(&own.time, &below, -level, row);
-    let lasts = || "the contact lasts to the end".to_string();
-    let impulse = end.map(|(last, _)| {
-        let step = |k: usize| 0.5 * (excess[k] + excess[k - 1]) * (own.time[k] - own.time[k - 1]);
-        (row.max(1)..=last).map(step).sum()
+    let largest = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let peak = samples.extremum(largest.unwrap_or(first), 1.0, 0).value;
+    let peak = Ok(Uncertain::new(
+        peak.value,
+        peak.deviation.hypot(base.deviation),
+    ));
+    let Some(begin) = samples.jump(level, 1.0, first) else {
+        let none = || no("the force does not rise above the threshold");
+        return [none(), none(), none(), peak];
+    };
+    let end = samples.jump(level, -1.0, begin.row);
+    let end = end.ok_or("the contact lasts to the end".to_string());
+    let impulse = end.clone().map(|end| {
+        let (from, to) = (begin.row.saturating_sub(1), end.row);
+        let time = |row: usize| samples.times[row.clamp(from, to)];
+        let weight = |row: usize| 0.5 * (time(row + 1) - time(row.saturating_sub(1)));
+        let weights: Vec<f64> = (from..=to).map(weight).collect();
+        let sum = samples.noise.weighted(&weights, &values[from..=to]);
+        // where between two samples it begins and ends is not known: by that times the force there, on a line through two samples
+        let edge = |edge: Crossing, row: usize, next: usize| {
+            edge.time.deviation * (1.5 * values[row] - 0.5 * values[next])
+        };
+        let begins = edge(begin, begin.row, (begin.row + 1).min(to));
+        let ends = edge(end, to - 1, to.saturating_sub(2));
+        let offset = base.deviation * weights.iter().sum::<f64>();
+        Uncertain::new(
+            sum.value,
+            sum.deviation.hypot(offset).hypot(begins).hypot(ends),
+        )
     });
-    [
-        Ok(begin - release),
-        end.map(|(_, end)| end - begin).ok_or_else(lasts),
-        impulse.ok_or_else(lasts),
-        Ok(peak),
-    ]
+    let lasts = end.map(|end| end.time.minus(begin.time));
+    [Ok(begin.time), lasts, impulse, peak]
 }
 
 /// Instant of the first reversal of a displacement, and how far it comes back until the next.
-fn turning(own: &Compared, values: &[f64], release: f64) -> [Found; 2] {
-    if own.begins_late(release) {
-        return from_fn(|_| no(LATE));
-    }
-    let first = own.row(release);
-    let rows = reversals(values.get(first..).unwrap_or_default(), own.threshold());
-    let row = |k: usize| rows.get(k).map(|row| first + row);
-    let none = || "the displacement does not turn by more than the threshold".to_string();
-    let rebound = row(0)
-        .zip(row(1))
-        .map(|(at, next)| (values[next] - values[at]).abs());
-    [
-        row(0).map(|row| own.time[row] - release).ok_or_else(none),
-        rebound.ok_or_else(none),
-    ]
+fn turning(own: &Compared, samples: Samples) -> [Found; 2] {
+    let first = first(samples.times);
+    let rows = reversals(&samples.values[first..], own.threshold());
+    let found = |k: usize| {
+        let (row, sense) = rows
+            .get(k)
+            .ok_or("the displacement does not turn by more than the threshold")?;
+        Ok::<_, String>(samples.extremum(first + row, *sense, first))
+    };
+    let apart = found(1).and_then(|next| Ok(next.value.minus(found(0)?.value)));
+    let rebound = apart.map(|own| Uncertain::new(own.value.abs(), own.deviation));
+    [found(0).map(|own| own.time), rebound]
 }
 
-/// Rows of the extrema between which values change by more than a threshold.
-fn reversals(values: &[f64], least: f64) -> Vec<usize> {
-    let Some(start) = values.first() else {
-        return Vec::new();
-    };
-    let (mut rows, mut sense, mut extreme) = (Vec::new(), 0.0, (0, *start));
+/// Rows of the extrema between which values change by more than a threshold, with 1 of a maximum and -1 of a minimum.
+fn reversals(values: &[f64], least: f64) -> Vec<(usize, f64)> {
+    let (mut rows, mut sense, mut extreme) = (Vec::new(), 0.0, (0, values[0]));
     for (row, value) in values.iter().enumerate() {
         let ahead = value - extreme.1;
         if sense == 0.0 {
@@ -189,7 +238,7 @@ fn reversals(values: &[f64], least: f64) -> Vec<usize> {
         } else if sense * ahead > 0.0 {
             extreme = (row, *value);
         } else if -sense * ahead > least {
-            rows.push(extreme.0);
+            rows.push((extreme.0, sense));
             (sense, extreme) = (-sense, (row, *value));
         }
     }
@@ -216,28 +265,34 @@ fn orbits(curves: &[Curve]) -> Vec<Orbit<'_>> {
     pairs.collect()
 }
 
-/// Points of both curves at the rows that both channels cover.
+/// Points of both curves at the samples of the channel along x.
 struct Points {
     time: Vec<f64>,
     /// Measured and predicted.
     sides: [Vec<[f64; 2]>; 2],
-    deviation: f64,
+    /// Noise of both channels as one; none where that of one is not known.
+    noise: Option<Noise>,
 }
 
 impl Orbit<'_> {
     fn points(&self, run: &Run) -> Points {
         let [x, y] = self.axes.map(|axis| &run.all[axis]);
+        let noise = x.before.noise.clone().zip(y.deviation());
         let mut points = Points {
             time: Vec::new(),
             sides: [Vec::new(), Vec::new()],
-            deviation: (x.deviation.into_iter().chain(y.deviation)).fold(0.0, f64::max),
+            noise: noise.map(|(x, y)| Noise {
+                deviation: x.deviation.hypot(y) / 2_f64.sqrt(),
+                ..x
+            }),
         };
         for (row, time) in x.time.iter().enumerate() {
-            let other = y.row(*time);
-            if y.time.get(other) == Some(time) {
+            let measured = run.curves[self.axes[1]].at(time + run.release);
+            let predicted = between(&y.time, &y.predicted, *time);
+            if let Some(predicted) = predicted.filter(|_| measured.is_finite()) {
                 points.time.push(*time);
-                points.sides[0].push([x.measured[row], y.measured[other]]);
-                points.sides[1].push([x.predicted[row], y.predicted[other]]);
+                points.sides[0].push([x.measured[row], measured]);
+                points.sides[1].push([x.predicted[row], predicted]);
             }
         }
         points
@@ -251,47 +306,73 @@ impl Orbit<'_> {
         own?.clearance
     }
 
-    /// Phase at the release, first contact and whirl of both curves.
-    fn features(&self, run: &Run) -> [[Found; 3]; 2] {
-        let points = self.points(run);
-        if run.all[self.axes[0]].begins_late(run.release) {
-            return from_fn(|_| from_fn(|_| no(LATE)));
-        }
-        let clearance = self.clearance(run);
-        let interval = self.axes.map(|axis| run.curves[axis].interval());
-        let interval = interval[0].max(interval[1]);
-        let first = points.time.partition_point(|own| *own < run.release);
-        let [measured, mut predicted] = [0, 1].map(|side| {
-            let of: &[[f64; 2]] = &points.sides[side];
-            let radii: Vec<f64> = of.iter().map(|[x, y]| x.hypot(*y)).collect();
-            let phase = match radii.get(first) {
-                None => no("the file does not cover the release"),
-                Some(radius) if *radius <= THRESHOLD.0 * points.deviation => {
-                    no("the orbit at the release is not above six standard deviations")
+    /// Phases at the release, rad: of the measured orbit before it and of the run there.
+    fn phases(&self, run: &Run) -> [Found; 2] {
+        let measured = self.axes.map(|axis| run.all[axis].before.orbit);
+        let predicted =
+            ["x", "y"].map(|axis| run.at(&format!("{}.{axis}", self.place), run.release));
+        let [measured, mut predicted] = [measured, predicted.map(|own| own.map(Uncertain::exact))]
+            .map(|point| {
+                let [Some(x), Some(y)] = point else {
+                    return no("the file does not show a turn before the release");
+                };
+                let radius = x.value.hypot(y.value);
+                if radius <= SHOWN * x.deviation.max(y.deviation) {
+                    return no(
+                        "the orbit at the release is not above three standard uncertainties",
+                    );
                 }
-                Some(0.0) => no("there is no orbit at the release"),
-                Some(_) => Ok(of[first][1].atan2(of[first][0])),
-            };
-            let Some(clearance) = clearance else {
-                let why = "no bearing with a clearance is at this place";
-                return [phase, no(why), no(why)];
-            };
-            let contact = reached(&points.time, &radii, clearance, first);
-            let contact = contact.map(|(_, time)| time - run.release);
-            let contact = contact.ok_or_else(|| "the clearance is not crossed".to_string());
-            // the predicted curve has no samples but the rows
-            let interval = [interval, 0.0][side];
-            let turns = whirl(&points.time, of, WHIRLS * clearance, interval);
-            [phase, contact, turns]
-        });
-        if let (Ok(measured), Ok(phase)) = (&measured[0], &mut predicted[0]) {
+                let across = (x.deviation * y.value).hypot(y.deviation * x.value) / radius;
+                Ok(Uncertain::new(y.value.atan2(x.value), across / radius))
+            });
+        if let (Ok(measured), Ok(phase)) = (&measured, &mut predicted) {
             // the difference of two phases is the shorter way
-            *phase += TAU * ((measured - *phase) / TAU).round();
+            phase.value += TAU * ((measured.value - phase.value) / TAU).round();
         }
         [measured, predicted]
     }
 
-    fn error(&self, run: &Run) -> Found {
+    /// Phase at the release, first contact and whirl of both curves, and whether their noise is known.
+    fn features(&self, run: &Run) -> Both<3> {
+        let points = self.points(run);
+        let known = points.noise.is_some();
+        if points.time.is_empty() || run.all[self.axes[0]].begins_late() {
+            return (from_fn(|_| from_fn(|_| no(LATE))), known);
+        }
+        let interval = self.axes.map(|axis| run.curves[axis].interval());
+        let is_coarse = interval[0].max(interval[1]) * run.spin() * OF_THE_ROTOR > TAU;
+        let noises = [points.noise.unwrap_or_default(), Noise::default()];
+        let of = |(of, noise): (&Vec<[f64; 2]>, &Noise)| {
+            let Some(clearance) = self.clearance(run) else {
+                return from_fn(|_| no("no bearing with a clearance is at this place"));
+            };
+            let values: &Vec<f64> = &of.iter().map(|[x, y]| x.hypot(*y)).collect();
+            let times = &points.time;
+            let radii = Samples {
+                times,
+                values,
+                noise,
+            };
+            let contact = radii.crossing(clearance, first(times), Side::Before);
+            let contact = contact.map(|own| own.time);
+            let turns = match is_coarse {
+                true => no("fewer than four samples a turn of the rotor do not show the sense"),
+                false => whirl(radii, of, WHIRLS * clearance),
+            };
+            [
+                contact.ok_or_else(|| "the clearance is not crossed".to_string()),
+                turns,
+            ]
+        };
+        let mut others = points.sides.iter().zip(&noises).map(of);
+        let sides = self.phases(run).map(|phase| {
+            let [contact, turns] = others.next().unwrap_or_else(|| from_fn(|_| no(LATE)));
+            [phase, contact, turns]
+        });
+        (sides, known)
+    }
+
+    fn error(&self, run: &Run) -> Result<f64, String> {
         let points = self.points(run);
         let [measured, predicted] = &points.sides;
         let both = measured.iter().zip(predicted);
@@ -300,23 +381,31 @@ impl Orbit<'_> {
     }
 }
 
-/// Net angle about the line of levitation over the time outside a radius, of what is sampled at an interval.
-fn whirl(time: &[f64], points: &[[f64; 2]], radius: f64, interval: f64) -> Found {
-    let (mut angle, mut outside, mut rows) = (0.0_f64, 0.0, 0);
-    for row in 1..points.len() {
-        let [from, to] = [points[row - 1], points[row]];
-        if [from, to].iter().any(|[x, y]| x.hypot(*y) < radius) {
-            continue;
+/// Net angle about the line of levitation over the time outside a radius; of each stretch outside, the noise of both ends is left.
+fn whirl(radii: Samples, points: &[[f64; 2]], radius: f64) -> Found {
+    let (mut angle, mut outside, mut rows, mut ends) = (0.0_f64, 0.0, 0, 0.0);
+    let is_outside = |row: &usize| radii.values.get(*row).is_some_and(|own| *own >= radius);
+    for row in (0..points.len()).filter(is_outside) {
+        let followed = is_outside(&(row + 1));
+        let preceded = row > 0 && is_outside(&(row - 1));
+        if followed != preceded {
+            ends += radii.values[row].powi(-2);
         }
-        angle += (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
-        outside += time[row] - time[row - 1];
-        rows += 1;
+        if followed {
+            let [from, to] = [points[row], points[row + 1]];
+            angle += (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
+            outside += radii.times[row + 1] - radii.times[row];
+            rows += 1;
+        }
     }
     match angle.abs() >= TAU {
-        true if angle.abs() * A_TURN * interval.max(outside / f64::from(rows)) > TAU * outside => {
-            no("fewer than eight rows or samples a turn")
+        true if angle.abs() * A_TURN > TAU * f64::from(rows) => {
+            no("fewer than eight samples a turn")
         }
-        true => Ok(angle / outside),
+        true => Ok(Uncertain::new(
+            angle / outside,
+            radii.noise.deviation * ends.sqrt() / outside,
+        )),
         false => no("it goes round less than once outside half the clearance"),
     }
 }
@@ -332,66 +421,67 @@ pub(super) fn of_orbits(list: &mut List, curves: &[Curve], run: Option<&Run>) {
 }
 
 /// Phases at the release of the pairs that show them: measured and predicted, rad.
-pub(super) fn phases(curves: &[Curve], run: &Run) -> Vec<(String, [f64; 2])> {
+pub(super) fn phases(curves: &[Curve], run: &Run) -> Vec<(String, [Uncertain; 2])> {
     let pairs = orbits(curves).into_iter().filter_map(|own| {
-        let [measured, predicted] = own.features(run).map(|[phase, ..]| phase.ok());
+        let [measured, predicted] = own.phases(run).map(Result::ok);
         Some((own.name, [measured?, predicted?]))
     });
     pairs.collect()
 }
 
 results! {
-    fn force(setup: &(), of: &[Found; 4]) {
+    fn force(setup: &(), of: &[Result<f64, String>; 4]) {
         "measured.*.first_contact.*": number "s", CONTACT, "first contact by the force, after the release" in measured_features "first contact" => of[0].clone();
         "measured.*.contact_duration.*": number "s", CONTACT, "duration of the first contact" in measured_features "duration of the first contact" => of[1].clone();
         "measured.*.impulse.*": number "N s", IMPULSE, "impulse of the first contact" in measured_features "impulse of the first contact" => of[2].clone();
         "measured.*.peak.*": number "N", PEAK, "largest force" in measured_features "largest force" => of[3].clone();
     }
-    fn displacement(setup: &(), of: &[Found; 2]) {
+    fn displacement(setup: &(), of: &[Result<f64, String>; 2]) {
         "measured.*.first_reversal.*": number "s", REVERSAL, "first reversal after the release" in measured_features "first reversal" => of[0].clone();
         "measured.*.rebound.*": number "m", REVERSAL, "displacement from the first reversal to the next" in measured_features "rebound" => of[1].clone();
     }
-    fn speed(setup: &(), of: &[Found; 1]) {
+    fn speed(setup: &(), of: &[Result<f64, String>; 1]) {
         "measured.*.spin_up_time.*": number "s", SPIN_UP, "time to 95 % of the speed, after the release" in measured_features "spin-up to 95 %" => of[0].clone();
     }
-    fn error(setup: &(), of: &Found) {
+    fn error(setup: &(), of: &Result<f64, String>) {
         "measured.*.orbit_error": number "m", ORBIT_ERROR, "root mean square distance of the measured from the predicted centre" in measured_difference "rms difference" => of.clone();
     }
-    fn orbit(setup: &(), of: &[Found; 3]) {
-        "measured.*.phase_at_release.*": number "rad", PHASE, "angle of the orbit at the release" in measured_features "phase at the release" => of[0].clone();
+    fn orbit(setup: &(), of: &[Result<f64, String>; 3]) {
+        "measured.*.phase_at_release.*": number "rad", PHASE, "angle of the orbit at the release" in measured_features "phase at the release [deg]" => of[0].clone();
         "measured.*.first_contact.*": number "s", CROSSING, "first contact by the orbit, after the release" in measured_features "first contact" => of[1].clone();
         "measured.*.whirl_frequency.*": number "rad/s", WHIRL, "mean rate of the whirl" in measured_features "whirl frequency [Hz]" => of[2].clone();
     }
 }
 
 const HERE: &str = "crates/run/src/measured/features.rs";
+const LOCAL: &str = "crates/statistics/src/local_fit.rs";
 
 origins! {
-    CONTACT: law "force above its mean before the release exceeds max(6 s, 0.02 R), s the deviation of the channel, R the range of the prediction; ends where it falls below",
+    CONTACT: law "force above its mean before the release passes max(2 s, 0.02 R) between two samples, in their middle, and stays beyond by more than noise; s the deviation of the channel, R the range of the prediction",
         source HERE,
-        valid "at the rows, straight between them; time_to_first_contact of the prediction is that of the gap on dense output";
-    IMPULSE: law "∫F dt over the first contact, by trapezoids over its rows",
+        valid "uncertain by the interval over sqrt(12) and by the noise over the slope; time_to_first_contact of the prediction is that of the gap on dense output";
+    IMPULSE: law "∫F dt over the first contact, by trapezoids over its samples",
         source HERE,
-        valid "rows that resolve the contact";
-    PEAK: law "largest force above its mean before the release, at the rows",
-        source HERE,
-        valid "noise raises the measured one; peak_contact_force of the prediction is that of dense output";
-    REVERSAL: law "first extremum from the release on, and the change from it to the next; each turns by more than max(6 s, 0.02 R)",
-        source HERE,
-        valid "s the deviation of the channel, R the range of the prediction";
-    SPIN_UP: law "first instant at which |ω_i| reaches 95 % of the predicted rotor speed at the release, without a rotor of the largest predicted speed",
-        source HERE,
-        valid "noise may reach the level early";
-    ORBIT_ERROR: law "sqrt(mean |c_measured - c_predicted|^2) over the rows",
+        valid "samples that resolve the contact; uncertain by its ends, the noise and the mean before the release";
+    PEAK: law "largest force above its mean before the release, vertex of the local fit there",
+        source LOCAL,
+        valid "peak_contact_force of the prediction is that of dense output";
+    REVERSAL: law "first extremum from the release on, and the change from it to the next, by local fits; each turns by more than max(2 (1 + sqrt(2 ln n)) s, 0.02 R)",
+        source LOCAL,
+        valid "s the deviation of the channel, n its samples, R the range of the prediction";
+    SPIN_UP: law "|ω_i| by a local fit reaches 95 % of the predicted rotor speed at the release, without a rotor of the largest predicted speed",
+        source LOCAL,
+        valid "noise below what the race ends above that speed";
+    ORBIT_ERROR: law "sqrt(mean |c_measured - c_predicted|^2) over the samples",
         source HERE,
         valid "errors of place and of phase alike";
-    PHASE: law "atan2(y, x) about the line of levitation at the first row after the release; the predicted one within half a turn of the measured one",
-        source HERE,
-        valid "an orbit above six standard deviations; the angle of the unbalance at the release is an input";
-    CROSSING: law "distance from the line of levitation reaches the radial air clearance",
-        source HERE,
+    PHASE: law "atan2(y, x) of the synchronous orbit of the 64 turns before the release at most; the predicted one of the centre at the release, within half a turn of the measured one",
+        source "crates/run/src/measured/before.rs",
+        valid "an orbit above three standard uncertainties; the angle of the unbalance at the release is an input";
+    CROSSING: law "distance from the line of levitation, by a local fit before it, reaches the radial air clearance",
+        source LOCAL,
         valid "a race that is centred until then, sensors whose zero is the line of levitation";
     WHIRL: law "net angle about the line of levitation over the time outside half the clearance",
         source HERE,
-        valid "once round at least; eight rows a turn or more";
+        valid "once round at least; eight samples a turn or more, and four a turn of the rotor";
 }

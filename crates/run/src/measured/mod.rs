@@ -1,20 +1,23 @@
-//! Measured channels beside predicted columns, at the rows of a run: `[[measured]]`.
+//! Measured channels beside predicted columns, at the samples of the file: `[[measured]]`.
 //!
 //! ```text
-//!   file ──recording::over_time──▶ Curve ──rows of the run──▶ Compared ──▶ differences
-//!                                                                   └───▶ features of both curves by one estimator each
+//!   file ──recording::over_time──▶ Curve ──predicted at its samples──▶ Compared ──▶ differences
+//!                                    └──before the release──▶ noise ─────┴────────▶ features of both curves by one estimator each
 //! ```
 //! | page | subject |
 //! |---|---|
 //! | here | channels of files on the run's clock; columns `measured.*`; differences with what the noise of a channel explains |
-//! | [`features`] | contact, rebound, spin-up, orbit: of the measured and of the predicted curve |
+//! | [`before`] | the stretch before the release: mean, synchronous orbit, noise |
+//! | [`features`] | contact, rebound, spin-up, orbit: of the measured and of the predicted curve, with their uncertainty |
 //! | [`warnings`] | what the comparison does not show |
 //!
 //! Not modelled: errors of the clock, drift and offset of a sensor; noise is taken as that of one standard deviation throughout.
 
+mod before;
 mod features;
 pub(crate) mod warnings;
 
+use before::{Before, Turning};
 use outcome::list::{List, origins, results};
 use outcome::{Column, Outcome, Quantity, counted_from};
 use problem::{Code, Result, did_you_mean};
@@ -23,8 +26,6 @@ use scenario::{Measured, Scenario};
 use statistics::interpolation::between;
 use units::{Unit, number_text};
 
-/// Values before the release that a deviation is estimated from, at least.
-const FEWEST: usize = 16;
 /// Samples further apart than this times the median interval have a gap between them.
 const GAP: f64 = 3.5;
 /// Standard deviations of the band whose share is told.
@@ -45,14 +46,14 @@ pub(crate) struct Curve {
     longest: f64,
 }
 
-/// A measured and a predicted curve at the rows of a run that the file covers.
+/// A measured and a predicted curve at the samples of a file that lie within the run.
 #[derive(Debug, Default)]
 pub(crate) struct Compared {
+    /// From the release on, s.
     pub time: Vec<f64>,
     pub measured: Vec<f64>,
     pub predicted: Vec<f64>,
-    /// Standard deviation of a measured value.
-    pub deviation: Option<f64>,
+    before: Before,
 }
 
 /// Reads the channels that a scenario names, and checks that the run has such columns.
@@ -126,7 +127,7 @@ impl Curve {
         if last >= 0.0 && first <= end {
             return Ok(curve);
         }
-        let [first, last] = [first, last].map(|time| number_text(1e-6 * (1e6 * time).round()));
+        let [first, last] = [first, last].map(|time| number_text((1e6 * time).round() / 1e6));
         let found = format!("a file from {first} s to {last} s on the clock of the run");
         let end = number_text(end);
         let needed = format!(
@@ -168,24 +169,6 @@ impl Curve {
         gaps.map(|two| [two[0], two[1]])
     }
 
-    /// Standard deviation: as given, or of the second differences of the values before the release, which an orbit that is sampled
-    /// many times a turn does not raise.
-    fn deviation(&self, release: f64) -> Option<f64> {
-        if let Some((value, ..)) = self.given.deviation {
-            return Some(value);
-        }
-        let quiet = self.times.partition_point(|time| *time < release);
-        let square = |three: &[f64]| (three[0] - 2.0 * three[1] + three[2]).powi(2) / 6.0;
-        let squares = self.values[..quiet].windows(3).map(square);
-        let mean = squares.sum::<f64>() / quiet as f64;
-        let largest = self
-            .values
-            .iter()
-            .fold(0.0, |most: f64, own| most.max(own.abs()));
-        // less is rounding
-        (quiet >= FEWEST && mean.sqrt() > 1e-9 * largest).then(|| mean.sqrt())
-    }
-
     /// The column of its name, at some instants.
     fn column(&self, times: &[f64]) -> Column {
         let file = self.given.file.file_name().unwrap_or_default();
@@ -207,30 +190,39 @@ impl Curve {
         let is_first = |own: &&Curve| own.given.drop == 1 && own.given.column == self.given.column;
         let first = (run.curves.iter().find(is_first))
             .ok_or("no first drop of this column was measured")?;
-        let time = run
-            .outcome
-            .column("time")
-            .map_or(&[][..], |time| &time.values);
-        let apart = time.iter().map(|time| self.at(*time) - first.at(*time));
+        let apart = self
+            .within(run.outcome)
+            .map(|(time, own)| own - first.at(time));
         root_mean_square(apart.filter(|own| own.is_finite()), NOTHING_COMMON)
     }
 
-    fn compared(&self, outcome: &Outcome, release: f64) -> Compared {
+    /// Its samples, instant and value, within a run.
+    fn within(&self, outcome: &Outcome) -> impl Iterator<Item = (f64, f64)> {
+        let time = outcome.column("time").map(|time| &time.values);
+        let ends = time.and_then(|time| Some([*time.first()?, *time.last()?]));
+        // a sample at the first or the last row but for rounding is inside
+        let rounding = 1e-6 * self.longest;
+        let both = self.times.iter().copied().zip(self.values.iter().copied());
+        both.filter_map(move |(time, value)| {
+            let [begin, end] = ends?;
+            let inside = time >= begin - rounding && time <= end + rounding;
+            inside.then_some((time.clamp(begin, end), value))
+        })
+    }
+
+    fn compared(&self, outcome: &Outcome, release: f64, turning: Option<&Turning>) -> Compared {
         let mut compared = Compared {
-            deviation: self.deviation(release),
+            before: self.before(release, turning),
             ..Compared::default()
         };
-        let values = |name| {
-            outcome
-                .column(name)
-                .map_or(&[][..], |column| &column.values)
-        };
-        for (time, predicted) in values("time").iter().zip(values(&self.given.column)) {
-            let measured = self.at(*time);
-            if measured.is_finite() && predicted.is_finite() {
-                compared.time.push(*time);
+        let [times, values] = ["time", &self.given.column]
+            .map(|name| (outcome.column(name)).map_or(&[][..], |column| column.values.as_slice()));
+        for (time, measured) in self.within(outcome) {
+            let predicted = between(times, values, time).filter(|own| own.is_finite());
+            if let Some(predicted) = predicted {
+                compared.time.push(time - release);
                 compared.measured.push(measured);
-                compared.predicted.push(*predicted);
+                compared.predicted.push(predicted);
             }
         }
         compared
@@ -243,9 +235,14 @@ impl Compared {
         both.map(|(measured, predicted)| measured - predicted)
     }
 
+    /// Standard deviation of a measured value.
+    fn deviation(&self) -> Option<f64> {
+        self.before.noise.as_ref().map(|noise| noise.deviation)
+    }
+
     /// Differences over the standard deviation; none where it is not known.
     pub fn residuals(&self) -> Option<Vec<f64>> {
-        let deviation = self.deviation?;
+        let deviation = self.deviation()?;
         Some(self.differences().map(|own| own / deviation).collect())
     }
 
@@ -253,7 +250,7 @@ impl Compared {
         root_mean_square(self.differences(), NOTHING_COMMON)
     }
 
-    /// The largest difference, and its instant.
+    /// The largest difference, and its instant after the release.
     fn largest(&self) -> Result<(f64, f64), String> {
         let all = self.differences().zip(self.time.iter().copied());
         let largest = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
@@ -286,7 +283,7 @@ impl Compared {
 }
 
 const NOTHING_COMMON: &str = "file and run have no instant in common";
-const NO_DEVIATION: &str = "the standard deviation of the channel is not known: measured.deviation, or 16 values before the release that scatter, are needed";
+const NO_DEVIATION: &str = "the standard deviation of the channel is not known: measured.deviation, or 16 values that scatter, are needed";
 
 fn root_mean_square(values: impl Iterator<Item = f64>, why: &str) -> Result<f64, String> {
     let (count, sum) = values.fold((0, 0.0), |(count, sum), own| (count + 1, sum + own * own));
@@ -300,9 +297,9 @@ pub(crate) fn add(curves: &[Curve], outcome: &mut Outcome) {
         return;
     }
     let release = counted_from(&outcome.quantities).unwrap_or(0.0);
-    let all: Vec<Compared> = (curves.iter())
-        .map(|curve| curve.compared(outcome, release))
-        .collect();
+    let turning = before::turning(outcome, release);
+    let compared = |curve: &Curve| curve.compared(outcome, release, turning.as_ref());
+    let all: Vec<Compared> = curves.iter().map(compared).collect();
     let run = Run {
         outcome,
         release,
@@ -326,7 +323,8 @@ pub(crate) fn columns(curves: &[Curve], times: &[f64]) -> Vec<Column> {
 pub(crate) fn residuals(curves: &[Curve], outcome: &Outcome) -> Vec<Vec<f64>> {
     let release = counted_from(&outcome.quantities).unwrap_or(0.0);
     let first = curves.iter().filter(|curve| curve.given.drop == 1);
-    let each = first.map(|curve| curve.compared(outcome, release));
+    let turning = before::turning(outcome, release);
+    let each = first.map(|curve| curve.compared(outcome, release, turning.as_ref()));
     each.filter_map(|own| own.residuals()).collect()
 }
 
@@ -337,6 +335,27 @@ pub(crate) struct Run<'a> {
     release: f64,
     curves: &'a [Curve],
     all: &'a [Compared],
+}
+
+impl Run<'_> {
+    /// A column at an instant.
+    fn at(&self, column: &str, time: f64) -> Option<f64> {
+        let [times, values] = ["time", column].map(|name| self.outcome.column(name));
+        between(&times?.values, &values?.values, time)
+    }
+
+    /// Misfit of all channels of the first drop.
+    fn misfit(&self) -> Result<f64, String> {
+        let both = self.curves.iter().zip(self.all);
+        let first = both.filter(|(curve, _)| curve.given.drop == 1);
+        let all = first.filter_map(|(_, own)| own.residuals());
+        root_mean_square(all.flatten(), NO_DEVIATION)
+    }
+
+    /// Speed of the rotor at the release, rad/s; 0 without one.
+    fn spin(&self) -> f64 {
+        self.at("rotor.speed", self.release).map_or(0.0, f64::abs)
+    }
 }
 
 /// Names the results of the comparison, without a run those of any.
@@ -363,17 +382,17 @@ pub(crate) fn name(curves: &[Curve], run: Option<&Run>) -> Vec<Quantity> {
 results! {
     fn overall(setup: &(), run: &Run) {
         "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" => {
-            root_mean_square(residuals(run.curves, run.outcome).concat().into_iter(), NO_DEVIATION)
+run.misfit()
         };
     }
     fn difference(curve: &Curve, run: &(&Compared, &Run)) {
-        "measured.*.deviation": number "of the column", DEVIATION, "standard deviation of the channel" in measured_difference "deviation of the channel" => run.0.deviation.ok_or_else(|| NO_DEVIATION.to_string());
+        "measured.*.deviation": number "of the column", DEVIATION, "standard deviation of the channel" in measured_difference "deviation of the channel" => run.0.deviation().ok_or_else(|| NO_DEVIATION.to_string());
         "measured.*.rms_difference": number "of the column", RMS, "root mean square of measured less predicted" in measured_difference "rms difference" => run.0.rms();
         "measured.*.largest_difference": number "of the column", LARGEST, "largest difference of measured less predicted" in measured_difference "largest difference" => run.0.largest().map(|(value, _)| value);
-        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => run.0.largest().map(|(_, time)| time);
+        "measured.*.largest_difference_at": number "s", LARGEST, "instant of the largest difference" in measured_difference "at" => run.0.largest().map(|(_, time)| time + run.1.release);
         "measured.*.relative_difference": number "1" headline, RELATIVE, "rms difference over the range of the prediction" in measured_difference "over the range [%]" => run.0.relative();
         "measured.*.misfit": number "1", MISFIT, "rms difference over the standard deviation of the channel" in measured_difference "over the deviation" => run.0.misfit();
-        "measured.*.share_within_band": number "1", SHARE, "share of the rows within two standard deviations" in measured_difference "within two deviations [%]" => run.0.share();
+        "measured.*.share_within_band": number "1", SHARE, "share of the samples within two standard deviations" in measured_difference "within two deviations [%]" => run.0.share();
         "measured.*.rms_difference_from_drop_1": number "of the column", RMS, "root mean square of this drop less the first" in measured_difference "rms difference from drop 1" when curve.given.drop > 1 => curve.less_first(run.1);
     }
 }
@@ -383,22 +402,26 @@ const OF_COLUMN: &str = "of the column";
 const HERE: &str = "crates/run/src/measured/mod.rs";
 
 origins! {
-    DEVIATION: law "measured.deviation, or sqrt(mean (v(i-1) - 2 v(i) + v(i+1))^2/6) over the values before the release",
-        source HERE,
-        valid "noise that is independent from value to value; a filtered channel scatters more than this says";
-    RMS: law "sqrt(mean (measured - predicted)^2) over the rows that the file covers",
+    DEVIATION: law "measured.deviation, or sqrt(sum r^2/(n - p tau)) over the values before the release, r less mean and synchronous orbit, p their coefficients, tau the repetition by the autocorrelation; the rounding of the file at least; without a stretch before the release the median second difference",
+        source "crates/run/src/measured/before.rs",
+        valid "a steady speed before the release; without such a stretch noise that is independent from value to value";
+    RMS: law "sqrt(mean (measured - predicted)^2) over the samples of the file within the run",
         source HERE,
         valid "noise of the channel is in it; after the first impacts two drops of one machine differ as well";
     LARGEST: law "measured - predicted where its size is largest, and that instant from the start of the run",
         source HERE,
-        valid "at the rows of the run; at steep flanks a small error of the clock makes it";
-    RELATIVE: law "rms_difference over largest less smallest predicted value at these rows",
+        valid "at the samples of the file, the prediction straight between its rows; at steep flanks a small error of the clock makes it";
+    RELATIVE: law "rms_difference over largest less smallest predicted value at these samples",
         source HERE,
         valid "as rms_difference";
-    MISFIT: law "rms_difference over deviation; of all channels of the first drop that of all their rows",
+    MISFIT: law "rms_difference over deviation; of all channels of the first drop that of all their samples",
         source HERE,
         valid "1 where noise alone explains the difference; larger where the model, an input or the clock is off";
-    SHARE: law "share of the rows with |measured - predicted| of two deviations at most",
+    SHARE: law "share of the samples with |measured - predicted| of two deviations at most",
         source HERE,
         valid "0.95 where normal noise alone explains the difference";
 }
+
+#[cfg(test)]
+#[path = "../../tests/unit/measured.rs"]
+mod tests;

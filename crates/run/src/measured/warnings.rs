@@ -4,17 +4,16 @@ use super::{Curve, Run, features};
 use outcome::Warning;
 use std::f64::consts::PI;
 
-/// Difference of orbit phases at the release from which on impacts differ by it, rad: three deviations of the phase of the smallest orbit
-/// that is taken for one.
-const APART: f64 = PI / 6.0;
-/// A file is coarser than the rows from this ratio of intervals on.
+/// Difference of orbit phases at the release from which on impacts differ by it, rad, and in standard uncertainties.
+const APART: (f64, f64) = (PI / 18.0, 3.0);
+/// Rows are coarser than the file from this ratio of intervals on.
 const COARSER: f64 = 1.5;
 
 problem::warnings! {
     /// Of measured channels beside predicted columns.
     pub enum MeasuredWarning {
-        Coarse { part: text, interval: "s", rows: "s" } "AB2340" Note ("Channel of {part} is sampled every {:.3} ms, the run has a row every {:.3} ms: straight between its samples.", 1e3 * interval, 1e3 * rows);
-        PhaseDiffers { part: text, measured: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), predicted.to_degrees());
+        Coarse { part: text, interval: "s", rows: "s" } "AB2340" Note ("Channel of {part} is sampled every {:.3} ms, the run has a row every {:.3} ms: the prediction is straight between its rows. Choose run.output_interval as the interval of the file.", 1e3 * interval, 1e3 * rows);
+        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
         PhaseUnknown "AB2342" Note ("The measured channels do not show the phase of the orbit at the release. Impacts after the first depend on the angle of the unbalance at the release, an input (rotor.unbalance_angle).");
         PartOfRun { part: text, from: "s", to: "s", end: "s" } "AB2343" Note ("File of {part} covers {from:.4} s to {to:.4} s of a run of {end:.4} s: compared there.");
         Gaps { part: text, gaps: "", from: "s", to: "s" } "AB2344" Uncertain ("Channel of {part} has gaps ({gaps:.0}), the first from {from:.4} s to {to:.4} s: nothing is compared there, and features that fall into one are not those of the machine.");
@@ -36,7 +35,7 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         let part = || curve.name.clone();
         let (interval, [from, to]) = (mean(&curve.times), curve.span());
         let rows = if time.len() > 1 { mean(time) } else { interval };
-        if interval > COARSER * rows {
+        if rows > COARSER * interval {
             let part = part();
             list.push(Coarse {
                 part,
@@ -68,11 +67,13 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         list.push(PhaseUnknown);
     }
     for (part, [measured, predicted]) in phases {
-        if (measured - predicted).abs() > APART {
+        let apart = measured.minus(predicted);
+        if apart.value.abs() > APART.0.max(APART.1 * apart.deviation) {
             list.push(PhaseDiffers {
                 part,
-                measured,
-                predicted,
+                measured: measured.value,
+                uncertainty: measured.deviation,
+                predicted: predicted.value,
             });
         }
     }

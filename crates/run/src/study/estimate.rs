@@ -2,12 +2,12 @@
 //!
 //! ```text
 //!   members of the design ──best──▶ simplex on Σ r²/n ──▶ û          r = (measured - predicted)/deviation
-//!   r(û ± h) ──▶ J ──▶ cov = (Σ JᵀJ/(s² τ))⁻¹                        one term a channel
+//!   r(û ± h) ──▶ J ──▶ cov = (Σ JᵀJ/(s² τ) + 12 I)⁻¹                 one term a channel, and the bounds
 //! ```
-//! s² is the mean of r² at û, 1 at least; τ = 1 + 2 Σ ρ(k) counts how many rows of a channel say the same, ρ the autocorrelation of r.
-//! Inputs are counted in shares of their bounds. All is a function of the file alone, whatever the number of threads.
+//! s² is the mean of r² at û, 1 at least; τ = 1 + 2 Σ ρ(k) counts how many samples of a channel say the same, ρ the autocorrelation of r.
+//! Inputs are counted in shares of their bounds, which alone have the variance of a uniform distribution, 1/12. All is a function of the file alone, whatever the number of threads.
 //!
-//! Source: weighted least squares; the inverse of the information matrix bounds the covariance (Cramér and Rao).
+//! Source: weighted least squares with a prior of the bounds' variance; the inverse of the information matrix bounds the covariance (Cramér and Rao).
 //! Valid: near û the curves follow the inputs on straight lines; errors of the model that no input can cure are in s² and τ alone.
 
 use super::Study;
@@ -17,6 +17,7 @@ use crate::measured::{self, Curve};
 use outcome::host;
 use scenario::Vary;
 use statistics::design::Coordinate;
+use statistics::noise::Noise;
 use statistics::{linear, simplex};
 use std::array::from_fn;
 
@@ -28,6 +29,8 @@ const CALLS: [usize; 2] = [20, 40];
 const TOLERANCE: f64 = 0.02;
 /// Steps of the first and of the second slope at least and at most, as shares of the bounds.
 const STEPS: [f64; 3] = [1e-3, 1e-5, 2e-2];
+/// Information of bounds alone, in shares of them: that of a uniform distribution.
+const BOUNDS: f64 = 12.0;
 /// An input is determined where its deviation is at most this share of the bounds: half of that of the bounds themselves, 1/√12.
 const DETERMINED: f64 = 0.144;
 /// Two inputs whose coefficient is larger are determined together alone.
@@ -36,6 +39,8 @@ const TOGETHER: f64 = 0.95;
 pub const UNEXPLAINED: f64 = 1.5;
 /// A member as good as the best one, by its misfit, and so many deviations away, is another estimate.
 const RIVAL: (f64, f64) = (1.05, 5.0);
+/// Blocks of residuals, at most: the autocorrelation of more takes long.
+const BLOCKS: usize = 8192;
 /// Nearest to a bound, as a share of both.
 const EDGE: f64 = 1e-3;
 const NO_MISFIT: &str = "no member has measured.misfit: a run of the scenario says why";
@@ -49,7 +54,7 @@ pub struct Estimate {
     pub correlation: Vec<Vec<f64>>,
     /// Root mean square of the residuals over their deviations at the estimate.
     pub misfit: f64,
-    /// Rows that were compared, of all channels, and how many of them are independent.
+    /// Samples that were compared, of all channels, and how many of them are independent.
     pub rows: [f64; 2],
     /// Runs besides the members.
     pub runs: usize,
@@ -281,26 +286,28 @@ fn mean_of_squares(values: &[f64]) -> f64 {
     values.iter().map(|own| own * own).sum::<f64>() / values.len().max(1) as f64
 }
 
-/// How many neighbouring residuals say the same: 1 + 2 Σ ρ(k) up to the first that is not positive; 1 of independent ones.
+/// How many neighbouring residuals say the same; of many by the means of blocks.
 fn repetition(values: &[f64]) -> f64 {
     let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
     let apart: Vec<f64> = values.iter().map(|own| own - mean).collect();
-    let product = |lag: usize| -> f64 { apart.iter().zip(&apart[lag..]).map(|(a, b)| a * b).sum() };
-    let whole = product(0);
-    if whole <= 0.0 || whole.is_nan() {
-        return 1.0;
-    }
-    let coefficients = (1..apart.len() / 2).map(|lag| product(lag) / whole);
-    1.0 + 2.0 * coefficients.take_while(|own| *own > 0.0).sum::<f64>()
+    let size = apart.len().div_ceil(BLOCKS).max(1);
+    let blocks: Vec<f64> = apart
+        .chunks(size)
+        .map(|own| own.iter().sum::<f64>() / own.len() as f64)
+        .collect();
+    let within = size as f64 * mean_of_squares(&blocks) / mean_of_squares(&apart);
+    Noise::of(&blocks, 1).map_or(1.0, |noise| within * noise.repetition())
 }
 
-/// Deviations and coefficients by the inverse of the information; none of an input that nothing depends on, of none where they cannot
-/// be told apart.
+/// Deviations and coefficients by the inverse of the information with that of the bounds; none of an input that nothing depends on.
 fn uncertainties<const N: usize>(information: &[[f64; N]; N]) -> ([Option<f64>; N], [[f64; N]; N]) {
-    let size: [f64; N] = from_fn(|k| information[k][k].sqrt());
+    let size: [f64; N] = from_fn(|k| match information[k][k] {
+        own if own > 0.0 => (own + BOUNDS).sqrt(),
+        _ => 0.0,
+    });
     let plain = from_fn(|i| {
         from_fn(|k| match size[i] * size[k] {
-            both if both > 0.0 => information[i][k] / both,
+            both if both > 0.0 && i != k => information[i][k] / both,
             _ => f64::from(u8::from(i == k)),
         })
     });

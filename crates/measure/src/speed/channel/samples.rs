@@ -1,9 +1,7 @@
 //! Samples of a speed: their means, the steps and the noise they show, the quick change and the rest in them.
 
-use crate::quantile::{median, quantile};
+use crate::quantile::{median, quantile, step};
 
-/// Part of the differences between neighbours that are none from which on the values come in steps.
-const IN_STEPS: f64 = 0.2;
 /// Noise of a mean, as a part of the change, that first sight bears.
 const CLEAR: f64 = 0.01;
 /// Means in a first look at a record, and in a change once it is seen well enough.
@@ -45,7 +43,7 @@ pub(super) struct Rise {
 impl Samples {
     /// `resolution` is the step where it is known, rad/s.
     pub fn new(values: Vec<f64>, resolution: Option<f64>) -> Samples {
-        let step = resolution.unwrap_or_else(|| steps(&values));
+        let step = resolution.unwrap_or_else(|| step(&values));
         let (mut sums, mut counts, mut changes) = (vec![0.0], vec![0], vec![0]);
         let mut before = f64::NAN;
         let (mut sum, mut count, mut changed) = (0.0, 0, 0);
@@ -197,22 +195,6 @@ fn medians(values: &[f64], beside: usize) -> Vec<f64> {
             median((values[k.saturating_sub(beside)..(k + beside + 1).min(n)].iter()).copied())
         })
         .collect()
-}
-
-/// The smallest step between neighbouring values, where many of them are equal; else 0.
-fn steps(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = (values.windows(2))
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|size| size.is_finite())
-        .collect();
-    let all = sizes.len();
-    let largest = values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
-    // What rounding of a text leaves is no step.
-    sizes.retain(|size| *size > 1e-9 * largest);
-    if sizes.is_empty() || ((all - sizes.len()) as f64) < IN_STEPS * all as f64 {
-        return 0.0;
-    }
-    quantile(sizes, 0.02)
 }
 
 /// Noise of a sample that changes from value to value, rad/s: fourth differences let pass what is smooth.
