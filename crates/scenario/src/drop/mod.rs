@@ -227,6 +227,13 @@ impl Contact {
     }
 }
 
+impl Faces {
+    /// Whether a shoulder of the rotor may meet one.
+    pub fn any(&self) -> bool {
+        self.gap_to_end.or(self.gap_to_start).is_some()
+    }
+}
+
 impl AuxiliaryBearing {
     /// Area of the rotor's surface layer, m², where it is one body of the network and its core another.
     pub fn area_over_core(&self) -> Option<f64> {

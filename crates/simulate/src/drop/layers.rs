@@ -13,10 +13,10 @@ pub(super) fn rotor_layer(contact: &Contact) -> Layer {
     Layer::new(contact.metals[0].material, contact.rotor_layer_depth())
 }
 
-/// The surfaces of an auxiliary bearing, where the width of its landing surface is given.
+/// The surfaces of an auxiliary bearing, where the width of its landing surface is given, and no face shares its friction heat.
 pub(crate) fn built(part: &AuxiliaryBearing) -> Option<Surfaces> {
     let contact = &part.contact;
-    let length = contact.width?;
+    let length = contact.width.filter(|_| !contact.faces.any())?;
     let race = contact.metals[1];
     let bore = 0.5 * contact.bore_diameter;
     // a ring of that mass: π ((R + h)² − R²) ρ L = m

@@ -278,7 +278,7 @@ results! {
     }
     fn rubbing(given: &AuxiliaryBearing, run: &Landed) {
         "rotor_race_friction_energy_per_area": number "J/m^2", PER_AREA, "friction heat over the landing surface", unless {
-            not_given("contact.width", given.contact.width)
+            surfaces::no_width(given)
         } => run.balls.heat("rotor_race_friction") / (PI * given.contact.bore_diameter * given.contact.width.unwrap_or(f64::NAN));
     }
     fn release(setup: &Setup, run: &Context) {

@@ -27,7 +27,7 @@ results! {
             rubbed(run, |heat| heat.contact.value / STEEL_CHANGES)
         };
         "contact_temperature_time": number "s", PATCH, "instant of this rise", unless no_width(given) => rubbed(run, |heat| heat.contact.time);
-        "contact_temperature_rises": list "K", PATCH, "largest rise of the patch in each contact" when given.contact.width.is_some() => {
+        "contact_temperature_rises": list "K", PATCH, "largest rise of the patch in each contact" when no_width(given).is_none() => {
             run.contacts.iter().map(|contact| contact.peak_rise).collect::<Vec<_>>()
         };
         "rotor_surface_rise": number "K", SURFACE, "largest rise of the rotor's surface", unless no_width(given) => rubbed(run, |heat| heat.surfaces[0].value);
@@ -45,7 +45,9 @@ results! {
 }
 
 pub(super) fn no_width(given: &AuxiliaryBearing) -> Option<String> {
-    not_given("contact.width", given.contact.width)
+    let faces = given.contact.faces.any();
+    let shared = || "faces share the friction heat of the landing surface".to_string();
+    not_given("contact.width", given.contact.width).or_else(|| faces.then(shared))
 }
 
 /// What exists of surfaces that touched.

@@ -1,7 +1,7 @@
 //! Worked examples of catalogues: life, loads, factors, each with the tolerance of its digits.
 
-use super::json::{list, number, numbers, positive, text, within};
 use super::tally::{Allowed, Tally, tolerance};
+use crate::json::{list, number, numbers, positive, text, within};
 use physics::life::{
     basic_life, interval_life, life_hours, mean_load, reference_viscosity, reliability_factor,
     temperature_factor,

@@ -1,8 +1,8 @@
 //! A rotor that coasts down on two warm bearings: stop time, temperatures, energies; in fine steps and in windows.
 
-use super::json::{number, numbers, within};
 use super::tally::{Allowed, Tally};
 use super::{network, warm};
+use crate::json::{number, numbers, within};
 use serde_json::Value;
 use thermal::coast_down::{CoastDown, Coasting};
 use thermal::warm_bearing::{BearingLoad, WarmBearings};

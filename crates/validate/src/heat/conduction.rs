@@ -1,7 +1,7 @@
 //! Rows of heat that flows: half-space, slab, bodies that touch, walls, fits, gas, radiation.
 
-use super::json::{exactly, number, positive, positives, within};
 use super::tally::{Compare, Tally};
+use crate::json::{exactly, number, positive, positives, within};
 use physics::heat_conduction::{
     ThermalMaterial, half_space_rise, slab_rise, touch_flux, touch_temperature,
 };

@@ -1,7 +1,7 @@
 //! Rainflow: rows with all cycles, and a printed example with counts by range.
 
-use super::json::{list, numbers, within};
 use super::tally::{Compare, Tally};
+use crate::json::{list, numbers, within};
 use physics::rainflow::rainflow;
 use serde_json::Value;
 

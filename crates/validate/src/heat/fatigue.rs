@@ -1,7 +1,7 @@
 //! Rows of fatigue: factors of life, rating loads, damage of a drop.
 
-use super::json::{count, list, number, positive, within};
 use super::tally::{Compare, Tally};
+use crate::json::{count, list, number, positive, within};
 use physics::life::{
     RatedBearing, bearing_damage, iso_life_factor, passages_per_turn, reliability_factor,
     reliability_factor_iso, repetitions, ring_damage,

@@ -6,7 +6,6 @@ mod coast;
 mod conduction;
 mod cycles;
 mod fatigue;
-mod json;
 mod moving;
 mod network;
 mod runaway;
@@ -17,6 +16,7 @@ mod tally;
 mod warm;
 
 use super::compare::{Refusal, rows_of};
+use super::json;
 use super::report::Row;
 use serde_json::Value;
 use tally::{Compare, Tally};

@@ -1,7 +1,7 @@
 //! Rows of heat sources that move: bands, circles, ellipses.
 
-use super::json::{list, number, text, within};
 use super::tally::{Compare, Tally};
+use crate::json::{list, number, text, within};
 use physics::flash::{
     Flux, band_maximum, band_mean, band_rise, circle_fit, circle_mean, ellipse_maximum,
 };

@@ -1,8 +1,8 @@
 //! A network of bodies: time constants, end temperatures, temperatures at times, energy.
 
-use super::json::{exactly, list, within};
 use super::tally::{Allowed, Tally};
 use crate::compare::told;
+use crate::json::{exactly, list, within};
 use serde_json::Value;
 use thermal::network::{Ground, Link, Network};
 

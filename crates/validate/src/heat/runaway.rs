@@ -1,8 +1,8 @@
 //! A bearing at constant speed whose inner parts grow faster than its outer ring: does it stay open, close, run away?
 
-use super::json::{list, number, numbers, text, within};
 use super::tally::Tally;
 use super::{network, warm};
+use crate::json::{list, number, numbers, text, within};
 use physics::load_zone::joint_stiffness;
 use serde_json::Value;
 use thermal::clearance::ThermalClearance;

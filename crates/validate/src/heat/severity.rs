@@ -1,7 +1,7 @@
 //! Rows of severity: ball loads, indentation, wear.
 
-use super::json::{count, exactly, number, positive, within};
 use super::tally::{Compare, Tally};
+use crate::json::{count, exactly, number, positive, within};
 use physics::load_zone::{ball_load, cosines, displacement};
 use physics::severity::{permanent_indentation, wear_volume, wear_volume_by_energy};
 use serde_json::Value;

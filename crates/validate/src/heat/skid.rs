@@ -1,7 +1,7 @@
 //! The skid of a rotor on a race under constant load: surface layers, flash, shares, energies.
 
-use super::json::{list, number, numbers, positive, within};
 use super::tally::Tally;
+use crate::json::{list, number, numbers, positive, within};
 use physics::heat_conduction::ThermalMaterial;
 use physics::heat_exchange::line_half_width;
 use serde_json::Value;

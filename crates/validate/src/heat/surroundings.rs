@@ -1,7 +1,7 @@
 //! Thermal reference speeds: where friction makes as much heat as a bearing may give to its surroundings.
 
-use super::json::{list, positive};
 use super::tally::Tally;
+use crate::json::{list, positive};
 use physics::heat_exchange::to_surroundings;
 use physics::palmgren::{load_moment, printed_viscous_moment};
 use serde_json::Value;

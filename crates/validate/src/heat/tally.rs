@@ -1,7 +1,7 @@
 //! Comparisons of a file, each quantity with the worst of its rows and the tolerance that the file gives.
 
-use super::json::{list, number, text};
 use crate::compare::Worst;
+use crate::json::{list, number, text};
 use crate::report::{Row, Tolerance};
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! What the files of warm bearings have in common: nodes by name, capacities, links, grounds, oil, shares.
 
-use super::json::{list, number, positive, within};
 use super::network;
+use crate::json::{list, number, positive, within};
 use physics::viscosity::ICE_POINT;
 use serde_json::Value;
 use thermal::network::Network;

@@ -6,6 +6,7 @@
 pub(super) mod machine;
 
 use super::compare::{Refusal, Worst, part, rows_of, told};
+use super::json::number;
 use super::report::{Row, Tolerance};
 use levitation::response::{equilibrium, impulse, start, unbalance};
 use levitation::sensitivity::{Axes, Band, Sensitivity};
@@ -124,11 +125,6 @@ fn complex(pair: &Value) -> C64 {
 }
 fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value[key].as_array().map_or(&[], Vec::as_slice)
-}
-fn number(value: &Value, key: &str) -> Result<f64, String> {
-    value[key]
-        .as_f64()
-        .ok_or_else(|| format!("{key} is no number"))
 }
 fn largest<'a>(all: impl Iterator<Item = &'a Value>) -> f64 {
     all.map(|pair| complex(pair).norm()).fold(0.0, f64::max)

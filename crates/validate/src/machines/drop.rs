@@ -2,9 +2,9 @@
 //! the file states.
 
 use super::given::{Coordinates, index, machine};
-use super::json::{list, number, pairs};
 use super::run_to;
 use crate::compare::{Refusal, never};
+use crate::json::{list, number, pairs};
 use crate::levitated;
 use crate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::NORMAL_FORCE;

@@ -4,10 +4,10 @@
 use super::faults_given::{changes, levitation};
 use super::faults_watch::Watch;
 use super::given::{Coordinates, index};
-use super::json::{list, number, numbers, pairs};
 use super::run_to;
 use super::run_up::idle;
 use crate::compare::{Refusal, Worst};
+use crate::json::{array, list, number, pairs};
 use crate::levitated::machine::rotor_beside;
 use crate::report::{Row, Tolerance};
 use crate::simulation::falling_machine;
@@ -50,7 +50,7 @@ fn base(shock: &Value) -> Result<Option<BaseConstants>, String> {
     if shock.is_null() {
         return Ok(None);
     }
-    let [x, y] = numbers(shock, "acceleration")?;
+    let [x, y] = array(shock, "acceleration")?;
     let half_sine = HalfSine {
         start: number(shock, "t")?,
         duration: number(shock, "duration_s")?,
@@ -101,7 +101,7 @@ impl<'a> Run<'a> {
         }
         let nodes = rotor.nodes.len();
         let levitation = levitation(given, nodes)?;
-        let [x, y] = numbers(given, "gravity")?;
+        let [x, y] = array(given, "gravity")?;
         Ok(Run {
             given,
             changes: changes(given)?,

@@ -1,7 +1,7 @@
 //! Magnets, controllers and faults as `faults_runs.json` gives them.
 
 use super::given::index;
-use super::json::{list, number};
+use crate::json::{list, number};
 use levitation::{Actuator, Amplifier, Axis, Control, Levitation, Sensor, StateSpace, Timing};
 use model::magnets::conditions::{Change, What};
 use physics::magnet::{Magnet, OpposedPair};

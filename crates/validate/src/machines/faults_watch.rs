@@ -1,6 +1,6 @@
 //! What is compared of a run with faults: rows at given instants, and extremes.
 
-use super::json::{list, number};
+use crate::json::{list, number};
 use model::system::machine::RotorMachine;
 use number::Vec2;
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! Machines of the files as constants of the model.
 
-use super::json::{list, number, numbers, pair};
 use crate::compare::{Refusal, part, told};
+use crate::json::{array, list, number, pair};
 use crate::machine::ReferenceMachine;
 use crate::{rotors, simulation};
 use auxbear::simulate::drop::shaft::{in_coordinates, planes, row};
@@ -245,7 +245,7 @@ pub(super) fn machine(
     coordinates: &Coordinates,
     speed: f64,
 ) -> Result<MachineConstants, String> {
-    let [x, y] = numbers(given, "gravity")?;
+    let [x, y] = array(given, "gravity")?;
     let gravity = Vec2::new(x, y);
     let torque = |part: &str, key: &str| given[part][key].as_f64().unwrap_or(0.0);
     let bearings = list(given, "bearings")?.iter();

@@ -7,7 +7,6 @@ mod faults;
 mod faults_given;
 mod faults_watch;
 mod given;
-pub(super) mod json;
 mod mounts;
 mod points;
 mod run_up;

@@ -1,8 +1,8 @@
 //! Mounts under prescribed motions: force, heat, stored energy and work; dynamic stiffness; tables of the squeeze film.
 
 use super::given::GivenMount;
-use super::json::{list, number, numbers, pair};
 use crate::compare::{Refusal, Worst, part};
+use crate::json::{array, list, number, pair};
 use crate::report::{Row, Tolerance};
 use model::mount::squeeze_film::Film;
 use model::mount::{Mount, MountParts, SqueezeFilm, WholeMount};
@@ -100,7 +100,7 @@ fn of_series(file: &Value, series: &Value, worst: &mut Worst) -> Result<(), Stri
         time = until;
         let force = rates(time, &y).1;
         let stored = mount.energy(motion.at(time).0, &y[..6])[0];
-        let [x, y_] = numbers(row, "F")?;
+        let [x, y_] = array(row, "F")?;
         let energies = [
             ("heat", y[6], number(row, "heat")?),
             ("stored energy", stored, number(row, "stored")?),
@@ -150,7 +150,7 @@ fn dynamic_stiffness(file: &Value, worst: &mut Worst) -> Result<(), String> {
     for row in list(table, "rows")? {
         let frequency = number(row, "w")?;
         let ours = parts.linear(&spring, frequency);
-        let [real, imaginary] = numbers(row, "K")?;
+        let [real, imaginary] = array(row, "K")?;
         let mut all = worst.under(Tolerance::Relative(1e-12), "1e-12, closed form");
         let name = |part| format!("dynamic stiffness, {part} part");
         all.add(&name("real"), "N/m", [real, ours.storage]);

@@ -1,8 +1,8 @@
 //! Accelerations, forces, heats and energies at random states of machines with mounts of every part, in all coordinates.
 
 use super::given::{Coordinates, machine, rotor};
-use super::json::{list, number, numbers, pairs};
 use crate::compare::{Refusal, Worst};
+use crate::json::{array, list, number, pairs};
 use crate::report::{Row, Tolerance};
 use model::auxiliary_bearing::probe::{FRICTION_FORCE, NORMAL_FORCE, PENETRATION, SLIP_SPEED};
 use model::bearing::ball::BallMotion;
@@ -119,13 +119,13 @@ fn state(
     let mut state = turned.start_with(&position, &velocity);
     for (k, given) in bearings(machine, point)?.iter().enumerate() {
         let at = machine.layout().bearings[k];
-        state[at.inner.channels()].copy_from_slice(&numbers::<6>(given, "inner")?);
-        state[at.outer.channels()].copy_from_slice(&numbers::<4>(given, "outer")?);
-        state[at.bearing..at.bearing + 2].copy_from_slice(&numbers::<2>(given, "cage")?);
+        state[at.inner.channels()].copy_from_slice(&array::<6>(given, "inner")?);
+        state[at.outer.channels()].copy_from_slice(&array::<4>(given, "outer")?);
+        state[at.bearing..at.bearing + 2].copy_from_slice(&array::<2>(given, "cage")?);
         let of_mount = &mut state[at.of_mount()];
-        of_mount[..6].copy_from_slice(&numbers::<6>(given, "mount")?);
+        of_mount[..6].copy_from_slice(&array::<6>(given, "mount")?);
         if of_mount.len() > 6 {
-            of_mount[6..].copy_from_slice(&numbers::<4>(given, "housing")?);
+            of_mount[6..].copy_from_slice(&array::<4>(given, "housing")?);
         }
         for (ball, values) in list(given, "balls")?.iter().enumerate().take(at.balls) {
             let [radius, radial_speed, azimuth, orbit_speed, spin] = five(values)?;
@@ -242,9 +242,9 @@ fn bearing(
 ) -> Result<(), String> {
     let layout = machine.layout();
     let at = layout.bearings[k];
-    let inner: [f64; 6] = numbers(given, "d_inner")?;
-    let outer: [f64; 4] = numbers(given, "d_outer")?;
-    let cage: [f64; 2] = numbers(given, "d_cage")?;
+    let inner: [f64; 6] = array(given, "d_inner")?;
+    let outer: [f64; 4] = array(given, "d_outer")?;
+    let cage: [f64; 2] = array(given, "d_cage")?;
     let pair = |body: BodyAt, list: &[f64], i: usize| (rate[body.channels().start + i], list[i]);
     classes.add(
         ("velocity of a race", "m/s"),
@@ -289,7 +289,7 @@ fn bearing(
         classes.add(("slip", "m/s"), CLOSE, [slip]);
     }
     let of_mount = machine.mount(k, state);
-    let [x, y] = numbers(given, "mount_force_on_outer_with_preload")?;
+    let [x, y] = array(given, "mount_force_on_outer_with_preload")?;
     let force = both(of_mount.force, Vec2::new(x, y));
     classes.add(("force of the mount", "N"), CLOSE, force);
     let name = &machine.constants.bearings[k].name;
@@ -313,7 +313,7 @@ fn mount_rates(
     classes: &mut Classes,
 ) -> Result<(), String> {
     let parts = &machine.constants.bearings[k].mount_parts;
-    let theirs: [f64; 6] = numbers(given, "d_mount")?;
+    let theirs: [f64; 6] = array(given, "d_mount")?;
     let stiffnesses = parts.branches.iter().map(|branch| branch.stiffness);
     let ring = parts.ring.map(|ring| ring.stiffness);
     for (part, stiffness) in stiffnesses.chain(ring).enumerate() {
@@ -323,7 +323,7 @@ fn mount_rates(
         }
     }
     if parts.housing.is_some() {
-        let theirs: [f64; 4] = numbers(given, "d_housing")?;
+        let theirs: [f64; 4] = array(given, "d_housing")?;
         let pairs = [2, 3].map(|i| (ours[6 + i], theirs[i]));
         classes.add(("acceleration of a housing", "m/s²"), CLOSE, pairs);
     }

@@ -4,9 +4,9 @@
 //! machine needs is never touched.
 
 use super::given::{Coordinates, index, on_springs, rotor};
-use super::json::{list, number, numbers};
 use super::run_to;
 use crate::compare::{Refusal, Worst, told};
+use crate::json::{array, list, number};
 use crate::report::{Row, Tolerance};
 use crate::simulation::falling_machine;
 use model::bearing::rolling::RollingBall;
@@ -127,7 +127,7 @@ fn run_up(file: &Value, run: &Value, shaft: &Coordinates, worst: &mut Worst) -> 
         .and_then(|(_, rest)| rest.split_whitespace().next()?.parse::<f64>().ok())
         .ok_or("a definition without Om(0)")?;
     let disk = (shaft.rotor.unbalance.first()).ok_or("a rotor without unbalance")?;
-    let [x, y] = numbers(file, "gravity")?;
+    let [x, y] = array(file, "gravity")?;
     let constants = of_run(run, shaft, (disk.node, Vec2::new(x, y)), speed)?;
     let machine = RotorMachine::new(constants);
     let still = vec![Vec2::zero(); shaft.basis.len()];

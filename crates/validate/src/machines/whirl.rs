@@ -1,8 +1,8 @@
 //! Needed friction of dry backward whirl (`machine_whirl.json`): receptances, bands, minima, where whirl settles.
 
 use super::given::{Coordinates, index, on_springs};
-use super::json::{list, number, numbers};
 use crate::compare::{Refusal, Worst, told};
+use crate::json::{array, list, number};
 use crate::levitated::machine::rotor_beside;
 use crate::report::{Row, Tolerance};
 use physics::dry_whirl::{WhirlContact, needed_friction};
@@ -73,7 +73,7 @@ impl Whirl {
     fn sample(&self, sample: &Value, worst: &mut Worst) -> Result<(), String> {
         let ours = self.parts(number(sample, "omega")?)?;
         for (key, ours) in ["alpha_rotor", "alpha_race"].into_iter().zip(ours) {
-            let [re, im] = numbers(sample, key)?;
+            let [re, im] = array(sample, key)?;
             let allowed = Tolerance::Absolute(1e-6 * re.hypot(im));
             let mut parts = worst.under(allowed, WHY);
             parts.add(key, "m/N", [re, ours.re]);

@@ -1,10 +1,11 @@
 //! Machines and states in the files of bearings in space.
 
-use crate::machines::json::{list, number, numbers};
+use crate::json::{array, count, number, numbers, positive};
 use model::contact::JournalContact;
 use model::spatial::SpatialLevitation;
 use model::spatial::ball::{BALL_STATES, BallState, Turned};
 use model::spatial::face::Face;
+use model::spatial::frame::Quaternion;
 use model::spatial::mount::SpatialMount;
 use model::spatial::pocket::SpatialPocket;
 use model::spatial::race::RaceGroove;
@@ -19,20 +20,18 @@ use physics::groove::contact_surface_radius;
 use physics::traction::{AlgebraicTraction, FourParameterTraction, TanhTraction, Traction};
 use serde_json::Value;
 
-/// Most rows, balls of a row, nodes and stations of a file: far beyond any bearing.
-const MOST: usize = 1000;
+/// Most rows, and balls of a row, of a file: far beyond any bearing.
+pub(super) const MOST: usize = 1000;
 
 /// The parameters of a file.
 pub(super) struct Params<'a>(pub &'a Value);
 
 impl Params<'_> {
-    pub fn number(&self, key: &str) -> Result<f64, String> {
+    fn number(&self, key: &str) -> Result<f64, String> {
         number(self.0, key)
     }
     fn positive(&self, key: &str) -> Result<f64, String> {
-        let value = self.number(key)?;
-        let positive = Some(value).filter(|value| *value > 0.0);
-        positive.ok_or_else(|| format!("{key} is {value}, not above zero"))
+        positive(self.0, key)
     }
     fn is(&self, key: &str) -> Result<bool, String> {
         match self.number(key)? {
@@ -41,21 +40,15 @@ impl Params<'_> {
             other => Err(format!("{key} is {other}, neither 0 nor 1")),
         }
     }
-    pub fn count(&self, key: &str) -> Result<usize, String> {
-        let value = self.number(key)?;
-        if value.fract() != 0.0 || !(1.0..=MOST as f64).contains(&value) {
-            return Err(format!("{key} is {value}, not a count from 1 to {MOST}"));
+    fn list(&self, key: &str) -> Result<Vec<f64>, String> {
+        let values = numbers(self.0, key)?;
+        match values.is_empty() {
+            false => Ok(values),
+            true => Err(format!("{key} is empty")),
         }
-        Ok(value as usize)
-    }
-    pub fn list(&self, key: &str) -> Result<Vec<f64>, String> {
-        let values = list(self.0, key)?.iter().map(Value::as_f64);
-        let values: Option<Vec<f64>> = values.collect();
-        let values = values.filter(|list| !list.is_empty() && list.len() <= MOST);
-        values.ok_or_else(|| format!("{key} is no list of 1 to {MOST} numbers"))
     }
     fn vector(&self, key: &str) -> Result<Vec3<f64>, String> {
-        let [x, y, z] = numbers(self.0, key)?;
+        let [x, y, z] = array(self.0, key)?;
         Ok(Vec3::new(x, y, z))
     }
     fn inertia(&self, [mass, axial, transverse]: [&str; 3]) -> Result<Inertia<f64>, String> {
@@ -79,7 +72,7 @@ impl Params<'_> {
         let frame = self.frame()?;
         let vector = |key: &str| Ok::<_, String>(frame.inward(self.vector(key)?));
         let gravity = vector("g")?;
-        let rows: Result<_, _> = (0..self.count("nr")?)
+        let rows: Result<_, _> = (0..count(self.0, "nr", MOST)?)
             .map(|row| self.row(row, gravity))
             .collect();
         let (turns, tied) = (self.is("o_rot")?, self.is("tied")?);
@@ -156,7 +149,7 @@ impl Params<'_> {
             other => return Err(format!("land is {other}, not 0, 1 or 2")),
         };
         Ok(RowConstants {
-            balls: self.count("N")?,
+            balls: count(self.0, "N", MOST)?,
             ball: SpatialBall {
                 radius,
                 mass: self.positive("m_b")?,
@@ -210,17 +203,25 @@ impl Params<'_> {
     }
     fn land(&self, middle: f64) -> Result<SpatialLand<f64>, String> {
         Ok(SpatialLand {
-            contact: JournalContact {
-                radial_clearance: self.number("cl")?,
-                bore_radius: self.positive("Rl")?,
-                stiffness: 0.5 * self.number("kl")?,
-                exponent: 1.0,
-                damping: self.number("al")?,
-                friction: self.number("mul")?,
-                inverse_reference_speed: 1.0 / self.positive("u0l")?,
-            },
+            contact: self.journal(["cl", "Rl", "kl", "al", "mul", "u0l"], [2.0, 1.0])?,
             middle,
             half_width: self.number("hl")?,
+        })
+    }
+    /// A journal in a bore that shares its stiffness among stations.
+    fn journal(
+        &self,
+        [clearance, bore, stiffness, damping, friction, speed]: [&str; 6],
+        [stations, exponent]: [f64; 2],
+    ) -> Result<JournalContact<f64>, String> {
+        Ok(JournalContact {
+            radial_clearance: self.number(clearance)?,
+            bore_radius: self.positive(bore)?,
+            stiffness: self.number(stiffness)? / stations,
+            exponent,
+            damping: self.number(damping)?,
+            friction: self.number(friction)?,
+            inverse_reference_speed: 1.0 / self.positive(speed)?,
         })
     }
     fn rotor(&self) -> Result<SpatialRotor, String> {
@@ -245,20 +246,13 @@ impl Params<'_> {
             carries: self.number("ka")? != 0.0 || self.number("ca")? != 0.0,
             carries_axially: self.number("kaz")? != 0.0 || self.number("caz")? != 0.0,
         };
+        let shares = [stations.len() as f64, self.number("nrx")?];
         let (cosines, sines) = (self.list("cosf")?, self.list("sinf")?);
         Ok(SpatialRotor {
             inertia: self.inertia(["m_r", "Ir_a", "Ir_t"])?,
             eccentricity: self.number("e_u")?,
             landing: LandingConstants {
-                contact: JournalContact {
-                    radial_clearance: self.number("c0")?,
-                    bore_radius: self.positive("R0")?,
-                    stiffness: self.number("kr")? / stations.len() as f64,
-                    exponent: self.number("nrx")?,
-                    damping: self.number("ar")?,
-                    friction: self.number("mur")?,
-                    inverse_reference_speed: 1.0 / self.positive("u0r")?,
-                },
+                contact: self.journal(["c0", "R0", "kr", "ar", "mur", "u0r"], shares)?,
                 stations,
                 faces: match self.number("face")? {
                     0.0 => Vec::new(),
@@ -283,19 +277,29 @@ fn put(list: &mut [f64], value: Vec3<f64>) {
     (list[0], list[1], list[2]) = (value.x, value.y, value.z);
 }
 
+/// Turns the vectors and orientations of bodies.
+fn turn_bodies(
+    bodies: &mut [f64],
+    vector: impl Fn(Vec3<f64>) -> Vec3<f64>,
+    orientation: impl Fn(Quaternion) -> Quaternion,
+) {
+    for body in bodies.chunks_exact_mut(BODY_STATES) {
+        for first in [0, 3, 10] {
+            let turned = vector(triple(&body[first..]));
+            put(&mut body[first..], turned);
+        }
+        let (scalar, along) = orientation((body[6], triple(&body[7..])));
+        body[6] = scalar;
+        put(&mut body[7..], along);
+    }
+}
+
 /// A state of a file as the assembly has it.
 pub(super) fn inward(machine: &AssemblyConstants, frame: &Frame, y: &[f64]) -> Vec<f64> {
     let mut state = y.to_vec();
     let bodies = machine.first_ball_state(0);
-    for body in state[..bodies].chunks_exact_mut(BODY_STATES) {
-        for first in [0, 3, 10] {
-            let turned = frame.inward(triple(&body[first..]));
-            put(&mut body[first..], turned);
-        }
-        let (scalar, vector) = frame.orientation_inward((body[6], triple(&body[7..])));
-        body[6] = scalar;
-        put(&mut body[7..], vector);
-    }
+    let own = &mut state[..bodies];
+    turn_bodies(own, |v| frame.inward(v), |q| frame.orientation_inward(q));
     let mut balls = y[bodies..].chunks_exact(BALL_STATES);
     for (index, row) in machine.rows.iter().enumerate() {
         let first = machine.first_ball_state(index);
@@ -321,6 +325,42 @@ pub(super) fn inward(machine: &AssemblyConstants, frame: &Frame, y: &[f64]) -> V
     state
 }
 
+/// A state, or its rates, as the file has it: bodies turned, and of each ball three vectors in its cylinder.
+fn outward(
+    machine: &AssemblyConstants,
+    frame: &Frame,
+    (state, values): (&[f64], &[f64]),
+    ball: impl Fn(&BallState<f64>, &BallState<f64>) -> [Vec3<f64>; 3],
+) -> Vec<f64> {
+    let mut list = values.to_vec();
+    let bodies = machine.first_ball_state(0);
+    let own = &mut list[..bodies];
+    turn_bodies(own, |v| frame.outward(v), |q| frame.orientation_outward(q));
+    let mut balls = list[bodies..].chunks_exact_mut(BALL_STATES);
+    for (index, row) in machine.rows.iter().enumerate() {
+        let first = machine.first_ball_state(index);
+        for (j, own) in balls.by_ref().take(row.balls).enumerate() {
+            let of = |list: &[f64]| {
+                BallState::from_array(std::array::from_fn(|k| list[first + k * row.balls + j]))
+            };
+            let at = of(state);
+            let turned = Turned::to(at.azimuth);
+            for (k, v) in ball(&at, &of(values)).into_iter().enumerate() {
+                put(&mut own[3 * k..], frame.outward(turned.to_frame(v)));
+            }
+        }
+    }
+    list
+}
+
+/// A state as the file has it, of one in the assembly's own.
+pub(super) fn state_outward(machine: &AssemblyConstants, frame: &Frame, state: &[f64]) -> Vec<f64> {
+    outward(machine, frame, (state, state), |at, _| {
+        let velocity = Vec3::new(at.radial_speed, at.radius * at.orbit_speed, at.axial_speed);
+        [Vec3::new(at.radius, 0.0, at.axial), velocity, at.spin]
+    })
+}
+
 /// Rates as the file has them, of a state in the assembly's own.
 pub(super) fn rates_outward(
     machine: &AssemblyConstants,
@@ -328,42 +368,65 @@ pub(super) fn rates_outward(
     state: &[f64],
     rate: &[f64],
 ) -> Vec<f64> {
-    let mut rates = rate.to_vec();
-    let bodies = machine.first_ball_state(0);
-    for body in rates[..bodies].chunks_exact_mut(BODY_STATES) {
-        for first in [0, 3, 10] {
-            let turned = frame.outward(triple(&body[first..]));
-            put(&mut body[first..], turned);
-        }
-        let (scalar, vector) = frame.orientation_outward((body[6], triple(&body[7..])));
-        body[6] = scalar;
-        put(&mut body[7..], vector);
+    outward(machine, frame, (state, rate), |at, change| {
+        let (turn, radius) = (at.orbit_speed, at.radius);
+        let velocity = Vec3::new(at.radial_speed, radius * turn, at.axial_speed);
+        let acceleration = Vec3::new(
+            change.radial_speed - radius * turn * turn,
+            radius * change.orbit_speed + 2.0 * at.radial_speed * turn,
+            change.axial_speed,
+        );
+        let spin = Vec3::new(
+            change.spin.x - turn * at.spin.y,
+            change.spin.y + turn * at.spin.x,
+            change.spin.z,
+        );
+        [velocity, acceleration, spin]
+    })
+}
+
+/// Classes of the states: name, unit, unit of the rates.
+const CLASSES: [[&str; 3]; 8] = [
+    ["body_positions", "m", "m/s"],
+    ["body_velocities", "m/s", "m/s^2"],
+    ["orientations", "", "1/s"],
+    ["body_spins", "rad/s", "rad/s^2"],
+    ["ball_positions", "m", "m/s"],
+    ["ball_velocities", "m/s", "m/s^2"],
+    ["ball_spins", "rad/s", "rad/s^2"],
+    ["energy_accounts", "J", "W"],
+];
+
+/// The class of a state of the files, an index of [`CLASSES`].
+fn class(machine: &AssemblyConstants, state: usize) -> usize {
+    let balls = machine.first_ball_state(0);
+    if state >= machine.first_account() {
+        return 7;
     }
-    let mut balls = rates[bodies..].chunks_exact_mut(BALL_STATES);
-    for (index, row) in machine.rows.iter().enumerate() {
-        let first = machine.first_ball_state(index);
-        for (j, ball) in balls.by_ref().take(row.balls).enumerate() {
-            let of = |list: &[f64]| {
-                BallState::from_array(std::array::from_fn(|k| list[first + k * row.balls + j]))
-            };
-            let (at, change) = (of(state), of(rate));
-            let turned = Turned::to(at.azimuth);
-            let (turn, radius) = (at.orbit_speed, at.radius);
-            let velocity = Vec3::new(at.radial_speed, radius * turn, at.axial_speed);
-            let acceleration = Vec3::new(
-                change.radial_speed - radius * turn * turn,
-                radius * change.orbit_speed + 2.0 * at.radial_speed * turn,
-                change.axial_speed,
-            );
-            let spin = Vec3::new(
-                change.spin.x - turn * at.spin.y,
-                change.spin.y + turn * at.spin.x,
-                change.spin.z,
-            );
-            for (k, v) in [velocity, acceleration, spin].into_iter().enumerate() {
-                put(&mut ball[3 * k..], frame.outward(turned.to_frame(v)));
-            }
-        }
+    if state >= balls {
+        return 4 + (state - balls) % BALL_STATES / 3;
     }
-    rates
+    match state % BODY_STATES {
+        0..3 => 0,
+        3..6 => 1,
+        6..10 => 2,
+        _ => 3,
+    }
+}
+
+/// Of every state its index, its class, and the size of the largest value of that class.
+pub(super) fn by_class(
+    machine: &AssemblyConstants,
+    values: &[f64],
+) -> Vec<(usize, [&'static str; 3], f64)> {
+    let mut largest = [0.0_f64; CLASSES.len()];
+    for (k, value) in values.iter().enumerate() {
+        let own = &mut largest[class(machine, k)];
+        *own = own.max(value.abs());
+    }
+    let of = |k| {
+        let class = class(machine, k);
+        (k, CLASSES[class], largest[class])
+    };
+    (0..values.len()).map(of).collect()
 }

@@ -1,9 +1,11 @@
 //! Bearings in space: whole states with their derivative (`spatial_rhs_points.json`), equilibria with stiffness
-//! (`spatial_quasistatic.json`), published equilibria by ISO/TS 16281 and on exact tori (`spatial_iso16281.json`).
+//! (`spatial_quasistatic.json`), published equilibria by ISO/TS 16281 and on exact tori (`spatial_iso16281.json`), drops
+//! (`spatial_drops.json`).
 //!
 //! State of the files: bodies of 13 numbers (rotor, inner ring, outer ring, cages), balls x v w in the frame of the machine, energy
 //! accounts. Tolerances are those that each file states.
 
+mod drops;
 mod given;
 mod points;
 mod statics;
@@ -23,6 +25,8 @@ pub(super) fn rows(value: &Value, simulator: &dyn Simulator) -> Option<Vec<Row>>
         statics::quasi_static
     } else if has(&["rows", "inputs", "note"]) {
         statics::iso16281
+    } else if has(&["cases", "layout", "tol"]) {
+        drops::rows
     } else {
         return None;
     };

@@ -1,12 +1,11 @@
 //! Derivatives, forces of every ball, energies and momenta at whole states.
 
-use super::given::{Params, inward, rates_outward};
+use super::given::{Params, by_class, inward, rates_outward};
 use crate::compare::{Worst, part};
-use crate::machines::json::{list, number, numbers};
+use crate::json::{array, list, number};
 use crate::report::{Row, Tolerance};
-use model::spatial::rigid_body::BODY_STATES;
 use model::spatial::row::BallContacts;
-use model::spatial::{Assembly, AssemblyConstants};
+use model::spatial::{Assembly, AssemblyConstants, AssemblyProbe};
 use number::Vec3;
 use serde_json::Value;
 
@@ -33,15 +32,17 @@ const POCKET: [(&str, &str); 4] = [
     ("pocket_arc", "m"),
     ("pocket_axial_offset", "m"),
 ];
-const GLOBALS: [(&str, &str); 8] = [
-    ("bore_normal_force", "N"),
-    ("bore_friction", "N"),
-    ("bore_penetration", "m"),
-    ("face_normal_force", "N"),
-    ("inner_torque", "N m"),
-    ("outer_torque", "N m"),
-    ("face_penetration", "m"),
-    ("face_friction", "N"),
+/// Name, unit and value of a force of the assembly.
+type Global = (&'static str, &'static str, fn(&AssemblyProbe<f64>) -> f64);
+const GLOBALS: [Global; 8] = [
+    ("bore_normal_force", "N", |probe| probe.bore_normal_force),
+    ("bore_friction", "N", |probe| probe.bore_friction),
+    ("bore_penetration", "m", |probe| probe.bore_penetration),
+    ("face_normal_force", "N", |probe| probe.face_normal_force),
+    ("inner_torque", "N m", |probe| probe.inner_torque),
+    ("outer_torque", "N m", |probe| probe.outer_torque),
+    ("face_penetration", "m", |probe| probe.face_penetration),
+    ("face_friction", "N", |probe| probe.face_friction),
 ];
 
 pub(super) fn rows(value: &Value) -> Result<Vec<Row>, String> {
@@ -67,38 +68,19 @@ fn point(given: &Value, place: &str, worst: &mut Worst) -> Result<(), String> {
     let mut rate = vec![0.0; states];
     let probe = assembly.rate(&state, &mut rate);
     let ours = rates_outward(&machine, &frame, &state, &rate);
-    let mut classes: [(f64, Vec<usize>); CLASSES.len()] = Default::default();
-    for k in 0..states {
-        let (largest, members) = &mut classes[class(&machine, k)];
-        *largest = largest.max(dy[k].abs());
-        members.push(k);
-    }
-    for ((name, unit), (largest, members)) in CLASSES.iter().zip(&classes) {
-        for k in members {
-            let share = 1e-9 * dy[*k].abs().max(1e-3 * largest);
-            let why = format!(
-                "{place}, state {k}; 1e-9 of the value or of 1e-3 of the largest of its class"
-            );
-            let mut compared = worst.under(Tolerance::Absolute(share), why);
-            compared.add(name, unit, [dy[*k], ours[*k]]);
-        }
+    for (k, [name, _, unit], largest) in by_class(&machine, &dy) {
+        let share = 1e-9 * dy[k].abs().max(1e-3 * largest);
+        let why =
+            format!("{place}, state {k}; 1e-9 of the value or of 1e-3 of the largest of its class");
+        let mut compared = worst.under(Tolerance::Absolute(share), why);
+        compared.add(&format!("rate_of_{name}"), unit, [dy[k], ours[k]]);
     }
     balls(given, place, (&machine, &state), worst)?;
 
-    let theirs: [f64; 8] = numbers(given, "globals")?;
-    let ours = [
-        probe.bore_normal_force,
-        probe.bore_friction,
-        probe.bore_penetration,
-        probe.face_normal_force,
-        probe.inner_torque,
-        probe.outer_torque,
-        probe.face_penetration,
-        probe.face_friction,
-    ];
+    let theirs: [f64; 8] = array(given, "globals")?;
     let mut globals = worst.under(Tolerance::Relative(1e-9), place);
-    for (k, (name, unit)) in GLOBALS.into_iter().enumerate() {
-        globals.add(name, unit, [theirs[k], ours[k]]);
+    for ((name, unit, value), theirs) in GLOBALS.into_iter().zip(theirs) {
+        globals.add(name, unit, [theirs, value(&probe)]);
     }
     let content = machine.content(&state);
     let mut energies = worst.under(Tolerance::Relative(1e-11), place);
@@ -121,7 +103,7 @@ fn point(given: &Value, place: &str, worst: &mut Worst) -> Result<(), String> {
             content.angular_terms,
         ),
     ] {
-        let theirs: [f64; 3] = numbers(given, key)?;
+        let theirs: [f64; 3] = array(given, key)?;
         let Vec3 { x, y, z } = frame.outward(momentum);
         let why = format!("{place}; 1e-11 of the sum of absolute terms");
         let mut all = worst.under(Tolerance::Absolute(1e-11 * terms), why);
@@ -209,32 +191,4 @@ fn columns(ball: &BallContacts<f64>, free: bool) -> [f64; 32] {
         zeta,
     ]);
     columns
-}
-
-const CLASSES: [(&str, &str); 8] = [
-    ("rate_of_body_positions", "m/s"),
-    ("rate_of_body_velocities", "m/s^2"),
-    ("rate_of_orientations", "1/s"),
-    ("rate_of_body_spins", "rad/s^2"),
-    ("rate_of_ball_positions", "m/s"),
-    ("rate_of_ball_velocities", "m/s^2"),
-    ("rate_of_ball_spins", "rad/s^2"),
-    ("power_of_energy_accounts", "W"),
-];
-
-/// The class of a state of the files, an index of [`CLASSES`].
-fn class(machine: &AssemblyConstants, state: usize) -> usize {
-    let balls = machine.first_ball_state(0);
-    if state >= machine.first_account() {
-        return 7;
-    }
-    if state >= balls {
-        return 4 + (state - balls) % 9 / 3;
-    }
-    match state % BODY_STATES {
-        0..3 => 0,
-        3..6 => 1,
-        6..10 => 2,
-        _ => 3,
-    }
 }

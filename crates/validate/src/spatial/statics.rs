@@ -1,8 +1,8 @@
 //! Equilibria: `spatial_quasistatic.json` and `spatial_iso16281.json`.
 
-use super::given::Params;
-use crate::compare::{Worst, part};
-use crate::machines::json::{list, number, numbers};
+use super::given::{MOST, Params};
+use crate::compare::{Worst, part, told};
+use crate::json::{array, count, list, number, numbers};
 use crate::report::{Row, Tolerance};
 use model::spatial::race::RaceGroove;
 use model::spatial::statics::ball::Running;
@@ -18,7 +18,6 @@ use physics::hertz::{BallRace, PointContact, Race};
 use physics::load_zone::joint_stiffness;
 use physics::materials::{BEARING_STEEL, Material, ball_mass, contact_modulus};
 use serde_json::Value;
-use std::fmt::Display;
 
 /// Deviation of the two solvers.
 const SHARE: f64 = 1e-6;
@@ -60,32 +59,22 @@ impl Kind<'_> {
     }
 }
 
-fn told(error: impl Display) -> String {
-    error.to_string()
-}
-
-fn mode(row: &Value) -> Result<RaceControl, String> {
-    match row["mode"].as_str() {
-        Some("orc") => Ok(RaceControl::Outer),
-        Some("irc") => Ok(RaceControl::Inner),
-        Some("half") => Ok(RaceControl::Half),
-        Some("orc_half") => Ok(RaceControl::OuterHalf),
-        other => Err(format!("mode {other:?} is not orc, irc, half or orc_half")),
-    }
-}
-
-fn static_row(params: &Params, places: [f64; 2]) -> Result<StaticRow, String> {
+/// The first row, at places of its grooves of their own.
+fn static_row(params: &Params, places: Option<[f64; 2]>) -> Result<StaticRow, String> {
     let machine = params.constants()?;
     let row = machine.rows.first().ok_or("no row of balls")?;
-    let at = |groove: RaceGroove<f64>, place: f64| RaceGroove { place, ..groove };
+    let (mut inner, mut outer) = (row.ball.inner, row.ball.outer);
+    if let Some(places) = places {
+        [inner.place, outer.place] = places;
+    }
     Ok(StaticRow {
         balls: row.balls,
         first_azimuth: 0.0,
         ball: StaticBall {
             radius: row.ball.radius,
             mass: row.ball.mass,
-            inner: at(row.ball.inner, places[0]),
-            outer: at(row.ball.outer, places[1]),
+            inner,
+            outer,
         },
     })
 }
@@ -97,52 +86,50 @@ pub(super) fn quasi_static(value: &Value) -> Result<Vec<Row>, String> {
         worst.row(&place, given, |worst| {
             let balls = given["balls"].as_str().unwrap_or_default();
             let params = Params(&value[format!("params_{balls}")]);
-            let own = |key: &str| Ok::<_, String>(*params.list(key)?.first().ok_or("no place")?);
-            let row = static_row(&params, [own("zgi")?, own("zgo")?])?;
+            let row = static_row(&params, None)?;
             let running = running(given)?;
             let rows = StaticRows(vec![row]);
             let mut kind = Kind {
                 worst,
                 place: &place,
             };
-            if given.get("Fa").is_some() {
-                let force = [0.0, 0.0, number(given, "Fa")?];
-                let load = RingLoad {
-                    force,
-                    moment: [0.0; 2],
-                };
-                axial(
-                    given,
-                    &rows.settle(&load, &running).map_err(told)?,
-                    &mut kind,
-                )
+            let along = given.get("Fa").is_some();
+            let (force, moment) = match along {
+                true => ([0.0, 0.0, number(given, "Fa")?], [0.0; 2]),
+                false => (array(given, "F")?, array(given, "M")?),
+            };
+            let found = rows.settle(&RingLoad { force, moment }, &running);
+            let found = found.map_err(told)?;
+            if along {
+                axial(given, &found, &mut kind)
             } else {
-                let (force, moment) = (numbers(given, "F")?, numbers(given, "M")?);
-                let found = rows.settle(&RingLoad { force, moment }, &running);
-                combined(given, &found.map_err(told)?, &mut kind)
+                displacement(given, found.displacement, [0.0; 2], &mut kind)?;
+                of_balls(given, &found.rows[0], 4, &mut kind)
             }
         })?;
     }
     for (at, given) in list(value, "duplex")?.iter().enumerate() {
         let place = format!("duplex[{at}]");
         worst.row(&place, given, |worst| {
-            duplex(
-                given,
-                &Params(&value["params_steel"]),
-                &mut Kind {
-                    worst,
-                    place: &place,
-                },
-            )
+            let place = &place;
+            let params = Params(&value["params_steel"]);
+            duplex(given, &params, &mut Kind { worst, place })
         })?;
     }
     Ok(worst.into_rows())
 }
 
 fn running(given: &Value) -> Result<Running, String> {
+    let control = match given["mode"].as_str() {
+        Some("orc") => RaceControl::Outer,
+        Some("irc") => RaceControl::Inner,
+        Some("half") => RaceControl::Half,
+        Some("orc_half") => RaceControl::OuterHalf,
+        other => return Err(format!("mode {other:?} is not orc, irc, half or orc_half")),
+    };
     Ok(Running {
         speed: number(given, "Om")?,
-        control: mode(given)?,
+        control,
     })
 }
 
@@ -187,14 +174,14 @@ fn axial(given: &Value, found: &Equilibrium, kind: &mut Kind) -> Result<(), Stri
     Ok(())
 }
 
-fn combined(given: &Value, found: &Equilibrium, kind: &mut Kind) -> Result<(), String> {
-    displacement(given, found.displacement, [0.0; 2], kind)?;
-    let balls = &found.rows[0];
-    of_balls(given, balls, "Qi", "N", |ball| ball.loads[0], kind)?;
-    of_balls(given, balls, "Qo", "N", |ball| ball.loads[1], kind)?;
-    of_balls(given, balls, "alpha_i", "rad", |ball| ball.angles[0], kind)?;
-    of_balls(given, balls, "alpha_o", "rad", |ball| ball.angles[1], kind)
-}
+/// Name, unit and value of what files list of every ball.
+type OfBall = (&'static str, &'static str, fn(&BallEquilibrium) -> f64);
+const OF_BALLS: [OfBall; 4] = [
+    ("Qi", "N", |ball| ball.loads[0]),
+    ("alpha_i", "rad", |ball| ball.angles[0]),
+    ("Qo", "N", |ball| ball.loads[1]),
+    ("alpha_o", "rad", |ball| ball.angles[1]),
+];
 
 fn displacement(
     given: &Value,
@@ -202,7 +189,7 @@ fn displacement(
     floors: [f64; 2],
     kind: &mut Kind,
 ) -> Result<(), String> {
-    let theirs: [f64; 5] = numbers(given, "u")?;
+    let theirs: [f64; 5] = array(given, "u")?;
     let [shift, tilt] = [
         (&theirs[..3], &found.shift[..]),
         (&theirs[3..], &found.tilt[..]),
@@ -211,26 +198,28 @@ fn displacement(
     kind.lists("tilt", "rad", [tilt.0, tilt.1], floors[1])
 }
 
+/// Compares the first so many of [`OF_BALLS`].
 fn of_balls(
     given: &Value,
     balls: &[BallEquilibrium],
-    key: &str,
-    unit: &str,
-    value: fn(&BallEquilibrium) -> f64,
+    count: usize,
     kind: &mut Kind,
 ) -> Result<(), String> {
-    let theirs: Vec<f64> = part(&given[key])?;
-    let ours: Vec<f64> = balls.iter().map(value).collect();
-    let floor = if unit == "rad" { 1e-10 } else { 0.0 };
-    kind.lists(key, unit, [&theirs, &ours], floor)
+    for (key, unit, value) in &OF_BALLS[..count] {
+        let theirs: Vec<f64> = part(&given[key])?;
+        let ours: Vec<f64> = balls.iter().map(value).collect();
+        let floor = if *unit == "rad" { 1e-10 } else { 0.0 };
+        kind.lists(key, unit, [&theirs, &ours], floor)?;
+    }
+    Ok(())
 }
 
 fn duplex(given: &Value, params: &Params, kind: &mut Kind) -> Result<(), String> {
-    let own = Params(given);
-    let (inner, outer) = (own.list("zgi")?, own.list("zgo")?);
-    let places = inner.iter().zip(&outer);
-    let rows: Result<Vec<_>, String> = places.map(|(i, o)| static_row(params, [*i, *o])).collect();
-    let u: [f64; 5] = numbers(given, "u")?;
+    let (inner, outer) = (numbers(given, "zgi")?, numbers(given, "zgo")?);
+    let places = inner.into_iter().zip(outer);
+    let rows = places.map(|(i, o)| static_row(params, Some([i, o])));
+    let rows: Result<Vec<_>, String> = rows.collect();
+    let u: [f64; 5] = array(given, "u")?;
     let at = Displacement {
         shift: [u[0], u[1], u[2]],
         tilt: [u[3], u[4]],
@@ -246,14 +235,11 @@ fn duplex(given: &Value, params: &Params, kind: &mut Kind) -> Result<(), String>
     kind.lists(
         "row_axial_load",
         "N",
-        [&own.list("row_axial_load")?, &thrusts],
+        [&numbers(given, "row_axial_load")?, &thrusts],
         0.0,
     )?;
     let first: Vec<BallEquilibrium> = found.rows.iter().map(|balls| balls[0]).collect();
-    of_balls(given, &first, "Qi", "N", |ball| ball.loads[0], kind)?;
-    of_balls(given, &first, "Qo", "N", |ball| ball.loads[1], kind)?;
-    of_balls(given, &first, "alpha_i", "rad", |ball| ball.angles[0], kind)?;
-    of_balls(given, &first, "alpha_o", "rad", |ball| ball.angles[1], kind)?;
+    of_balls(given, &first, 4, kind)?;
     let theirs: Vec<Vec<f64>> = part(&given["K"])?;
     if theirs.len() != 5 || theirs.iter().any(|row| row.len() != 5) {
         return Err("K is not 5 by 5".to_string());
@@ -269,10 +255,10 @@ fn duplex(given: &Value, params: &Params, kind: &mut Kind) -> Result<(), String>
 }
 
 pub(super) fn iso16281(value: &Value) -> Result<Vec<Row>, String> {
-    let inputs = Params(&value["inputs"]);
+    let inputs = &value["inputs"];
     let material = Material {
-        young_modulus: inputs.number("E")?,
-        poisson_ratio: inputs.number("nu")?,
+        young_modulus: number(inputs, "E")?,
+        poisson_ratio: number(inputs, "nu")?,
         ..BEARING_STEEL
     };
     let mut worst = Worst::default();
@@ -283,21 +269,20 @@ pub(super) fn iso16281(value: &Value) -> Result<Vec<Row>, String> {
             worst: &mut worst,
             place: &place,
         };
-        iso_row(given, &inputs, material, &mut kind).map_err(|why| format!("{place}: {why}"))?;
+        iso_row(given, inputs, material, &mut kind).map_err(|why| format!("{place}: {why}"))?;
     }
     Ok(worst.into_rows())
 }
 
 fn iso_row(
     given: &Value,
-    inputs: &Params,
+    inputs: &Value,
     material: Material,
     kind: &mut Kind,
 ) -> Result<(), String> {
-    let params = Params(given);
-    let (balls, diameter) = (params.count("Z")?, params.number("D")?);
-    let (pitch, clearance) = (inputs.number("D_pw")?, params.number("clearance")?);
-    let curvatures = [inputs.number("f_i")?, inputs.number("f_o")?];
+    let (balls, diameter) = (count(given, "Z", MOST)?, number(given, "D")?);
+    let (pitch, clearance) = (number(inputs, "D_pw")?, number(given, "clearance")?);
+    let curvatures = [number(inputs, "f_i")?, number(inputs, "f_o")?];
     let contact = |race: Race, groove_curvature: f64| {
         let geometry = BallRace {
             ball_diameter: diameter,
@@ -318,8 +303,8 @@ fn iso_row(
         free_angle: free_contact_angle(clearance, distance),
         stiffness: joint_stiffness(inner.stiffness, outer.stiffness),
     };
-    let (radial, axial) = (params.number("Fx")?, params.number("Fa")?);
-    let moment = [params.number("M_about_load_axis")?, 0.0];
+    let (radial, axial) = (number(given, "Fx")?, number(given, "Fa")?);
+    let moment = [number(given, "M_about_load_axis")?, 0.0];
     let load = RingLoad {
         force: [radial, 0.0, axial],
         moment,
@@ -353,31 +338,23 @@ fn iso_row(
             );
         }
     }
-    let groove = |contact: &PointContact, curvature: f64, centre_radius: f64| RaceGroove {
-        centre_radius,
+    let groove = |contact: &PointContact, curvature: f64, side: f64| RaceGroove {
+        centre_radius: 0.5 * pitch
+            + side * (0.5 * diameter + 0.25 * clearance - curvature * diameter),
         place: 0.0,
         slack: (curvature - 0.5) * diameter,
         stiffness: contact.stiffness,
         half_axis: axis_over_root_approach(contact),
         half_curvature: 0.5 / contact_surface_radius(0.5 * diameter, curvature * diameter),
     };
-    let out = 0.5 * diameter + 0.25 * clearance;
     let rows = StaticRows(vec![StaticRow {
         balls,
         first_azimuth: 0.0,
         ball: StaticBall {
             radius: 0.5 * diameter,
             mass: ball_mass(diameter, BEARING_STEEL.density),
-            inner: groove(
-                &inner,
-                curvatures[0],
-                0.5 * pitch - out + curvatures[0] * diameter,
-            ),
-            outer: groove(
-                &outer,
-                curvatures[1],
-                0.5 * pitch + out - curvatures[1] * diameter,
-            ),
+            inner: groove(&inner, curvatures[0], -1.0),
+            outer: groove(&outer, curvatures[1], 1.0),
         },
     }]);
     let load = RingLoad {
@@ -391,20 +368,5 @@ fn iso_row(
     let found = rows.settle(&load, &rest).map_err(told)?;
     let theirs = &given["torus_mode"];
     displacement(theirs, found.displacement, [1e-12, 1e-10], kind)?;
-    of_balls(
-        theirs,
-        &found.rows[0],
-        "Qi",
-        "N",
-        |ball| ball.loads[0],
-        kind,
-    )?;
-    of_balls(
-        theirs,
-        &found.rows[0],
-        "alpha_i",
-        "rad",
-        |ball| ball.angles[0],
-        kind,
-    )
+    of_balls(theirs, &found.rows[0], 2, kind)
 }

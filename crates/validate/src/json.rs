@@ -1,5 +1,6 @@
-//! Numbers, lists and words in the files.
+//! Numbers, vectors, lists and words in the files.
 
+use number::Vec2;
 use serde_json::Value;
 
 /// The largest size a number of these files may have: products of a few stay finite.
@@ -63,11 +64,33 @@ pub(super) fn exactly(value: &Value, key: &str, count: usize) -> Result<Vec<f64>
     }
 }
 
-/// A list of so many positive numbers.
+/// So many numbers.
+pub(super) fn array<const N: usize>(value: &Value, key: &str) -> Result<[f64; N], String> {
+    let found = numbers(value, key).ok();
+    let found = found.and_then(|list| <[f64; N]>::try_from(list).ok());
+    found.ok_or_else(|| format!("{key} is no list of {N} numbers"))
+}
+
+/// So many positive numbers.
 pub(super) fn positives<const N: usize>(value: &Value, key: &str) -> Result<[f64; N], String> {
-    let found = <[f64; N]>::try_from(exactly(value, key, N)?);
-    match found {
-        Ok(found) if found.iter().all(|number| *number >= 1.0 / LARGEST) => Ok(found),
-        _ => Err(format!("{key} has a number that is not above 0")),
+    let found = array(value, key)?;
+    match found.iter().all(|number| *number >= 1.0 / LARGEST) {
+        true => Ok(found),
+        false => Err(format!("{key} has a number that is not above 0")),
     }
+}
+
+pub(super) fn pair(value: &Value) -> Result<Vec2<f64>, String> {
+    match (finite(&value[0]), finite(&value[1])) {
+        (Some(x), Some(y)) => Ok(Vec2::new(x, y)),
+        _ => Err("an entry is no pair of numbers".to_string()),
+    }
+}
+
+pub(super) fn pairs(value: &Value, key: &str, count: usize) -> Result<Vec<Vec2<f64>>, String> {
+    let found = list(value, key)?;
+    if found.len() != count {
+        return Err(format!("{key} has {} entries, not {count}", found.len()));
+    }
+    found.iter().map(pair).collect()
 }
