@@ -43,6 +43,7 @@ mod signals;
 mod signals_analysis;
 mod signals_files;
 mod simulation;
+mod space;
 mod speed_channel;
 mod studies;
 mod torque;

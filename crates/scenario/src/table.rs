@@ -57,7 +57,6 @@ pub fn keys() -> impl Iterator<Item = &'static Key> {
         .chain(crate::signals::keys_analysis::KEYS)
         .chain(crate::bearing::keys::KEYS)
         .chain(crate::bearing::keys_spatial::KEYS)
-        .chain(crate::bearing::keys_spatial::AXIAL)
         .chain(crate::bearing::keys_cage::KEYS)
         .chain(crate::bearing::keys::TRACTION)
         .chain(crate::bearing::keys_moment::KEYS)

@@ -71,6 +71,28 @@ fn every_key_is_documented_and_belongs_to_a_section() {
 /// What must be chosen for the key to have a meaning.
 fn choices(path: &str) -> Vec<String> {
     let list: &[&str] = match path {
+        "bearing.arrangement"
+        | "bearing.thrust_side"
+        | "bearing.contact_nodes"
+        | "bearing.shoulder_height"
+        | "contact.gap_to_end"
+        | "contact.gap_to_start"
+        | "contact.face_radius"
+        | "contact.face_stiffness"
+        | "mount.axial_stiffness"
+        | "mount.axial_damping" => &["bearing.fidelity=spatial"],
+        "bearing.row_spacing" => &[
+            "bearing.fidelity=spatial",
+            "bearing.type=angular contact",
+            "bearing.contact_angle=15 deg",
+            "bearing.arrangement=DT",
+        ],
+        "gravity.axial" | "levitation.axial_stiffness" | "levitation.axial_damping" => &[
+            "bearing.fidelity=spatial",
+            "levitation.axial_stiffness=1 MN/m",
+            "contact.gap_to_end=0.2 mm",
+            "contact.gap_to_start=0.2 mm",
+        ],
         "rotor.brake_torque" => &["rotor.spin=braked"],
         "rotor.brake_start" => &["rotor.spin=braked", "rotor.brake_torque=1 N m"],
         // its rows reach beyond the rotor's speed; a share is one of a torque
@@ -451,6 +473,9 @@ fn every_number_reaches_the_typed_scenario() {
             list.push(format!("{}={text}", key.path));
             let typed = read(&base(*system, key.path), &list).system;
             let name = match key.name() {
+                _ if key.path.starts_with("levitation.axial_") => "axial",
+                "face_radius" => "radius",
+                "face_stiffness" => "stiffness",
                 "misalignment_x" | "misalignment_y" => "misalignment",
                 "windage_constant" => "constant",
                 "windage_linear" => "linear",
@@ -544,7 +569,8 @@ fn examples_and_defaults_are_right_values() {
                     *system == SystemName::CoastDown && key.path.starts_with("bearing.moment.");
                 let needs_more = law
                     || alone.contains(&key.path)
-                    || ["palmgren", "proportional", "inner land", "outer land"].contains(&text);
+                    || ["palmgren", "proportional", "inner land", "outer land", "DB"]
+                        .contains(&text);
                 if needs_more {
                     continue;
                 }

@@ -12,6 +12,16 @@ use problem::Code;
 
 const FIDELITY: &str = "bearing.fidelity";
 
+/// Keys outside `[bearing]` that only a bearing in space has.
+const OF_SPACE: [&str; 6] = [
+    "contact.gap_to_end",
+    "contact.gap_to_start",
+    "contact.face_radius",
+    "contact.face_stiffness",
+    "mount.axial_stiffness",
+    "mount.axial_damping",
+];
+
 impl Context<'_> {
     /// What is not computed of a bearing in space, and what its rows need.
     pub fn spatial(&self, bearing: &Bearing) -> Check {
@@ -91,7 +101,15 @@ impl Context<'_> {
             (part.bearing.as_ref()).is_some_and(|own| own.spatial.is_some())
         };
         if !in_space(part) {
-            return Ok(());
+            let given = |path: &&str| self.values.number(path).is_some();
+            return match OF_SPACE.into_iter().find(given) {
+                Some(path) => {
+                    let found = "a key that has no effect";
+                    let needed = "it is used only with bearing.fidelity = \"spatial\": only a bearing in space moves along its axis";
+                    self.refuse(Code::UnusedKey, path, found, needed)
+                }
+                None => Ok(()),
+            };
         }
         let refuse = |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed);
         if drop.coast_down.is_some() {

@@ -32,26 +32,3 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("bearing.shoulder_height", Kind::Quantity("m"), "1.2 mm", "Height of the shoulder of both grooves above their bottom: it is told when and where a contact ellipse is cut off by it.")
         .positive().optional("it is not told whether a contact leaves its groove").when(IN_SPACE).only(MACHINE),
 ];
-
-/// Keys of landing and mount along the axis.
-#[rustfmt::skip]
-pub(crate) const AXIAL: &[Key] = &[
-    Key::new("gravity.axial", Kind::Quantity("m/s^2"), "-9.81 m/s^2", "Acceleration of gravity along the shaft, positive towards its end. It needs a bearing with bearing.fidelity = \"spatial\" that carries it.")
-        .default("0 m/s^2", "a horizontal shaft").only(MACHINE),
-    Key::new("levitation.axial_stiffness", Kind::Quantity("N/m"), "1e6 N/m", "Stiffness of the axial magnet until all radial magnets lose their power; it carries the weight along the shaft besides.")
-        .not_negative().optional("nothing holds the rotor along its axis from the start on").only(MACHINE),
-    Key::new("levitation.axial_damping", Kind::Quantity("N s/m"), "1000 N s/m", "Damping of the axial magnet.")
-        .not_negative().optional("0 N s/m").only(MACHINE),
-    Key::new("contact.gap_to_end", Kind::Quantity("m"), "0.2 mm", "Axial gap between a shoulder of the rotor and a face of the inner ring that closes when the rotor moves towards the end of the shaft.")
-        .positive().optional("no shoulder stops the rotor on its way to the end of the shaft").when(IN_SPACE).only(MACHINE),
-    Key::new("contact.gap_to_start", Kind::Quantity("m"), "0.2 mm", "The same when it moves towards the start of the shaft.")
-        .positive().optional("no shoulder stops the rotor on its way to the start of the shaft").when(IN_SPACE).only(MACHINE),
-    Key::new("contact.face_radius", Kind::Quantity("m"), "15 mm", "Mean radius of the faces that meet the shoulders.")
-        .positive().optional("midway between the bore and the bottom of the inner groove").when(IN_SPACE).only(MACHINE),
-    Key::new("contact.face_stiffness", Kind::Quantity("N/m"), "2e8 N/m", "Stiffness of a whole face against its shoulder; damping and friction are those of the bore.")
-        .positive().optional("2e8 N/m: order of magnitude of a flat steel face").when(IN_SPACE).only(MACHINE),
-    Key::new("mount.axial_stiffness", Kind::Quantity("N/m"), "2e7 N/m", "Stiffness between outer rings and ground along the axis. The outer rings keep their orientation.")
-        .positive().optional("as mount.stiffness").when(IN_SPACE).only(MACHINE),
-    Key::new("mount.axial_damping", Kind::Quantity("N s/m"), "2000 N s/m", "Damping along the axis.")
-        .not_negative().optional("as mount.damping").when(IN_SPACE).only(MACHINE),
-];

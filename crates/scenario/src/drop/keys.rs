@@ -102,6 +102,8 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("gravity.acceleration", Kind::Quantity("m/s^2"), "9.81 m/s^2", "Acceleration of gravity in the plane of the bearing. Of an inclined shaft less is left of it, of a vertical one nothing: the rest is gravity.axial, without which the axial drop is not described and a run warns.")
         .not_negative().default("9.81 m/s^2", "usual rounded value near sea level"),
     Key::new("gravity.direction", Kind::Quantity("rad"), "-90 deg", "Direction of gravity, from x.").default("-90 deg", "downwards"),
+    Key::new("gravity.axial", Kind::Quantity("m/s^2"), "-9.81 m/s^2", "Acceleration of gravity along the shaft, positive towards its end. It needs a bearing with bearing.fidelity = \"spatial\" that carries it.")
+        .default("0 m/s^2", "a horizontal shaft").only(MACHINE),
     Key::new("levitation.stiffness", Kind::Quantity("N/m"), "1e6 N/m", "Stiffness of the levitation at one plane.").positive().only(DROP),
     Key::new("levitation.damping", Kind::Quantity("N s/m"), "1000 N s/m", "Damping of the levitation at one plane.").not_negative().only(DROP),
     Key::new("levitation.decay_time", Kind::Quantity("s"), "5 ms", "Time in which the currents of all magnets, that of the bias too, decay to 1/e after the loss of power.")
@@ -112,6 +114,10 @@ pub(crate) const KEYS: &[Key] = &[
         .default("0 m", "levitated in the centre of the auxiliary bearing").only(DROP),
     Key::new("levitation.offset_y", Kind::Quantity("m"), "-0.02 mm", "Centre of levitation from the centre of the auxiliary bearing, along y.")
         .default("0 m", "levitated in the centre of the auxiliary bearing").only(DROP),
+    Key::new("levitation.axial_stiffness", Kind::Quantity("N/m"), "1e6 N/m", "Stiffness of the axial magnet until all radial magnets lose their power; it carries the weight along the shaft besides.")
+        .not_negative().optional("nothing holds the rotor along its axis from the start on").only(MACHINE),
+    Key::new("levitation.axial_damping", Kind::Quantity("N s/m"), "1000 N s/m", "Damping of the axial magnet.")
+        .not_negative().optional("0 N s/m: the magnet has a spring alone").only(MACHINE),
     Key::new("contact.radial_air_clearance", Kind::Quantity("m"), "0.25 mm", "Radial air gap between rotor and inner race when they are concentric: half the difference of the diameters.")
         .positive(),
     Key::new("contact.bore_diameter", Kind::Quantity("m"), "25 mm", "Diameter of the bore that the rotor drops into: of the inner race or of the sleeve in it.")
@@ -135,6 +141,14 @@ pub(crate) const KEYS: &[Key] = &[
         .positive().optional("contact.friction_coefficient holds at every temperature: nothing general is published for landing surfaces"),
     Key::new("contact.friction_reference_speed", Kind::Quantity("m/s"), "0.05 m/s", "Slip speed that regularises the friction: its coefficient is multiplied by tanh(slip speed / reference speed).")
         .positive().default("0.05 m/s", "numerical regularisation: small against the sliding speeds of a drop"),
+    Key::new("contact.gap_to_end", Kind::Quantity("m"), "0.2 mm", "Axial gap between a shoulder of the rotor and a face of the inner ring that closes when the rotor moves towards the end of the shaft.")
+        .positive().optional("no shoulder stops the rotor on its way to the end of the shaft").only(MACHINE),
+    Key::new("contact.gap_to_start", Kind::Quantity("m"), "0.2 mm", "The same when it moves towards the start of the shaft.")
+        .positive().optional("no shoulder stops the rotor on its way to the start of the shaft").only(MACHINE),
+    Key::new("contact.face_radius", Kind::Quantity("m"), "15 mm", "Mean radius of the faces that meet the shoulders.")
+        .positive().optional("midway between the bore and the bottom of the inner groove").only(MACHINE),
+    Key::new("contact.face_stiffness", Kind::Quantity("N/m"), "2e8 N/m", "Stiffness of a whole face against its shoulder; damping and friction are those of the bore.")
+        .positive().optional("2e8 N/m: order of magnitude of a flat steel face").only(MACHINE),
 ];
 
 #[rustfmt::skip]

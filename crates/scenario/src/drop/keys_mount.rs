@@ -12,6 +12,10 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("mount.damping", Kind::Quantity("N s/m"), "5000 N s/m", "Radial damping between outer race and ground.").not_negative(),
     Key::new("mount.moving_mass", Kind::Quantity("kg"), "0.15 kg", "Mass that moves with the outer race: the race itself and its housing or sleeve.")
         .positive(),
+    Key::new("mount.axial_stiffness", Kind::Quantity("N/m"), "2e7 N/m", "Stiffness between outer rings and ground along the axis. The outer rings keep their orientation.")
+        .positive().optional("as mount.stiffness").only(MACHINE),
+    Key::new("mount.axial_damping", Kind::Quantity("N s/m"), "2000 N s/m", "Damping along the axis.")
+        .not_negative().optional("as mount.damping").only(MACHINE),
     Key::new("mount.branch_stiffness", Kind::Series("N/m"), "[\"8e6 N/m\", \"4e6 N/m\"]", "Stiffness of each Maxwell branch, a spring and a damper in series beside spring and damper: an O-ring, whose stiffness rises with frequency.")
         .not_negative().optional("none: stiffness does not depend on frequency"),
     Key::new("mount.branch_time", Kind::Series("s"), "[\"0.3 ms\", \"0.03 ms\"]", "Relaxation time of each Maxwell branch.")

@@ -1,0 +1,120 @@
+//! Machines with bearings in space.
+
+use crate::machine::{parsed, ran};
+use crate::outcomes::number;
+use auxbear::run::{Options, run};
+use std::sync::atomic::AtomicBool;
+
+const FLYWHEEL: &str = include_str!("../../../scenarios/vertical_flywheel.toml");
+const AGAIN: &str = include_str!("../../../scenarios/machine_relevitation.toml");
+
+#[test]
+fn a_vertical_rotor_falls_freely_onto_the_face_of_its_pair() {
+    let fallen_onto = ran(
+        FLYWHEEL,
+        &["run.duration=8 ms", "run.output_interval=20 us"],
+    );
+    let found = number(&fallen_onto, "lower.time_to_first_axial_contact");
+    let fall = (2.0 * 0.2e-3 / 9.81_f64).sqrt();
+    assert!((found / fall - 1.0).abs() < 1e-3, "{found} {fall}");
+    assert!(number(&fallen_onto, "lower.peak_axial_force") > 60.0 * 9.81);
+    assert!(number(&fallen_onto, "energy_residual").abs() < 1e-5);
+    // the upper row of a back to back pair takes thrust downwards
+    let rows = fallen_onto
+        .column("lower.bearing.ball_01.inner_angle")
+        .unwrap();
+    let upper = (1..=99)
+        .rev()
+        .find_map(|ball| fallen_onto.column(&format!("lower.bearing.ball_{ball:02}.inner_angle")));
+    assert!(rows.values[0] > 0.1 && upper.unwrap().values[0] < -0.1);
+}
+
+#[test]
+fn an_axial_magnet_holds_until_all_power_is_lost() {
+    let fallen_onto = ran(
+        AGAIN,
+        &[
+            "bearing.fidelity=spatial",
+            "bearing.operating_diametral_clearance=5 um",
+            "contact.gap_to_end=0.5 mm",
+            "gravity.axial=2 m/s^2",
+            "levitation.axial_stiffness=1 MN/m",
+            "levitation.axial_damping=1000 N s/m",
+            // before friction in the bore brakes it along the axis too
+            "run.duration=26 ms",
+            "run.output_interval=1 ms",
+        ],
+    );
+    let place = fallen_onto.column("rotor.z").unwrap();
+    let time = fallen_onto.column("time").unwrap();
+    for (time, place) in time.values.iter().zip(&place.values) {
+        // power is lost at 20 ms
+        let fallen = (time - 0.02).max(0.0).powi(2);
+        assert!(
+            (place - fallen).abs() < 1e-6 * fallen + 1e-12,
+            "{time} {place} {fallen}"
+        );
+    }
+}
+
+#[test]
+fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
+    const LOWER: &str = "auxiliary_bearing.lower.";
+    for (sets, needed) in [
+        (
+            &["bearing.arrangement=single"][..],
+            "nothing presses a single row",
+        ),
+        (&["bearing.arrangement=DT"], "tandem"),
+        (&["bearing.shoulder_height=0.01 mm"], "groove ends"),
+        (
+            &["bearing.operating_diametral_clearance=5 um"],
+            "how its grooves stand",
+        ),
+        (
+            &[
+                "bearing.cage.guidance=balls",
+                "bearing.separation=full complement",
+            ],
+            "\"cage\"",
+        ),
+        (&["heat.network=on"], "how its rings warm"),
+    ] {
+        let sets: Vec<String> = sets.iter().map(|set| format!("{LOWER}{set}")).collect();
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        refused(&sets, needed);
+    }
+    refused(
+        &["base.shock_x=50 m/s^2", "base.shock_duration=11 ms"],
+        "base that moves",
+    );
+}
+
+fn refused(sets: &[&str], needed: &str) {
+    let found = match parsed(FLYWHEEL, sets) {
+        Ok(scenario) => run(&scenario, &Options::unwatched(&AtomicBool::new(false)))
+            .err()
+            .map(|problem| problem.to_string()),
+        Err(problem) => Some(problem),
+    };
+    let found = found.unwrap_or_else(|| panic!("{sets:?} is taken"));
+    assert!(found.contains(needed), "{sets:?}: {found}");
+}
+
+#[test]
+fn a_weight_that_nothing_stops_is_refused_with_the_word_spatial() {
+    let lines = FLYWHEEL
+        .lines()
+        .filter(|line| !line.starts_with("gap_to_start"));
+    let open: String = lines.map(|line| format!("{line}\n")).collect();
+    assert!(
+        parsed(&open, &[])
+            .unwrap_err()
+            .contains("fall through its bearings")
+    );
+    let found = parsed(AGAIN, &["gravity.axial=9.81 m/s^2"]).unwrap_err();
+    assert!(
+        found.contains("\"spatial\" is needed") && found.contains("carry no thrust"),
+        "{found}"
+    );
+}
