@@ -367,7 +367,7 @@ impl<R: Real> Spatial<R> {
         let across = Vec3::new(across.x, across.y, zero);
         bodies.on_outer.force += across;
         let along = self.assembly.outer.mount.wrench(&bodies.outer);
-        let external = bodies.external + self.from_outside(&bodies, along, across);
+        let external = bodies.external + self.outside_moment(&bodies, along, across);
         self.assembly.move_inner(&mut bodies, &mut rate[inner_at]);
         let acceleration = (self.assembly).move_outer(&mut bodies, &mut rate[outer_at]);
         self.assembly.carry_cages(acceleration, &mut rate[own]);
@@ -419,7 +419,7 @@ impl<R: Real> Spatial<R> {
 
     /// Moment about the axis through the origin by drive, mount, weights, what holds the inner ring and what keeps the outer one from
     /// turning.
-    fn from_outside(&self, bodies: &Bodies<R>, along: SpatialWrench<R>, across: Vec3<R>) -> R {
+    fn outside_moment(&self, bodies: &Bodies<R>, along: SpatialWrench<R>, across: Vec3<R>) -> R {
         let Assembly {
             gravity,
             inner,

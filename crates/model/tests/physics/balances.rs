@@ -188,8 +188,7 @@ fn momentum_changes_by_outer_forces_alone() {
     assert!(worst < 1e-9, "{worst}");
 }
 
-/// Moment that the bearing exerts on the outer race about its centre: the traction of the balls on their true arms; of
-/// rolling balls the friction moment, the outer race's share of what turns them, and what speeds them up.
+/// Moment of the bearing on the outer race about its centre: traction of the balls on their true arms; of rolling balls friction.
 fn moment_on_outer_race(machine: &RotorMachine, state: &[f64], rate: &[f64]) -> f64 {
     match &machine.constants.bearings[0].bearing {
         BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
@@ -354,10 +353,8 @@ fn angular_momentum_changes_by_outer_moments_alone() {
         outer.add(-moment_on_outer_race(machine, state, rate));
         match &c.bearings[0].bearing {
             BearingConstants::Spatial(_) => panic!("the bearing lies in the plane"),
-            BearingConstants::Rolling(b) => {
-                // the angular momentum of the balls that the inner race does not feel
-                change.add(b.set.outer_inertia() * rate[INNER + 5]);
-            }
+            // the angular momentum of the balls that the inner race does not feel
+            BearingConstants::Rolling(b) => change.add(b.set.outer_inertia() * rate[INNER + 5]),
             BearingConstants::Planar(b) => {
                 outer.add(-b.cage_drag * bearing_part(machine, state)[1]);
                 for j in 0..b.balls {
