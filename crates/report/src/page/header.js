@@ -180,6 +180,8 @@ const RANGES = [
   ["AB2336", "contact of rotor and race beyond the law of its width"],
   ["AB2301", "contact of rotor and race so hot that steel changes"],
   ["AB1017", "balls must skid"],
+  ["AB2412", "contact over the shoulder of its groove"],
+  ["AB2413", "nothing stops the rotor along its axis"],
 ];
 
 function rangeTile(run) {
@@ -187,9 +189,14 @@ function rangeTile(run) {
   return tile("Bearing and laws", beyond.length ? `${beyond.length} beyond range` : "in range", beyond.map(([code, words]) => `${words} (${code})`), verdictState(run, beyond.length > 0));
 }
 
-// A radial model: what acts along the shaft is in no result.
+const IN_SPACE = "AB2414";
+
+// A radial model: what acts along the shaft is in no result, but of bearings in space.
 function axialTile(run) {
   const share = numberOf(run, "axial_gravity_share");
+  if (warningsOf(run, IN_SPACE).length) {
+    return tile("Axial motion", "computed", [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, `warmth, growth and life of bearings in space are not (${IN_SPACE})`]);
+  }
   return tile("Axial motion", NOT_IN_THIS_RUN, [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, "thrust, axial clearance and drop onto the faces are not computed"]);
 }
 
