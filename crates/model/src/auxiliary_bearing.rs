@@ -171,7 +171,7 @@ pub mod probe {
     pub const MOUNT_FORCE: usize = 11;
     /// First of the largest u²Q of a ball at both races, (m/s)² N.
     pub const LARGEST_SKIDS: usize = 12;
-    /// Penetration of a shoulder of the rotor into a face of the inner race, m; -∞ where there is none.
+    /// Penetration of a shoulder of the rotor into a face of the inner race, m; not above 0 where there is none.
     pub const AXIAL_PENETRATION: usize = 14;
     /// Normal force on these faces, N.
     pub const AXIAL_FORCE: usize = 15;
@@ -526,7 +526,7 @@ impl<R: Real> AuxiliaryBearing<R> {
                 mount.length_squared().sqrt(),
                 bearing.largest_skids[0],
                 bearing.largest_skids[1],
-                R::splat(f64::NEG_INFINITY),
+                zero,
                 zero,
             ];
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
