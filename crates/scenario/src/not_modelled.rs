@@ -89,11 +89,11 @@ const MACHINE: &[Absent] = &[
         instead: "contact.misalignment_x and misalignment_y shift a bearing against the line of levitation",
     },
     Absent {
-        paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.arrangement bearing.duplex bearing.set bearing.count \
+        paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.duplex bearing.set bearing.count \
                 bearing.number bearing.number_of_bearings bearing.number_of_rows rotor.planes",
-        what: "a pair, set or several rows are not described as one bearing",
+        what: "a pair or a set is described as one bearing in space alone",
         point: 10,
-        instead: "Equal rows at one node are an [[auxiliary_bearing]] with planes = 2, with the ball_count of one row and half of the place's \
+        instead: "With bearing.fidelity = \"spatial\" it is bearing.arrangement. In the plane equal rows at one node are an [[auxiliary_bearing]] with planes = 2, with the ball_count of one row and half of the place's \
                   mount.stiffness, mount.damping and mount.moving_mass; rows that differ, or at nodes a bearing's width apart, are tables of \
                   their own",
     },
@@ -102,10 +102,10 @@ const MACHINE: &[Absent] = &[
 const TABLE: &[Absent] = &[
     Absent {
         paths: "axial thrust thrust_bearing rotor.thrust rotor.axial_load *.axial_gap *.axial_clearance \
-                *.axial_air_clearance *.axial_play *.axial_stiffness *.axial_damping *.axial_speed *.thrust_load",
-        what: "motion along the shaft, the axial gap and the landing on the thrust faces are not described",
+                *.axial_air_clearance *.axial_play *.axial_speed *.thrust_load",
+        what: "bearings of the plane know no motion along the shaft, no axial gap and no thrust faces",
         point: 10,
-        instead: "Constant axial loads are bearing.axial_preload, for contacts and friction, and bearing.moment.axial_load, for friction alone",
+        instead: "A machine has bearings in space: bearing.fidelity = \"spatial\" with contact.gap_to_start, contact.gap_to_end and gravity.axial. In the plane constant axial loads are bearing.axial_preload, for contacts and friction, and bearing.moment.axial_load, for friction alone",
     },
     Absent {
         paths: "*.transverse_inertia *.diametral_inertia *.diametrical_inertia *.equatorial_inertia \
@@ -151,7 +151,7 @@ const TABLE: &[Absent] = &[
         instead: "levitation.stiffness and levitation.damping set the orbit before the release; magnets and controllers are those of system = \"machine\"",
     },
     Absent {
-        paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.arrangement bearing.duplex bearing.set \
+        paths: "bearing.rows bearing.row bearing.paired bearing.pair bearing.duplex bearing.set \
                 bearing.count bearing.number bearing.number_of_bearings bearing.number_of_rows",
         what: "a pair, set or several rows are not described as one bearing",
         point: 10,
@@ -258,7 +258,7 @@ mod tests {
             ("seismic.acceleration", "motion of the base"),
             ("base.shock_z", "along the shaft"),
             ("contact.tilt", "landing sleeve"),
-            ("bearing.arrangement", "one node"),
+            ("bearing.duplex", "one node"),
             ("base.tilt", "plane of the bearings"),
         ] {
             let absent = of(path, SystemName::Machine).expect(path);
