@@ -30,6 +30,17 @@ fn a_vertical_rotor_falls_freely_onto_the_face_of_its_pair() {
 }
 
 #[test]
+fn a_weight_that_is_given_in_part_is_warned_of() {
+    let warned = |axial: &str| {
+        let scenario = parsed(FLYWHEEL, &[&format!("gravity.axial={axial}")]).unwrap();
+        let notes = scenario.notes.iter();
+        notes.filter(|own| own.code == "AB1095").count()
+    };
+    assert_eq!(warned("-9.81 m/s^2"), 0);
+    assert_eq!(warned("-1 m/s^2"), 1);
+}
+
+#[test]
 fn an_axial_magnet_holds_until_all_power_is_lost() {
     let fallen_onto = ran(
         AGAIN,

@@ -115,14 +115,9 @@ impl Values {
     /// A shaft whose weight the radial bearings carry in part, or not at all.
     fn inclined(&self) -> Option<Warning> {
         let gravity = self.number("gravity.acceleration")?;
-        // what carries the rest is computed
-        if self
-            .number("gravity.axial")
-            .is_some_and(|axial| axial != 0.0)
-        {
-            return None;
-        }
-        let share = axial_share(gravity);
+        // a weight along the shaft that is given is one that a bearing in space carries
+        let carried = self.number("gravity.axial").unwrap_or(0.0);
+        let share = axial_share(gravity.hypot(carried));
         (self.system().falls() && share > 0.0).then(|| {
             let angle = share.asin();
             ValueWarning::Inclined {

@@ -168,7 +168,7 @@ impl BearingConstants {
             BearingConstants::Spatial(bearing) => Some(bearing.azimuth_channel(ball)),
         }
     }
-    /// What balls that may slide do to the races, where it is told.
+    /// What balls that may slide do to the races, where it is recorded.
     pub fn race_laws(&self) -> Option<&[RaceContact; 2]> {
         match self {
             BearingConstants::Rolling(_) => None,

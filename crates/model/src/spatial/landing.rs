@@ -1,6 +1,6 @@
 //! Where a rotor lands on an inner ring: stations of its bore, and faces with the shoulders of the rotor.
 //!
-//! The penetration that is told is the largest over the stations, with its rate and its slip; forces are sums over them.
+//! Penetration, its rate and slip are those of the station with the largest penetration; forces are sums over all stations.
 
 use super::face::{Face, FaceNodes};
 use super::rigid_body::{RigidBody, SpatialWrench};

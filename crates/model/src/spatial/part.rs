@@ -10,7 +10,7 @@
 //! Does not model: growth of the inner ring with speed, a steady friction moment, mounts on housings that move, a base that moves.
 
 use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
-use super::ball::{BALL_STATES, BallState};
+use super::ball::BALL_STATES;
 use super::landing::{Landing, LandingConstants, LandingReaction};
 use super::mount::SpatialMount;
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
@@ -86,6 +86,12 @@ impl SpatialBearing {
     /// Number of balls of all rows.
     pub fn balls(&self) -> usize {
         self.rows.iter().map(|row| row.balls).sum()
+    }
+    /// What machines share whose lanes hold it: nodes of each row, stations, faces.
+    pub(crate) fn counts(&self) -> Vec<usize> {
+        let landing = [self.landing.stations.len(), self.landing.faces.len()];
+        let nodes = self.rows.iter().map(|row| row.nodes.len());
+        nodes.chain(landing).collect()
     }
     /// Number of its own states.
     pub fn states(&self) -> usize {
@@ -182,11 +188,6 @@ impl SpatialBearing {
     /// Azimuth of a ball, rad.
     pub fn azimuth(&self, state: &[f64], ball: usize) -> f64 {
         state[self.azimuth_channel(ball)]
-    }
-    /// State of a ball.
-    pub fn ball(&self, state: &[f64], ball: usize) -> BallState<f64> {
-        let (row, own, first) = self.place(ball);
-        BallState::from_array(std::array::from_fn(|k| state[first + k * row.balls + own]))
     }
     /// Contacts and pocket of a ball.
     pub fn contacts(&self, motion: &Motion<f64>, state: &[f64], ball: usize) -> BallContacts<f64> {

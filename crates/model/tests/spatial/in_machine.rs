@@ -7,7 +7,7 @@ use model::mount::Mount;
 use model::rotor::{AxialConstants, Coordinate, RotorConstants, Unbalance};
 use model::spatial::part::SpatialBearing;
 use model::spatial::rigid_body::BODY_STATES;
-use model::spatial::{Assembly, AssemblyConstants};
+use model::spatial::{Assembly, AssemblyConstants, LandingConstants};
 use model::system::machine::simulate::Steps;
 use model::system::machine::{MachineConstants, RotorMachine};
 use number::{Vec2, Vec3};
@@ -192,6 +192,23 @@ fn a_machine_and_an_assembly_with_a_rigid_rotor_agree() {
             let spun = theirs[12].abs().max(1e-3 * most);
             assert!((ours[rotor.spin()] - theirs[12]).abs() < 3e-3 * spun);
         }
+    }
+}
+
+#[test]
+fn machines_with_other_landing_surfaces_share_no_lanes() {
+    let both = pair(Guide::Tied);
+    let machine = |own: &AssemblyConstants| RotorMachine::new(of(own, 0.0));
+    let mut others = vec![both.clone(), both.clone(), both.clone()];
+    let landing = |own: &mut AssemblyConstants, change: fn(&mut LandingConstants)| {
+        change(&mut own.rotor.as_mut().unwrap().landing);
+    };
+    landing(&mut others[0], |own| own.faces.truncate(1));
+    landing(&mut others[1], |own| own.stations.truncate(1));
+    others[2].rows[0].nodes.truncate(1);
+    assert!(machine(&both).shares_lanes(&machine(&both)));
+    for other in &others {
+        assert!(!machine(&both).shares_lanes(&machine(other)));
     }
 }
 

@@ -29,6 +29,6 @@ pub(crate) const KEYS: &[Key] = &[
         .default("end", "one of the two; a row the other way round carries nothing").when(ONE_SIDED).only(MACHINE),
     Key::new("bearing.contact_nodes", Kind::Word(ContactNodes::WORDS), "matched", "Points of the contact ellipse at which slip is taken: matched are three that have the couple of pure spin under dry friction. One makes no spin couple; more are needed where spin is far above the slip that regularises the traction.")
         .default("matched", "right for pure sliding, pure spin and small slip; measured errors stand in the theory of bearings in space").when(IN_SPACE).only(MACHINE),
-    Key::new("bearing.shoulder_height", Kind::Quantity("m"), "1.2 mm", "Height of the shoulder of both grooves above their bottom: it is told when and where a contact ellipse is cut off by it.")
-        .positive().optional("it is not told whether a contact leaves its groove").when(IN_SPACE).only(MACHINE),
+    Key::new("bearing.shoulder_height", Kind::Quantity("m"), "1.2 mm", "Height of the shoulder of both grooves above their bottom: a run reports when and where a contact ellipse is cut off by it.")
+        .positive().optional("whether a contact leaves its groove is not judged").when(IN_SPACE).only(MACHINE),
 ];

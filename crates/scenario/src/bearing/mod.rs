@@ -317,6 +317,11 @@ impl Bearing {
         self.ball_mass
             .unwrap_or_else(|| self.ball_material.ball_mass(self.ball_diameter))
     }
+    /// Mass and moment of inertia of the inner race, kg and kg m², of all rows on it.
+    pub fn inner_race(&self) -> [f64; 2] {
+        let rows = self.spatial.map_or(1, |own| own.arrangement.rows()) as f64;
+        [self.inner_race_mass * rows, self.inner_race_inertia * rows]
+    }
     /// Masses and radii of balls and cage, as they turn.
     pub fn rolling_set(&self) -> RollingSet<f64> {
         let track = self.inner_track_radius();

@@ -55,6 +55,16 @@ pub struct Spatial {
     pub shoulder_height: Option<f64>,
 }
 
+impl Arrangement {
+    /// Number of rows.
+    pub fn rows(self) -> usize {
+        match self {
+            Arrangement::Single => 1,
+            Arrangement::BackToBack | Arrangement::FaceToFace | Arrangement::Tandem => 2,
+        }
+    }
+}
+
 impl Spatial {
     pub(super) fn of(values: &Values, bearing: &Section<'_>) -> Self {
         Spatial {

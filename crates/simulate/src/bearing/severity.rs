@@ -31,7 +31,8 @@ const AT_THE_INNER_RACE: [&str; 4] = [
 /// Rise of the inner race, K, of which half of the heats at its surfaces is enough, or why there is none.
 pub(crate) fn inner_race_rise(run: &BearingRun, bearing: &Bearing) -> Result<f64, String> {
     let heat: f64 = AT_THE_INNER_RACE.iter().map(|kind| run.heat(kind)).sum();
-    let capacity = bearing.inner_race_mass * BEARING_STEEL_SPECIFIC_HEAT;
+    let [mass, _] = bearing.inner_race();
+    let capacity = mass * BEARING_STEEL_SPECIFIC_HEAT;
     let on_shaft = || "bearing.inner_race_mass is 0: the race sits on a shaft".to_string();
     (capacity > 0.0)
         .then(|| 0.5 * heat / capacity)

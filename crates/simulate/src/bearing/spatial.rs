@@ -115,10 +115,7 @@ pub(crate) fn bearing(
     let count = rows.len() as f64;
     let width = (own.row_width).unwrap_or(WIDTH * given.ball_diameter);
     let whole = (count - 1.0) * own.row_spacing + width;
-    let (mass, inertia) = (
-        given.inner_race_mass * count,
-        given.inner_race_inertia * count,
-    );
+    let [mass, inertia] = given.inner_race();
     let zero = 0.0;
     Ok(SpatialBearing {
         set: RollingSet {

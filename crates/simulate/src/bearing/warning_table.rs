@@ -56,7 +56,7 @@ problem::warnings! {
         NoThrust { moved: "m" } "AB2413" Invalid, each
             ("No bearing in space has a shoulder in its way (contact.gap_to_start, contact.gap_to_end): nothing stops the rotor along its axis, and it has moved by {:.2} mm.", 1e3 * moved);
         LeavesOut "AB2414" Uncertain
-            ("Of this bearing in space are not followed: growth of the rings with speed and warmth, and so of the preload; tilt of the outer rings; the share of its life. A hot inner ring, or one at high speed, presses its balls more than this run knows.");
+            ("Of this bearing in space are not followed: growth of the rings with speed and temperature, and so of the preload; tilt of the outer rings; the share of its life. A hot inner ring, or one at high speed, presses its balls more than this run knows.");
         ShoulderUnknown { angle: "rad" } "AB2415" Uncertain, each
             ("Whether a contact leaves its groove is not judged, since bearing.shoulder_height is not given: contact angles reach {:.0} deg.", angle.to_degrees());
     }

@@ -160,13 +160,10 @@ fn bearing_of(
         }
         None => bearing::build::bearing(given, &contacts, gravity)?,
     };
-    let rows = match &constants {
-        BearingConstants::Spatial(own) => own.rows.len() as f64,
-        _ => 1.0,
-    };
+    let [mass, inertia] = given.inner_race();
     let inner_race = RaceConstants {
-        mass: given.inner_race_mass * rows,
-        inertia: given.inner_race_inertia * rows,
+        mass,
+        inertia,
         centre_held: given.inner_race_centre_held,
         torque: given.inner_race_torque,
     };

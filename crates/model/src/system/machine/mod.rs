@@ -51,6 +51,7 @@ use crate::levitation::Levitation;
 use crate::magnets::Magnets;
 use crate::rotor::{Node, Rotor};
 use crate::seal::Seal;
+use crate::spatial::SpatialBearing;
 use crate::system::rig::{Clutch, ClutchDrive, ClutchMode, Drive, Fixture, Refusal, RigConstants};
 use crate::table::Piece;
 pub use constants::{
@@ -203,6 +204,11 @@ impl RotorMachine {
             })
             .collect()
         };
+        let in_space = |own: &MachineConstants| -> Vec<_> {
+            let each = own.bearings.iter();
+            each.map(|part| part.spatial().map(SpatialBearing::counts))
+                .collect()
+        };
         let alone = |own: &Fixture| own.housing.is_some() || matches!(own.drive, Drive::Clutch(_));
         let magnets = match (&a.magnets, &b.magnets) {
             (Some(a), Some(b)) => a.share_lanes(b),
@@ -216,6 +222,7 @@ impl RotorMachine {
             && a.rotor.spin_held == b.rotor.spin_held
             && drive(self) == drive(other)
             && held(a) == held(b)
+            && in_space(a) == in_space(b)
             && !self.fixture().is_some_and(alone)
     }
     /// Where everything stands in the state.
