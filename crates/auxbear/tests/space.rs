@@ -89,7 +89,6 @@ fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
             ],
             "\"cage\"",
         ),
-        (&["heat.network=on"], "how its rings warm"),
     ] {
         let sets: Vec<String> = sets.iter().map(|set| format!("{LOWER}{set}")).collect();
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();

@@ -234,7 +234,8 @@ impl Following {
             let Some(followed) = part.followed.as_ref().filter(due) else {
                 continue;
             };
-            match followed.renewed(&mut warmed.parts[k], (now.nodes, now.spin), time) {
+            let as_now = &machine.constants.bearings[k].bearing;
+            match followed.renewed(&mut warmed.parts[k], (now.nodes, now.spin), time, as_now) {
                 Ok(of_bearing) => constants.bearings[k].bearing = of_bearing,
                 Err(why) => {
                     warmed.broken = Some((time, why));

@@ -39,8 +39,17 @@ impl LoadZone {
         );
         free + self.by_seats(temperatures).iter().sum::<f64>() - self.growth * speed * speed
     }
+    /// Strains of inner ring, balls and outer ring that grow freely.
+    pub fn strains_at(&self, temperatures: &[f64]) -> [f64; 3] {
+        let ThermalClearance {
+            expansions,
+            reference,
+            ..
+        } = self.clearance;
+        [0, 1, 2].map(|k| expansions[k] * (temperatures[self.nodes[k]] - reference))
+    }
     /// What both seats have added to it, m.
-    fn by_seats(&self, temperatures: &[f64]) -> [f64; 2] {
+    pub fn by_seats(&self, temperatures: &[f64]) -> [f64; 2] {
         let reference = self.clearance.reference;
         (self.seats).map(|seat| seat.map_or(0.0, |seat| seat.adds(temperatures, reference)))
     }

@@ -332,7 +332,9 @@ impl BearingConstants {
         match self {
             BearingConstants::Rolling(bearing) => bearing.ball.inner_track_growth != 0.0,
             BearingConstants::Planar(bearing) => bearing.ball.inner_track_growth != 0.0,
-            BearingConstants::Spatial(_) => false,
+            BearingConstants::Spatial(bearing) => {
+                (bearing.rows.iter()).any(|row| row.ball.inner_growth != 0.0)
+            }
         }
     }
     /// Energies and angular momentum at a state; of one in space see [`content`](crate::spatial::AssemblyConstants::content).

@@ -104,6 +104,8 @@ pub struct AssemblyProbe<R> {
     pub face_penetration: R,
     /// Sum of |friction| on the faces, N.
     pub face_friction: R,
+    /// ∂V/∂ω of the inner ring that grows with its speed, J s: with ω̇ a power that the accounts leave out.
+    pub growth_impulse: R,
 }
 
 /// An assembly over `R`.
@@ -210,6 +212,8 @@ pub(super) struct Bodies<R> {
     pub on_outer: SpatialWrench<R>,
     /// Moment about the axis through the origin on balls and cages from outside: weight and drag, N m.
     pub external: R,
+    /// ∂V/∂ω of the inner ring that grows with its speed, J s.
+    pub growth_impulse: R,
     /// Normal force between cages and lands, N.
     pub land_force: R,
     /// Powers of the accounts, W.
@@ -235,6 +239,7 @@ impl<R: Real> Bodies<R> {
             on_inner: SpatialWrench::zero(),
             on_outer: SpatialWrench::zero(),
             external: R::zero(),
+            growth_impulse: R::zero(),
             land_force: R::zero(),
             power: [R::zero(); LEDGER.len()],
         }
@@ -407,6 +412,7 @@ impl<R: Real> Assembly<R> {
             bodies.on_inner.add(reaction.on_inner);
             bodies.on_outer.add(reaction.on_outer);
             bodies.external += reaction.external;
+            bodies.growth_impulse += reaction.growth_impulse;
             let mut k = 0;
             while k < reaction.heats.len() {
                 bodies.power[k] += reaction.heats[k];
@@ -441,6 +447,7 @@ impl<R: Real> Assembly<R> {
             outer_torque: bodies.on_outer.moment.dot(bodies.outer.axis),
             face_penetration: zero,
             face_friction: zero,
+            growth_impulse: bodies.growth_impulse,
         };
         match &self.rotor {
             None => {

@@ -12,6 +12,7 @@
 use super::pocket::SpatialPocket;
 use super::race::{BallInSpace, RaceGroove};
 use number::{Real, Vec3, constants};
+use physics::load_zone::joint_stiffness;
 
 /// States of a ball.
 pub const BALL_STATES: usize = 9;
@@ -23,8 +24,10 @@ constants! {
         radius: R,
         /// Mass, kg.
         mass: R,
-        /// Groove of the inner ring.
+        /// Groove of the inner ring at standstill.
         inner: RaceGroove<R>,
+        /// Growth k of the radius of that groove's circle with the square of the inner ring's speed, m s².
+        inner_growth: R,
         /// Groove of the outer ring.
         outer: RaceGroove<R>,
         /// Contact damping time β, s.
@@ -40,7 +43,54 @@ constants! {
     }
 }
 
+impl<R: Real> SpatialBall<R> {
+    /// Groove of an inner ring that turns about its axis at a speed, rad/s.
+    #[inline(always)]
+    pub fn inner_at(&self, speed: R) -> RaceGroove<R> {
+        RaceGroove {
+            centre_radius: self.inner.centre_radius + self.inner_growth * speed.square(),
+            ..self.inner
+        }
+    }
+}
+
+/// How rings and balls have grown with their temperatures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expansion {
+    /// Strains of inner ring, balls and outer ring.
+    pub strains: [f64; 3],
+    /// What the seats of inner and outer ring have added to the radii of their tracks, m.
+    pub seats: [f64; 2],
+}
+
 impl SpatialBall<f64> {
+    /// The same when rings and balls have grown, each about its own centre.
+    ///
+    /// Assumes: bodies of one temperature each; masses, pockets and the stiffness of the contacts (half the strain) stay.
+    pub fn expanded(&self, by: &Expansion) -> Self {
+        let [inner, balls, outer] = by.strains.map(|strain| 1.0 + strain);
+        let radius = self.radius * balls;
+        let groove = |own: &RaceGroove<f64>, grown: f64, seat: f64| RaceGroove {
+            centre_radius: own.centre_radius * grown + seat,
+            place: own.place * grown,
+            slack: (own.slack + self.radius) * grown - radius,
+            ..*own
+        };
+        SpatialBall {
+            radius,
+            inner: groove(&self.inner, inner, by.seats[0]),
+            outer: groove(&self.outer, outer, by.seats[1]),
+            ..*self
+        }
+    }
+    /// Thrust of a ball at rest between concentric rings, N: K δ^1.5 sin α, both contacts in series.
+    pub fn thrust_at_rest(&self) -> f64 {
+        let [radial, axial] = self.groove_distance();
+        let distance = radial.hypot(axial);
+        let approach = (distance - self.inner.slack - self.outer.slack).max(0.0);
+        let stiffness = joint_stiffness(self.inner.stiffness, self.outer.stiffness);
+        stiffness * approach.powf(1.5) * axial.abs() / distance.max(f64::MIN_POSITIVE)
+    }
     /// From the centre of the inner groove to that of the outer one, rings concentric: radially and along the axis, m.
     pub fn groove_distance(&self) -> [f64; 2] {
         [

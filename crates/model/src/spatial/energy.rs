@@ -141,7 +141,8 @@ fn add_ball<R: Real>(
     all.kinetic += half * momentum.dot(space.velocity) + turning;
     all.add_momentum(momentum, space.position, space.spin * inertia);
     all.potential -= ball.gravity.dot(space.position) * ball.mass;
-    for (race, ring) in [(&ball.inner, inner), (&ball.outer, outer)] {
+    let grown = ball.inner_at(inner.spin.dot(inner.axis));
+    for (race, ring) in [(&grown, inner), (&ball.outer, outer)] {
         all.potential += ball_race_energy(race.stiffness, race.approach(ring, space.position));
     }
     let s = space.position - cage.position;

@@ -7,7 +7,7 @@
 //! Frame: origin at the datum of the bearing, axes of the machine. The rotor's node comes in as a body, the wrench on it goes out, about
 //! the point C of its axis.
 //!
-//! Does not model: growth of the inner ring with speed, a steady friction moment, mounts on housings that move, a base that moves.
+//! Does not model: a steady friction moment, mounts on housings that move, a base that moves.
 
 use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
 use super::ball::BALL_STATES;
@@ -369,7 +369,10 @@ impl<R: Real> Spatial<R> {
         bodies.on_outer.force += across;
         let along = self.assembly.outer.mount.wrench(&bodies.outer);
         let external = bodies.external + self.outside_moment(&bodies, along, across);
-        self.assembly.move_inner(&mut bodies, &mut rate[inner_at]);
+        self.assembly
+            .move_inner(&mut bodies, &mut rate[inner_at.clone()]);
+        let turning = &rate[inner_at][SPIN - 2..];
+        let speed_rate = Vec3::new(turning[0], turning[1], turning[2]).dot(bodies.inner.axis);
         let acceleration = (self.assembly).move_outer(&mut bodies, &mut rate[outer_at]);
         self.assembly.carry_cages(acceleration, &mut rate[own]);
         for (body, at) in [(&bodies.inner, at.inner), (&bodies.outer, at.outer)] {
@@ -385,7 +388,7 @@ impl<R: Real> Spatial<R> {
         heats[HEATS - 1] = landed.bore.heats[1] + landed.face.heats[1];
         rate[first_heat..first_heat + HEATS].copy_from_slice(&heats);
         rate[source] = power[16];
-        rate[source + 1] = zero;
+        rate[source + 1] = bodies.growth_impulse * speed_rate;
         if !probe.is_empty() {
             let of_mount = across + along.force;
             let largest = |list| largest(&probe[at.detail..], balls, list);

@@ -141,6 +141,8 @@ pub(super) struct RowReaction<R> {
     pub heats: [R; 7],
     /// Moment of weight and drag about the axis through the origin, N m.
     pub external: R,
+    /// ∂V/∂ω of the inner ring that grows, J s.
+    pub growth_impulse: R,
 }
 
 /// Where the detail of the balls goes, an empty list where nobody asks.
@@ -195,7 +197,9 @@ impl<R: Real> SpatialBall<R> {
         rings: [&RingMotion<R>; 2],
         ball: &BallInSpace<R>,
     ) -> BetweenRaces<R> {
-        let inner = (self.inner).touch(rings[0], ball, self.radius, self.damping_time);
+        let speed = rings[0].spin.dot(rings[0].axis);
+        let groove = self.inner_at(speed);
+        let inner = groove.touch(rings[0], ball, self.radius, self.damping_time);
         let outer = (self.outer).touch(rings[1], ball, self.radius, self.damping_time);
         BetweenRaces {
             traction: traction(law, nodes, [&inner, &outer]),
@@ -300,8 +304,10 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
         let inverse_inertia =
             inverse_mass * (<R::Group as Real>::splat(0.4) * law.radius.square()).recip();
         let (mut on_inner, mut on_outer) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
-        let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
+        let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 7>::new(n));
         let mut pocket_heats = BallSums::<R, 2>::new(n);
+        let ring = &around.inner;
+        let growing = <R::Group as Real>::splat(2.0) * law.inner_growth * ring.spin.dot(ring.axis);
         let mut from = 0;
         while from < n {
             let ball = BallState::load(&states, from);
@@ -349,6 +355,7 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
                     f_o.heat,
                     drag * along + law.spin_drag * ball.spin.length_squared(),
                     ball.radius * outside - law.spin_drag * ball.spin.z,
+                    -growing * t_i.load.elastic * t_i.triad.normal[0],
                 ],
             );
             if !self.detail.list.is_empty() {
@@ -375,7 +382,7 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             }
             from += R::GROUP;
         }
-        let [d_i, d_o, s_i, s_o, drag, external] = heats.total();
+        let [d_i, d_o, s_i, s_o, drag, external, growth_impulse] = heats.total();
         let [damping, friction] = pocket_heats.total();
         RowReaction {
             on_inner: SpatialWrench::from_array(on_inner.total()),
@@ -383,6 +390,7 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             on_cage: SpatialWrench::from_array(on_cage.total()),
             heats: [d_i, d_o, s_i, s_o, drag, damping, friction],
             external,
+            growth_impulse,
         }
     }
 }

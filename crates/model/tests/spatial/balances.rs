@@ -145,8 +145,12 @@ fn energy_is_supplied_or_becomes_heat() {
                 let turning = axis(&state[at + 6..at + 10]) * 600.0;
                 state[at + 10..at + 13].copy_from_slice(&[turning.x, turning.y, turning.z]);
             }
-            let rate = rates(machine, &state);
+            let mut rate = vec![0.0; state.len()];
+            let probe = Assembly::<f64>::gather(&|_| machine).rate(&state, &mut rate);
             let content = machine.content(&moving(&state, &rate));
+            let ring = machine.body(1);
+            let speed_rate = axis(&state[ring + 6..]).dot(vector(&rate[ring + 10..]));
+            let growing = probe.growth_impulse * speed_rate;
             let accounts = &rate[machine.first_account()..];
             let (heats, supplies) = accounts.split_at(16);
             assert!(
@@ -154,7 +158,8 @@ fn energy_is_supplied_or_becomes_heat() {
                 "kind {kind}: {heats:?}"
             );
             let change = content.kinetic.partial[0] + content.potential.partial[0];
-            let residual = change + heats.iter().sum::<f64>() - supplies.iter().sum::<f64>();
+            let supplied = supplies.iter().sum::<f64>() + growing;
+            let residual = change + heats.iter().sum::<f64>() - supplied;
             let terms: f64 = accounts.iter().map(|power| power.abs()).sum::<f64>()
                 + content.potential.partial[0].abs();
             assert!(

@@ -55,6 +55,7 @@ fn assembly(p: &Value) -> AssemblyConstants {
     ball.gravity = gravity;
     ball.damping_time = n("beta");
     (ball.orbit_drag, ball.spin_drag) = (n("cd"), n("cw"));
+    ball.inner_growth = 0.0;
     ball.inner.stiffness = n("Ki");
     ball.outer.stiffness = n("Ko");
     let groove = 0.52 * 2.0 * ball.radius;

@@ -115,6 +115,7 @@ fn row(
     RowConstants {
         balls: 9,
         ball: SpatialBall {
+            inner_growth: 2e-11,
             radius: 0.5 * DIAMETER,
             mass: ball_mass(DIAMETER, 7850.0),
             inner: groove(Race::Inner, place + half + 0.5 * sign * 8e-6),

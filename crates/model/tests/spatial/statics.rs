@@ -3,6 +3,7 @@
 use super::closed_forms::run;
 use super::setup::*;
 use model::spatial::RowConstants;
+use model::spatial::ball::Expansion;
 use model::spatial::race::RaceGroove;
 use model::spatial::rigid_body::RigidBody;
 use model::spatial::statics::ball::Running;
@@ -326,5 +327,52 @@ fn steady_dynamics_under_axial_load_meet_the_table() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn rings_that_heat_change_the_preload_as_their_geometry_says() {
+    let row = row(0.07);
+    let [free, half] = [ALPHA, 4e-6];
+    for sign in [1.0, -1.0] {
+        // the lower row of a pair that is closed by 8 µm: back to back (1) and face to face (-1)
+        let mut ball = row.ball;
+        let b = 0.5 * sign * B * free.sin();
+        ball.inner.place = -6e-3 + b + sign * half;
+        ball.outer.place = -6e-3 - b;
+        let thrust = |strains: [f64; 3], seats: [f64; 2]| {
+            ball.expanded(&Expansion { strains, seats })
+                .thrust_at_rest()
+        };
+        let mounted = thrust([0.0; 3], [0.0; 2]);
+        let [radial, axial] = ball.groove_distance();
+        let distance = radial.hypot(axial);
+        let approach = distance - ball.inner.slack - ball.outer.slack;
+        // bodies of one strain stay alike: K stays, so all lengths change the thrust as δ^1.5
+        let strain = 1e-3;
+        let alike = thrust([strain; 3], [0.0; 2]) / mounted;
+        assert!(
+            (alike / (1.0 + strain).powf(1.5) - 1.0).abs() < 1e-9,
+            "{alike}"
+        );
+        // T = K δ^1.5 sin α of a small strain of the inner ring: δ and α by the places of its groove
+        let (sine, cosine) = (axial / distance, -radial / distance);
+        let small = 1e-8;
+        let moved = [-ball.inner.centre_radius, -ball.inner.place];
+        let longer = -cosine * moved[0] + sine * moved[1];
+        let groove = ball.inner.slack + ball.radius;
+        let steeper = (cosine * moved[1] + sine * moved[0]) / distance;
+        let slope = 1.5 * (longer - groove) / approach + steeper * cosine / sine;
+        let found = (thrust([small, 0.0, 0.0], [0.0; 2]) / mounted - 1.0) / small;
+        assert!((found / slope - 1.0).abs() < 1e-4, "{sign} {found} {slope}");
+        // a longer inner ring opens a pair back to back and closes one face to face
+        let along = 1.5 * sine * moved[1] / approach;
+        assert!(along * sign < 0.0, "{along}");
+        // a seat moves the track radially
+        let seat = (thrust([0.0; 3], [1e-10, 0.0]) / mounted - 1.0) / 1e-10;
+        let expected = 1.5 * cosine / approach - sine / distance * cosine / sine;
+        assert!((seat / expected - 1.0).abs() < 1e-4, "{seat} {expected}");
+        let housing = (thrust([0.0; 3], [0.0, 1e-10]) / mounted - 1.0) / 1e-10;
+        assert!((housing / expected + 1.0).abs() < 1e-4, "{housing}");
     }
 }

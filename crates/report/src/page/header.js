@@ -195,7 +195,7 @@ const IN_SPACE = "AB2414";
 function axialTile(run) {
   const share = numberOf(run, "axial_gravity_share");
   if (warningsOf(run, IN_SPACE).length) {
-    return tile("Axial motion", "computed", [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, `temperature, growth and life of bearings in space are not (${IN_SPACE})`]);
+    return tile("Axial motion", "computed", [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, `of bearings in space some is not followed (${IN_SPACE})`]);
   }
   return tile("Axial motion", NOT_IN_THIS_RUN, [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, "thrust, axial clearance and drop onto the faces are not computed"]);
 }

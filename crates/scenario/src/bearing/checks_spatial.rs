@@ -1,13 +1,12 @@
 //! Checks of bearings in space, and of a thrust that no bearing carries.
 
 use crate::bearing::Bearing;
-use crate::bearing::fits::Growth;
 use crate::bearing::kind::BearingType;
 use crate::bearing::moment::Moment;
 use crate::bearing::separation::Separation;
 use crate::bearing::spatial::Arrangement;
 use crate::checks::{Check, Context};
-use crate::drop::{AuxiliaryBearing, Drop};
+use crate::drop::{AuxiliaryBearing, Body, Drop};
 use problem::Code;
 
 const FIDELITY: &str = "bearing.fidelity";
@@ -48,10 +47,6 @@ impl Context<'_> {
         if bearing.lubricant_state.is_some() {
             let needed = format!("no [bearing.lubricant_state] {kept}");
             return refuse("bearing.lubricant_state.kind", &needed);
-        }
-        if bearing.inner_race_growth != Growth::None {
-            let needed = format!("\"none\" {kept}: rings of bearings in space do not grow");
-            return refuse("bearing.inner_race_growth", &needed);
         }
         let angular = bearing.kind == BearingType::AngularContact;
         let clearance = "bearing.operating_diametral_clearance";
@@ -116,10 +111,6 @@ impl Context<'_> {
             let needed = "\"duration\" is needed beside bearing.fidelity = \"spatial\": its coast-down is not computed in quasi-steady steps";
             return refuse("run.until", needed);
         }
-        if part.warm.is_some() {
-            let needed = "\"off\" is needed beside bearing.fidelity = \"spatial\": how its rings warm is not computed";
-            return refuse("heat.network", needed);
-        }
         if self.values.text("mount.on").is_some() {
             let needed = "a mount on ground is needed beside bearing.fidelity = \"spatial\"";
             return refuse("mount.on", needed);
@@ -147,6 +138,18 @@ impl Context<'_> {
                 "levitation.axial_damping",
             ];
             let given = |path: &&str| self.values.number(path).is_some_and(|value| value != 0.0);
+            let forces = match &drop.body {
+                Body::Flexible(shaft) => &shaft.rotor.forces[..],
+                _ => &[],
+            };
+            if let Some(force) = forces.iter().find(|force| force.has_thrust()) {
+                let path = match &force.record {
+                    Some(_) => format!("{}.channel_z", force.path),
+                    None => format!("{}.z", force.path),
+                };
+                let needed = "a bearing with bearing.fidelity = \"spatial\" is needed beside it: planar ones carry no thrust";
+                return self.refuse_value(Code::Conflict, &path, needed);
+            }
             return match keys.into_iter().find(given) {
                 Some(path) => {
                     let needed = "a bearing with bearing.fidelity = \"spatial\" is needed beside it: planar ones carry no thrust";

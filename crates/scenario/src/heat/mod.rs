@@ -8,6 +8,7 @@ use crate::bearing::ball_material;
 use crate::bearing::fits::Growth;
 use crate::bearing::kind::{BallMaterial, BearingType};
 use crate::bearing::moment::{Moment, RatedBearing};
+use crate::bearing::spatial::Arrangement;
 use crate::section::Section;
 use crate::values::Values;
 use physics::air::SEA_LEVEL;
@@ -97,8 +98,10 @@ pub struct Warm {
     pub name: Option<String>,
     /// Type.
     pub kind: BearingType,
-    /// Number of balls.
+    /// Number of balls of a row.
     pub ball_count: usize,
+    /// Rows of balls on its rings.
+    pub rows: usize,
     /// Diameter of a ball, m.
     pub ball_diameter: f64,
     /// Diameter of the circle through the ball centres, m.
@@ -121,9 +124,9 @@ pub struct Warm {
     pub dynamic_load_rating: Option<f64>,
     /// Limiting speed in continuous running, rad/s.
     pub limiting_speed: Option<f64>,
-    /// Mass of the inner race with its sleeve, kg.
+    /// Mass of the inner race of a row with its sleeve, kg.
     pub inner_race_mass: f64,
-    /// Mass of the cage, kg; 0 where there is none.
+    /// Mass of the cage of a row, kg; 0 where there is none.
     pub cage_mass: f64,
     /// Mass of one ball, kg; derived from diameter and material where it is `None`.
     pub ball_mass: Option<f64>,
@@ -225,6 +228,7 @@ impl Warm {
             name: values.text("bearing.name"),
             kind: bearing.choice("type"),
             ball_count: bearing.count("ball_count") as usize,
+            rows: (bearing.chosen("arrangement")).map_or(1, |own: Arrangement| own.rows()),
             ball_diameter: bearing.number("ball_diameter"),
             pitch_diameter: bearing.number("pitch_diameter"),
             ball_material: ball_material(&bearing),

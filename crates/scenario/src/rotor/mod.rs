@@ -140,21 +140,31 @@ pub struct BalancePlanes {
 /// A force and torque from outside over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Force {
+    /// Its path in the scenario: `rotor.force.shaker`.
+    pub path: String,
     /// Its position.
     pub at: f64,
-    /// Rows of time, s, and force along x, N; the same along y, and of the torque, N m.
-    pub over_time: [Vec<[f64; 2]>; 3],
+    /// Rows of time, s, and force along x, N; the same along y and along the shaft, and of the torque, N m.
+    pub over_time: [Vec<[f64; 2]>; 4],
     /// A file that has them instead.
     pub record: Option<ForceRecord>,
+}
+
+impl Force {
+    /// Whether it acts along the shaft.
+    pub fn has_thrust(&self) -> bool {
+        let given = self.over_time[2].iter().any(|[_, force]| *force != 0.0);
+        given || (self.record.iter()).any(|record| record.along.is_some())
+    }
 }
 
 /// A record of a force in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceRecord {
-    /// Path of the force in the scenario: `rotor.force.shaker`.
-    pub name: String,
     /// The file.
     pub file: RecordFile,
+    /// Its channel with the force along the shaft.
+    pub along: Option<String>,
     /// Its channel with the torque.
     pub torque: Option<String>,
     /// When the record begins, s.

@@ -438,17 +438,20 @@ pub(super) fn on(part: &Part, housings: &[&Part]) -> Checked<Option<usize>> {
     })
 }
 
+/// What a force from outside may have, as its keys and the ends of those of its channels.
+const FORCES: [&str; 4] = ["x", "y", "z", "torque"];
+
 /// A force from outside at a place.
 fn force(part: &Part, at: f64) -> Checked<Force> {
-    let [x, y, torque] =
-        ["channel_x", "channel_y", "channel_torque"].map(|key| part.text(key).map(str::to_string));
-    let none = x.as_ref().or(y.as_ref()).or(torque.as_ref()).is_none();
+    let channels = FORCES.map(|key| part.text(&format!("channel_{key}")).map(str::to_string));
+    let none = channels.iter().all(Option::is_none);
+    let [x, y, along, torque] = channels;
     let record = part.text("file").map(|path| ForceRecord {
-        name: part.path.clone(),
         file: RecordFile {
             path: path.into(),
             channels: [x, y],
         },
+        along,
         torque,
         start: part.needed("start"),
         scale: part.needed("scale"),
@@ -456,10 +459,11 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
     if record.is_some() {
         if none {
             let found = "a file of which no channel is named";
-            let allowed = "channel_x, channel_y or channel_torque is needed";
+            let allowed = "channel_x, channel_y, channel_z or channel_torque is needed";
             return part.refuse(Code::MissingKey, "file", found, allowed);
         }
         return Ok(Force {
+            path: part.path.clone(),
             at,
             over_time: Default::default(),
             record,
@@ -467,7 +471,7 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
     }
     let times = part.series("times").unwrap_or_default();
     if times.is_empty() {
-        let allowed = "times with x, y or torque, or file, is needed";
+        let allowed = "times with x, y, z or torque, or file, is needed";
         return part.refuse(Code::MissingKey, "times", "a force without times", allowed);
     }
     if !times.windows(2).all(|pair| pair[0] < pair[1]) {
@@ -489,11 +493,8 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
         let rows = times.iter().zip(list.iter().cycle());
         Ok(rows.map(|(time, force)| [*time, *force]).collect())
     };
-    if ["x", "y", "torque"]
-        .iter()
-        .all(|key| part.series(key).is_none())
-    {
-        let allowed = "x, y or torque is needed";
+    if FORCES.iter().all(|key| part.series(key).is_none()) {
+        let allowed = "x, y, z or torque is needed";
         return part.refuse(
             Code::MissingKey,
             "x",
@@ -501,9 +502,11 @@ fn force(part: &Part, at: f64) -> Checked<Force> {
             allowed,
         );
     }
+    let [x, y, z, torque] = FORCES.map(along);
     Ok(Force {
+        path: part.path.clone(),
         at,
-        over_time: [along("x")?, along("y")?, along("torque")?],
+        over_time: [x?, y?, z?, torque?],
         record: None,
     })
 }

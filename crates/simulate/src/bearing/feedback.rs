@@ -11,10 +11,14 @@
 
 use crate::bearing::build::bearing as constants_of;
 use crate::bearing::contacts::ball_contacts;
+use crate::bearing::spatial;
 use crate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
+use model::spatial::RowConstants;
+use model::spatial::ball::Expansion;
+use model::spatial::part::SpatialBearing;
 use model::system::energy::{Content, Flows};
-use number::Vec2;
+use number::{Vec2, Vec3};
 use physics::viscosity::Viscosity;
 use scenario::{Bearing, Feedback, Moment, Traction, Warm};
 use thermal::bearing_network::{BALLS, INNER_RACE, LUBRICANT, OUTER_RACE};
@@ -38,6 +42,8 @@ pub(crate) struct Follows {
     unpreloaded: f64,
     /// At the start, °C.
     start: f64,
+    /// A row of a pair in space whose rows press on each other, at the start.
+    pair: Option<RowConstants>,
 }
 
 impl Follows {
@@ -50,8 +56,12 @@ impl Follows {
             unpreloaded: unpreloaded(&zone),
             zone,
             start: warm.heat.start_temperature - ICE_POINT,
+            pair: pair(bearing),
         };
-        let any = follows.thins(bearing) || follows.closes(bearing) || follows.tilts(bearing);
+        let any = follows.thins(bearing)
+            || follows.closes(bearing)
+            || follows.tilts(bearing)
+            || follows.swells(bearing);
         any.then_some(follows)
     }
 
@@ -65,12 +75,34 @@ impl Follows {
 
     /// Whether its clearance follows: at an angle a preload is held by springs or by distances that are not given.
     pub fn closes(&self, bearing: &Bearing) -> bool {
-        self.feedback == Feedback::Full && bearing.contact_angle == 0.0
+        self.feedback == Feedback::Full && bearing.contact_angle == 0.0 && bearing.spatial.is_none()
     }
 
     /// Whether its contact angle follows, as that of a pair that springs press.
     pub fn tilts(&self, bearing: &Bearing) -> bool {
-        self.feedback == Feedback::Full && bearing.contact_angle > 0.0
+        self.feedback == Feedback::Full && bearing.contact_angle > 0.0 && bearing.spatial.is_none()
+    }
+
+    /// Whether its grooves and balls follow, as those of a bearing in space.
+    pub fn swells(&self, bearing: &Bearing) -> bool {
+        self.feedback == Feedback::Full && bearing.spatial.is_some()
+    }
+
+    /// How rings and balls of a bearing in space have grown at these temperatures, °C.
+    fn expansion(&self, temperatures: &[f64]) -> Expansion {
+        let [shaft, housing] = self.zone.by_seats(temperatures);
+        Expansion {
+            strains: self.zone.strains_at(temperatures),
+            // a clearance is one of diameters
+            seats: [-0.5 * shaft, 0.5 * housing],
+        }
+    }
+
+    /// Preload of a pair in space at rest and at these temperatures, °C: N; none where its rows do not press on each other.
+    pub fn preload(&self, temperatures: &[f64]) -> Option<f64> {
+        let row = self.pair.as_ref()?;
+        let ball = row.ball.expanded(&self.expansion(temperatures));
+        Some(row.balls as f64 * ball.thrust_at_rest())
     }
 
     /// Contact angle at these temperatures (°C), rad: cos α = 1 − P_d/(2A), of which P_d changes; A = (f_i + f_o − 1) D.
@@ -148,6 +180,17 @@ impl Follows {
     }
 }
 
+/// A row of a pair whose rows press on each other.
+fn pair(bearing: &Bearing) -> Option<RowConstants> {
+    let own = bearing.spatial.as_ref()?;
+    if bearing.axial_preload <= 0.0 {
+        return None;
+    }
+    let contacts = ball_contacts(bearing).ok()?;
+    let rows = spatial::rows((bearing, own), &contacts, Vec3::zero()).ok()?;
+    rows.into_iter().next()
+}
+
 /// A bearing that follows its temperatures.
 #[derive(Debug)]
 pub(crate) struct FollowedBearing {
@@ -167,6 +210,8 @@ pub(crate) struct State {
     pub least: f64,
     /// When it closed, s.
     pub closed: Option<f64>,
+    /// Smallest and largest preload at rest of a pair in space so far, N.
+    pub preload: Option<[f64; 2]>,
     /// When a pressed ring became loose on its shaft, in its housing, s.
     pub loose: [Option<f64>; 2],
 }
@@ -189,21 +234,42 @@ impl FollowedBearing {
         let follows = &self.follows;
         let closes = (follows.clearance(nodes, speed) - last.clearance).abs() > CLOSES;
         let thins = (follows.viscosity(nodes) / last.viscosity - 1.0).abs() > THINS;
-        let grows = follows.closes(&self.bearing) || follows.tilts(&self.bearing);
+        let grows = follows.closes(&self.bearing)
+            || follows.tilts(&self.bearing)
+            || follows.swells(&self.bearing);
         closes && grows || thins && follows.thins(&self.bearing)
     }
 
-    /// Its constants at these temperatures of its nodes, °C, and this speed of its inner race, rad/s, at a time, s; why no law holds there.
+    /// Its constants at these temperatures of its nodes, °C, and this speed of its inner race, rad/s, at a time, s, where they are others
+    /// now; why no law holds there.
     pub fn renewed(
         &self,
         last: &mut Option<State>,
         (nodes, speed): (&[f64], f64),
         time: f64,
+        now: &BearingConstants,
     ) -> Result<BearingConstants, String> {
         let mut bearing = self.bearing.clone();
         self.follows.condition(&mut bearing, nodes, speed);
         let constants = ball_contacts(&bearing)
-            .and_then(|contacts| constants_of(&bearing, &contacts, self.gravity))
+            .and_then(|contacts| match (now, &bearing.spatial) {
+                (BearingConstants::Spatial(now), Some(own)) => {
+                    let gravity = now.rows[0].ball.gravity;
+                    let mut rows = spatial::rows((&bearing, own), &contacts, gravity)?;
+                    if self.follows.swells(&bearing) {
+                        let grown = self.follows.expansion(nodes);
+                        for row in &mut rows {
+                            row.ball = row.ball.expanded(&grown);
+                        }
+                    }
+                    let other = SpatialBearing {
+                        rows,
+                        ..now.clone()
+                    };
+                    Ok(BearingConstants::Spatial(other))
+                }
+                _ => constants_of(&bearing, &contacts, self.gravity),
+            })
             .map_err(|problem| problem.found)?;
         let clearance = self.follows.clearance(nodes, speed);
         let closed = last.and_then(|last| last.closed);
@@ -219,6 +285,10 @@ impl FollowedBearing {
             viscosity: self.follows.viscosity(nodes),
             least: last.map_or(clearance, |last| last.least.min(clearance)),
             closed: closed.or_else(|| closes.then_some(time)),
+            preload: self.follows.preload(nodes).map(|now| {
+                let [least, most] = last.and_then(|last| last.preload).unwrap_or([now; 2]);
+                [least.min(now), most.max(now)]
+            }),
             loose,
         });
         Ok(constants)

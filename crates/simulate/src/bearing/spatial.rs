@@ -41,14 +41,6 @@ pub(crate) fn bearing(
     gravity: Vec3<f64>,
 ) -> Result<SpatialBearing, Box<Problem>> {
     let geometry = geometry(given, own, contacts);
-    let offset = match given.axial_preload > 0.0 {
-        true => geometry.offset_of(given.axial_preload).ok_or_else(|| {
-            let found = format!("{} N, which no contact angle carries", given.axial_preload);
-            let allowed = "a smaller preload is needed";
-            problem_at(Code::Impossible, "bearing.axial_preload", found, allowed)
-        })?,
-        false => 0.0,
-    };
     let ends = own.shoulder_height.map(|height| {
         geometry
             .curvatures
@@ -72,46 +64,7 @@ pub(crate) fn bearing(
             allowed,
         ));
     }
-    let Separation::Cage(cage) = &given.separation else {
-        let allowed = "\"cage\" is needed of a bearing in space";
-        return Err(problem_at(
-            Code::NotModelled,
-            "bearing.separation",
-            "none",
-            allowed,
-        ));
-    };
-    let law = traction(given, contacts)?;
-    let nodes = nodes(own.nodes, contacts);
-    let rows: Vec<RowConstants> = geometry
-        .grooves(offset)
-        .into_iter()
-        .map(|(place, [inner, outer])| RowConstants {
-            balls: given.ball_count,
-            ball: SpatialBall {
-                radius: 0.5 * given.ball_diameter,
-                mass: contacts.ball_mass,
-                inner,
-                outer,
-                damping_time: given.contact_damping_time,
-                orbit_drag: given.drag.orbit,
-                spin_drag: given.drag.spin,
-                gravity,
-                pocket: pocket(given, cage),
-            },
-            nodes: nodes.clone(),
-            traction: law,
-            cage: CageConstants {
-                inertia: Inertia {
-                    mass: cage.mass,
-                    axial: cage.inertia,
-                    transverse: CAGE_TRANSVERSE * cage.inertia,
-                },
-                drag: given.drag.cage,
-                guide: guide(&cage.guidance, place),
-            },
-        })
-        .collect();
+    let rows = rows((given, own), contacts, gravity)?;
     let count = rows.len() as f64;
     let width = (own.row_width).unwrap_or(WIDTH * given.ball_diameter);
     let whole = (count - 1.0) * own.row_spacing + width;
@@ -142,6 +95,64 @@ pub(crate) fn bearing(
         races: Some(contacts.races(given)),
         rows,
     })
+}
+
+/// Its rows at the temperature of the start, with gravity in the frame of the machine.
+pub(crate) fn rows(
+    (given, own): (&Bearing, &Spatial),
+    contacts: &BallContacts,
+    gravity: Vec3<f64>,
+) -> Result<Vec<RowConstants>, Box<Problem>> {
+    let geometry = geometry(given, own, contacts);
+    let offset = match given.axial_preload > 0.0 {
+        true => geometry.offset_of(given.axial_preload).ok_or_else(|| {
+            let found = format!("{} N, which no contact angle carries", given.axial_preload);
+            let allowed = "a smaller preload is needed";
+            problem_at(Code::Impossible, "bearing.axial_preload", found, allowed)
+        })?,
+        false => 0.0,
+    };
+    let Separation::Cage(cage) = &given.separation else {
+        let allowed = "\"cage\" is needed of a bearing in space";
+        return Err(problem_at(
+            Code::NotModelled,
+            "bearing.separation",
+            "none",
+            allowed,
+        ));
+    };
+    let law = traction(given, contacts)?;
+    let nodes = nodes(own.nodes, contacts);
+    Ok(geometry
+        .grooves(offset)
+        .into_iter()
+        .map(|(place, [inner, outer])| RowConstants {
+            balls: given.ball_count,
+            ball: SpatialBall {
+                radius: 0.5 * given.ball_diameter,
+                mass: contacts.ball_mass,
+                inner,
+                inner_growth: given.inner_track_growth(),
+                outer,
+                damping_time: given.contact_damping_time,
+                orbit_drag: given.drag.orbit,
+                spin_drag: given.drag.spin,
+                gravity,
+                pocket: pocket(given, cage),
+            },
+            nodes: nodes.clone(),
+            traction: law,
+            cage: CageConstants {
+                inertia: Inertia {
+                    mass: cage.mass,
+                    axial: cage.inertia,
+                    transverse: CAGE_TRANSVERSE * cage.inertia,
+                },
+                drag: given.drag.cage,
+                guide: guide(&cage.guidance, place),
+            },
+        })
+        .collect())
 }
 
 fn geometry(given: &Bearing, own: &Spatial, contacts: &BallContacts) -> RowGeometry {

@@ -44,6 +44,15 @@ impl<'a> Heated<'a> {
     fn closes(&self) -> bool {
         (self.follows().iter()).any(|follows| follows.closes(self.bearing))
     }
+    /// Whether springs keep its preload as its angle follows.
+    fn tilts(&self) -> bool {
+        (self.follows().iter()).any(|follows| follows.tilts(self.bearing))
+    }
+    /// Whether its rows press on each other by a distance.
+    fn presses(&self) -> bool {
+        (self.follows().iter())
+            .any(|follows| follows.swells(self.bearing) && self.bearing.axial_preload > 0.0)
+    }
     /// Whether contact films keep heat.
     fn has_films(&self) -> bool {
         let state = self.bearing.lubricant_state.as_ref();
@@ -76,6 +85,18 @@ impl Followed<'_> {
         let at_end = follows.map(|follows| follows.clearance(nodes, speed));
         let least = self.state.map_or(at_start, |state| state.least);
         at_end.into_iter().fold(least.min(at_start), f64::min)
+    }
+    /// Smallest and largest preload at rest of a pair in space, N.
+    fn preload(&self) -> [f64; 2] {
+        let at_start = [self.heated.bearing.axial_preload; 2];
+        let follows = self.heated.follows();
+        let at_end = follows.and_then(|follows| follows.preload(&self.warmth.temperatures));
+        let [least, most] = (self.state.and_then(|state| state.preload)).unwrap_or(at_start);
+        let all = [at_start[0], at_end.unwrap_or(least)];
+        [
+            all.into_iter().fold(least, f64::min),
+            all.into_iter().fold(most, f64::max),
+        ]
     }
     /// When the clearance closed, s.
     fn closing_time(&self) -> Result<f64, String> {
@@ -212,6 +233,8 @@ results! {
     fn totals(setup: &Heated, run: &Followed) {
         "smallest_clearance": number "m", CLEARANCE, "smallest diametral clearance" when setup.closes() => run.smallest_clearance();
         "closing_time": instant "s", CLEARANCE, "first time without clearance" in instants "clearance closed" when setup.closes() => run.closing_time();
+        "smallest_preload": number "N", PRELOAD, "smallest preload at rest that the temperatures leave" when setup.presses() => run.preload()[0];
+        "largest_preload": number "N", PRELOAD, "largest preload at rest that the temperatures give" when setup.presses() => run.preload()[1];
         "peak_growth_rate": number "1/s", GROWTH, "largest growth rate of a disturbance of the temperatures" when setup.closes() => run.peak_growth();
         "heat_made": number "J", HEAT, "heat that losses make" => run.warmth.made;
         "stored_heat": number "J", HEAT, "heat stored in all bodies" in heat_balance "stored" => run.stored();
@@ -274,6 +297,8 @@ pub(crate) fn columns<'a>(
             => follows.contact_angle(bearing, &nodes_at(row.time));
         "bearing.clearance": "m", "diametral clearance; negative is preload" when heated.closes()
             => follows.clearance(&nodes_at(row.time), run.speed(row));
+        "bearing.preload": "N", "preload at rest of both rows at these temperatures" when heated.presses()
+            => follows.preload(&nodes_at(row.time)).unwrap_or(f64::NAN);
     }
     if heated.closes() && part.losses.is_some() {
         let there = warmth.map(|warmth| warmth.growth.largest.is_some());
@@ -290,6 +315,7 @@ pub(crate) fn columns<'a>(
 pub(crate) fn judged(followed: &Followed) -> Vec<(f64, Warning)> {
     let mut list: Vec<(f64, Warning)> = too_hot(followed).into_iter().collect();
     list.extend(runs_away(followed).or_else(|| closed(followed)));
+    list.extend(preload(followed));
     list.extend(loose(followed));
     list.extend(not_followed(followed).map(|warning| (0.0, warning)));
     let oil = followed.heated.part.oil.zip(followed.warmth.beyond_data);
@@ -315,6 +341,21 @@ fn closed(followed: &Followed) -> Option<(f64, Warning)> {
     Some((closed, HeatWarning::Closes { time, closed }.into()))
 }
 
+/// A preload that unequal temperatures change by more than a fifth.
+fn preload(followed: &Followed) -> Option<(f64, Warning)> {
+    if !followed.heated.presses() {
+        return None;
+    }
+    let (mounted, [least, most]) = (followed.heated.bearing.axial_preload, followed.preload());
+    let change = (most / mounted).max(mounted / least.max(f64::MIN_POSITIVE));
+    let warning = HeatWarning::PreloadChanges {
+        mounted,
+        least,
+        most,
+    };
+    (change > 1.2).then(|| (change, warning.into()))
+}
+
 /// A ring that loses its fit.
 fn loose(followed: &Followed) -> Option<(f64, Warning)> {
     let of_clearance = followed.state.map_or([None; 2], |state| state.loose);
@@ -332,9 +373,7 @@ fn not_followed(followed: &Followed) -> Option<Warning> {
             let (time, why) = (*time, why.clone());
             HeatWarning::FollowsNoMore { time, why }
         }
-        None if feedback == Feedback::Full && !followed.heated.closes() => {
-            HeatWarning::PreloadOfSprings
-        }
+        None if followed.heated.tilts() => HeatWarning::PreloadOfSprings,
         None if feedback != Feedback::None
             && !(followed.heated.follows().iter())
                 .any(|follows| follows.thins(followed.heated.bearing)) =>
@@ -394,6 +433,10 @@ origins! {
     CLEARANCE: law "P_d = P_d0 + α_o d_o ΔT_o − α_i d_i ΔT_i − 2 α_b D ΔT_b",
         source "crates/thermal/src/clearance.rs, crates/simulate/src/bearing/feedback.rs; book/src/theory/heat.md",
         valid "rings free to grow, each of one temperature: from about 0.1 s on";
+    PRELOAD: law "thrust of a row between concentric rings at rest: N K δ^1.5 sin α of grooves and balls that have grown by α ΔT about their own \
+          centres",
+        source "crates/model/src/spatial/ball.rs, crates/simulate/src/bearing/feedback.rs; book/src/theory/spatial.md",
+        valid "rings and spacers free to grow, each of one temperature: from about 0.1 s on; what turns and carries presses otherwise";
     HEAT: law "heats of the ledger that reach the bearing, rotor and housing; C ΔT of all nodes, with what contact films keep; ∫G (T − T_ambient) dt",
         source "crates/model/src/bearing_heat.rs",
         valid "of one of equal bearings";

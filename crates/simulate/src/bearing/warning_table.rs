@@ -55,8 +55,8 @@ problem::warnings! {
             ("The contact ellipse of ball {ball} reaches over the shoulder of the {race} groove at {:.2} ms (contact angle {:.0} deg, {load:.0} N): the stress at that edge is not computed and may be several times that of the ellipse. From there on loads and angles are those of a groove that goes on.", 1e3 * time, angle.to_degrees());
         NoThrust { moved: "m" } "AB2413" Invalid, each
             ("No bearing in space has a shoulder in its way (contact.gap_to_start, contact.gap_to_end): nothing stops the rotor along its axis, and it has moved by {:.2} mm.", 1e3 * moved);
-        LeavesOut "AB2414" Uncertain
-            ("Of this bearing in space are not followed: growth of the rings with speed and temperature, and so of the preload; tilt of the outer rings; the share of its life. A hot inner ring, or one at high speed, presses its balls more than this run knows.");
+        LeavesOut { besides: words } "AB2414" Uncertain
+            ("Of this bearing in space are not followed: tilt of the outer rings; the share of its life{besides}.");
         ShoulderUnknown { angle: "rad" } "AB2415" Uncertain, each
             ("Whether a contact leaves its groove is not judged, since bearing.shoulder_height is not given: contact angles reach {:.0} deg.", angle.to_degrees());
     }
@@ -88,6 +88,8 @@ problem::warnings! {
             ("The contact angle follows the temperatures, and the preload does not: it is that of springs. A rigid one rises as the inner ring warms.");
         FrictionStaysAlike "AB2320" Uncertain, each
             ("No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their viscosities, are not given, or its law knows no viscosity.");
+        PreloadChanges { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, each
+            ("Unequal temperatures take the preload of the pair from {mounted:.0} N to between {least:.0} N and {most:.0} N at rest. The difference of the rings' temperatures is known within a factor of two; so is this change. Without preload a row is unloaded; a larger one loads and heats both rows without any impact.");
         LooseRing { time: "s", when: words, seat: text } "AB2321" Uncertain, coast_down
             ("After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from there on, and it may creep, which this run does not follow.");
     }

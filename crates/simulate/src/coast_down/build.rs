@@ -380,7 +380,8 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     let is_hybrid = run.ball_material == scenario::BallMaterial::SiliconNitride;
     let ball_mass =
         (run.ball_mass).unwrap_or_else(|| run.ball_material.ball_mass(run.ball_diameter));
-    let balls = run.ball_count as f64;
+    let rows = run.rows as f64;
+    let balls = rows * run.ball_count as f64;
     let gap = run.ball_diameter;
     let seats = passages::seats(run);
     let (angle, radial) = (run.contact_angle, run.contact_angle.cos());
@@ -392,7 +393,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         load: run.radial_load,
         stiffness: stiffness * radial.powf(1.5),
         radial,
-        cosines: cosines(run.ball_count),
+        cosines: cosines(run.rows * run.ball_count),
         clearance: ThermalClearance {
             at_reference: run.operating_diametral_clearance - 2.0 * pressed,
             reference: celsius(heat.start_temperature),
@@ -425,7 +426,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         width: heat.width,
     };
     let ring_mass = (BEARING_STEEL.density * ring.volume_moments().0).min(run.inner_race_mass);
-    let outer_mass = ring_mass * annulus(heat.outer_diameter, shoulder(1.0))
+    let outer_mass = rows * ring_mass * annulus(heat.outer_diameter, shoulder(1.0))
         / annulus(shoulder(-1.0), heat.bore_diameter);
     if outer_mass.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
         return Err(problem(
@@ -436,15 +437,15 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
     }
     let steel = STEEL_HEAT.specific_heat;
     let ball = run.ball_material.heat();
-    let cage = run.cage_mass * heat.cage_material.heat().specific_heat;
+    let cage = rows * run.cage_mass * heat.cage_material.heat().specific_heat;
     let on_rotor = seats[0].filter(|seat| seat.nodes[0] == ROTOR);
     let network = BearingNetwork {
         capacities: [
             heat.rotor_capacity.unwrap_or(f64::INFINITY),
-            run.inner_race_mass * steel,
+            rows * run.inner_race_mass * steel,
             balls * ball_mass * ball.specific_heat,
             cage,
-            heat.lubricant_mass * OIL_SPECIFIC_HEAT,
+            rows * heat.lubricant_mass * OIL_SPECIFIC_HEAT,
             outer_mass * steel,
             heat.housing_capacity,
             0.0,
@@ -454,7 +455,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
         ball_mass,
         ball_diameter: run.ball_diameter,
         pitch_diameter: run.pitch_diameter,
-        width: heat.width,
+        width: rows * heat.width,
         contacts,
         ball,
         film: heat.film_thickness,
@@ -466,7 +467,7 @@ pub(crate) fn network(run: &Warm) -> Result<(BearingNetwork, LoadZone), Box<Prob
                 clearance: heat
                     .radial_air_clearance
                     .unwrap_or(0.01 * heat.bore_diameter),
-                length: heat.width,
+                length: rows * heat.width,
                 modulus: contact_modulus(BEARING_STEEL, BEARING_STEEL),
                 medium: passages::medium(heat),
             }),

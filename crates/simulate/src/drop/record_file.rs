@@ -41,8 +41,8 @@ pub(super) fn sum(records: &[Vec<[f64; 2]>]) -> Table {
     }
 }
 
-/// A force from outside over time along x and along y, N, and a torque, N m.
-pub(super) fn force(given: &Force) -> Result<[Table; 3]> {
+/// A force from outside over time along x, y and the shaft, N, and a torque, N m.
+pub(super) fn force(given: &Force) -> Result<[Table; 4]> {
     let Some(record) = &given.record else {
         return Ok(given.over_time.each_ref().map(|rows| table(rows, 1.0)));
     };
@@ -51,9 +51,10 @@ pub(super) fn force(given: &Force) -> Result<[Table; 3]> {
     let channels = [
         (x, "x", "N"),
         (y, "y", "N"),
+        (&record.along, "z", "N"),
         (&record.torque, "torque", "N m"),
     ];
-    let rows = read(&record.file.path, &record.name, channels)?;
+    let rows = read(&record.file.path, &given.path, channels)?;
     Ok(rows.map(|rows| sum(&[rows.iter().map(placed).collect()])))
 }
 

@@ -14,7 +14,7 @@ use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use outcome::Warning;
 use problem::warning::Evaluation;
-use scenario::{DRAWN_ON, Fidelity, Moment, Scenario};
+use scenario::{AuxiliaryBearing, DRAWN_ON, Feedback, Fidelity, Moment, Scenario};
 
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
@@ -202,8 +202,27 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
     if part.spatial().is_some_and(|own| own.groove_ends.is_none()) {
         list.push((angle, SpatialWarning::ShoulderUnknown { angle }.into()));
     }
-    list.push((0.0, SpatialWarning::LeavesOut.into()));
+    let besides = left_out(context.setup.given(k));
+    list.push((0.0, SpatialWarning::LeavesOut { besides }.into()));
     list
+}
+
+/// What a scenario leaves out that changes the preload of a bearing in space.
+fn left_out(part: &AuxiliaryBearing) -> String {
+    let heats = (part.warm.as_ref()).is_some_and(|warm| warm.heat.feedback == Feedback::Full);
+    let grows = (part.bearing.as_ref()).is_some_and(|own| own.inner_track_growth() != 0.0);
+    let mut words = String::new();
+    if !heats {
+        words +=
+            "; rings and balls that expand as they heat (heat.network = \"on\", heat.feedback)";
+    }
+    if !grows {
+        words += "; the inner ring that expands with its speed (bearing.inner_race_growth)";
+    }
+    match heats && grows {
+        true => words,
+        false => words + ". Both change the preload of a pair",
+    }
 }
 
 /// A rotor that moves along its axis where nothing stops it.

@@ -151,6 +151,7 @@ impl Params<'_> {
         Ok(RowConstants {
             balls: count(self.0, "N", MOST)?,
             ball: SpatialBall {
+                inner_growth: 0.0,
                 radius,
                 mass: self.positive("m_b")?,
                 inner: groove(["Rgi", "rgi", "zgi", "Ki", "cai"])?,

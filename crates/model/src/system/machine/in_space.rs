@@ -27,6 +27,8 @@ pub(super) struct SpatialActs<R> {
     pub external: R,
     /// Power of the axial magnet, W.
     pub magnet: R,
+    /// Power of the thrust from outside, W.
+    pub thrust: R,
 }
 
 impl<R: Real> SpatialActs<R> {
@@ -37,6 +39,7 @@ impl<R: Real> SpatialActs<R> {
             moment: zero,
             external: zero,
             magnet: zero,
+            thrust: zero,
         }
     }
 }
@@ -73,12 +76,12 @@ impl<R: Real> Machines<R> {
         let place = self.layout.rotor.place();
         [state[place], state[place + 1]]
     }
-    /// What all bearings in space do, with their rates, and the rates of the rotor along its axis.
+    /// What all bearings in space do, with their rates, and the rates of the rotor along its axis under a thrust from outside, N.
     #[inline(never)]
     pub(super) fn act_in_space(
         &self,
         space: &InSpace<R>,
-        mode: &Mode<R>,
+        (mode, thrust): (&Mode<R>, R),
         rotor: &RotorMotion<R>,
         state: &[R],
         (rate, probe): (&mut [R], &mut [R]),
@@ -90,7 +93,8 @@ impl<R: Real> Machines<R> {
         let axial = &space.axial;
         let held = (axial.carried - axial.stiffness * place - axial.damping * speed) * mode.thrust;
         acts.magnet = held * speed;
-        let mut along = held;
+        acts.thrust = thrust * speed;
+        let mut along = held + thrust;
         for (k, node) in space.nodes.iter().enumerate() {
             let (Some(node), part, at) = (node, &self.bearings[k], &layout.bearings[k]) else {
                 continue;

@@ -150,12 +150,13 @@ impl<R: Real> Machines<R> {
             seal_heat += reaction.heat;
             pulled += centre.position.cross(reaction.force);
         }
-        let (mut pushing, mut turning) = (zero, zero);
+        let (mut pushing, mut turning, mut thrust) = (zero, zero, zero);
         let loads = self.loaded.iter().zip(mode.loads);
         let forces = self.forces.iter().map(|own| {
             let (force, torque) = own.at(time);
             turning += torque;
-            (&own.node, force)
+            thrust += force.z;
+            (&own.node, Vec2::new(force.x, force.y))
         });
         for (node, own) in forces.chain(loads) {
             let centre = node.centre(&rotor);
@@ -166,8 +167,15 @@ impl<R: Real> Machines<R> {
         }
         let mut in_space = SpatialActs::none();
         if let Some(space) = &self.space {
-            in_space = self.act_in_space(space, mode, &rotor, state, (&mut *rate, &mut *probe));
+            in_space = self.act_in_space(
+                space,
+                (mode, thrust),
+                &rotor,
+                state,
+                (&mut *rate, &mut *probe),
+            );
             moment += in_space.moment;
+            pushing += in_space.thrust;
         }
         if self.housed {
             pulled += self.push_housings(&rotor, state, rate);
