@@ -69,6 +69,79 @@ fn an_axial_magnet_holds_until_all_power_is_lost() {
 }
 
 #[test]
+fn a_thrust_moves_the_rotor_along_its_axis() {
+    let force = "[[rotor.force]]\nname = \"gas\"\nat = \"0.2 m\"\ntimes = [\"5 ms\", \"10 ms\"]\nz = [\"0 N\", \"40 N\"]\n";
+    let scenario = format!("{AGAIN}\n{force}");
+    let moved = ran(
+        &scenario,
+        &[
+            "bearing.fidelity=spatial",
+            "bearing.operating_diametral_clearance=5 um",
+            "contact.gap_to_end=0.5 mm",
+            "run.duration=15 ms",
+            "run.output_interval=1 ms",
+        ],
+    );
+    let mass = number(&moved, "rotor_mass");
+    let place = moved.column("rotor.z").unwrap();
+    let time = moved.column("time").unwrap();
+    for (time, place) in time.values.iter().zip(&place.values) {
+        // m z'' = F(t): a ramp of 5 ms, constant from there on
+        let (ramp, on) = ((time - 5e-3).clamp(0.0, 5e-3), (time - 10e-3).max(0.0));
+        let expected = 40.0 / mass * (ramp.powi(3) / 30e-3 + 2.5e-3 * on + 0.5 * on * on);
+        assert!(
+            (place - expected).abs() < 1e-6 * expected + 1e-13,
+            "{time} {place} {expected}"
+        );
+    }
+    assert!(number(&moved, "energy_residual").abs() < 1e-6);
+    let found = parsed(&scenario, &[]).unwrap_err();
+    assert!(
+        found.contains("rotor.force.gas.z") && found.contains("\"spatial\" is needed"),
+        "{found}"
+    );
+}
+
+#[test]
+fn the_preload_of_a_pair_follows_heat_and_speed() {
+    let run = |sets: &[&str]| {
+        let sets: Vec<String> = (sets.iter())
+            .map(|set| format!("auxiliary_bearing.lower.{set}"))
+            .collect();
+        let all = ["run.duration=60 ms"].into_iter();
+        let all: Vec<&str> = all.chain(sets.iter().map(String::as_str)).collect();
+        ran(FLYWHEEL, &all)
+    };
+    let last =
+        |run: &auxbear::Outcome, name: &str| *run.column(name).unwrap().values.last().unwrap();
+    let plain = run(&[]);
+    let hot = run(&["heat.network=on", "bearing.inner_race_mass=0.05 kg"]);
+    assert!(number(&hot, "lower.relative_heat_residual") < 1e-9);
+    assert!(number(&hot, "energy_residual").abs() < 1e-6);
+    let [least, most] =
+        ["smallest", "largest"].map(|which| number(&hot, &format!("lower.{which}_preload")));
+    assert!(least == 90.0 && most > 91.0, "{least} {most}");
+    let preload = last(&hot, "lower.bearing.preload");
+    assert!(preload > 91.0 && preload <= most, "{preload} {most}");
+    // the masses given are those of one row: steel of both rings keeps the heat
+    let rise = number(&hot, "lower.peak_inner_race_temperature") - 298.15;
+    let kept = number(&hot, "lower.stored_heat_in_inner_race");
+    assert!(
+        (kept / rise / (0.1 * 465.0) - 1.0).abs() < 0.05,
+        "{kept} {rise}"
+    );
+    // a ring that grows with its speed presses all balls
+    let grown = run(&["bearing.inner_race_growth=free ring"]);
+    assert!(number(&grown, "energy_residual").abs() < 1e-6);
+    let pressed = |run: &auxbear::Outcome| {
+        let load = |ball: usize| last(run, &format!("lower.bearing.ball_{ball:02}.inner_load"));
+        (1..=9).map(load).sum::<f64>()
+    };
+    let [grown, plain] = [&grown, &plain].map(pressed);
+    assert!(grown > 1.02 * plain, "{grown} {plain}");
+}
+
+#[test]
 fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
     const LOWER: &str = "auxiliary_bearing.lower.";
     for (sets, needed) in [

@@ -57,6 +57,7 @@ fn row(friction: f64) -> RowConstants {
         bearing(SINGLE, traction, &matched(0.5 * (k_i + k_o)), Guide::Balls).rows[0].clone();
     row.balls = 14;
     row.ball.radius = 0.5 * BALL;
+    row.ball.inner_growth = 0.0;
     row.ball.mass = ball_mass(BALL, 7850.0);
     (row.ball.inner, row.ball.outer) = (inner, outer);
     row
