@@ -142,6 +142,55 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
 }
 
 #[test]
+fn life_of_a_pair_is_that_of_both_its_rows() {
+    const LOWER: &str = "auxiliary_bearing.lower.bearing.";
+    let rating = format!("{LOWER}dynamic_load_rating=14 kN");
+    let fallen = ran(FLYWHEEL, &["run.duration=60 ms", &rating]);
+    let share = number(&fallen, "lower.life_share");
+    // the row below carries the thrust: nearly all of the life that is used is its own, and it turns as often as the ring
+    let turns = number(&fallen, "lower.inner_race_turns");
+    let load = 14e3 * (1e6 * share / turns).cbrt();
+    let peak = number(&fallen, "lower.peak_axial_force");
+    assert!(load > 0.3 * peak && load < peak, "{load} N of {peak} N");
+    // and the same bearing of twice the rating uses an eighth
+    let stronger = ran(
+        FLYWHEEL,
+        &["run.duration=60 ms", &rating.replace("14", "28")],
+    );
+    let ratio = share / number(&stronger, "lower.life_share");
+    assert!((ratio - 8.0).abs() < 1e-6, "{ratio}");
+}
+
+#[test]
+fn outer_rings_tilt_in_their_mount() {
+    let tilting = |stiffness: &str| {
+        let sets = [
+            "run.duration=12 ms".to_string(),
+            "auxiliary_bearing.lower.bearing.cage.guidance=balls".to_string(),
+            "rotor.start_speed_x=20 mm/s".to_string(),
+            format!("auxiliary_bearing.lower.mount.tilt_stiffness={stiffness}"),
+            "auxiliary_bearing.lower.mount.tilt_damping=0.5 N m s/rad".to_string(),
+        ];
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        ran(FLYWHEEL, &sets)
+    };
+    let largest = |run: &auxbear::Outcome| {
+        let tilt = run.column("lower.bearing.outer_race.tilt_y").unwrap();
+        tilt.values.iter().fold(0.0, |m: f64, own| m.max(own.abs()))
+    };
+    let [soft, stiff] = ["2e3 N m/rad", "2e5 N m/rad"].map(tilting);
+    for run in [&soft, &stiff] {
+        assert!(number(run, "energy_residual").abs() < 1e-5);
+    }
+    let [soft, stiff] = [largest(&soft), largest(&stiff)];
+    assert!(soft > 1e-7 && stiff < 0.2 * soft, "{soft} {stiff}");
+    refused(
+        &["auxiliary_bearing.lower.mount.tilt_stiffness=2e3 N m/rad"],
+        "centred on the outer ring",
+    );
+}
+
+#[test]
 fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
     const LOWER: &str = "auxiliary_bearing.lower.";
     for (sets, needed) in [

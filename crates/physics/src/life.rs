@@ -106,6 +106,29 @@ pub fn bearing_damage(inner: f64, outer: f64) -> f64 {
     (inner.powf(WEIBULL_SLOPE) + outer.powf(WEIBULL_SLOPE)).powf(1.0 / WEIBULL_SLOPE)
 }
 
+/// Damage of the points of a ring that carries rows of balls side by side, from that of each row: (Σ d^(10/9))^(9/10).
+///
+/// Source: product of survivals.
+/// Valid: rows with as many points, slope 10/9.
+pub fn of_rows(rows: &[Vec<f64>]) -> Vec<f64> {
+    let one = |point: usize| {
+        let powers = rows.iter().map(|row| row[point].powf(WEIBULL_SLOPE));
+        powers.sum::<f64>().powf(1.0 / WEIBULL_SLOPE)
+    };
+    match rows {
+        [only] => only.clone(),
+        _ => (0..rows.first().map_or(0, Vec::len)).map(one).collect(),
+    }
+}
+
+/// Load under which a bearing uses this share of its life in so many turns, N: C (1e6 D/turns)^(1/3).
+///
+/// Source: ISO 281, L10 = (C/P)³ of a million turns; derived.
+/// Valid: P ≤ 0.5 C.
+pub fn load_of_damage(rating: f64, damage: f64, turns: f64) -> f64 {
+    rating * (1e6 * damage / turns).cbrt()
+}
+
 /// Repetitions of a damage that the share `survival` of bearings outlives: [ln(1/S)/ln(1/0.9)]^(9/10)/D.
 ///
 /// Source: Weibull, slope 10/9.

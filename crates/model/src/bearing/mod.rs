@@ -92,6 +92,15 @@ impl BearingConstants {
             BearingConstants::Spatial(bearing) => bearing.balls(),
         }
     }
+    /// Number of balls of each of its rows.
+    pub fn rows(&self) -> Vec<usize> {
+        match self {
+            BearingConstants::Spatial(bearing) => {
+                bearing.rows.iter().map(|row| row.balls).collect()
+            }
+            _ => vec![self.balls()],
+        }
+    }
     /// Displacement of the inner race under a radial load at rest, m, one ball on the load line; 0 of a bushing.
     pub fn displacement_under(&self, load: f64) -> f64 {
         let (stiffness, clearance) = match self {

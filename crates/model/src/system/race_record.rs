@@ -44,7 +44,7 @@ pub struct Flash {
 /// What one race has seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RaceSeen {
-    /// Σ Q³ at each of its points, N³.
+    /// Σ Q³ at each of its points, N³, of one row of balls after the other.
     pub sums: Vec<f64>,
     /// How often the load of a ball rose above the one that dents.
     pub dents: u64,
@@ -59,6 +59,8 @@ pub struct RaceSeen {
 pub struct RaceRecord {
     /// Inner and outer race.
     pub races: [RaceSeen; 2],
+    /// Balls of each row.
+    rows: Vec<usize>,
     /// Angle from each race, in points, and load of each ball at the last look.
     last: Vec<[(f64, f64); 2]>,
     next: f64,
@@ -80,10 +82,10 @@ pub struct Seen<'a> {
 }
 
 impl RaceRecord {
-    /// An empty record of a bearing with so many balls whose shaft has a speed, rad/s.
-    pub fn new(balls: usize, speed: f64) -> Self {
+    /// An empty record of a bearing with so many balls in each of its rows, whose shaft has a speed, rad/s.
+    pub fn new(rows: &[usize], speed: f64) -> Self {
         let race = RaceSeen {
-            sums: vec![0.0; POINTS],
+            sums: vec![0.0; POINTS * rows.len()],
             dents: 0,
             flash: Flash {
                 rise: Peak::NONE,
@@ -95,7 +97,8 @@ impl RaceRecord {
         };
         RaceRecord {
             races: [race.clone(), race],
-            last: Vec::with_capacity(balls),
+            last: Vec::with_capacity(rows.iter().sum()),
+            rows: rows.to_vec(),
             next: 0.0,
             interval: 2.0 * PI / (LOOKS * speed.abs().max(1.0)),
             loads: [0.0; 2],
@@ -128,6 +131,22 @@ impl RaceRecord {
         due
     }
 
+    /// Σ Q³ at the points of both races under each row of balls, N³.
+    pub fn by_row(&self) -> impl Iterator<Item = [&[f64]; 2]> {
+        let [inner, outer] = &self.races;
+        let rows = inner.sums.chunks(POINTS).zip(outer.sums.chunks(POINTS));
+        rows.map(|(inner, outer)| [inner, outer])
+    }
+    /// Row of a ball.
+    fn row(&self, ball: usize) -> usize {
+        let mut end = 0;
+        let past = self.rows.iter().take_while(|balls| {
+            end += **balls;
+            end <= ball
+        });
+        past.count()
+    }
+
     /// Looks at the balls.
     pub fn look(&mut self, seen: &Seen) {
         let first = self.last.is_empty();
@@ -141,8 +160,9 @@ impl RaceRecord {
             if first {
                 self.last.push(now.map(|(place, _)| (place, 0.0)));
             } else {
+                let first = POINTS * self.row(ball);
                 for (race, seen) in self.races.iter_mut().enumerate() {
-                    seen.pass(self.last[ball][race], now[race]);
+                    seen.pass(first, self.last[ball][race], now[race]);
                 }
             }
             self.dents_and_flashes(seen, ball, &contacts);
@@ -184,8 +204,8 @@ impl RaceRecord {
 }
 
 impl RaceSeen {
-    /// A ball goes from one place, in points, to another, with these loads.
-    fn pass(&mut self, from: (f64, f64), to: (f64, f64)) {
+    /// A ball whose row has its points from the first on goes from one place, in points, to another, with these loads.
+    fn pass(&mut self, first: usize, from: (f64, f64), to: (f64, f64)) {
         if from.1 <= 0.0 && to.1 <= 0.0 {
             return;
         }
@@ -198,7 +218,8 @@ impl RaceSeen {
             let turns = (from.0 + share * distance) * (1.0 / POINTS as f64);
             let point = ((turns - turns.floor()) * POINTS as f64) as usize;
             // rounding may reach the end
-            self.sums[point.min(POINTS - 1)] += each * (cubes[0] + share * (cubes[1] - cubes[0]));
+            self.sums[first + point.min(POINTS - 1)] +=
+                each * (cubes[0] + share * (cubes[1] - cubes[0]));
         }
     }
 }
@@ -213,7 +234,7 @@ mod tests {
         // nine balls under a load that stands still; the inner ring turns 20 times, the cage as balls that roll make it
         let (balls, gamma, turns) = (9, 0.2, 20.0);
         let load = |angle: f64| 500.0 * angle.cos().max(0.0).powf(1.5);
-        let mut record = RaceRecord::new(9, 100.0);
+        let mut record = RaceRecord::new(&[9], 100.0);
         let looks = LOOKS as i32 * 20;
         for look in 0..=looks {
             let turned = 2.0 * PI * turns * f64::from(look) / f64::from(looks);
@@ -228,7 +249,7 @@ mod tests {
             for (ball, now) in balls.iter().enumerate() {
                 if let Some(last) = record.last.get(ball) {
                     for (race, seen) in record.races.iter_mut().enumerate() {
-                        seen.pass(last[race], now[race]);
+                        seen.pass(0, last[race], now[race]);
                     }
                 }
             }
@@ -270,12 +291,12 @@ mod tests {
 
     #[test]
     fn a_load_that_goes_round_with_the_shaft_wears_one_place_of_the_inner_ring() {
-        let mut record = RaceRecord::new(1, 100.0);
+        let mut record = RaceRecord::new(&[1], 100.0);
         // one ball that the load follows: it stands against the inner ring, and passes the whole outer one once
-        record.races[0].pass((10.2, 300.0), (10.4, 300.0));
+        record.races[0].pass(0, (10.2, 300.0), (10.4, 300.0));
         for k in 0..POINTS {
             let place = k as f64;
-            record.races[1].pass((place, 300.0), (place + 1.0, 300.0));
+            record.races[1].pass(0, (place, 300.0), (place + 1.0, 300.0));
         }
         let [inner, outer] = &record.races;
         assert_eq!(inner.sums.iter().filter(|sum| **sum > 0.0).count(), 1);

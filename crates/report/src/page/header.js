@@ -189,13 +189,13 @@ function rangeTile(run) {
   return tile("Bearing and laws", beyond.length ? `${beyond.length} beyond range` : "in range", beyond.map(([code, words]) => `${words} (${code})`), verdictState(run, beyond.length > 0));
 }
 
-const IN_SPACE = "AB2414";
-
 // A radial model: what acts along the shaft is in no result, but of bearings in space.
 function axialTile(run) {
   const share = numberOf(run, "axial_gravity_share");
-  if (warningsOf(run, IN_SPACE).length) {
-    return tile("Axial motion", "computed", [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, `of bearings in space some is not followed (${IN_SPACE})`]);
+  const angles = shownIn(run, "axial");
+  if (angles.length) {
+    const texts = angles.map(({ words, value, quantity }) => `${words} ${engineeringText(value, quantity.unit, 3)}`);
+    return tile("Axial motion", "computed", [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, `largest contact angles: ${texts.join(", ")}`]);
   }
   return tile("Axial motion", NOT_IN_THIS_RUN, [share > 0 ? `${percentText(share, 2)} of g acts along the shaft` : null, "thrust, axial clearance and drop onto the faces are not computed"]);
 }

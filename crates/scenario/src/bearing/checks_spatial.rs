@@ -3,7 +3,7 @@
 use crate::bearing::Bearing;
 use crate::bearing::kind::BearingType;
 use crate::bearing::moment::Moment;
-use crate::bearing::separation::Separation;
+use crate::bearing::separation::{Guidance, Separation};
 use crate::bearing::spatial::Arrangement;
 use crate::checks::{Check, Context};
 use crate::drop::{AuxiliaryBearing, Body, Drop};
@@ -12,13 +12,14 @@ use problem::Code;
 const FIDELITY: &str = "bearing.fidelity";
 
 /// Keys outside `[bearing]` that only a bearing in space has.
-const OF_SPACE: [&str; 6] = [
+const OF_SPACE: [&str; 7] = [
     "contact.gap_to_end",
     "contact.gap_to_start",
     "contact.face_radius",
     "contact.face_stiffness",
     "mount.axial_stiffness",
     "mount.axial_damping",
+    "mount.tilt_stiffness",
 ];
 
 impl Context<'_> {
@@ -110,6 +111,13 @@ impl Context<'_> {
         if drop.coast_down.is_some() {
             let needed = "\"duration\" is needed beside bearing.fidelity = \"spatial\": its coast-down is not computed in quasi-steady steps";
             return refuse("run.until", needed);
+        }
+        let centred = part.bearing.as_ref().is_some_and(|own| {
+            matches!(&own.separation, Separation::Cage(cage) if cage.guidance == Guidance::Centred)
+        });
+        if part.mount.tilt.is_some() && centred {
+            let needed = "\"balls\", \"inner land\" or \"outer land\" is needed beside mount.tilt_stiffness: a cage that is centred on the outer ring keeps its orientation";
+            return refuse("bearing.cage.guidance", needed);
         }
         if self.values.text("mount.on").is_some() {
             let needed = "a mount on ground is needed beside bearing.fidelity = \"spatial\"";

@@ -12,10 +12,18 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("mount.damping", Kind::Quantity("N s/m"), "5000 N s/m", "Radial damping between outer race and ground.").not_negative(),
     Key::new("mount.moving_mass", Kind::Quantity("kg"), "0.15 kg", "Mass that moves with the outer race: the race itself and its housing or sleeve.")
         .positive(),
-    Key::new("mount.axial_stiffness", Kind::Quantity("N/m"), "2e7 N/m", "Stiffness between outer rings and ground along the axis. The outer rings keep their orientation.")
+    Key::new("mount.axial_stiffness", Kind::Quantity("N/m"), "2e7 N/m", "Stiffness between outer rings and ground along the axis.")
         .positive().optional("as mount.stiffness").only(MACHINE),
     Key::new("mount.axial_damping", Kind::Quantity("N s/m"), "2000 N s/m", "Damping along the axis.")
         .not_negative().optional("as mount.damping").only(MACHINE),
+    Key::new("mount.tilt_stiffness", Kind::Quantity("N m/rad"), "2e4 N m/rad", "Stiffness between outer rings and ground against tilt about an axis across.")
+        .positive().optional("the outer rings keep their orientation").only(MACHINE),
+    Key::new("mount.tilt_damping", Kind::Quantity("N m s/rad"), "5 N m s/rad", "Damping of their rotation, about any axis.")
+        .not_negative().optional("0 N m s/rad: no loss but in balls and cages").beside(&["tilt_stiffness"]).only(MACHINE),
+    Key::new("mount.torsion_stiffness", Kind::Quantity("N m/rad"), "2e4 N m/rad", "Stiffness against their rotation about the axis.")
+        .positive().optional("as mount.tilt_stiffness").beside(&["tilt_stiffness"]).only(MACHINE),
+    Key::new("mount.tilt_inertia", Kind::Quantity("kg m^2"), "2e-4 kg m^2", "Inertia of mount.moving_mass about an axis across; about the bearing's axis it has twice as much.")
+        .positive().optional("that of a thin ring as large as the middle of the outer rings").beside(&["tilt_stiffness"]).only(MACHINE),
     Key::new("mount.branch_stiffness", Kind::Series("N/m"), "[\"8e6 N/m\", \"4e6 N/m\"]", "Stiffness of each Maxwell branch, a spring and a damper in series beside spring and damper: an O-ring, whose stiffness rises with frequency.")
         .not_negative().optional("none: stiffness does not depend on frequency"),
     Key::new("mount.branch_time", Kind::Series("s"), "[\"0.3 ms\", \"0.03 ms\"]", "Relaxation time of each Maxwell branch.")

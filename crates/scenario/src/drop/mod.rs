@@ -263,6 +263,19 @@ pub struct Metal {
     pub layer: Option<f64>,
 }
 
+/// How a mount holds outer rings that tilt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilting {
+    /// Stiffness about an axis across, N m/rad.
+    pub stiffness: f64,
+    /// Damping about any axis, N m s/rad.
+    pub damping: f64,
+    /// Stiffness about the axis of the bearing, N m/rad.
+    pub torsion_stiffness: f64,
+    /// Inertia about an axis across, kg m², where it is given.
+    pub inertia: Option<f64>,
+}
+
 /// What is between outer race and ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mount {
@@ -276,6 +289,8 @@ pub struct Mount {
     pub axial_stiffness: f64,
     /// Damping along the axis, N s/m.
     pub axial_damping: f64,
+    /// How the outer rings tilt in it; none where they keep their orientation.
+    pub tilt: Option<Tilting>,
     /// What it has besides spring and damper.
     pub parts: MountParts,
 }
@@ -389,6 +404,12 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
             moving_mass: mount.number("moving_mass"),
             axial_stiffness: mount.maybe("axial_stiffness").unwrap_or(stiffness),
             axial_damping: mount.maybe("axial_damping").unwrap_or(damping),
+            tilt: mount.maybe("tilt_stiffness").map(|stiffness| Tilting {
+                stiffness,
+                damping: mount.maybe("tilt_damping").unwrap_or(0.0),
+                torsion_stiffness: mount.maybe("torsion_stiffness").unwrap_or(stiffness),
+                inertia: mount.maybe("tilt_inertia"),
+            }),
             parts: MountParts::of(&mount),
         },
         bearing: (values.chosen("bearing.fidelity") != Some(Modelled::Bushing))

@@ -112,11 +112,14 @@ impl<'a> Table<'a> {
         let [pocket, land, force] =
             [LARGEST_POCKET_FORCE, LAND_FORCE, AXIAL_FORCE].map(|kind| at.probe(kind));
         let guided = bearing.may_make("cage_land_friction");
+        let turns = bearing.outer_inertias.is_some();
         columns! { self.columns, |row|
             "bearing.inner_race.z": "m", "inner ring along the axis, towards the end of the shaft" => at.motion(row.state).inner.axial;
             "bearing.inner_race.tilt_x": "rad", "tilt of the inner ring about x" => at.motion(row.state).inner.tilt.x;
             "bearing.inner_race.tilt_y": "rad", "tilt of the inner ring about y" => at.motion(row.state).inner.tilt.y;
             "bearing.outer_race.z": "m", "outer rings along the axis, towards the end of the shaft" => at.motion(row.state).outer.axial;
+            "bearing.outer_race.tilt_x": "rad", "tilt of the outer rings about x" when turns => at.motion(row.state).outer.tilt.x;
+            "bearing.outer_race.tilt_y": "rad", "tilt of the outer rings about y" when turns => at.motion(row.state).outer.tilt.y;
             "bearing.contact.axial_force": "N", "force between shoulders of the rotor and faces of the inner ring" when bearing.stops() => row.probe[force];
             "bearing.cage.largest_pocket_force": "N", "largest force between a ball and its pocket" => row.probe[pocket];
             "bearing.cage.land_force": "N", "normal force of cages and lands" when guided => row.probe[land];

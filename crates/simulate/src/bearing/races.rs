@@ -11,8 +11,8 @@ use outcome::list::results;
 use outcome::list::{not_given, origins};
 use outcome::{Quantity, Value, Warning};
 use physics::life::{
-    RatedBearing, add_points, bearing_damage, iso_life_factor, mean_damage, reference_viscosity,
-    repetitions, temperature_factor,
+    RatedBearing, add_points, bearing_damage, iso_life_factor, mean_damage, of_rows,
+    reference_viscosity, repetitions, temperature_factor,
 };
 use physics::viscosity::Viscosity;
 use scenario::{Bearing, Warm};
@@ -75,12 +75,18 @@ pub(crate) struct Life {
 }
 
 impl Life {
-    /// Of a bearing with what its races have seen and the life factor of its lubricant, or why that is not known.
-    pub fn of(bearing: &Bearing, record: &RaceRecord, factor: Result<f64, String>) -> Option<Life> {
-        let [inner, outer] = &record.races;
+    /// Of a bearing with what its races have seen and the life factor of its lubricant at a share without it, or why that is not known.
+    pub fn of(
+        bearing: &Bearing,
+        record: &RaceRecord,
+        factor: impl FnOnce(f64) -> Result<f64, String>,
+    ) -> Option<Life> {
         let rated = rated(bearing, bearing.dynamic_load_rating?);
-        let points = rated.by_point([&inner.sums, &outer.sums]);
+        let rows = record.by_row().map(|sums| rated.by_point(sums));
+        let (inner, outer): (Vec<_>, Vec<_>) = rows.map(|[inner, outer]| (inner, outer)).unzip();
+        let points = [of_rows(&inner), of_rows(&outer)];
         let share = used_by(&points);
+        let factor = factor(share);
         let lasts = factor.clone().unwrap_or(1.0);
         Some(Life {
             share,
@@ -265,7 +271,7 @@ origins! {
           life_share. A drop until standstill counts with its coast-down, added at the points of both rings",
         source "Weibull, slope 10/9; book/src/theory/heat.md",
         valid "rolling fatigue alone; of a coast-down its intervals count as they find the balls; an order, never a promise: single bearings scatter 50 to 1";
-    LUBRICATED: law "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, κ of the \
+    LUBRICATED: law "life_share over a_ISO(κ, e_C C_u/P) and over the cube of the temperature factor of the hotter race; P the cubic mean load, of bearings in space the load of the same life, κ of the \
           warmest lubricant at the mean speed, C_u = C0/22",
         source "ISO 281:2007 (from memory), crates/physics/src/life.rs; book/src/theory/heat.md",
         valid "one phase, what was computed ball by ball, P without preload; below κ = 0.1 no factor holds, and 0.1 is taken; heat.contamination decides within a \

@@ -69,7 +69,7 @@ pub(crate) fn bearing(
     let width = (own.row_width).unwrap_or(WIDTH * given.ball_diameter);
     let whole = (count - 1.0) * own.row_spacing + width;
     let [mass, inertia] = given.inner_race();
-    let zero = 0.0;
+    let (zero, tilt) = (0.0, part.mount.tilt);
     Ok(SpatialBearing {
         set: RollingSet {
             balls_mass: count * given.rolling_set().balls_mass,
@@ -78,15 +78,19 @@ pub(crate) fn bearing(
         rotation: vec![0.0],
         lever: 0.0,
         inner_transverse: 0.5 * inertia + mass * whole * whole / 12.0,
-        outer_inertias: None,
+        outer_inertias: tilt.map(|own| {
+            let radius = 0.5 * (given.pitch_diameter + 1.5 * given.ball_diameter);
+            let across = (own.inertia).unwrap_or(0.5 * part.mount.moving_mass * radius * radius);
+            [2.0 * across, across]
+        }),
         mount: SpatialMount {
             radial_stiffness: zero,
             axial_stiffness: part.mount.axial_stiffness,
             radial_damping: zero,
             axial_damping: part.mount.axial_damping,
-            tilt_stiffness: zero,
-            turn_damping: zero,
-            torsion_stiffness: zero,
+            tilt_stiffness: tilt.map_or(zero, |own| own.stiffness),
+            turn_damping: tilt.map_or(zero, |own| own.damping),
+            torsion_stiffness: tilt.map_or(zero, |own| own.torsion_stiffness),
             free_position: Vec3::zero(),
         },
         first_ball_angle: given.first_ball_angle,

@@ -55,8 +55,8 @@ problem::warnings! {
             ("The contact ellipse of ball {ball} reaches over the shoulder of the {race} groove at {:.2} ms (contact angle {:.0} deg, {load:.0} N): the stress at that edge is not computed and may be several times that of the ellipse. From there on loads and angles are those of a groove that goes on.", 1e3 * time, angle.to_degrees());
         NoThrust { moved: "m" } "AB2413" Invalid, each
             ("No bearing in space has a shoulder in its way (contact.gap_to_start, contact.gap_to_end): nothing stops the rotor along its axis, and it has moved by {:.2} mm.", 1e3 * moved);
-        LeavesOut { besides: words } "AB2414" Uncertain
-            ("Of this bearing in space are not followed: tilt of the outer rings; the share of its life{besides}.");
+        LeavesOut { left: words } "AB2414" Uncertain
+            ("Of this bearing in space are not followed: {left}.");
         ShoulderUnknown { angle: "rad" } "AB2415" Uncertain, each
             ("Whether a contact leaves its groove is not judged, since bearing.shoulder_height is not given: contact angles reach {:.0} deg.", angle.to_degrees());
     }

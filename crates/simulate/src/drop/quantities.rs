@@ -20,6 +20,7 @@ use model::system::machine::record::BearingRecord;
 use outcome::Quantity;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins, relative};
+use physics::life::load_of_damage;
 use scenario::{AuxiliaryBearing, Bearing, axial_share};
 use std::f64::consts::PI;
 
@@ -57,11 +58,10 @@ fn of_bearing(list: &mut List, (setup, k): (Setup, usize), run: Option<&Landed>)
         load(list, own.given, run);
         if let Some(space) = constants.spatial() {
             in_space(list, space, run);
-        } else {
-            let life_of = run.and_then(|run| run.life(own.given));
-            let rating = own.given.dynamic_load_rating;
-            life(list, &(rating, setup.heated(k)), life_of.as_ref());
         }
+        let life_of = run.and_then(|run| run.life(own.given));
+        let rating = own.given.dynamic_load_rating;
+        life(list, &(rating, setup.heated(k)), life_of.as_ref());
     }
     mount_force(list, &(), run);
     if constants.mount_parts.any() {
@@ -132,10 +132,15 @@ impl<'a> Landed<'a> {
     fn life(&self, given: &Bearing) -> Option<Life> {
         let speed = 2.0 * PI * self.record.turns / self.context.finished.ending.time;
         let followed = self.context.followed(self.k);
-        let factor = self.mean_load().and_then(|load| {
+        let factor = |share: f64| {
+            let load = match (&given.spatial, given.dynamic_load_rating) {
+                // its thrust counts as much
+                (Some(_), Some(rating)) => load_of_damage(rating, share, self.record.turns),
+                _ => self.mean_load()?,
+            };
             let unknown = || "its temperatures are not followed".to_string();
             lubricant_factor(&followed.ok_or_else(unknown)?, load, speed)
-        });
+        };
         Life::of(given, self.record.races.as_ref()?, factor)
     }
     /// What was seen of a bearing in space.
@@ -238,8 +243,8 @@ results! {
             run.space(|own| own.first_axial_contact.map(|_| own.axial_force.value))
         };
         "axial_force_at_end": number "N", AXIAL, "force between shoulder and face at the end" in note "Peak axial force: at the end [N]" when setup.stops() => run.axial_force_at_end();
-        "peak_inner_contact_angle": number "rad", ANGLES, "largest contact angle at the inner race" => run.angle(0);
-        "peak_outer_contact_angle": number "rad", ANGLES, "largest contact angle at the outer race" => run.angle(1);
+        "peak_inner_contact_angle": number "rad", ANGLES, "largest contact angle at the inner race" in axial "inner race" => run.angle(0);
+        "peak_outer_contact_angle": number "rad", ANGLES, "largest contact angle at the outer race" in axial "outer race" => run.angle(1);
         "row_unloaded_times": list "s", UNLOADED, "when each row first carried nothing, by its place along the shaft; NaN where it always did" when setup.rows.len() > 1 => {
             run.unloaded()
         };

@@ -202,27 +202,35 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
     if part.spatial().is_some_and(|own| own.groove_ends.is_none()) {
         list.push((angle, SpatialWarning::ShoulderUnknown { angle }.into()));
     }
-    let besides = left_out(context.setup.given(k));
-    list.push((0.0, SpatialWarning::LeavesOut { besides }.into()));
+    let left = left_out(context.setup.given(k));
+    list.extend(left.map(|left| (0.0, SpatialWarning::LeavesOut { left }.into())));
     list
 }
 
-/// What a scenario leaves out that changes the preload of a bearing in space.
-fn left_out(part: &AuxiliaryBearing) -> String {
+/// What a scenario leaves out of a bearing in space; none where it leaves nothing out.
+fn left_out(part: &AuxiliaryBearing) -> Option<String> {
     let heats = (part.warm.as_ref()).is_some_and(|warm| warm.heat.feedback == Feedback::Full);
     let grows = (part.bearing.as_ref()).is_some_and(|own| own.inner_track_growth() != 0.0);
-    let mut words = String::new();
-    if !heats {
-        words +=
-            "; rings and balls that expand as they heat (heat.network = \"on\", heat.feedback)";
-    }
-    if !grows {
-        words += "; the inner ring that expands with its speed (bearing.inner_race_growth)";
-    }
-    match heats && grows {
-        true => words,
-        false => words + ". Both change the preload of a pair",
-    }
+    let words = [
+        (
+            part.mount.tilt.is_some(),
+            "tilt of the outer rings (mount.tilt_stiffness)",
+        ),
+        (
+            heats,
+            "expansion of rings and balls as they heat (heat.network = \"on\", heat.feedback)",
+        ),
+        (
+            grows,
+            "expansion of the inner ring with its speed (bearing.inner_race_growth)",
+        ),
+    ];
+    let left: Vec<_> = words
+        .into_iter()
+        .filter(|(followed, _)| !followed)
+        .map(|(_, words)| words)
+        .collect();
+    (!left.is_empty()).then(|| left.join("; "))
 }
 
 /// A rotor that moves along its axis where nothing stops it.

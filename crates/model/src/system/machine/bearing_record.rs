@@ -170,7 +170,7 @@ impl BearingRecord {
             impulse: 0.0,
             turns: 0.0,
             cubed_load_turns: 0.0,
-            races: (!part.is_bushing()).then(|| RaceRecord::new(part.bearing.balls(), speed)),
+            races: (!part.is_bushing()).then(|| RaceRecord::new(&part.bearing.rows(), speed)),
             spatial: part.spatial().map(|own| Box::new(SpatialRecord::new(own))),
             rises: match machine.controlled() {
                 true => Vec::new(),
