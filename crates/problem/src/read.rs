@@ -215,6 +215,10 @@ impl<'a> Reader<'a> {
                 }
                 _ => Err(wrong(Code::OutOfRange, text.clone())),
             },
+            // some words are numbers
+            (Kind::Word(words), Raw::Integer(text, _)) if words.contains(&text.as_str()) => {
+                self.read_raw(key, &Raw::Text(text.clone()), place)
+            }
             (Kind::Word(words), Raw::Text(text)) => match words.iter().find(|word| *word == text) {
                 Some(word) => Ok((Value::Word(word), text.clone())),
                 None => {

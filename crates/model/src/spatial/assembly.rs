@@ -376,6 +376,10 @@ impl<R: Real> Assembly<R> {
         }
         balls
     }
+    /// Masses of the cages, kg.
+    pub(super) fn cage_masses(&self) -> impl Iterator<Item = R> + '_ {
+        self.rows.iter().map(|row| row.cage.mass)
+    }
     #[inline(always)]
     fn first_account(&self) -> usize {
         BODY_STATES * (3 + self.rows.len()) + BALL_STATES * self.balls()

@@ -7,7 +7,7 @@
 //! Frame: origin at the datum of the bearing, axes of the machine. The rotor's node comes in as a body, the wrench on it goes out, about
 //! the point C of its axis.
 //!
-//! Does not model: a steady friction moment, mounts on housings that move, a base that moves.
+//! Does not model: a steady friction moment, mounts on housings that move.
 
 use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
 use super::ball::BALL_STATES;
@@ -16,6 +16,7 @@ use super::mount::SpatialMount;
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::row::{BallContacts, CageGuide, RowConstants};
 use crate::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, Outlet, probe};
+use crate::base::Masses;
 use crate::bearing::ball_sums::largest;
 use crate::bearing::{self, BearingConstants, RaceContact, seat};
 use crate::contact::ContactReaction;
@@ -302,6 +303,8 @@ impl AuxiliaryBearingConstants {
 pub struct Spatial<R: Real> {
     assembly: Assembly<R>,
     landing: Landing<R>,
+    /// Balls of each row and their mass, kg.
+    balls: Vec<(usize, R)>,
 }
 
 /// What a bearing in space does to its machine.
@@ -329,6 +332,14 @@ impl<R: Real> Spatial<R> {
         Some(Spatial {
             assembly: Assembly::gather(&|lane| &each[lane]),
             landing: Landing::gather(&landing),
+            balls: (each[0].rows.iter().enumerate())
+                .map(|(k, row)| {
+                    (
+                        row.balls,
+                        R::from_lanes(|lane| each[lane].rows[k].ball.mass),
+                    )
+                })
+                .collect(),
         })
     }
 
@@ -419,6 +430,51 @@ impl<R: Real> Spatial<R> {
             on_rotor: landed.on_rotor,
             external,
         }
+    }
+
+    /// Adds an acceleration across the axis, m/s², that all bodies have alike, to the rates of rings, cages and balls; returns their masses.
+    pub(crate) fn shake(
+        &self,
+        at: &BearingAt,
+        by: Vec2<R>,
+        state: &[R],
+        rate: &mut [R],
+    ) -> Masses<R> {
+        let Assembly { inner, outer, .. } = &self.assembly;
+        let own = at.own().start;
+        let cages = (0..self.balls.len()).map(|row| own + BODY_STATES * row);
+        // a tied cage has its mass here, the rate of its place from the outer ring
+        let cages = cages.zip(self.assembly.cage_masses());
+        let rings = [(at.inner.channels().start, inner.inertia.mass, inner.held)];
+        let rings =
+            rings
+                .into_iter()
+                .chain([(at.outer.channels().start, outer.inertia.mass, false)]);
+        let mut all = Masses::none();
+        for (first, mass, held) in rings.chain(cages.map(|(first, mass)| (first, mass, false))) {
+            if held {
+                continue;
+            }
+            let body = RigidBody::read(&state[first..]);
+            let [place, velocity] = [body.position, body.velocity].map(|v| Vec2::new(v.x, v.y));
+            all = all.and(Masses::of(mass, place, velocity));
+            rate[first + 3] += by.x;
+            rate[first + 4] += by.y;
+        }
+        let mut first = own + BODY_STATES * self.balls.len();
+        for (balls, mass) in &self.balls {
+            for ball in first..first + balls {
+                let [radius, speed, azimuth, orbit] = [0, 1, 2, 3].map(|k| state[ball + k * balls]);
+                let (sine, cosine) = azimuth.sin_cos();
+                let out = Vec2::new(cosine, sine);
+                let velocity = out * speed + out.turned() * (radius * orbit);
+                all = all.and(Masses::of(*mass, out * radius, velocity));
+                rate[ball + balls] += by.dot(out);
+                rate[ball + 3 * balls] += by.dot(out.turned()) / radius;
+            }
+            first += BALL_STATES * balls;
+        }
+        all
     }
 
     /// Moment about the axis through the origin by drive, mount, weights, what holds the inner ring and what keeps the outer one from

@@ -259,3 +259,59 @@ fn energy_and_angular_momentum_close_through_a_drop_in_space() {
         }
     }
 }
+
+#[test]
+fn a_base_that_moves_accelerates_every_body_alike() {
+    use model::base::{BaseConstants, HalfSine};
+    use model::table::Table;
+    let by = Vec2::new(-300.0, 200.0);
+    for guide in [Guide::Tied, Guide::Balls] {
+        let constants = of(&pair(guide), 0.02);
+        let mut shaken = constants.clone();
+        shaken.base = Some(BaseConstants {
+            record: [-by.x, -by.y].map(Table::constant),
+            shocks: vec![HalfSine {
+                start: 1.0,
+                duration: 1.0,
+                acceleration: Vec2::new(1.0, 0.0),
+            }],
+        });
+        let [still, shaken] = [constants, shaken].map(RotorMachine::new);
+        let states = [&still, &shaken].map(|machine| {
+            let falling = [Vec2::new(0.01, -0.06), Vec2::new(0.1, 0.05)];
+            machine.start_with(&[Vec2::new(4e-5, -3e-5), Vec2::zero()], &falling)
+        });
+        let rates = [
+            still.inspect(&states[0]).0,
+            shaken.inspect_at(0.0, &states[1]).0,
+        ];
+        let at = still.layout().bearings[0];
+        let added = |channel: usize| rates[1][channel] - rates[0][channel];
+        let near = |found: f64, expected: f64| {
+            assert!(
+                (found - expected).abs() < 1e-6 * 300.0,
+                "{found} {expected}"
+            );
+        };
+        let MachineConstants { bearings, .. } = &still.constants;
+        let own = bearings[0].spatial().unwrap();
+        let bodies = [at.inner.channels().start, at.outer.channels().start];
+        let cages = (0..own.rows.len()).map(|row| at.own().start + BODY_STATES * row);
+        for first in bodies.into_iter().chain(cages) {
+            near(added(first + 3), by.x);
+            near(added(first + 4), by.y);
+        }
+        let mut first = at.own().start + BODY_STATES * own.rows.len();
+        for row in &own.rows {
+            let n = row.balls;
+            for ball in first..first + n {
+                let [radius, azimuth] = [0, 2].map(|k| states[0][ball + k * n]);
+                let (sine, cosine) = azimuth.sin_cos();
+                let turned = Vec2::new(-sine, cosine);
+                near(added(ball + n), by.dot(Vec2::new(cosine, sine)));
+                near(radius * added(ball + 3 * n), by.dot(turned));
+            }
+            first += 9 * n;
+        }
+    }
+}

@@ -134,11 +134,6 @@ impl Context<'_> {
             (part.bearing.as_ref()).is_some_and(|own| own.spatial.is_some())
         };
         let any = bearings().any(|part| in_space(&part));
-        if any && drop.base.is_some() {
-            let found = "a base that moves beside bearing.fidelity = \"spatial\"";
-            let needed = "bearings of the plane are needed on a base that moves";
-            return self.refuse(Code::Conflict, FIDELITY, found, needed);
-        }
         if !any {
             let keys = [
                 AXIAL,

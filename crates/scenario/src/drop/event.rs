@@ -1,7 +1,7 @@
 //! What happens to a machine, and when: `[[event]]`.
 
 use crate::drop::case::Cases;
-use crate::drop::event_checks::{check, relevitated, until_standstill};
+use crate::drop::event_checks::{axial_magnet_lost, check, keys_of, relevitated, until_standstill};
 use crate::key::quoted;
 use crate::rotor::FlexibleRotor;
 use crate::rotor::keys::EVENT;
@@ -34,6 +34,8 @@ words! {
         ControllerFrozen = "controller frozen",
         /// The limits of an amplifier change.
         AmplifierLimit = "amplifier limit",
+        /// The axial magnet loses its power.
+        AxialMagnetLost = "axial magnet lost",
         /// All magnets hold the rotor again.
         Relevitate = "re-levitate",
         /// The rotor is braked.
@@ -91,6 +93,8 @@ pub enum When {
 pub enum Happens {
     /// Something happens to axes of magnets, two of each in turn.
     Magnets(Vec<usize>, MagnetEvent),
+    /// The axial magnet loses its power.
+    AxialMagnetLost,
     /// A torque of this size brakes the rotor, N m.
     Brake(f64),
     /// The drive has this torque, N m, in the place of `rotor.drive_torque`.
@@ -189,27 +193,10 @@ impl Happens {
                 kind(one) == kind(two) && a.iter().any(|axis| b.contains(axis))
             }
             (Happens::Load { node, .. }, Happens::Load { node: other, .. }) => node == other,
+            (Happens::AxialMagnetLost, own) => *own == Happens::AxialMagnetLost,
             (Happens::Brake(_), Happens::Brake(_)) | (Happens::Drive(_), Happens::Drive(_)) => true,
             _ => false,
         }
-    }
-}
-
-/// Keys of what happens besides its name and when, those that are needed first.
-fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]) {
-    const AXIS: &[&str] = &["magnet", "axis"];
-    match what {
-        Happening::PowerLost => (&[], &["decay_time"]),
-        Happening::MagnetLost => (&["magnet"], &["decay_time"]),
-        Happening::AxisLost => (AXIS, &["decay_time"]),
-        Happening::SensorStuck | Happening::SensorDead | Happening::ControllerFrozen => (&[], AXIS),
-        Happening::SensorOffset => (&["offset"], AXIS),
-        Happening::SensorNoise => (&["deviation"], &["magnet", "axis", "period", "seed"]),
-        Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
-        Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
-        Happening::Brake | Happening::Drive => (&["torque"], &[]),
-        Happening::Load => (&["node"], &["force_x", "force_y"]),
-        Happening::Unbalance => (&["plane", "amount"], &["phase"]),
     }
 }
 
@@ -340,6 +327,9 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
         Happening::Drive => return Ok(Happens::Drive(torque())),
         Happening::Load => return load(part, rotor),
         Happening::Unbalance => return unbalance(part, rotor),
+        Happening::AxialMagnetLost => {
+            return axial_magnet_lost(part, rotor.levitation.as_ref(), values);
+        }
         _ => {}
     }
     let Some(magnets) = &rotor.levitation else {
@@ -415,9 +405,7 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
             within: part.number("within").unwrap_or(0.5),
             hold: part.number("hold").unwrap_or(0.1),
         }),
-        Happening::Brake | Happening::Drive | Happening::Load | Happening::Unbalance => {
-            unreachable!("it is of no magnet")
-        }
+        _ => unreachable!("it is of no radial magnet"),
     };
     Ok(Happens::Magnets(axes, what))
 }

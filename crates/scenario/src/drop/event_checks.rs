@@ -1,6 +1,6 @@
 //! What events of a machine may not be together.
 
-use crate::drop::event::{Event, Happens, LOST_AT, MagnetEvent, When};
+use crate::drop::event::{Event, Happening, Happens, LOST_AT, MagnetEvent, When};
 use crate::drop::kinds::SpinKind;
 use crate::key::quoted;
 use crate::rotor::levitation::Magnets;
@@ -17,6 +17,42 @@ pub const MOST_UNBALANCES: usize = 16;
 pub const MOST_SPEEDS: usize = 4;
 /// Most nodes at which loads come.
 pub const MOST_LOADED: usize = 4;
+
+/// Keys of what happens besides its name and when, those that are needed first.
+pub(super) fn keys_of(what: Happening) -> (&'static [&'static str], &'static [&'static str]) {
+    const AXIS: &[&str] = &["magnet", "axis"];
+    match what {
+        Happening::PowerLost => (&[], &["decay_time"]),
+        Happening::MagnetLost => (&["magnet"], &["decay_time"]),
+        Happening::AxisLost => (AXIS, &["decay_time"]),
+        Happening::SensorStuck | Happening::SensorDead | Happening::ControllerFrozen => (&[], AXIS),
+        Happening::SensorOffset => (&["offset"], AXIS),
+        Happening::SensorNoise => (&["deviation"], &["magnet", "axis", "period", "seed"]),
+        Happening::AmplifierLimit => (&[], &["magnet", "axis", "largest_current", "slew_rate"]),
+        Happening::Relevitate => (&["bias_time"], &["reference_time", "within", "hold"]),
+        Happening::AxialMagnetLost => (&[], &[]),
+        Happening::Brake | Happening::Drive => (&["torque"], &[]),
+        Happening::Load => (&["node"], &["force_x", "force_y"]),
+        Happening::Unbalance => (&["plane", "amount"], &["phase"]),
+    }
+}
+
+/// The loss of an axial magnet that there is.
+pub(super) fn axial_magnet_lost(
+    part: &Part,
+    magnets: Option<&Magnets>,
+    values: &Values,
+) -> Result<Happens> {
+    let axial = "levitation.axial_stiffness";
+    let found = match magnets {
+        None => "the loss of an axial magnet beside supports, which let go at the start",
+        Some(_) if values.number(axial).is_none() => "the loss of an axial magnet without it",
+        Some(_) => return Ok(Happens::AxialMagnetLost),
+    };
+    let allowed =
+        "[[levitation.magnet]], and levitation.axial_stiffness of the axial one, are needed";
+    part.refuse(Code::LevitationParts, "do", found, allowed)
+}
 
 /// Refuses events that contradict each other or what keys say, and those that no run of the file has.
 pub(super) fn check(parts: &[&Part], events: &[Event], values: &Values) -> Result<()> {

@@ -368,7 +368,7 @@ pub(crate) const PARTS: &[PartKind] = &[
 const EVENT_KEYS: &[Key] = &[
     Key::new("event.name", Kind::Text, "axis_lost", "Its name, for after and in messages.").optional("its number names it"),
     Key::new("event.case", Kind::Text, "axis lost", "Name of the case in which it happens, as run.case has it.").optional("it happens in every case"),
-    Key::new("event.do", Kind::Word(Happening::WORDS), "axis lost", "What happens. Lost axes keep their controller from acting, and their currents decay with the bias; a stuck sensor keeps showing what it shows, a dead one shows nothing; a frozen command keeps its value while the amplifier follows it."),
+    Key::new("event.do", Kind::Word(Happening::WORDS), "axis lost", "What happens. Power lost and re-levitate are of the axial magnet too, axial magnet lost of it alone. Lost axes keep their controller from acting, and their currents decay with the bias; a stuck sensor keeps showing what it shows, a dead one shows nothing; a frozen command keeps its value while the amplifier follows it."),
     Key::new("event.at", Kind::Quantity("s"), "0.1 s", "Instant from the start of the run.").not_negative().optional("below_speed, above_speed or after says when"),
     Key::new("event.below_speed", Kind::Quantity("rad/s"), "6000 rpm", "It happens where the spin falls to this size: of a rotor that starts below it, after a drive has brought it above.").positive().optional("at, above_speed or after says when"),
     Key::new("event.above_speed", Kind::Quantity("rad/s"), "9000 rpm", "It happens where the spin rises to this size: of a rotor that starts above it, after it has been below.").positive().optional("at, below_speed or after says when"),

@@ -1,4 +1,4 @@
-//! A rotor that moves along its axis: its axial magnet, which loses its power with all radial ones.
+//! A rotor that moves along its axis: its axial magnet, which loses its power alone or with all radial ones.
 
 use crate::drop::Drop;
 use crate::drop::magnets_in_time::happens;
@@ -21,7 +21,7 @@ pub(super) fn motion(drop: &Drop, mass: f64) -> Option<AxialConstants<f64>> {
     })
 }
 
-/// What the axial magnet does when all radial ones lose their power, and when they have it again.
+/// What the axial magnet does when it or all radial ones lose their power, and when they have it again.
 pub(super) fn switches(drop: &Drop, known: &mut Vec<(f64, Event)>, at_speeds: &mut Vec<AtSpeed>) {
     let (Some(_), Some(shaft)) = (drop.levitation.axial, &drop.shaft) else {
         return;
@@ -34,6 +34,7 @@ pub(super) fn switches(drop: &Drop, known: &mut Vec<(f64, Event)>, at_speeds: &m
     for own in &shaft.events {
         let share = match &own.what {
             Happens::Magnets(axes, MagnetEvent::Lost(_)) if axes.len() == all => 0.0,
+            Happens::AxialMagnetLost => 0.0,
             Happens::Magnets(_, MagnetEvent::Relevitated(_)) => 1.0,
             _ => continue,
         };

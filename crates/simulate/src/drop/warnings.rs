@@ -213,6 +213,10 @@ fn left_out(part: &AuxiliaryBearing) -> Option<String> {
     let grows = (part.bearing.as_ref()).is_some_and(|own| own.inner_track_growth() != 0.0);
     let words = [
         (
+            !part.contact.faces.any(),
+            "the temperature of shoulders and faces that rub, and that of the bore beside them",
+        ),
+        (
             part.mount.tilt.is_some(),
             "tilt of the outer rings (mount.tilt_stiffness)",
         ),

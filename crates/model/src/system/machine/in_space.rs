@@ -29,6 +29,8 @@ pub(super) struct SpatialActs<R> {
     pub magnet: R,
     /// Power of the thrust from outside, W.
     pub thrust: R,
+    /// Power of a base that moves, W.
+    pub base: R,
 }
 
 impl<R: Real> SpatialActs<R> {
@@ -40,6 +42,7 @@ impl<R: Real> SpatialActs<R> {
             external: zero,
             magnet: zero,
             thrust: zero,
+            base: zero,
         }
     }
 }
@@ -76,12 +79,13 @@ impl<R: Real> Machines<R> {
         let place = self.layout.rotor.place();
         [state[place], state[place + 1]]
     }
-    /// What all bearings in space do, with their rates, and the rates of the rotor along its axis under a thrust from outside, N.
+    /// What all bearings in space do, with their rates, and the rates of the rotor along its axis under a thrust from outside, N, on a base
+    /// that adds to gravity, m/s².
     #[inline(never)]
     pub(super) fn act_in_space(
         &self,
         space: &InSpace<R>,
-        (mode, thrust): (&Mode<R>, R),
+        (mode, thrust, shaken): (&Mode<R>, R, Option<Vec2<R>>),
         rotor: &RotorMotion<R>,
         state: &[R],
         (rate, probe): (&mut [R], &mut [R]),
@@ -111,6 +115,13 @@ impl<R: Real> Machines<R> {
                 probe: &mut *probe,
             };
             let reaction = own.react(at, &centre.body, (mount.force, mount.heat()), into);
+            if let Some(by) = shaken {
+                let masses = own.shake(at, by, state, rate);
+                let (state, rate) = (&state[at.of_mount()], &mut rate[at.of_mount()]);
+                let housing = part.mount.shake(by, state, rate);
+                acts.base += by.dot(masses.momentum + housing) * part.planes;
+                acts.external += masses.moment.cross(by) * part.planes;
+            }
             let mut on_rotor = reaction.on_rotor;
             on_rotor.force = on_rotor.force * part.planes;
             on_rotor.moment = on_rotor.moment * part.planes;

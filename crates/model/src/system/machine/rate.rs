@@ -165,11 +165,12 @@ impl<R: Real> Machines<R> {
             pushing += own.dot(centre.velocity);
             pulled += centre.position.cross(own);
         }
+        let shaken = (self.base.as_ref()).map(|base| base.added(&mode.base, time));
         let mut in_space = SpatialActs::none();
         if let Some(space) = &self.space {
             in_space = self.act_in_space(
                 space,
-                (mode, thrust),
+                (mode, thrust, shaken),
                 &rotor,
                 state,
                 (&mut *rate, &mut *probe),
@@ -196,7 +197,6 @@ impl<R: Real> Machines<R> {
         };
 
         // rotor: an accelerated base adds to gravity
-        let shaken = (self.base.as_ref()).map(|base| base.added(&mode.base, time));
         let gravity = shaken.map_or(self.gravity, |by| self.gravity + by);
         let [x, y, acceleration_x, acceleration_y] = blocks(rate, count);
         let (spin_rate, torques) = self.rotor.accelerate(
@@ -234,6 +234,7 @@ impl<R: Real> Machines<R> {
         }
 
         let mut shaking = shaken.map_or(zero, |by| by.dot(self.rotor.momentum(&rotor)));
+        shaking += in_space.base;
 
         // auxiliary bearings: what they say of angular momentum is about their datum
         let mut impulse = self.rotor.weight_moment(&rotor, gravity);
