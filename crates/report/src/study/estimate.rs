@@ -3,7 +3,7 @@
 use super::cells::{amount, scaled, short, table};
 use crate::page::escape_text as plain;
 use run::study::answer::Answer;
-use run::study::estimate::{Estimate, Estimated, UNEXPLAINED};
+use run::study::estimate::{Estimate, Estimated};
 
 const HEAD: [&str; 5] = [
     "input",
@@ -50,8 +50,8 @@ pub fn note(found: &Estimate) -> String {
         short(found.misfit),
         found.runs
     );
-    if found.misfit > UNEXPLAINED {
-        text.push_str(" The residuals are larger than the noise: an input that was kept, the clock or the model is off; the uncertainty counts their size, not their cause.");
+    if !found.explained {
+        text.push_str(" Noise does not explain the residuals, by their size or by how they repeat each other: an input that was kept, the clock or the model is off, or the search has not found the lowest misfit. The uncertainty counts their size, not their cause.");
     }
     if let Some(member) = found.rival {
         text.push_str(&format!(

@@ -6,6 +6,7 @@
 //! The speed is that of the run, corrected by what the orbit itself shows.
 //!
 //! Source: least squares; uncertainties by the autocorrelation of the residuals.
+//! Of a channel that stands still before the release, as the speed of a race, the noise is that of its motion: the median second difference.
 //! Valid: a speed that differs from that of the run by a constant; other motions of the rotor before the release count as noise.
 
 use super::Curve;
@@ -25,6 +26,8 @@ const TURNS: f64 = 64.0;
 const SHOWN: f64 = 6.0;
 /// Rounds of that correction.
 const ROUNDS: usize = 4;
+/// A channel that stands still before the release moves with noise of its own where that is so many times what rounding alone makes.
+const MOVING: f64 = 2.0;
 /// Rounding averages out where noise spreads values over several steps: where their deviation is this share of a step at least; rounding alone
 /// has 1/√12 of it.
 const SPREAD: f64 = 0.42;
@@ -58,6 +61,10 @@ pub(super) struct Before {
     pub orbit: Option<Uncertain>,
     /// Noise of the channel, where it is known.
     pub noise: Option<Noise>,
+    /// Deviation of the values before the release, whatever the file says.
+    pub scatter: Option<f64>,
+    /// Independent values that the deviation is known by; infinite where the file gives it.
+    pub known_by: f64,
 }
 
 impl Curve {
@@ -86,7 +93,12 @@ impl Curve {
             None if self.values.len() >= FEWEST => (None, None, Some(white(&self.values))),
             None => (None, None, None),
         };
-        let noise = self.noise(noise);
+        let scatter = noise.as_ref().map(|own| own.deviation);
+        let known_by = match (&self.given.deviation, &noise) {
+            (None, Some(own)) => values.len().max(FEWEST) as f64 / own.repetition(),
+            _ => f64::INFINITY,
+        };
+        let noise = self.noise(noise, last);
         let rounding = noise
             .as_ref()
             .map_or(0.0, |noise| noise.rounding / 12_f64.sqrt());
@@ -95,11 +107,14 @@ impl Curve {
             mean: mean.map(rounded),
             orbit,
             noise,
+            scatter: scatter.filter(|_| enough),
+            known_by,
         }
     }
 
-    /// Noise with the deviation that the file gives, or with that of rounding at least.
-    fn noise(&self, found: Option<Noise>) -> Option<Noise> {
+    /// Noise with the deviation that the file gives, or with that of rounding at least, and of a channel that stands still before a row with
+    /// that of its motion after it.
+    fn noise(&self, found: Option<Noise>, release: usize) -> Option<Noise> {
         let mut noise = found.unwrap_or_default();
         let step = quantile::step(&self.values);
         let least = step / 12_f64.sqrt();
@@ -109,6 +124,13 @@ impl Curve {
         if noise.deviation < least {
             // rounding alone: of a channel that stands still it repeats itself, of one that moves it does not
             (noise.deviation, noise.correlation) = (least, Vec::new());
+            let (before, after) = self.values.split_at(release);
+            let still = before.windows(2).all(|two| (two[1] - two[0]).abs() <= step);
+            let moving = Some(after).filter(|_| still);
+            let moving = moving.filter(|own| own.len() >= FEWEST).map(white);
+            if let Some(moving) = moving.filter(|own| own.deviation > MOVING * least) {
+                noise = moving;
+            }
         }
         let given = self.given.deviation.as_ref().map(|(value, ..)| *value);
         noise.deviation = given.unwrap_or(noise.deviation);

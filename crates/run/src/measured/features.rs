@@ -133,7 +133,10 @@ pub(super) fn of_curve(list: &mut List, curve: &Curve, run: Option<(&Compared, &
             sides(list, name, force, of);
         }
         "m" if ends(&[".x", ".y"]) => {
-            let of = run.map(|(own, _)| own.both(|samples, _| turning(own, samples)));
+            let of = run.map(|(own, _)| {
+                let both = own.both(|samples, _| turning(own, samples));
+                paired(own, both)
+            });
             sides(list, name, displacement, of);
         }
         "rad/s" if ends(&["inner_race.speed"]) => {
@@ -163,7 +166,7 @@ fn spin_up(own: &Compared, samples: Samples, spin: f64) -> Found {
     let samples = Samples { values, ..samples };
     let crossing = samples.crossing(SPUN_UP * full, first(samples.times), Side::Around);
     let time = crossing.map(|own| own.time);
-    time.ok_or_else(|| "95 % of the speed is not reached".to_string())
+    time.ok_or_else(|| "the curve does not cross 95 % of the speed beyond its noise".to_string())
 }
 
 /// First contact, its duration and impulse, and the peak of a force above its mean before the release.
@@ -188,7 +191,7 @@ fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 
         return [none(), none(), none(), peak];
     };
     let end = samples.jump(level, -1.0, begin.row);
-    let end = end.ok_or("the contact lasts to the end".to_string());
+    let end = end.ok_or("the force does not fall below its threshold again".to_string());
     let impulse = end.clone().map(|end| {
         let (from, to) = (begin.row.saturating_sub(1), end.row);
         let time = |row: usize| samples.times[row.clamp(from, to)];
@@ -224,6 +227,28 @@ fn turning(own: &Compared, samples: Samples) -> [Found; 2] {
     let apart = found(1).and_then(|next| Ok(next.value.minus(found(0)?.value)));
     let rebound = apart.map(|own| Uncertain::new(own.value.abs(), own.deviation));
     [found(0).map(|own| own.time), rebound]
+}
+
+/// Extrema of both curves where they are those of one motion: of one sense, and nearer to each other than half of the way to the next one.
+fn paired(own: &Compared, (mut sides, known): Both<2>) -> Both<2> {
+    if own.time.is_empty() {
+        return (sides, known);
+    }
+    let start = first(&own.time);
+    let [measured, predicted] =
+        [&own.measured, &own.predicted].map(|values| reversals(&values[start..], own.threshold()));
+    let apart = match (&measured[..], &predicted[..]) {
+        ([one, ..], [other, next, ..]) => {
+            let time = |row: usize| own.time[start + row];
+            let half = 0.5 * (time(next.0) - time(other.0));
+            one.1 != other.1 || (time(one.0) - time(other.0)).abs() > half
+        }
+        _ => false,
+    };
+    if apart {
+        sides[0] = from_fn(|_| no("its first reversal is not that of the prediction"));
+    }
+    (sides, known)
 }
 
 /// Rows of the extrema between which values change by more than a threshold, with 1 of a maximum and -1 of a minimum.
@@ -360,7 +385,9 @@ impl Orbit<'_> {
                 false => whirl(radii, of, WHIRLS * clearance),
             };
             [
-                contact.ok_or_else(|| "the clearance is not crossed".to_string()),
+                contact.ok_or_else(|| {
+                    "the curve does not cross the clearance beyond its noise".to_string()
+                }),
                 turns,
             ]
         };

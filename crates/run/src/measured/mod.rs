@@ -24,6 +24,7 @@ use problem::{Code, Result, did_you_mean};
 use recording::over_time::{Unread, Wanted, over_time};
 use scenario::{Measured, Scenario};
 use statistics::interpolation::between;
+use statistics::noise::Noise;
 use units::{Unit, number_text};
 
 /// Samples further apart than this times the median interval have a gap between them.
@@ -320,12 +321,34 @@ pub(crate) fn columns(curves: &[Curve], times: &[f64]) -> Vec<Column> {
 }
 
 /// Differences over their deviations of each channel of the first drop whose deviation is known: what is predicted is that drop.
-pub(crate) fn residuals(curves: &[Curve], outcome: &Outcome) -> Vec<Vec<f64>> {
+pub(crate) fn residuals(curves: &[Curve], outcome: &Outcome) -> Vec<Residuals> {
     let release = counted_from(&outcome.quantities).unwrap_or(0.0);
     let first = curves.iter().filter(|curve| curve.given.drop == 1);
     let turning = before::turning(outcome, release);
     let each = first.map(|curve| curve.compared(outcome, release, turning.as_ref()));
-    each.filter_map(|own| own.residuals()).collect()
+    let of = |own: Compared| {
+        Some(Residuals {
+            values: own.residuals()?,
+            repetition: own
+                .before
+                .scatter
+                .and(own.before.noise.as_ref())
+                .map(Noise::repetition),
+            known_by: own.before.known_by,
+        })
+    };
+    each.filter_map(of).collect()
+}
+
+/// Residuals of a channel.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Residuals {
+    /// Differences over the deviation.
+    pub values: Vec<f64>,
+    /// How many neighbouring values of its noise before the release say the same, where that is known.
+    pub repetition: Option<f64>,
+    /// Independent values that the deviation is known by.
+    pub known_by: f64,
 }
 
 /// A run with its channels.

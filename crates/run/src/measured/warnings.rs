@@ -6,6 +6,8 @@ use std::f64::consts::PI;
 
 /// Difference of orbit phases at the release from which on impacts differ by it, rad, and in standard uncertainties.
 const APART: (f64, f64) = (PI / 18.0, 3.0);
+/// A deviation that is given differs from the scatter before the release from this ratio on.
+const OTHER: f64 = 2.0;
 /// Rows are coarser than the file from this ratio of intervals on.
 const COARSER: f64 = 1.5;
 
@@ -13,15 +15,16 @@ problem::warnings! {
     /// Of measured channels beside predicted columns.
     pub enum MeasuredWarning {
         Coarse { part: text, interval: "s", rows: "s" } "AB2340" Note ("Channel of {part} is sampled every {:.3} ms, the run has a row every {:.3} ms: the prediction is straight between its rows. Choose run.output_interval as the interval of the file.", 1e3 * interval, 1e3 * rows);
-        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
+        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it. An orbit that is mirrored has exchanged channels, or one of the wrong sign.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
         PhaseUnknown "AB2342" Note ("The measured channels do not show the phase of the orbit at the release. Impacts after the first depend on the angle of the unbalance at the release, an input (rotor.unbalance_angle).");
         PartOfRun { part: text, from: "s", to: "s", end: "s" } "AB2343" Note ("File of {part} covers {from:.4} s to {to:.4} s of a run of {end:.4} s: compared there.");
         Gaps { part: text, gaps: "", from: "s", to: "s" } "AB2344" Uncertain ("Channel of {part} has gaps ({gaps:.0}), the first from {from:.4} s to {to:.4} s: nothing is compared there, and features that fall into one are not those of the machine.");
+        OtherNoise { part: text, given: "of the column", found: "of the column" } "AB2346" Uncertain ("Channel of {part}: measured.deviation is {given:.2e}, and its values before the release scatter by {found:.2e} about mean and synchronous orbit. Misfit and uncertainties count by the first.");
     }
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
-    use MeasuredWarning::{Coarse, Gaps, PartOfRun, PhaseDiffers, PhaseUnknown};
+    use MeasuredWarning::{Coarse, Gaps, OtherNoise, PartOfRun, PhaseDiffers, PhaseUnknown};
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
         .outcome
@@ -31,7 +34,7 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         return Vec::new();
     };
     let mean = |times: &[f64]| (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    for curve in curves {
+    for (index, curve) in curves.iter().enumerate() {
         let part = || curve.name.clone();
         let (interval, [from, to]) = (mean(&curve.times), curve.span());
         let rows = if time.len() > 1 { mean(time) } else { interval };
@@ -51,6 +54,16 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 from,
                 to,
             });
+        }
+        let own = &run.all[index];
+        if let (Some(given), Some(found), Some(_)) =
+            (own.deviation(), own.before.scatter, &curve.given.deviation)
+        {
+            let ratio = given / found;
+            if !(1.0 / OTHER..OTHER).contains(&ratio) {
+                let part = part();
+                list.push(OtherNoise { part, given, found });
+            }
         }
         if from > begin + interval || to < end - interval {
             let (part, from, to, end) = (part(), from.max(*begin), to.min(*end), *end);

@@ -1,7 +1,7 @@
 //! Inputs whose predicted curves are most like the measured ones, and how well these determine them.
 //!
 //! ```text
-//!   members of the design ──best──▶ simplex on Σ r²/n ──▶ û          r = (measured - predicted)/deviation
+//!   members of the design ──best four──▶ simplex on Σ r²/n, of growing parts of the curves ──▶ û          r = (measured - predicted)/deviation
 //!   r(û ± h) ──▶ J ──▶ cov = (Σ JᵀJ/(s² τ) + 12 I)⁻¹                 one term a channel, and the bounds
 //! ```
 //! s² is the mean of r² at û, 1 at least; τ = 1 + 2 Σ ρ(k) counts how many samples of a channel say the same, ρ the autocorrelation of r.
@@ -13,13 +13,15 @@
 use super::Study;
 use super::table::Table;
 use crate::Options;
-use crate::measured::{self, Curve};
+use crate::measured::{self, Curve, Residuals};
 use outcome::host;
 use scenario::Vary;
 use statistics::design::Coordinate;
 use statistics::noise::Noise;
 use statistics::{linear, simplex};
 use std::array::from_fn;
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// The result of a member that is made small.
 pub const MISFIT: &str = "measured.misfit";
@@ -35,8 +37,15 @@ const BOUNDS: f64 = 12.0;
 const DETERMINED: f64 = 0.144;
 /// Two inputs whose coefficient is larger are determined together alone.
 const TOGETHER: f64 = 0.95;
-/// Misfit from which on noise does not explain the residuals.
-pub const UNEXPLAINED: f64 = 1.5;
+/// Standard deviations of the mean square of noise beyond which it does not explain that of the residuals.
+const UNEXPLAINED: f64 = 3.0;
+/// Neighbouring residuals repeat each other so much more than noise does where the model has something wrong.
+const STRUCTURED: f64 = 1.5;
+/// Parts of the curves that the search begins with.
+const PARTS: [f64; 3] = [0.25, 0.5, 0.75];
+/// Members that the search starts from, at most, and rounds of it over the whole curves.
+const STARTS: usize = 4;
+const ROUNDS: usize = 3;
 /// A member as good as the best one, by its misfit, and so many deviations away, is another estimate.
 const RIVAL: (f64, f64) = (1.05, 5.0);
 /// Blocks of residuals, at most: the autocorrelation of more takes long.
@@ -54,6 +63,8 @@ pub struct Estimate {
     pub correlation: Vec<Vec<f64>>,
     /// Root mean square of the residuals over their deviations at the estimate.
     pub misfit: f64,
+    /// Whether noise explains the residuals.
+    pub explained: bool,
     /// Samples that were compared, of all channels, and how many of them are independent.
     pub rows: [f64; 2],
     /// Runs besides the members.
@@ -116,15 +127,52 @@ impl Study {
             curves: &curves,
             options,
         };
-        let start = self.shares(best);
         let step = 0.5 / (table.members.len() as f64).powf(1.0 / N as f64);
-        let step = start.map(|u| if u > 0.5 { -step } else { step });
-        let rows = fit.at(&start).map_or(0, |own| own.concat().len());
-        let (calls, mut runs) = (CALLS[0] + CALLS[1] * N, 2 + 4 * N);
-        let (found, value) = simplex::lowest(start, step, TOLERANCE / rows as f64, calls, |u| {
-            runs += 1;
-            fit.mean_square(u)
+        let rows: usize = (fit.at(&self.shares(best)).iter().flatten())
+            .map(|own| own.values.len())
+            .sum();
+        let runs = AtomicUsize::new(2 + 4 * N);
+        let tolerance = |part: f64| TOLERANCE / (part * rows as f64);
+        let search = |start: [f64; N], step: f64, part: f64| {
+            let calls = CALLS[0] + CALLS[1] * N;
+            let step = start.map(|u| if u > 0.5 { -step } else { step });
+            simplex::lowest(start, step, tolerance(part), calls, |u| {
+                runs.fetch_add(1, Relaxed);
+                fit.mean_square(u, part)
+            })
+        };
+        // late impacts, which the inputs shift, make many valleys: the first part of the curves has few
+        let mut sorted: Vec<_> = known.clone().collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut starts: Vec<[f64; N]> = Vec::new();
+        for (_, member) in sorted {
+            let own = self.shares(member);
+            let near = |other: &[f64; N]| (0..N).all(|k| (own[k] - other[k]).abs() < step);
+            if starts.len() < STARTS && !starts.iter().any(near) {
+                starts.push(own);
+            }
+        }
+        let valleys = host::in_pool(options.threads, || {
+            host::each(&starts, |_, start| search(*start, step, PARTS[0]))
         });
+        let lowest = valleys.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        let mut found = lowest.map_or(self.shares(best), |(place, _)| place);
+        let mut value = f64::INFINITY;
+        let rounds = PARTS[1..].iter().chain([1.0; ROUNDS].iter());
+        for part in rounds {
+            let (place, lowest) = search(found.map(|u| u.clamp(0.0, 1.0)), 0.3 * step, *part);
+            if *part < 1.0 {
+                found = place;
+                continue;
+            }
+            let better = value - lowest;
+            if better > 0.0 {
+                (found, value) = (place, lowest);
+            }
+            if better < tolerance(1.0) {
+                break;
+            }
+        }
         let place = found.map(|u| u.clamp(0.0, 1.0));
         let at = fit.at(&place).unwrap_or_default();
         let mut information = fit.information(&place, [STEPS[0]; N], &at);
@@ -138,26 +186,28 @@ impl Study {
         }
         let (deviations, correlation) = uncertainties(&information);
         let misfit = value.sqrt();
+        let explained = is_noise(value, &at);
         let far = |shares: [f64; N]| {
             (0..N).any(|k| (shares[k] - place[k]).abs() > RIVAL.1 * deviations[k].unwrap_or(1.0))
         };
         let mut rivals = known.filter(|(own, k)| *own <= RIVAL.0 * misfit && far(self.shares(*k)));
         let inputs = (0..N).map(|k| {
             let mut own = self.input(k, place[k], deviations[k], &correlation[k]);
-            if own.why.is_empty() && misfit > UNEXPLAINED {
-                own.why = "only if the rest of the model holds: noise does not explain the misfit"
-                    .to_string();
+            if !explained {
+                let model = "only if the rest of the model holds and the search has found the lowest misfit: noise does not explain it";
+                own.why = [own.why.as_str(), model].map(str::to_string).into_iter().filter(|own| !own.is_empty()).collect::<Vec<_>>().join("; ");
             }
             own
         });
-        let independent = at.iter().map(|own| own.len() as f64 / repetition(own));
+        let independent = (at.iter()).map(|own| own.values.len() as f64 / repetition(&own.values));
         Some(Ok(Estimate {
             rival: rivals.next().map(|(_, member)| member),
-            rows: [at.concat().len() as f64, independent.sum()],
+            rows: [rows as f64, independent.sum()],
             inputs: inputs.collect(),
             correlation: correlation.map(|row| row.to_vec()).to_vec(),
             misfit,
-            runs,
+            explained,
+            runs: runs.into_inner(),
         }))
     }
 
@@ -218,11 +268,11 @@ struct Fit<'a, const N: usize> {
 
 impl<const N: usize> Fit<'_, N> {
     fn interrupted(&self) -> bool {
-        (self.options.interrupt).load(std::sync::atomic::Ordering::Relaxed)
+        self.options.interrupt.load(Relaxed)
     }
 
     /// Residuals of each channel at shares of the bounds; none of a run that does not end as planned.
-    fn at(&self, shares: &[f64; N]) -> Option<Vec<Vec<f64>>> {
+    fn at(&self, shares: &[f64; N]) -> Option<Vec<Residuals>> {
         if self.interrupted() {
             return None;
         }
@@ -239,20 +289,27 @@ impl<const N: usize> Fit<'_, N> {
         let scenario = file.scenario.with(&values).ok()?;
         let outcome = crate::built(&scenario).ok()?.computed(&quiet);
         let all = measured::residuals(self.curves, &outcome);
-        (outcome.stop.complete() && !all.concat().is_empty()).then_some(all)
+        let any = all.iter().any(|own| !own.values.is_empty());
+        (outcome.stop.complete() && any).then_some(all)
     }
 
-    /// Mean of the squares of the residuals; beyond the bounds it grows.
-    fn mean_square(&self, shares: &[f64; N]) -> f64 {
+    /// Mean of the squares of the residuals of the first part of each curve; beyond the bounds it grows.
+    fn mean_square(&self, shares: &[f64; N], part: f64) -> f64 {
         let inside = shares.map(|u| u.clamp(0.0, 1.0));
         let both = shares.iter().zip(&inside);
         let beyond: f64 = both.map(|(u, inside)| (u - inside).abs()).sum();
-        let square = |all: Vec<Vec<f64>>| (1.0 + beyond) * mean_of_squares(&all.concat()) + beyond;
+        let square = |all: Vec<Residuals>| {
+            let first = |own: &Residuals| (part * own.values.len() as f64).ceil() as usize;
+            let all: Vec<f64> = (all.iter())
+                .flat_map(|own| own.values[..first(own)].iter().copied())
+                .collect();
+            (1.0 + beyond) * mean_of_squares(&all) + beyond
+        };
         self.at(&inside).map_or(f64::INFINITY, square)
     }
 
     /// Σ JᵀJ/(s² τ) over the channels.
-    fn information(&self, place: &[f64; N], steps: [f64; N], at: &[Vec<f64>]) -> [[f64; N]; N] {
+    fn information(&self, place: &[f64; N], steps: [f64; N], at: &[Residuals]) -> [[f64; N]; N] {
         let point = |k: usize, sense: f64| {
             let mut own = *place;
             own[k] = (own[k] + sense * steps[k]).clamp(0.0, 1.0);
@@ -268,11 +325,12 @@ impl<const N: usize> Fit<'_, N> {
         for (channel, own) in at.iter().enumerate() {
             let slopes: [Vec<f64>; N] = from_fn(|k| {
                 let width = points[2 * k][k] - points[2 * k + 1][k];
-                let of = |point: usize| found[point].get(channel).map_or(&[][..], Vec::as_slice);
+                let of =
+                    |point: usize| found[point].get(channel).map_or(&[][..], |own| &own.values);
                 let both = of(2 * k).iter().zip(of(2 * k + 1));
                 both.map(|(above, below)| (above - below) / width).collect()
             });
-            let weight = 1.0 / (mean_of_squares(own).max(1.0) * repetition(own));
+            let weight = 1.0 / (mean_of_squares(&own.values).max(1.0) * repetition(&own.values));
             for (i, k) in (0..N).flat_map(|i| (0..N).map(move |k| (i, k))) {
                 let product = slopes[i].iter().zip(&slopes[k]).map(|(a, b)| a * b);
                 information[i][k] += weight * product.sum::<f64>();
@@ -280,6 +338,23 @@ impl<const N: usize> Fit<'_, N> {
         }
         information
     }
+}
+
+/// Whether noise explains residuals of this mean square: no larger than its scatter allows, and repeating each other no more than noise does.
+fn is_noise(mean_square: f64, all: &[Residuals]) -> bool {
+    let rows: f64 = all.iter().map(|own| own.values.len() as f64).sum();
+    // of a normal value the variance of the square is 2; the deviation itself is known by some values alone
+    let variance = all.iter().map(|own| {
+        let count = own.values.len() as f64;
+        let of_noise = 2.0 * own.repetition.unwrap_or(1.0) / count.max(1.0) + 2.0 / own.known_by;
+        (count / rows).powi(2) * of_noise
+    });
+    let small = mean_square <= 1.0 + UNEXPLAINED * variance.sum::<f64>().sqrt();
+    let structured = |own: &Residuals| {
+        let noise = own.repetition.map(|noise| STRUCTURED * noise);
+        noise.is_some_and(|noise| repetition(&own.values) > noise)
+    };
+    small && !all.iter().any(structured)
 }
 
 fn mean_of_squares(values: &[f64]) -> f64 {
