@@ -81,10 +81,8 @@ fn choices(path: &str) -> Vec<String> {
         | "contact.face_stiffness"
         | "mount.axial_stiffness"
         | "mount.axial_damping" => &["bearing.fidelity=spatial"],
-        "mount.tilt_stiffness"
-        | "mount.tilt_damping"
-        | "mount.torsion_stiffness"
-        | "mount.tilt_inertia" => &[
+        "mount.tilt_stiffness" => &["bearing.fidelity=spatial", "bearing.cage.guidance=balls"],
+        "mount.tilt_damping" | "mount.torsion_stiffness" | "mount.tilt_inertia" => &[
             "bearing.fidelity=spatial",
             "bearing.cage.guidance=balls",
             "mount.tilt_stiffness=1 N m/rad",

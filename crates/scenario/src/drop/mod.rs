@@ -267,13 +267,13 @@ pub struct Metal {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tilting {
     /// Stiffness about an axis across, N m/rad.
-    pub stiffness: f64,
+    pub tilt_stiffness: f64,
     /// Damping about any axis, N m s/rad.
-    pub damping: f64,
+    pub tilt_damping: f64,
     /// Stiffness about the axis of the bearing, N m/rad.
     pub torsion_stiffness: f64,
     /// Inertia about an axis across, kg m², where it is given.
-    pub inertia: Option<f64>,
+    pub tilt_inertia: Option<f64>,
 }
 
 /// What is between outer race and ground.
@@ -404,11 +404,11 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
             moving_mass: mount.number("moving_mass"),
             axial_stiffness: mount.maybe("axial_stiffness").unwrap_or(stiffness),
             axial_damping: mount.maybe("axial_damping").unwrap_or(damping),
-            tilt: mount.maybe("tilt_stiffness").map(|stiffness| Tilting {
-                stiffness,
-                damping: mount.maybe("tilt_damping").unwrap_or(0.0),
-                torsion_stiffness: mount.maybe("torsion_stiffness").unwrap_or(stiffness),
-                inertia: mount.maybe("tilt_inertia"),
+            tilt: mount.maybe("tilt_stiffness").map(|tilt_stiffness| Tilting {
+                tilt_stiffness,
+                tilt_damping: mount.maybe("tilt_damping").unwrap_or(0.0),
+                torsion_stiffness: mount.maybe("torsion_stiffness").unwrap_or(tilt_stiffness),
+                tilt_inertia: mount.maybe("tilt_inertia"),
             }),
             parts: MountParts::of(&mount),
         },

@@ -80,7 +80,7 @@ pub(crate) fn bearing(
         inner_transverse: 0.5 * inertia + mass * whole * whole / 12.0,
         outer_inertias: tilt.map(|own| {
             let radius = 0.5 * (given.pitch_diameter + 1.5 * given.ball_diameter);
-            let across = (own.inertia).unwrap_or(0.5 * part.mount.moving_mass * radius * radius);
+            let across = (own.tilt_inertia).unwrap_or(0.5 * part.mount.moving_mass * radius * radius);
             [2.0 * across, across]
         }),
         mount: SpatialMount {
@@ -88,8 +88,8 @@ pub(crate) fn bearing(
             axial_stiffness: part.mount.axial_stiffness,
             radial_damping: zero,
             axial_damping: part.mount.axial_damping,
-            tilt_stiffness: tilt.map_or(zero, |own| own.stiffness),
-            turn_damping: tilt.map_or(zero, |own| own.damping),
+            tilt_stiffness: tilt.map_or(zero, |own| own.tilt_stiffness),
+            turn_damping: tilt.map_or(zero, |own| own.tilt_damping),
             torsion_stiffness: tilt.map_or(zero, |own| own.torsion_stiffness),
             free_position: Vec3::zero(),
         },
