@@ -80,7 +80,8 @@ pub(crate) fn bearing(
         inner_transverse: 0.5 * inertia + mass * whole * whole / 12.0,
         outer_inertias: tilt.map(|own| {
             let radius = 0.5 * (given.pitch_diameter + 1.5 * given.ball_diameter);
-            let across = (own.tilt_inertia).unwrap_or(0.5 * part.mount.moving_mass * radius * radius);
+            let across =
+                (own.tilt_inertia).unwrap_or(0.5 * part.mount.moving_mass * radius * radius);
             [2.0 * across, across]
         }),
         mount: SpatialMount {

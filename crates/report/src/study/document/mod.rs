@@ -261,12 +261,14 @@ impl Document<'_> {
             .collect();
         let _ = writeln!(out, "<table class=\"facts\">{facts}</table>");
         let weak = (0..requirements.len()).filter(|k| {
-            requirements[*k].verdict == Verdict::Pass && !self.breaks_with(*k).is_empty()
+            requirements[*k].verdict != Verdict::Fail && !self.breaks_with(*k).is_empty()
         });
         let weak = match weak.count() {
             0 => String::new(),
             count => {
-                format!(" {count} of those met are broken with an input at its low or high value.")
+                format!(
+                    " {count} of those not failed are broken with an input at its low or high value."
+                )
             }
         };
         let draws = self
@@ -342,7 +344,10 @@ impl Document<'_> {
                     format!("{}{member}", of_values(&candidate.values))
                 });
             let why = match one.verdict {
-                Verdict::Undecided => one.why.clone(),
+                Verdict::Undecided if one.worst.is_none() => one.why.clone(),
+                Verdict::Undecided => {
+                    format!("{}; worst value: {place}{}", one.why, self.breaks_with(k))
+                }
                 Verdict::Fail if one.why.ends_with("in a row") => one.why.clone(),
                 Verdict::Fail => place,
                 Verdict::Pass => format!("{place}{}", self.breaks_with(k)),
