@@ -23,6 +23,7 @@ mod study;
 mod summary;
 mod torque;
 mod torque_tables;
+mod validation;
 
 use arguments::{Arguments, Command};
 use auxbear::problem::explain::explain;
@@ -36,7 +37,6 @@ use exit::Exit;
 use progress::Busy;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use validate::Simulation;
 
 fn main() -> ExitCode {
     measured_quietly();
@@ -118,22 +118,7 @@ fn perform(command: &Command) -> Result<Exit> {
             let written = export::export(directory, format, out.as_deref(), only)?;
             console::print(&format!("{}\n", written.display()))?;
         }
-        Command::Validate { cases, json } => {
-            let report = validate::run(cases.as_deref(), &Simulation)?;
-            console::print(&if *json {
-                report.to_json() + "\n"
-            } else {
-                report.to_text()
-            })?;
-            let mut damaged = report.problems().peekable();
-            if damaged.peek().is_some() {
-                damaged.for_each(|problem| console::report(&problem.to_string()));
-                return Ok(Exit::WrongInput);
-            }
-            if !report.passed() {
-                return Ok(Exit::Failed);
-            }
-        }
+        Command::Validate { cases, json } => return validation::perform(cases.as_deref(), *json),
         Command::Service(wish) => service::perform(wish)?,
         Command::Explain { code } => console::print(&explain(code)?)?,
         Command::Bearings { command } => bearings::perform(command)?,

@@ -1,7 +1,8 @@
 //! Guards that are commands of the Rust toolchain: format, lints, documentation, tests.
 
 use crate::repository::{Outcome, Repository};
-use std::process::{Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
 
 /// The cargo that started this tool, in the root of the checkout.
 pub fn cargo(repository: &Repository) -> Command {
@@ -32,18 +33,33 @@ pub fn lints(repository: &Repository) -> Outcome {
         "clippy --quiet --package auxbear --lib --no-default-features --locked -- \
          -D warnings -D clippy::disallowed_methods -D clippy::disallowed_types",
     );
-    let everywhere = "clippy --quiet --workspace --all-targets --locked -- -D warnings";
-    (outcome.findings).append(&mut done(repository, everywhere).findings);
+    let everywhere = "clippy --quiet --workspace --all-targets --locked";
+    let mut command = cargo(repository);
+    let mut warned = silent(command.args(everywhere.split(' ')));
+    outcome.findings.append(&mut warned.findings);
     outcome
+}
+
+/// The program by which `cargo clippy` replaces the compiler; none where it is not found.
+fn clippy_driver() -> Option<PathBuf> {
+    let asked = Command::new("rustc").args(["--print", "sysroot"]).output();
+    let sysroot = String::from_utf8(asked.ok()?.stdout).ok()?;
+    let driver = Path::new(sysroot.trim_end()).join("bin/clippy-driver");
+    driver.exists().then_some(driver)
 }
 
 /// The documentation of the libraries builds without a warning.
 ///
 /// Libraries only: the command and the library share the name `auxbear`, and so would their pages. There are no examples: asked for,
-/// they give dependencies the features that lints and tests give them, and what they share is not built again.
+/// they give dependencies the features that lints and tests give them, and what they share is not built again. Libraries that clippy has
+/// checked are not checked a second time: it is named as their compiler, without arguments, as in [`lints`].
 pub fn pages(repository: &Repository) -> Outcome {
     let words = "doc --quiet --workspace --lib --examples --no-deps --locked";
     let mut command = cargo(repository);
+    if let Some(driver) = clippy_driver() {
+        command.env("RUSTC_WORKSPACE_WRAPPER", driver);
+        command.env("CLIPPY_ARGS", "");
+    }
     quiet((command.args(words.split(' '))).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
@@ -100,8 +116,19 @@ pub fn tests(repository: &Repository) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
+/// Runs a command that says nothing where all is well: a warning is a finding too.
+fn silent(command: &mut Command) -> Outcome {
+    found_in(command, |output| {
+        output.status.success() && output.stderr.is_empty()
+    })
+}
+
 /// Runs a command; what it printed are the findings when it failed.
 pub fn quiet(command: &mut Command) -> Outcome {
+    found_in(command, |output| output.status.success())
+}
+
+fn found_in(command: &mut Command, is_well: fn(&Output) -> bool) -> Outcome {
     let output = match command.output() {
         Ok(output) => output,
         Err(error) => {
@@ -111,7 +138,7 @@ pub fn quiet(command: &mut Command) -> Outcome {
             );
         }
     };
-    if output.status.success() {
+    if is_well(&output) {
         return Outcome::new("", Vec::new());
     }
     let printed = [output.stdout, output.stderr].concat();
@@ -138,5 +165,13 @@ mod tests {
         assert!(of("echo fine").is_empty());
         let lost = quiet(&mut Command::new("no such program"));
         assert_eq!(lost.findings.len(), 1);
+    }
+
+    #[test]
+    fn a_warning_is_a_finding_where_nothing_should_be_said() {
+        let of = |script: &str| silent(Command::new("sh").args(["-c", script])).findings;
+        assert!(of("true").is_empty());
+        assert_eq!(of("echo 'warning: unused' >&2"), ["warning: unused"]);
+        assert_eq!(of("exit 3").len(), 1);
     }
 }

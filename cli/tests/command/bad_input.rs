@@ -190,27 +190,6 @@ fn pipes_and_devices_are_refused_at_once() {
 }
 
 #[test]
-fn a_damaged_case_file_is_a_wrong_input() {
-    let place = Place::new();
-    fs::create_dir(place.path("cases")).unwrap();
-    for (name, text) in [
-        ("cut.json", "{\"a\": "),
-        ("empty.toml", ""),
-        ("cut.toml", "format = \"auxb"),
-    ] {
-        fs::write(place.path("cases").join(name), text).unwrap();
-    }
-    let called = place.call(&["validate", "--json", "--cases", "cases"]);
-    assert_eq!(called.code, Some(2), "{called:?}");
-    assert!(called.err.contains("error[AB0310]"), "{called:?}");
-    let report: serde_json::Value = serde_json::from_str(&called.out).unwrap();
-    let rows = report["cases"].as_array().unwrap();
-    let damaged = rows.iter().filter(|row| row["verdict"] == "not run");
-    assert_eq!(damaged.count(), 3);
-    assert!(rows.len() > 10);
-}
-
-#[test]
 fn a_place_that_cannot_be_written_is_found_before_the_run() {
     let place = Place::new();
     fs::write(place.path("file"), "").unwrap();

@@ -80,13 +80,11 @@ fn a_reader_that_leaves_early_is_no_error() {
     }
 }
 
+/// One call with files of every kind: it computes all that ships. How each kind alone ends is asked in `cli/src/validation.rs`.
 #[test]
-fn validation_prints_rows_and_fails_with_a_failing_case() {
+fn validation_reports_cases_that_fail_are_damaged_or_of_another_format() {
     let place = Place::new();
     fs::create_dir(place.path("cases")).unwrap();
-    fs::write(place.path("cases/other.toml"), "a = 1").unwrap();
-    let text = place.call(&["validate", "--cases", "cases"]).done().out;
-    assert!(text.contains("palmgren_low_speed") && text.contains(" 0 fail, 1 not run"));
     let case = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../crates/validate/cases/palmgren_low_speed.toml"
@@ -94,12 +92,30 @@ fn validation_prints_rows_and_fails_with_a_failing_case() {
     let wrong = fs::read_to_string(case)
         .unwrap()
         .replace("value = \"16", "value = \"17");
-    fs::write(place.path("cases/wrong.toml"), wrong).unwrap();
+    for (name, text) in [
+        ("other.toml", "a = 1"),
+        ("wrong.toml", &wrong),
+        ("cut.json", "{\"a\": "),
+        ("empty.toml", ""),
+        ("broken.toml", "format = \"auxb"),
+    ] {
+        fs::write(place.path("cases").join(name), text).unwrap();
+    }
     let called = place.call(&["validate", "--json", "--cases", "cases"]);
-    assert_eq!(called.code, Some(1), "{called:?}");
+    assert_eq!(called.code, Some(2), "{called:?}");
+    let damaged = called.err.matches("error[AB0310]").count();
+    assert_eq!(damaged, 3, "{called:?}");
     let report: serde_json::Value = serde_json::from_str(&called.out).unwrap();
     let rows = report["cases"].as_array().unwrap();
-    assert!(rows.len() > 10);
-    let failed = rows.iter().filter(|row| row["verdict"] == "fail");
-    assert!(failed.clone().count() > 0 && failed.clone().all(|row| row["case"] == "wrong"));
+    let cases = |verdict: &str| -> Vec<&str> {
+        let rows = rows.iter().filter(|row| row["verdict"] == verdict);
+        rows.filter_map(|row| row["case"].as_str()).collect()
+    };
+    assert!(cases("pass").len() > 10);
+    let failed = cases("fail");
+    assert!(
+        !failed.is_empty() && failed.iter().all(|case| *case == "wrong"),
+        "{failed:?}"
+    );
+    assert_eq!(cases("not run"), ["broken", "cut", "empty", "other"]);
 }

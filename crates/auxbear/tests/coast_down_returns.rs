@@ -169,6 +169,8 @@ fn a_bearing_that_runs_away_while_the_rotor_bounces_seizes_on_its_friction() {
         "heat.rotor_contact=0 W/K",
         "heat.rotor_capacity=100 J/K",
         "heat.film_thickness=1 um",
+        // the bounces of a whole second would take most of the time of the test, and heat no more than the intervals after them
+        "run.duration=0.2 s",
     ];
     let never = AtomicBool::new(false);
     let found = run(&parsed(&text, &sets).unwrap(), &Options::unwatched(&never)).unwrap();

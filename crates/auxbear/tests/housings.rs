@@ -178,6 +178,9 @@ fn a_rotor_that_rolls_sinks_with_its_casing() {
             stiffness,
             "rotor.housing.casing.damping=3000 N s/m",
             "rotor.unbalance.wheel.amount=0.001 g mm",
+            // few speeds, and no dry whirl, which would take longer than all else
+            "analysis.speed_count=41",
+            "analysis.whirl_to=1 rad/s",
         ];
         let machine = parsed(text, &sets).unwrap();
         let rotor = machine.rotor_alone().expect("a machine").unwrap();

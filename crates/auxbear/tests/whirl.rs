@@ -15,8 +15,10 @@ fn scenario(text: &str, sets: &[&str]) -> Scenario {
     Scenario::parse(text, "machine.toml", &sets, &BuiltIn).unwrap()
 }
 
+/// The analysis with short diagrams, which take most of its time: whirl is looked at at one speed.
 fn analysed(text: &str, sets: &[&str]) -> Outcome {
-    let rotor = scenario(text, sets).rotor_alone().unwrap().unwrap();
+    let sets = [&["analysis.speed_count=11"], sets].concat();
+    let rotor = scenario(text, &sets).rotor_alone().unwrap().unwrap();
     run(&rotor, &Options::unwatched(&AtomicBool::new(false))).unwrap()
 }
 
