@@ -2,7 +2,7 @@
 
 use crate::arguments::Bearings;
 use crate::{console, stiffness};
-use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Origin};
+use auxbear::catalogue::{self, Bearing, Catalogue, Filter, FilterTexts, Meant, Origin};
 use auxbear::problem::Result;
 use auxbear::units;
 use std::path::Path;
@@ -40,7 +40,9 @@ pub fn perform(command: &Bearings) -> Result<()> {
             json,
         } => {
             let catalogue = read(catalogue.as_deref())?;
-            let bearing = meant(&catalogue, &name.join(" "), PLACE)?;
+            let meant = catalogue.meant(&name.join(" "), PLACE)?;
+            report(&meant, &name.join(" "), &meant.beyond_one());
+            let bearing = meant.bearing;
             console::print(&if *json {
                 catalogue::to_json([bearing])
             } else {
@@ -52,19 +54,16 @@ pub fn perform(command: &Bearings) -> Result<()> {
     Ok(())
 }
 
-/// The bearing of a name or of a designation, of which is said what is left out.
-pub fn meant<'a>(catalogue: &'a Catalogue, name: &str, place: &str) -> Result<&'a Bearing> {
-    let meant = catalogue.meant(name, place)?;
-    let bearing = meant.bearing;
+/// Says which bearing is meant by a designation, and what of it is left out.
+pub fn report(meant: &Meant<'_>, name: &str, left_out: &str) {
     if !meant.by_name {
-        let left_out = match meant.left_out.as_str() {
+        let left_out = match left_out {
             "" => String::new(),
             words => format!(". Left out: {words}"),
         };
-        let own = &bearing.name;
+        let own = &meant.bearing.name;
         console::report(&format!("{name}: the {own} of the catalogue{left_out}"));
     }
-    Ok(bearing)
 }
 
 /// The catalogue, with a file's bearings.

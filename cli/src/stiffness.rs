@@ -12,7 +12,8 @@ const PLACE: &str = "auxbear bearings stiffness";
 /// Computes and prints it.
 pub fn perform(wish: &Stiffness) -> Result<()> {
     let catalogue = bearings::read(wish.catalogue.as_deref())?;
-    let bearing = bearings::meant(&catalogue, &wish.name.join(" "), PLACE)?;
+    let name = wish.name.join(" ");
+    let meant = catalogue.meant(&name, PLACE)?;
     let typed = Typed {
         texts: &[
             ("--axial", wish.axial.as_deref()),
@@ -29,7 +30,8 @@ pub fn perform(wish: &Stiffness) -> Result<()> {
         ],
         place: PLACE,
     };
-    let answer = stiffness::run(&Asked::read(bearing, &typed)?, PLACE)?;
+    let answer = stiffness::run(&Asked::read(&meant, &typed)?, PLACE)?;
+    bearings::report(&meant, &name, &meant.left_out);
     console::print(&if wish.json {
         answer.to_json()
     } else {

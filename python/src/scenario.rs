@@ -237,7 +237,7 @@ pub fn bearing_json(
 ) -> PyResult<(String, String)> {
     let found = catalogue_of(file.as_deref()).and_then(|catalogue| {
         let meant = catalogue.meant(name, "auxbear.bearing")?;
-        Ok((catalogue::to_json([meant.bearing]), meant.left_out))
+        Ok((catalogue::to_json([meant.bearing]), meant.beyond_one()))
     });
     found.map_err(|problem| raised(py, problem))
 }

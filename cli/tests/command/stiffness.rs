@@ -149,6 +149,44 @@ fn what_is_out_of_range_is_warned_of() {
 }
 
 #[test]
+fn a_name_says_the_arrangement_and_the_balls() {
+    let place = Place::new();
+    let loads = [
+        "--preload",
+        "100 N",
+        "--axial",
+        "50 N",
+        "--speed",
+        "10000 rpm",
+    ];
+    let words = |name: &[&'static str]| [name, &loads].concat();
+    let named = json(&place, &words(&["7010 C DB"]));
+    let typed = json(&place, &words(&["7010 C", "--arrangement", "DB"]));
+    assert_eq!(named, typed);
+    assert_eq!(named["arrangement"], "DB");
+    let agreed = json(&place, &words(&["7010CDB", "--arrangement", "db"]));
+    assert_eq!(named, agreed);
+    let refused = |name: &[&'static str], parts: &[&str]| {
+        call(&place, &words(name)).refused(parts);
+    };
+    refused(
+        &["7010 C DB", "--arrangement", "DF"],
+        &["--arrangement", "\"DF\"", "DB is needed"],
+    );
+    refused(&["7010 C DB", "--arrangement", "single"], &["DB is needed"]);
+    refused(&["7010 C DT"], &["--preload", "tandem"]);
+    refused(&["7010 DB"], &["\"7010 C\", \"7010 AC\""]);
+    // at rest K grows with E*^(2/3): 113.2 GPa of steel on steel, 135.6 of silicon nitride on steel
+    let stiffness = |name| json(&place, &[name, "--axial", "100 N"])["stiffness"][2][2].as_f64();
+    let ratio = stiffness("7010 C hybrid").unwrap() / stiffness("7010 C").unwrap();
+    // the contact angle under load is that of the softer contact, 0.2 deg more
+    assert!(
+        (ratio / (135.6_f64 / 113.2).powf(2.0 / 3.0) - 1.0).abs() < 0.03,
+        "{ratio}"
+    );
+}
+
+#[test]
 fn wrong_input_is_one_message() {
     let place = Place::new();
     let refused = |words: &[&str], parts: &[&str]| {

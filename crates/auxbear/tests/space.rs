@@ -258,6 +258,40 @@ fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
     }
 }
 
+#[test]
+fn the_arrangement_in_a_name_is_that_of_the_pair_and_no_other() {
+    const KEY: &str = "bearing.arrangement";
+    let lines = FLYWHEEL
+        .lines()
+        .filter(|line| !line.starts_with("arrangement = "));
+    let open: String = lines.map(|line| format!("{line}\n")).collect();
+    let named = |text: &str, name: &str| {
+        parsed(text, &[&format!("bearing.name={name}")]).map(|own| own.resolved)
+    };
+    let resolved = named(&open, "7006 C DF").unwrap();
+    let own = resolved.of_bearing("lower", KEY).unwrap();
+    assert_eq!(own.text.as_deref(), Some("DF"));
+    assert_eq!(own.provenance.note(), "the DF in bearing.name");
+    // a resolved file says it as well, and is read again
+    let again = parsed(&resolved.toml(), &[]).unwrap().resolved;
+    assert_eq!(
+        again.of_bearing("lower", KEY).unwrap().provenance,
+        own.provenance
+    );
+    // a file that says the same, and one that says another
+    assert!(named(FLYWHEEL, "7006 C DB").is_ok());
+    for other in ["7006 C DF", "7006 C DT"] {
+        let refused = named(FLYWHEEL, other).unwrap_err();
+        assert!(
+            refused.contains(KEY) && refused.contains(other),
+            "{refused}"
+        );
+    }
+    // without a suffix the pair needs its key: one row cannot be preloaded
+    let single = named(&open, "7006 C").unwrap_err();
+    assert!(single.contains("nothing presses a single row"), "{single}");
+}
+
 fn refused(sets: &[&str], needed: &str) {
     let found = match parsed(FLYWHEEL, sets) {
         Ok(scenario) => run(&scenario, &Options::unwatched(&AtomicBool::new(false)))

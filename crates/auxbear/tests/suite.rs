@@ -5,6 +5,7 @@ mod base;
 mod braked_to_standstill;
 mod cage_forces;
 mod catalogue;
+mod catalogue_angular;
 mod catalogue_file;
 mod coast_down;
 mod coast_down_returns;

@@ -1,11 +1,14 @@
 //! Designations as people type them: which bearing of the catalogue is meant, and what of the designation is left out.
 //!
 //! ```text
-//!   6205-2RS1/C3    core 6205, suffixes 2RS1 C3         a deep groove bearing with seals: the 6205
-//!   6808            series 68 of JIS                    the 61808 of ISO
-//!   7010 CD         angular contact, bore 50, suffix CD no bearing of this name: which ones have its size
+//!   6205-2RS1/C3       core 6205, suffixes 2RS1 C3         a deep groove bearing with seals: the 6205
+//!   6808               series 68 of JIS                    the 61808 of ISO
+//!   7010 CD/P4ADBA     core 7010, CD 15 deg, DB            the 7010 C, back to back; class and preload left out
+//!   HCB71910-E-T-P4S   ceramic balls, E 25 deg             the 71910 AC hybrid
+//!   7010               no contact angle                    no bearing of this name: which ones have its size
 //! ```
 //! The catalogue has dimensions, not variants: seals, clearance, cage and grease are values of their own in a scenario.
+//! The arrangement DB, DF or DT of a pair is one too, which a scenario and a command take from the name.
 
 /// What a designation stands for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,6 +19,8 @@ pub enum Designation {
         name: String,
         /// What of the designation is left out, in words; empty for nothing.
         left_out: String,
+        /// How two of it stand, where the designation says it: DB, DF or DT.
+        arrangement: Option<&'static str>,
     },
     /// None; the text says what is missing, and what there is instead.
     Missing(String),
@@ -50,9 +55,36 @@ const SUFFIXES: &[(&str, &[&str])] = &[
     ("heat treatment", &["S0", "S1", "S2"]),
 ];
 /// Suffixes of ceramic balls.
-const CERAMIC: &[&str] = &["HYBRID", "HC5", "HC"];
+const CERAMIC: &[&str] = &["HYBRID", "HC5", "HC", "SN24"];
 
-/// Angular contact bearings: series, and what stands before the bore in the names of the catalogue; empty where it has none.
+/// Makers' letters of angular contact bearings with steel and with ceramic balls.
+const PREFIXES: [&[&str]; 2] = [&["", "B", "HS", "S"], &["HCB", "XCB", "HCS", "HC"]];
+/// First suffixes of angular contact bearings by their contact angle, as the catalogue spells it; empty where it has none.
+const ANGLES: &[(&str, &[&str])] = &[
+    ("C", &["C", "CD", "CE", "CB"]),
+    ("AC", &["AC", "ACD", "ACE", "ACB", "AD", "A5"]),
+    ("B", &["B", "BE"]),
+    ("", &["A"]),
+];
+/// FAG's suffix of 25 deg, behind a prefix alone: others call a reinforced design so.
+const FAG_25_DEG: &str = "E";
+/// Arrangements of a pair.
+const PAIRED: [&str; 3] = ["DB", "DF", "DT"];
+/// Letters behind an arrangement: the class of preload.
+const PRELOADS: &str = "ABCDLMH";
+/// Suffixes of angular contact bearings by what they mean.
+#[rustfmt::skip]
+const ANGULAR_SUFFIXES: &[(&str, &[&str])] = &[
+    ("rows matched for any arrangement (bearing.arrangement, bearing.axial_preload)",
+        &["U", "UL", "G", "GA", "GB", "GC", "DU", "DUL", "DUM", "SU", "SUL", "DG", "DGA", "CA", "CB", "CC"]),
+    ("class of precision", &["P0", "P6", "P5", "P4", "P4S", "P4A", "P2", "PA9A"]),
+    ("kind of cage (bearing.cage_mass, [bearing.cage])",
+        &["T", "TVP", "TVH", "TYN", "TR", "M", "MP", "MA", "P", "J", "Y", "F"]),
+    ("internal design", &["XL"]),
+    ("seals", &["2RS", "2RZ", "2RSD", "S", "V1V"]),
+];
+
+/// Angular contact bearings: series, and what stands before the bore in the names of one maker; empty where the catalogue has none.
 const ANGULAR: &[(&str, &str)] = &[
     ("718", "SNFA SEA "),
     ("719", "SNFA SEB "),
@@ -87,8 +119,10 @@ pub fn read(typed: &str, known: &dyn Fn(&str) -> bool) -> Option<Designation> {
         .collect();
     match (before, *core.as_bytes().first()?, core.len()) {
         ("", b'6', 3..=5) | ("", b'1', 5) => deep_groove(core, &suffixes, known),
-        // B, HCB, XCB, HS, S: makers' letters of spindle bearings
-        ("" | "B" | "HCB" | "XCB" | "HS" | "HCS" | "S", b'7', 4..=5) => angular(core, known),
+        (_, b'7', 4..=5) => {
+            let balls = PREFIXES.iter().position(|own| own.contains(&before))?;
+            angular(core, (!before.is_empty(), balls == 1), &suffixes, known)
+        }
         ("", b'3', 4) if matches!(core.as_bytes()[1], b'0' | b'2' | b'3' | b'8') => {
             Some(Designation::Missing(format!(
                 "a double row angular contact bearing is not in the catalogue. {PAIRS}"
@@ -114,7 +148,7 @@ fn deep_groove(core: &str, suffixes: &[&str], known: &dyn Fn(&str) -> bool) -> O
     let mut left_out = Vec::new();
     let mut ceramic = false;
     for suffix in suffixes {
-        let Some(pieces) = pieces(suffix) else {
+        let Some(pieces) = pieces(suffix, SUFFIXES) else {
             return Some(Designation::Missing(format!(
                 "\"{steel}\" is in the catalogue; what \"{suffix}\" behind it means is not known here"
             )));
@@ -139,15 +173,22 @@ fn deep_groove(core: &str, suffixes: &[&str], known: &dyn Fn(&str) -> bool) -> O
     Some(Designation::Known {
         name,
         left_out: left_out.join("; "),
+        arrangement: None,
     })
 }
 
+/// Suffixes by what they mean.
+type Suffixes = [(&'static str, &'static [&'static str])];
+
 /// A suffix, or several written as one word, each with its meaning; none of ceramic balls. `None` where a letter is left over.
-fn pieces(suffix: &str) -> Option<Vec<(&str, Option<&'static str>)>> {
+fn pieces<'s>(
+    suffix: &'s str,
+    suffixes: &Suffixes,
+) -> Option<Vec<(&'s str, Option<&'static str>)>> {
     if suffix.is_empty() {
         return Some(Vec::new());
     }
-    let plain = SUFFIXES
+    let plain = suffixes
         .iter()
         .flat_map(|(meaning, list)| list.iter().map(|piece| (*piece, Some(*meaning))));
     let mut all: Vec<_> = plain
@@ -157,41 +198,148 @@ fn pieces(suffix: &str) -> Option<Vec<(&str, Option<&'static str>)>> {
     all.sort_by_key(|(piece, _)| std::cmp::Reverse(piece.len()));
     all.into_iter().find_map(|(piece, meaning)| {
         let mut list = vec![(&suffix[..piece.len()], meaning)];
-        list.extend(pieces(&suffix[piece.len()..])?);
+        list.extend(pieces(&suffix[piece.len()..], suffixes)?);
         Some(list)
     })
 }
 
-fn angular(core: &str, known: &dyn Fn(&str) -> bool) -> Option<Designation> {
-    let (series, family) = ANGULAR.iter().find(|(series, _)| {
-        core.strip_prefix(series)
-            .is_some_and(|rest| rest.len() == 2)
-    })?;
-    let code: u32 = core[series.len()..].parse().ok()?;
-    let bore = match code {
+/// What the suffixes of an angular contact bearing say.
+#[derive(Default)]
+struct Angular {
+    angle: Option<&'static str>,
+    ceramic: bool,
+    arrangement: Option<&'static str>,
+    left_out: Vec<String>,
+}
+
+impl Angular {
+    /// Reads a suffix behind the contact angle; false where a letter is left over or a second arrangement is named.
+    fn read(&mut self, suffix: &str) -> bool {
+        let places = PAIRED.map(|word| suffix.find(word).map(|place| (place, word)));
+        let found = places.into_iter().flatten().min();
+        let Some((place, arrangement)) = found.filter(|_| self.arrangement.is_none()) else {
+            return self.read_rest(suffix);
+        };
+        let (before, behind) = (&suffix[..place], &suffix[place + arrangement.len()..]);
+        let class = behind.starts_with(|letter| PRELOADS.contains(letter));
+        let (class, behind) = behind.split_at(usize::from(class));
+        let start = self.left_out.len();
+        if self.read_rest(before) && self.read_rest(behind) {
+            self.arrangement = Some(arrangement);
+            let class = (!class.is_empty()).then(|| {
+                format!("{arrangement}{class}, class of preload {class} (bearing.axial_preload)")
+            });
+            self.left_out.extend(class);
+            return true;
+        }
+        self.left_out.truncate(start);
+        self.read_rest(suffix)
+    }
+
+    fn read_rest(&mut self, suffix: &str) -> bool {
+        let Some(pieces) = pieces(suffix, ANGULAR_SUFFIXES) else {
+            return false;
+        };
+        for (piece, meaning) in pieces {
+            match meaning {
+                Some(meaning) => self.left_out.push(format!("{piece}, {meaning}")),
+                None => self.ceramic = true,
+            }
+        }
+        true
+    }
+
+    /// The first suffix: the angle, and what is written to it. An arrangement counts before longer letters of the angle, so that
+    /// CDB is C and DB.
+    fn first(suffix: &str, prefixed: bool) -> Option<Angular> {
+        let fag = prefixed.then_some(("AC", FAG_25_DEG));
+        let marks = ANGLES
+            .iter()
+            .flat_map(|(angle, marks)| marks.iter().map(|mark| (*angle, *mark)));
+        let readings = marks.chain(fag).filter_map(|(angle, mark)| {
+            let mut own = Angular {
+                angle: Some(angle),
+                ..Angular::default()
+            };
+            let rest = suffix.strip_prefix(mark)?;
+            own.read(rest)
+                .then_some((own.arrangement.is_some(), mark.len(), own))
+        });
+        readings
+            .max_by_key(|own| (own.0, own.1))
+            .map(|(_, _, own)| own)
+    }
+}
+
+/// Reads an angular contact bearing; whether makers' letters stand before it, and whether they say ceramic balls.
+fn angular(
+    core: &str,
+    (prefixed, ceramic): (bool, bool),
+    suffixes: &[&str],
+    known: &dyn Fn(&str) -> bool,
+) -> Option<Designation> {
+    let size = &core[core.len() - 2..];
+    // the thin series of JIS have four digits, those of ISO five
+    let series = match &core[..core.len() - 2] {
+        "78" => "718",
+        "79" => "719",
+        series => series,
+    };
+    let (_, family) = ANGULAR.iter().find(|own| own.0 == series)?;
+    let bore = match size.parse::<u32>().ok()? {
         0 => 10,
         1 => 12,
         2 => 15,
         3 => 17,
         code => 5 * code,
     };
-    let name = format!("{family}{bore}");
-    let names: Vec<String> = [name.clone(), name + LARGER_ANGLE]
+    let balls = |angle: &str, ceramic: bool| match ceramic {
+        true => format!("{series}{size} {angle} hybrid"),
+        false => format!("{series}{size} {angle}"),
+    };
+    let maker = format!("{family}{bore}");
+    let sizes = ["C", "AC", "B"].map(|angle| balls(angle, ceramic));
+    let makers = [maker.clone(), maker + LARGER_ANGLE];
+    let names: Vec<String> = sizes
         .into_iter()
+        .chain(makers)
         .filter(|name| !family.is_empty() && known(name))
         .map(|name| format!("\"{name}\""))
         .collect();
-    let what = format!(
-        "an angular contact bearing of series {series} with a bore of {bore} mm is not in the catalogue under that name, because balls \
-         differ between makers"
-    );
-    Some(Designation::Missing(match names.as_slice() {
-        [] => format!("{what}; give its balls, pitch_diameter and contact_angle"),
-        names => format!(
-            "{what}; it has this size as {} (15 and 25 deg). Compare ball_count and ball_diameter, or give them",
-            names.join(" and ")
-        ),
-    }))
+    let missing = |what: &str| {
+        let size = match names.as_slice() {
+            [] => format!(
+                "no angular contact bearing of series {series} with a bore of {bore} mm is in the catalogue; give its balls, pitch_diameter and contact_angle"
+            ),
+            names => format!(
+                "the catalogue has angular contact bearings of this size as {} (C 15, AC 25, B 40 deg; SNFA 15 and 25 deg). Balls differ between makers: compare ball_count and ball_diameter, or give them",
+                names.join(", ")
+            ),
+        };
+        Some(Designation::Missing(format!("{what}{size}")))
+    };
+    let Some((first, others)) = suffixes.split_first() else {
+        return missing("its contact angle is not named; ");
+    };
+    let unknown = |suffix: &str| format!("what \"{suffix}\" means is not known here; ");
+    let Some(mut own) = Angular::first(first, prefixed) else {
+        return missing(&unknown(first));
+    };
+    own.ceramic |= ceramic;
+    for suffix in others {
+        if !own.read(suffix) {
+            return missing(&unknown(suffix));
+        }
+    }
+    let name = balls(own.angle.unwrap_or_default(), own.ceramic);
+    if !known(&name) {
+        return missing("");
+    }
+    Some(Designation::Known {
+        name,
+        left_out: own.left_out.join("; "),
+        arrangement: own.arrangement,
+    })
 }
 
 #[cfg(test)]
@@ -205,7 +353,7 @@ mod tests {
 
     fn known(typed: &str) -> (String, String) {
         match of(typed) {
-            Some(Designation::Known { name, left_out }) => (name, left_out),
+            Some(Designation::Known { name, left_out, .. }) => (name, left_out),
             other => panic!("{typed}: {other:?}"),
         }
     }
@@ -246,18 +394,57 @@ mod tests {
     }
 
     #[test]
-    fn an_angular_contact_designation_names_what_has_its_size() {
-        for (typed, name) in [
-            ("7010", "\"SNFA EX 50\" and \"SNFA EX 50 25deg\""),
-            ("7010 CD", "\"SNFA EX 50\""),
-            ("b7010-c-t-p4s", "\"SNFA EX 50\""),
-            ("71910", "\"SNFA SEB 50\""),
-            ("71802", "\"SNFA SEA 15\""),
-            ("7205", "\"SNFA E 225\""),
+    fn angular_contact_bearings_have_their_angle_balls_and_arrangement_in_the_name() {
+        for (typed, name, arrangement, left_out) in [
+            ("7010C", "7010 C", None, ""),
+            ("7010 CD", "7010 C", None, ""),
+            ("7010 C DB", "7010 C", Some("DB"), ""),
+            ("7010CDB", "7010 C", Some("DB"), ""),
+            ("7010CDT", "7010 C", Some("DT"), ""),
+            ("SKF 7010 CD/P4ADBA", "7010 C", Some("DB"), "preload A"),
+            ("SKF 7010 CD/HCP4ADFB", "7010 C hybrid", Some("DF"), "P4A"),
+            ("71910 ACD/HC", "71910 AC hybrid", None, ""),
+            ("b7010-c-t-p4s", "7010 C", None, "cage"),
+            ("HCB7010-C-T-P4S-DBL", "7010 C hybrid", Some("DB"), "P4S"),
+            ("HCB71910-E-T-P4S-UL", "71910 AC hybrid", None, "matched"),
+            ("NSK 7010A5TYNDBLP4", "7010 AC", Some("DB"), "precision"),
+            ("7910 C SN24 DT", "71910 C hybrid", Some("DT"), ""),
+            ("7210 BECBP", "7210 B", None, "arrangement"),
+            ("7210-B-XL-TVP", "7210 B", None, "design"),
+            ("7210BDF", "7210 B", Some("DF"), ""),
         ] {
-            assert!(missing(typed).contains(name), "{}", missing(typed));
+            match of(typed) {
+                Some(Designation::Known {
+                    name: own,
+                    left_out: words,
+                    arrangement: rows,
+                }) => {
+                    assert_eq!((own.as_str(), rows), (name, arrangement), "{typed}");
+                    assert!(words.contains(left_out), "{typed}: {words}");
+                    assert_eq!(words.is_empty(), left_out.is_empty(), "{typed}: {words}");
+                }
+                other => panic!("{typed}: {other:?}"),
+            }
         }
-        assert!(missing("7310 BECBP").contains("contact_angle"));
+    }
+
+    #[test]
+    fn an_angular_contact_designation_that_is_incomplete_names_what_has_its_size() {
+        for (typed, names) in [
+            ("7010", "\"7010 C\", \"7010 AC\", \"SNFA EX 50\""),
+            ("HCB7010", "\"7010 C hybrid\", \"7010 AC hybrid\""),
+            ("71910 X", "what \"X\" means is not known here"),
+            ("7010 C DB DF", "what \"DF\" means is not known here"),
+            ("7010 C QBC", "what \"QBC\" means is not known here"),
+            ("7010 A", "\"7010 AC\""),
+            ("7010 B", "\"7010 AC\""),
+            ("7010 E", "what \"E\" means is not known here"),
+            ("7205", "\"7205 B\", \"SNFA E 225\""),
+            ("7030 C", "\"SNFA EX 150\""),
+            ("7310 BECBP", "contact_angle"),
+        ] {
+            assert!(missing(typed).contains(names), "{}", missing(typed));
+        }
         assert!(missing("3205 A").contains("rotor.planes = 4"));
     }
 

@@ -16,6 +16,18 @@ pub struct Meant<'a> {
     pub by_name: bool,
     /// What of the designation is left out, in words; empty for nothing.
     pub left_out: String,
+    /// How two of it stand, where the designation says it: DB, DF or DT.
+    pub arrangement: Option<&'static str>,
+}
+
+impl Meant<'_> {
+    /// What of the designation the bearing alone has not: what is left out, and the arrangement.
+    pub fn beyond_one(&self) -> String {
+        let rows = self.arrangement.map(|own| format!("{own}, arrangement"));
+        let left_out = Some(self.left_out.clone()).filter(|words| !words.is_empty());
+        let both: Vec<String> = rows.into_iter().chain(left_out).collect();
+        both.join("; ")
+    }
 }
 
 impl Catalogue {
@@ -29,22 +41,28 @@ impl Catalogue {
                 bearing,
                 by_name: true,
                 left_out: String::new(),
+                arrangement: None,
             });
         }
         let found = format!("\"{name}\", which is not in the catalogue");
         let problem = |allowed: String| Problem::new(Code::UnknownBearing, place, found, allowed);
         let known = |name: &str| self.find(name).is_some();
         let own = match designation::read(name, &known) {
-            Some(Designation::Known { name, left_out }) => Some((name, left_out)),
+            Some(Designation::Known {
+                name,
+                left_out,
+                arrangement,
+            }) => Some((name, left_out, arrangement)),
             Some(Designation::Missing(why)) => return Err(problem(why)),
             None => None,
         };
-        let meant = own.and_then(|(own, left_out)| Some((self.find(&own)?, left_out)));
+        let meant = own.and_then(|(own, left_out, rows)| Some((self.find(&own)?, left_out, rows)));
         match meant {
-            Some((bearing, left_out)) => Ok(Meant {
+            Some((bearing, left_out, arrangement)) => Ok(Meant {
                 bearing,
                 by_name: false,
                 left_out,
+                arrangement,
             }),
             None => {
                 let names = self.names();

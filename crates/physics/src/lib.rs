@@ -27,6 +27,7 @@
 //! | [`life`] | rolling contact fatigue: ratings, damage, factors |
 //! | [`severity`] | indentations, wear, safeties |
 //! | [`rainflow`] | cycles of a load history |
+//! | [`rating`] | load ratings C and C0 of a row of balls |
 //! | [`friction`] | steady friction moment of a rolling bearing: one interface to Palmgren's, the SKF model and a measured curve |
 //! | [`friction_range`] | where a friction law has been left |
 //! | [`palmgren`] | Palmgren's moment |
@@ -79,6 +80,7 @@ pub mod palmgren;
 pub mod palmgren_factors;
 mod power;
 pub mod rainflow;
+pub mod rating;
 pub mod response_spectrum;
 pub mod ring;
 pub mod rolling;

@@ -8,7 +8,7 @@ use crate::heat::Network;
 use crate::system::COAST_DOWN;
 use crate::table;
 use crate::values::Values;
-use catalogue::designation::{self, Designation};
+use catalogue::designation::{self, Designation, PAIRS};
 use physics::viscosity::Viscosity;
 use problem::warning::Warning;
 use units::display;
@@ -175,12 +175,23 @@ impl Values {
         }
         // the steel bearing of a hybrid one too
         let known = |name: &str| record.name.starts_with(name);
-        let Some(Designation::Known { left_out, .. }) = designation::read(&typed, &known) else {
+        let Some(Designation::Known {
+            left_out,
+            arrangement,
+            ..
+        }) = designation::read(&typed, &known)
+        else {
             return None;
         };
-        let behind = match left_out.as_str() {
-            "" => String::new(),
-            words => format!(", without {words}"),
+        let planar = self.text("bearing.arrangement").is_none();
+        let rows = arrangement.filter(|_| planar).map(|own| {
+            format!("{own}, the second row (bearing.fidelity = \"spatial\" has both). {PAIRS}")
+        });
+        let left_out = Some(left_out).filter(|words| !words.is_empty());
+        let words: Vec<String> = left_out.into_iter().chain(rows).collect();
+        let behind = match words.is_empty() {
+            true => String::new(),
+            false => format!(", without {}", words.join("; ")),
         };
         let name = record.name.clone();
         Some(

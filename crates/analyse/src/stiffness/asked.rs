@@ -1,6 +1,6 @@
 //! What is asked of a bearing, read from the words of a command.
 
-use catalogue::Bearing;
+use catalogue::Meant;
 use model::spatial::Arrangement;
 use model::spatial::statics::RaceControl;
 use physics::groove::{centre_distance, free_contact_angle};
@@ -126,6 +126,20 @@ impl Typed<'_> {
             }
         }
     }
+    /// How rows stand, by the option or by the bearing's designation.
+    fn arrangement(&self, meant: &Meant<'_>) -> Result<Arrangement> {
+        let option = "--arrangement";
+        let typed = self.word(option, &Arrangement::WORDS)?;
+        let mut words = Arrangement::WORDS.into_iter();
+        let named = words.find(|own| Some(own.0) == meant.arrangement);
+        match (named, self.text(option)) {
+            (Some((word, named)), Some(text)) if typed != named => {
+                let needed = format!("{word} is needed, as the name of the bearing says, or none");
+                self.refuse(Code::Conflict, option, format!("\"{text}\""), needed)
+            }
+            (named, _) => Ok(named.map_or(typed, |own| own.1)),
+        }
+    }
     /// Refuses two options that say the same.
     fn either(&self, [first, second]: [&str; 2]) -> Result<()> {
         if self.text(first).is_none() || self.text(second).is_none() {
@@ -142,11 +156,12 @@ impl Typed<'_> {
 }
 
 impl Asked {
-    /// Reads what is asked of a bearing of the catalogue.
+    /// Reads what is asked of a bearing of the catalogue; its designation may say how its rows stand.
     ///
     /// # Errors
     /// Words that are none of the allowed ones, and bearings or arrangements that cannot be computed.
-    pub fn read(bearing: &Bearing, typed: &Typed<'_>) -> Result<Asked> {
+    pub fn read(meant: &Meant<'_>, typed: &Typed<'_>) -> Result<Asked> {
+        let bearing = meant.bearing;
         let needed = |key: &str| match bearing.number(key) {
             Some(value) => Ok(value),
             None => {
@@ -161,7 +176,7 @@ impl Asked {
             needed("inner_groove_curvature")?,
             needed("outer_groove_curvature")?,
         ];
-        let arrangement = typed.word("--arrangement", &Arrangement::WORDS)?;
+        let arrangement = typed.arrangement(meant)?;
         typed.either(["--preload", "--offset"])?;
         typed.either(["--contact-angle", "--clearance"])?;
         for option in ["--preload", "--offset"] {

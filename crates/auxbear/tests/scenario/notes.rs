@@ -130,6 +130,13 @@ fn designations_as_people_type_them() {
             .as_deref(),
         Some("619")
     );
+    let [pair] = told("drop", "AB1091", &["bearing.name=7005 C DB"])
+        .try_into()
+        .unwrap();
+    assert!(
+        pair.contains("the 7005 C of the catalogue, without DB, the second row (bearing.fidelity"),
+        "{pair}"
+    );
     for (name, parts) in [
         ("7010", ["AB0201", "\"SNFA EX 50\"", "\"SNFA EX 50 25deg\""]),
         ("71910", ["AB0201", "\"SNFA SEB 50\"", "angular contact"]),

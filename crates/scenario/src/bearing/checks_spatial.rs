@@ -60,6 +60,18 @@ impl Context<'_> {
             return refuse(clearance, needed);
         }
         let arrangement = "bearing.arrangement";
+        let named = self
+            .values
+            .record
+            .as_ref()
+            .and_then(|own| own.arrangement());
+        if let Some(named) = named.filter(|own| self.text(arrangement) != *own) {
+            let needed = format!(
+                "\"{named}\" is needed, as bearing.name = {} says",
+                self.text("bearing.name")
+            );
+            return refuse(arrangement, &needed);
+        }
         if own.arrangement == Arrangement::Single {
             if bearing.axial_preload > 0.0 {
                 let needed = "bearing.arrangement = \"DB\" or \"DF\" is needed: nothing presses a single row but the rotor's thrust";

@@ -1,12 +1,13 @@
 //! Values that a bearing catalogue knows.
 
-use crate::bearing::source::{BearingRecord, BearingSource};
+use crate::bearing::source::{ARRANGEMENT, BearingRecord, BearingSource};
 use crate::document::Document;
 use crate::key::{Key, Kind, quoted};
 use crate::table;
 use crate::values::{Known, Value, Values};
 use catalogue::Catalogue;
 use catalogue::designation::{self, Designation};
+use problem::provenance::Provenance;
 use problem::raw::{Given, Raw};
 use problem::value::quantity_text;
 use problem::{Code, Place, Result, did_you_mean};
@@ -94,8 +95,20 @@ impl Values {
             return Ok(Some(record));
         }
         let meant = designation::read(name, &|name| bearings.find(name).is_some());
-        if let Some(Designation::Known { name, .. }) = &meant {
-            return Ok(bearings.find(name));
+        if let Some(Designation::Known {
+            name, arrangement, ..
+        }) = &meant
+        {
+            let words = arrangement.map(|own| {
+                let origin = format!("the {own} in bearing.name");
+                let (key, word) = (ARRANGEMENT.to_string(), own.to_string());
+                (key, word, Provenance::Derived(origin))
+            });
+            let record = bearings.find(name);
+            return Ok(record.map(|mut record| {
+                record.words.extend(words);
+                record
+            }));
         }
         let names = bearings.names();
         let mut listed: Vec<&str> = names.iter().map(String::as_str).collect();

@@ -3,6 +3,9 @@
 use catalogue::{self, Bearing, Catalogue, Datum};
 use problem::provenance::Provenance;
 
+/// Name of the key of how rows stand, which a designation may say.
+pub(super) const ARRANGEMENT: &str = "arrangement";
+
 /// A catalogue of bearings, asked by name.
 pub trait BearingSource {
     /// The bearing of this name; `None` when it is not known.
@@ -20,6 +23,16 @@ pub struct BearingRecord {
     pub values: Vec<(String, f64, Provenance)>,
     /// The same for keys that take a word, such as `ball_material`.
     pub words: Vec<(String, String, Provenance)>,
+}
+
+impl BearingRecord {
+    /// How its rows stand, where its designation says it.
+    pub fn arrangement(&self) -> Option<&str> {
+        let mut words = self.words.iter();
+        words
+            .find(|own| own.0 == ARRANGEMENT)
+            .map(|own| own.1.as_str())
+    }
 }
 
 /// A catalogue without bearings: every dimension stands in the file.
