@@ -175,8 +175,10 @@ pub mod probe {
     pub const AXIAL_PENETRATION: usize = 14;
     /// Normal force on these faces, N.
     pub const AXIAL_FORCE: usize = 15;
+    /// Power of friction on these faces, W.
+    pub const AXIAL_FRICTION: usize = 16;
     /// Number of them.
-    pub const COUNT: usize = 16;
+    pub const COUNT: usize = 17;
 }
 
 /// Where an auxiliary bearing stands in the state, in the ledger and among the probes of its machine.
@@ -526,6 +528,7 @@ impl<R: Real> AuxiliaryBearing<R> {
                 mount.length_squared().sqrt(),
                 bearing.largest_skids[0],
                 bearing.largest_skids[1],
+                zero,
                 zero,
                 zero,
             ];

@@ -78,6 +78,7 @@ fn choices(path: &str) -> Vec<String> {
         | "contact.gap_to_end"
         | "contact.gap_to_start"
         | "contact.face_radius"
+        | "contact.face_width"
         | "contact.face_stiffness"
         | "mount.axial_stiffness"
         | "mount.axial_damping" => &["bearing.fidelity=spatial"],

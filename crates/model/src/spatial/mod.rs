@@ -32,6 +32,7 @@ pub mod ball;
 pub mod bore;
 pub mod energy;
 pub mod face;
+pub mod face_heat;
 pub mod frame;
 pub mod landing;
 pub mod mount;

@@ -11,6 +11,7 @@
 
 use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
 use super::ball::BALL_STATES;
+use super::face_heat::FaceSurfaces;
 use super::landing::{Landing, LandingConstants, LandingReaction};
 use super::mount::SpatialMount;
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
@@ -48,6 +49,8 @@ pub struct SpatialBearing {
     pub landing: LandingConstants,
     /// Angles at which the grooves of inner and outer race end, rad, where they are known.
     pub groove_ends: Option<[f64; 2]>,
+    /// Shoulder and face that rub, where there are any, for the record alone.
+    pub face_surfaces: Option<FaceSurfaces>,
     /// What its balls do to the inner and to the outer race, for the record alone.
     pub races: Option<[RaceContact; 2]>,
 }
@@ -422,6 +425,7 @@ impl<R: Real> Spatial<R> {
                 skids[1],
                 landed.face.penetration,
                 landed.face.normal_force,
+                landed.face.heats[1],
             ];
             let own: [R; probe::COUNT] = values;
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&own);

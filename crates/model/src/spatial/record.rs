@@ -3,6 +3,7 @@
 //! Contact angles, rows without load and ellipses that reach over the shoulder are seen at the looks at the balls, a few a turn and
 //! whenever their loads change; faces at the ends of the steps.
 
+use super::face_heat::FaceHeat;
 use super::part::SpatialBearing;
 use crate::motion::Motion;
 use crate::system::sampling::Peak;
@@ -35,6 +36,8 @@ pub struct SpatialRecord {
     pub axial_force: Peak,
     /// When a shoulder first met a face, s.
     pub first_axial_contact: Option<f64>,
+    /// How hot shoulder and face became.
+    pub face_heat: FaceHeat,
     /// Which rows have carried something.
     loaded: Vec<bool>,
 }
@@ -48,6 +51,7 @@ impl SpatialRecord {
             run_over: None,
             axial_force: Peak::NONE,
             first_axial_contact: None,
+            face_heat: FaceHeat::new(),
             loaded: vec![false; bearing.rows.len()],
         }
     }

@@ -75,6 +75,7 @@ fn of(assembly: &AssemblyConstants, lever: f64) -> MachineConstants {
         first_ball_angle: 0.0,
         landing,
         groove_ends: None,
+        face_surfaces: None,
         races: None,
     });
     machine

@@ -181,6 +181,7 @@ const RANGES = [
   ["AB2301", "contact of rotor and race so hot that steel changes"],
   ["AB1017", "balls must skid"],
   ["AB2412", "contact over the shoulder of its groove"],
+  ["AB2416", "shoulder and face so hot that steel changes"],
   ["AB2413", "nothing stops the rotor along its axis"],
 ];
 

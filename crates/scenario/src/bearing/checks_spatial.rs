@@ -12,10 +12,11 @@ use problem::Code;
 const FIDELITY: &str = "bearing.fidelity";
 
 /// Keys outside `[bearing]` that only a bearing in space has.
-const OF_SPACE: [&str; 7] = [
+const OF_SPACE: [&str; 8] = [
     "contact.gap_to_end",
     "contact.gap_to_start",
     "contact.face_radius",
+    "contact.face_width",
     "contact.face_stiffness",
     "mount.axial_stiffness",
     "mount.axial_damping",

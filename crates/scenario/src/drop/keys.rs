@@ -147,6 +147,8 @@ pub(crate) const KEYS: &[Key] = &[
         .positive().optional("no shoulder stops the rotor on its way to the start of the shaft").only(MACHINE),
     Key::new("contact.face_radius", Kind::Quantity("m"), "15 mm", "Mean radius of the faces that meet the shoulders.")
         .positive().optional("midway between the bore and the bottom of the inner groove").only(MACHINE),
+    Key::new("contact.face_width", Kind::Quantity("m"), "3 mm", "Radial width of the annulus in which shoulder and face touch: their mean temperature follows it.")
+        .positive().optional("twice the distance of contact.face_radius from the bore").only(MACHINE),
     Key::new("contact.face_stiffness", Kind::Quantity("N/m"), "2e8 N/m", "Stiffness of a whole face against its shoulder; damping and friction are those of the bore.")
         .positive().optional("2e8 N/m: order of magnitude of a flat steel face").only(MACHINE),
 ];

@@ -209,6 +209,8 @@ pub struct Faces {
     pub gap_to_start: Option<f64>,
     /// Mean radius, m, where it is given.
     pub radius: Option<f64>,
+    /// Radial width of the annulus that touches, m, where it is given.
+    pub width: Option<f64>,
     /// Stiffness of a whole face, N/m.
     pub stiffness: f64,
 }
@@ -482,6 +484,7 @@ fn contact(contact: &Section<'_>) -> Contact {
             gap_to_end: contact.maybe("gap_to_end"),
             gap_to_start: contact.maybe("gap_to_start"),
             radius: contact.maybe("face_radius"),
+            width: contact.maybe("face_width"),
             stiffness: contact.maybe("face_stiffness").unwrap_or(FACE_STIFFNESS),
         },
     }

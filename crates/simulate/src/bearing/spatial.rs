@@ -5,6 +5,7 @@ use crate::bearing::traction::traction;
 use model::contact::JournalContact;
 use model::spatial::ball::SpatialBall;
 use model::spatial::face::Face;
+use model::spatial::face_heat::FaceSurfaces;
 use model::spatial::mount::SpatialMount;
 use model::spatial::part::SpatialBearing;
 use model::spatial::pocket::SpatialPocket;
@@ -23,6 +24,7 @@ use scenario::{
     Spatial, ThrustSide, problem_at,
 };
 use std::f64::consts::TAU;
+use thermal::layer::Layer;
 
 /// Transverse over axial inertia of a cage: a thin ring has 0.5, its width adds a little.
 const CAGE_TRANSVERSE: f64 = 0.55;
@@ -97,6 +99,7 @@ pub(crate) fn bearing(
         first_ball_angle: given.first_ball_angle,
         landing: landing(part, given, whole),
         groove_ends: ends,
+        face_surfaces: face_surfaces(part, given),
         races: Some(contacts.races(given)),
         rows,
     })
@@ -261,9 +264,7 @@ fn landing(part: &AuxiliaryBearing, given: &Bearing, width: f64) -> LandingConst
         side,
         shoulder: side * (half + gap),
         place: side * half,
-        radius: faces
-            .radius
-            .unwrap_or(0.5 * (bore + given.inner_track_radius())),
+        radius: face_radius(part, given),
         stiffness: faces.stiffness,
         damping: contact.damping,
         friction: contact.friction_coefficient,
@@ -291,4 +292,26 @@ fn landing(part: &AuxiliaryBearing, given: &Bearing, width: f64) -> LandingConst
             .map(|k| [angle(k).cos(), angle(k).sin()])
             .collect(),
     }
+}
+
+/// Mean radius of the faces, m: in the middle between bore and inner track where it is not given.
+fn face_radius(part: &AuxiliaryBearing, given: &Bearing) -> f64 {
+    let bore = 0.5 * part.contact.bore_diameter;
+    let middle = 0.5 * (bore + given.inner_track_radius());
+    part.contact.faces.radius.unwrap_or(middle)
+}
+
+/// Shoulder and face as layers that heat.
+fn face_surfaces(part: &AuxiliaryBearing, given: &Bearing) -> Option<FaceSurfaces> {
+    let contact = &part.contact;
+    if !contact.faces.any() {
+        return None;
+    }
+    let radius = face_radius(part, given);
+    let whole = 2.0 * (radius - 0.5 * contact.bore_diameter).abs();
+    let depth = contact.rotor_layer_depth();
+    Some(FaceSurfaces {
+        layers: (contact.metals.each_ref()).map(|metal| Layer::new(metal.material, depth)),
+        area: TAU * radius * contact.faces.width.unwrap_or(whole),
+    })
 }

@@ -53,6 +53,8 @@ problem::warnings! {
             ("Row {row} carries nothing at {:.2} ms: its balls are held by the outer race alone, slow down against the others and skid when they are pressed again. More preload keeps a row pressed.", 1e3 * time);
         RunOver { ball: "", race: words, time: "s", angle: "rad", load: "N" } "AB2412" Destroys, each
             ("The contact ellipse of ball {ball} reaches over the shoulder of the {race} groove at {:.2} ms (contact angle {:.0} deg, {load:.0} N): the stress at that edge is not computed and may be several times that of the ellipse. From there on loads and angles are those of a groove that goes on.", 1e3 * time, angle.to_degrees());
+        HotFace { rise: "K", time: "s" } "AB2416" Destroys, each by "face_temperature_rise"
+            ("Where shoulder and face rub, their surfaces warm by {rise:.0} K in the mean ({:.2} ms), edges that touch first by far more: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.", 1e3 * time);
         NoThrust { moved: "m" } "AB2413" Invalid, each
             ("No bearing in space has a shoulder in its way (contact.gap_to_start, contact.gap_to_end): nothing stops the rotor along its axis, and it has moved by {:.2} mm.", 1e3 * moved);
         LeavesOut { left: words } "AB2414" Uncertain

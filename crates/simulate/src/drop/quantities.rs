@@ -243,6 +243,10 @@ results! {
             run.space(|own| own.first_axial_contact.map(|_| own.axial_force.value))
         };
         "axial_force_at_end": number "N", AXIAL, "force between shoulder and face at the end" in note "Peak axial force: at the end [N]" when setup.stops() => run.axial_force_at_end();
+        "face_temperature_rise": number "K", FACE_HEAT, "largest mean rise of shoulder and face" in note "Peak axial force: mean rise of the face [K]" when setup.stops() => {
+            run.space(|own| own.first_axial_contact.map(|_| own.face_heat.rise.value))
+        };
+        "face_temperature_time": instant "s", FACE_HEAT, "instant of this rise" when setup.stops() => run.space(|own| own.first_axial_contact.map(|_| own.face_heat.rise.time));
         "peak_inner_contact_angle": number "rad", ANGLES, "largest contact angle at the inner race" in axial "inner race" => run.angle(0);
         "peak_outer_contact_angle": number "rad", ANGLES, "largest contact angle at the outer race" in axial "outer race" => run.angle(1);
         "row_unloaded_times": list "s", UNLOADED, "when each row first carried nothing, by its place along the shaft; NaN where it always did" when setup.rows.len() > 1 => {
@@ -435,6 +439,10 @@ origins! {
     AXIAL: law "shoulder plane against nodes of a face, N = max(0, k d(1 + a ḋ)) each, friction μ N against the slip; largest at the ends of the steps",
         source "derived, book/src/theory/spatial.md, crates/model/src/spatial/face.rs",
         valid "rigid shoulder, plane face; stiffness and damping as given";
+    FACE_HEAT: law "both surfaces of one temperature: layers of shoulder and ring under the friction power of the faces, over the whole annulus",
+        source "slab under constant flux, crates/model/src/spatial/face_heat.rs; book/src/theory/spatial.md",
+        valid "a mean over contact.face_width all round: an edge that touches first, under tilt or with burrs, is far hotter; both faces as one; no heat \
+            beyond the layers";
     ANGLES: law "|α| of the loaded contacts, sin α = n·a of that ring; largest of eight looks a turn, more where loads change",
         source "derived, book/src/theory/spatial.md, crates/model/src/spatial/record.rs",
         valid "torus-shaped grooves without end: see shoulder_run_over_time";

@@ -1,7 +1,7 @@
 //! What the user should know before trusting the numbers of a drop.
 
 use crate::assumptions::speed_rating;
-use crate::bearing::severity::{HOT_RACE, inner_race_rise};
+use crate::bearing::severity::{HOT_RACE, STEEL_CHANGES, inner_race_rise};
 use crate::bearing::warm;
 use crate::bearing::warning_table::{CLOSES, RUNS_AWAY, SpatialWarning};
 use crate::bearing::warnings as shared;
@@ -12,6 +12,7 @@ use crate::drop::warning_table::{BENDING_SHARE, DropWarning};
 use crate::drop::{base, events, magnets, method, mount_results, shaft_results, surfaces};
 use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
+use model::system::sampling::Peak;
 use outcome::Warning;
 use problem::warning::Evaluation;
 use scenario::{AuxiliaryBearing, DRAWN_ON, Feedback, Fidelity, Moment, Scenario};
@@ -194,6 +195,10 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
         let row = row as f64 + 1.0;
         list.push((-time, SpatialWarning::RowUnloaded { row, time }.into()));
     }
+    let Peak { value: rise, time } = own.face_heat.rise;
+    if rise > STEEL_CHANGES {
+        list.push((rise, SpatialWarning::HotFace { rise, time }.into()));
+    }
     let angle = own
         .largest_angles
         .iter()
@@ -214,7 +219,7 @@ fn left_out(part: &AuxiliaryBearing) -> Option<String> {
     let words = [
         (
             !part.contact.faces.any(),
-            "the temperature of shoulders and faces that rub, and that of the bore beside them",
+            "the temperature of the bore, whose friction heat faces share",
         ),
         (
             part.mount.tilt.is_some(),

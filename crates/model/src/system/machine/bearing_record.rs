@@ -10,7 +10,7 @@ use super::RotorMachine;
 use super::travel::Travel;
 use crate::auxiliary_bearing::BearingAt;
 use crate::auxiliary_bearing::probe::{
-    AXIAL_FORCE, AXIAL_PENETRATION, BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD,
+    AXIAL_FORCE, AXIAL_FRICTION, AXIAL_PENETRATION, BEARING_LOAD, LAND_FORCE, LARGEST_INNER_LOAD,
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE,
     PENETRATION, SLIP_SPEED,
 };
@@ -254,6 +254,12 @@ impl BearingRecord {
                 [step.start_probe(depth), step.end_probe(depth)],
                 step.end_probe(at.probe(AXIAL_FORCE)),
             );
+            let bearing = step.machine.constants.bearings[self.bearing].spatial();
+            if let Some(surfaces) = bearing.and_then(|own| own.face_surfaces.as_ref()) {
+                let friction = at.probe(AXIAL_FRICTION);
+                let powers = [step.start_probe(friction), step.end_probe(friction)];
+                (own.face_heat).watch(surfaces, [step.start, step.end], powers);
+            }
         }
         let normal = at.probe(NORMAL_FORCE);
         self.impulse += 0.5 * length * (step.start_probe(normal) + step.end_probe(normal));
