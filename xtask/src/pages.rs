@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// One run of each kind, and one with several bearings.
-const OPENED: [&str; 11] = [
+const OPENED: [&str; 12] = [
     "coast_down_closing",
     "rigid_drop",
     "two_bearings_drop",
@@ -17,6 +17,7 @@ const OPENED: [&str; 11] = [
     "rotor_levitated",
     "rotor_overhung",
     "machine_expander",
+    "vertical_flywheel",
 ];
 
 /// Runs that a comparison shows: of one kind and of another.

@@ -2,6 +2,7 @@
 
 use crate::machine::{parsed, ran};
 use crate::outcomes::number;
+use auxbear::outcome::Value;
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 
@@ -256,6 +257,18 @@ fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
         refused(&sets, needed);
     }
+}
+
+#[test]
+fn a_shoulder_says_where_the_grooves_end() {
+    let key = "auxiliary_bearing.lower.bearing.shoulder_height=0.8 mm";
+    let low = ran(FLYWHEEL, &["run.duration=1 ms", key]);
+    let Value::List(ends) = &low.quantity("lower.groove_end_angles").unwrap().value else {
+        panic!("no list");
+    };
+    // acos(1 - h/r_g), r_g = 0.521 times 7.94 mm
+    let end = (1.0 - 0.8 / (0.521 * 7.94_f64)).acos();
+    assert!(ends.len() == 2 && ends.iter().all(|own| (own / end - 1.0).abs() < 1e-12));
 }
 
 #[test]

@@ -91,36 +91,11 @@ function shapeFigure(machine) {
   const run = machine[0];
   const shapes = shapeColumns(run);
   const holder = element("div", { class: "curves" });
-  const readout = element("span", { class: "readout" }, "");
-  const slider = element("input", { type: "range", min: "0", max: String(run.time.length - 1), value: "0", class: "time", "aria-label": timeline.words });
-  let playing = null;
-  const draw = () => {
-    const row = Number(slider.value);
-    holder.replaceChildren(shapeDrawing(machine, shapes, row, holder.clientWidth || 900));
-    readout.textContent = ` ${numberText(1e3 * run.time[row], 5)} ms`;
-  };
-  const stop = () => {
-    clearInterval(playing);
-    playing = null;
-    button.textContent = "play";
-  };
-  const button = element("button", { type: "button", onclick: () => (playing ? stop() : play()) }, "play");
-  const play = () => {
-    if (Number(slider.value) >= run.time.length - 1) slider.value = "0";
-    button.textContent = "stop";
-    playing = setInterval(() => {
-      slider.value = String(Number(slider.value) + 1);
-      draw();
-      if (Number(slider.value) >= run.time.length - 1) stop();
-    }, 40);
-  };
-  slider.addEventListener("input", draw);
   // the first contact says more than the rest above the bearings
   const contacts = machine.flatMap((each) => each.contacts).map((contact) => contact.peak_time_s).filter(isNumber);
   const instant = contacts.length ? Math.min(...contacts) : 0;
-  slider.value = String(Math.max(0, run.time.findIndex((time) => time >= instant)));
-  resizable.push(draw);
-  return [element("div", { class: "controls" }, button, slider, readout), holder];
+  const draw = (row) => holder.replaceChildren(shapeDrawing(machine, shapes, row, holder.clientWidth || 900));
+  return [timeSlider(run, instant, draw), holder];
 }
 
 const AXIS_COLOURS = ["#1f5fa8", "#6d9fd3", "#c2571a", "#e0a03c", "#2f8f5b", "#8fc4a6", "#8a4fae", "#b48fcc"];
@@ -173,5 +148,5 @@ register("machine", {
   ...dropPage,
   line: bentLine,
   rotor: (run) => element("p", { class: "machine" }, rotorFacts(run)),
-  sections: (runs) => [[9, machineSection, runs], ...dropPage.sections(runs)],
+  sections: (runs) => [[9, machineSection, runs], [61.5, spaceSection, inSpace(runs)], ...dropPage.sections(runs)].filter(([, , some]) => some.length),
 });

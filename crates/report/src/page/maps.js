@@ -8,6 +8,8 @@ const MAP_TICKS = [[0, "up 90°"], [0.25, "left 180°"], [0.5, "down 270°"], [0
 const MAPS = [
   { part: "inner_load", title: "Load between ball and inner race", label: "load", unit: "N", load: "inner_load", slip: "inner_slip" },
   { part: "outer_load", title: "Load between ball and outer race", label: "load", unit: "N", load: "outer_load", slip: "outer_slip" },
+  { part: "inner_angle", title: "Contact angle at the inner race, size", label: "angle", unit: "°", shade: "linear", race: 0 },
+  { part: "outer_angle", title: "Contact angle at the outer race, size", label: "angle", unit: "°", shade: "linear", race: 1 },
   { part: "inner_slip", title: "Slip speed between ball and inner race, size", label: "slip", unit: "m/s" },
   { part: "outer_slip", title: "Slip speed between ball and outer race, size", label: "slip", unit: "m/s" },
 ];
@@ -97,16 +99,15 @@ function mapGrid(run, map, columns, skid) {
   return { balls, byAzimuth, bins, values, marked };
 }
 
-function paintGrid(grid, columns, largest, showSkid) {
+function paintGrid(grid, columns, scale, showSkid) {
   const sheet = element("canvas", { width: columns, height: grid.bins });
   const pen = sheet.getContext("2d");
   const image = pen.createImageData(columns, grid.bins);
-  const shade = SHADES[mapState.shade];
   for (let column = 0; column < columns; column++) {
     for (let bin = 0; bin < grid.bins; bin++) {
       const value = grid.values[column * grid.bins + bin];
       if (value < 0) continue;
-      const colour = mapColour(shade(largest > 0 ? value / largest : 0));
+      const colour = mapColour(scale.share(value));
       const marked = showSkid && grid.marked[column * grid.bins + bin];
       const at = 4 * ((grid.bins - 1 - bin) * columns + column);
       for (let part = 0; part < 3; part++) image.data[at + part] = marked ? 0.4 * colour[part] + 0.6 * SKID[part] : colour[part];
@@ -146,29 +147,44 @@ function largestOf(runs, part) {
   return most;
 }
 
-function colourBar(pen, left, top, height, largest, map) {
-  const shade = SHADES[mapState.shade];
-  paintRamp(pen, left, top, 11, height, (share) => `rgb(${mapColour(share).join(",")})`, true);
+// From which value to which the colours of a map go: from 0, or of angles from the smallest; up to the end of the groove where it is known.
+function scaleOf(runs, map, end) {
+  const shading = () => map.shade || mapState.shade;
+  const values = map.race === undefined ? [] : runs.flatMap(ballsOf).flatMap((ball) => ball[map.part] || []).filter(isNumber).map(Math.abs);
+  const low = values.length ? Math.floor(values.reduce((least, value) => Math.min(least, value))) : 0;
+  const largest = Math.max(largestOf(runs, map.part), end || 0);
+  return { low, largest, end, logarithmic: () => shading().startsWith("log"), share: (value) => SHADES[shading()](largest > low ? Math.max(0, value - low) / (largest - low) : 0) };
+}
+
+function colourBar(pen, left, top, height, { low, largest, end, logarithmic, share }, map) {
+  paintRamp(pen, left, top, 11, height, (part) => `rgb(${mapColour(part).join(",")})`, true);
   pen.fillStyle = INK;
   const candidates = [largest];
-  for (let power = Math.floor(Math.log10(largest || 1)); power >= Math.log10(largest || 1) - 5; power--) for (const digit of [5, 2, 1]) candidates.push(digit * 10 ** power);
+  const span = largest - low;
+  if (low > 0) candidates.push(...axisSteps(low, largest, 6));
+  else for (let power = Math.floor(Math.log10(span || 1)); power >= Math.log10(span || 1) - 5; power--) for (const digit of [5, 2, 1]) candidates.push(digit * 10 ** power);
   const taken = [top + height];
-  if (mapState.shade.startsWith("log")) taken.pop();
-  else penWords(pen, "0", left + 15, top + height);
+  if (logarithmic()) taken.pop();
+  else penWords(pen, numberText(low, 3), left + 15, top + height);
   for (const value of candidates.filter((each) => each <= largest)) {
-    const y = top + height * (1 - shade(value / largest));
+    const y = top + height * (1 - share(value));
     if (y > top + height || taken.some((other) => Math.abs(other - y) < 14)) continue;
     taken.push(y);
     penWords(pen, numberText(Number(value.toPrecision(3)), 3), left + 15, y);
   }
   penWords(pen, `${map.label} [${map.unit}]`, left - 4, top - 12, "left", "alphabetic");
+  if (!isNumber(end)) return;
+  pen.strokeStyle = SERIES_COLOURS.limit;
+  pen.lineWidth = 2.5;
+  strokeLine(pen, left - 4, top + height * (1 - share(end)), left + 15, top + height * (1 - share(end)));
 }
 
 function mapCanvas(run, runs, map, limit) {
   const holder = element("div", { class: "map" });
   const canvas = element("canvas");
   const readout = element("p", { class: "readout" }, " ");
-  const largest = largestOf(runs, map.part);
+  const ends = map.race === undefined ? null : grooveEnds(run);
+  const scale = scaleOf(runs, map, ends && ends[map.race]);
   const place = { left: AXIS_WIDTH, top: 26, height: 176, width: 0 };
   let grid = null;
   const draw = () => {
@@ -177,14 +193,15 @@ function mapCanvas(run, runs, map, limit) {
     place.width = Math.max(50, width - 2 * AXIS_WIDTH);
     const pen = sizedCanvas(width, place.top + place.height + 38, canvas);
     const columns = Math.round(place.width);
-    grid = mapGrid(run, map, columns, { speed: limit.speed, load: SKID_LOAD_SHARE * largest });
+    grid = mapGrid(run, map, columns, { speed: limit.speed, load: SKID_LOAD_SHARE * scale.largest });
     pen.imageSmoothingEnabled = false;
-    pen.drawImage(paintGrid(grid, columns, largest, mapState.skid), place.left, place.top, place.width, place.height);
+    pen.drawImage(paintGrid(grid, columns, scale, mapState.skid), place.left, place.top, place.width, place.height);
     drawMapAxes(pen, place, grid);
-    colourBar(pen, place.left + place.width + 20, place.top, place.height, largest, map);
+    colourBar(pen, place.left + place.width + 20, place.top, place.height, scale, map);
   };
   canvas.addEventListener("pointermove", (event) => {
     const area = canvas.getBoundingClientRect();
+    timeline.point(timeline.begin + ((event.clientX - area.left - place.left) / place.width) * (timeline.end - timeline.begin));
     readout.textContent = mapReadout(run, grid, place, event.clientX - area.left, event.clientY - area.top);
   });
   canvas.addEventListener("pointerleave", () => (readout.textContent = " "));
@@ -230,7 +247,7 @@ function mapReadout(run, grid, place, px, py) {
   }
   const parts = [timeline.text(run.time[row]), ball.name];
   if (ball.azimuth) parts.push("azimuth " + numberText((((ball.azimuth[row] * 180) / Math.PI) % 360 + 360) % 360, 4) + "°");
-  const named = { inner_load: ["inner load", "N"], outer_load: ["outer load", "N"], inner_slip: ["inner slip", "m/s"], outer_slip: ["outer slip", "m/s"] };
+  const named = { inner_load: ["inner load", "N"], outer_load: ["outer load", "N"], inner_slip: ["inner slip", "m/s"], outer_slip: ["outer slip", "m/s"], inner_angle: ["inner angle", "deg"], outer_angle: ["outer angle", "deg"] };
   for (const [part, [words, unit]] of Object.entries(named)) if (ball[part]) parts.push(words + " " + numberText(ball[part][row], 4) + " " + unit);
   return parts.join(", ");
 }
@@ -254,17 +271,20 @@ function mapControls() {
   );
 }
 
-function mapSection(runs) {
+function mapSection(bearings) {
+  const runs = bearings.flatMap(rowsOf);
   const limit = skidLimit(runs);
   const has = (run, map) => run.time && ballsOf(run).some((ball) => ball[map.part]);
   const maps = MAPS.filter((map) => runs.some((run) => has(run, map)));
   const figures = maps.map((map) => {
     const drawn = runs.filter((run) => has(run, map));
-    const missing = runs.filter((run) => !drawn.includes(run));
+    // only bearings in space have contact angles
+    const missing = runs.filter((run) => !drawn.includes(run) && map.race === undefined);
     const notes = [];
     if (drawn.some((run) => !ballsOf(run).every((ball) => ball.azimuth))) notes.push("This fidelity gives no ball positions: one row a ball.");
     if (map.slip && drawn.some((run) => ballsOf(run).some((ball) => ball[map.slip])))
       notes.push(`Red: balls with more than ${percentText(SKID_LOAD_SHARE)} of the largest load that slip faster than ${engineeringText(limit.speed, "m/s", 3)} (${limit.source}).`);
+    if (map.race !== undefined) notes.push(grooveNote(drawn, map.race));
     const even = new Map(drawn.map((run) => [run, rangeOf(run, map.part)]).filter(([, range]) => range.even && map.load));
     if (drawn.length === even.size) return figure(map.title, null, drawn.map((run) => evenLine(run, map, even.get(run))), missing.map((run) => notInThisRun(`its history has no ${map.part.replace("_", " ")} of the balls`, run)));
     const canvases = drawn.map((run) => [runs.length > 1 ? element("p", { class: "run-label" }, element("span", { class: "swatch", style: "background:" + run.colour }), run.short) : null, mapCanvas(run, drawn, map, limit)]);
@@ -273,7 +293,7 @@ function mapSection(runs) {
     );
     return figure(map.title, notes.join(" "), canvases, why);
   });
-  const absent = MAPS.filter((map) => !maps.includes(map)).map((map) => map.title.replace(", size", "").toLowerCase());
+  const absent = MAPS.filter((map) => !maps.includes(map)).filter((map) => map.race === undefined).map((map) => map.title.replace(", size", "").toLowerCase());
   const left = runs.every((run) => !run.withBalls);
   const lack = left ? element("p", { class: "lead" }, "Maps of the single balls are on the pages of the single runs: so many runs together would not fit into one page.") : absent.length ? element("p", { class: "small" }, `Not in ${runs.length > 1 ? "these runs" : "this run"}: ${absent.join(", ")}${ballsOf(runs[0]).length ? " (the rolling fidelity takes the balls to roll)" : ""}.`) : null;
   const drawn = runs.filter((run) => run.time && ballsOf(run).length && maps.some((map) => has(run, map) && !(map.load && rangeOf(run, map.part).even)));
@@ -282,5 +302,5 @@ function mapSection(runs) {
     { class: "lead" },
     "Azimuth is that of the ball seen from the ground, counter-clockwise from the right; where a column of the picture holds several instants, the largest value is shown.",
   );
-  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, lack, separationFigures(runs));
+  return section("balls", "Ball loads and slip", [drawn.some((run) => ballsOf(run).some((ball) => ball.azimuth)) ? note : null, drawn.length ? mapControls() : null], figures, lack, separationFigures(bearings));
 }

@@ -286,8 +286,36 @@ function ballsOf(run) {
       outer_slip: part("outer_slip"),
       inner_film: part("inner_film"),
       outer_film: part("outer_film"),
+      ...anglesOf(run, match[1]),
     };
   });
+}
+
+// Contact angles of a ball in space, deg; null without load.
+function anglesOf(run, ball) {
+  const degrees = (name) => {
+    const values = columnOf(run, `bearing.${ball}.${name}`);
+    return values && values.map((value) => (value ? (180 / Math.PI) * value : null));
+  };
+  return { inner_angle: degrees("inner_angle"), outer_angle: degrees("outer_angle") };
+}
+
+// The rows of a bearing in space as runs of their own, by rising place along the shaft; a bearing of one row is its own.
+function rowsOf(run) {
+  const row = (name) => /^bearing\.ball_(\d+)\./.exec(name);
+  const balls = ballsOf(run).length;
+  const ofRow = Number((inputOf(run, "bearing.ball_count") || {}).value);
+  const count = inSpace([run]).length ? Math.round(balls / ofRow) : 1;
+  if (!(count > 1)) return [run];
+  return Array.from({ length: count }, (_, k) => {
+    const own = ([name]) => !row(name) || Math.floor((Number(row(name)[1]) - 1) / ofRow) === k;
+    return { ...run, columns: new Map([...run.columns].filter(own)), short: `${run.short}, row ${k + 1}`, row: k + 1 };
+  });
+}
+
+// Bearings whose rings move along their axis and tilt.
+function inSpace(runs) {
+  return runs.filter((run) => columnOf(run, "bearing.inner_race.z"));
 }
 
 // Largest size over the balls of one of their columns, row by row.

@@ -12,6 +12,8 @@ const timeline = {
   end: 1,
   unit: ["s", 1],
   listeners: [],
+  // what follows the instant under the pointer
+  followers: [],
   words: "time after release",
   span(runs) {
     const words = new Set(runs.map((run) => systemOf(run).time).filter(Boolean));
@@ -36,6 +38,9 @@ const timeline = {
   },
   all() {
     this.zoom(this.first, this.last);
+  },
+  point(instant) {
+    if (instant >= this.first && instant <= this.last) for (const follower of this.followers) follower(instant);
   },
   text(instant) {
     return numberText(instant / this.unit[1], 5) + " " + this.unit[0];
@@ -110,7 +115,13 @@ function timePlot(options) {
       y: false,
       sync: { key: "auxbear", setSeries: false, filters: { pub: (kind) => kind === "mousemove" || kind === "mouseleave" } },
       drag: { x: true, y: false, setScale: false },
-      bind: { dblclick: () => () => timeline.all() },
+      bind: {
+        dblclick: () => () => timeline.all(),
+        mousemove: (plot, _, move) => (event) => {
+          move(event);
+          timeline.point(plot.posToVal(plot.cursor.left, "x"));
+        },
+      },
       points: { size: 6 },
     },
     hooks: {
@@ -250,4 +261,40 @@ function levelMark(pen, plot, ratio, level, words, colour) {
   pen.font = FONT.replace("12px", 11 * ratio + "px");
   pen.fillStyle = colour;
   penWords(pen, words, left + width - 6 * ratio, y - 3 * ratio, "right", "bottom");
+}
+
+// A slider over the rows of a run, with a button that plays them: draw(row) at each; what is built for a pointer follows it.
+function timeSlider(run, instant, draw, follows = false) {
+  const last = run.time.length - 1;
+  const readout = element("span", { class: "readout" }, "");
+  const slider = element("input", { type: "range", min: "0", max: String(last), value: String(rowBefore(run.time, instant)), class: "time", "aria-label": timeline.words });
+  let playing = null;
+  const show = () => {
+    const row = Number(slider.value);
+    draw(row);
+    readout.textContent = ` ${timeline.text(run.time[row])}`;
+  };
+  const stop = () => {
+    clearInterval(playing);
+    playing = null;
+    button.textContent = "play";
+  };
+  const button = element("button", { type: "button", onclick: () => (playing ? stop() : play()) }, "play");
+  const play = () => {
+    if (Number(slider.value) >= last) slider.value = "0";
+    button.textContent = "stop";
+    playing = setInterval(() => {
+      slider.value = String(Number(slider.value) + 1);
+      show();
+      if (Number(slider.value) >= last) stop();
+    }, 40);
+  };
+  slider.addEventListener("input", show);
+  resizable.push(show);
+  if (follows)
+    timeline.followers.push((at) => {
+      slider.value = String(rowBefore(run.time, at));
+      show();
+    });
+  return element("div", { class: "controls" }, button, slider, readout);
 }

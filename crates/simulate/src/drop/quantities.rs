@@ -252,9 +252,12 @@ results! {
         "row_unloaded_times": list "s", UNLOADED, "when each row first carried nothing, by its place along the shaft; NaN where it always did" when setup.rows.len() > 1 => {
             run.unloaded()
         };
-        "shoulder_run_over_time": instant "s", RUN_OVER, "when a contact ellipse first reached over the shoulder of its groove", unless {
+        "shoulder_run_over_time": instant "s", RUN_OVER, "when a contact ellipse first reached over the shoulder of its groove" in instants_after_release "over shoulder", unless {
             not_given("bearing.shoulder_height", setup.groove_ends)
         } => run.run_over();
+        "groove_end_angles": list "rad", GROOVE_ENDS, "contact angles at which the grooves of the inner and the outer race end" in space "groove ends", unless {
+            not_given("bearing.shoulder_height", setup.groove_ends)
+        } => setup.groove_ends.map_or(Vec::new(), Vec::from);
     }
     fn mount_force(setup: &(), run: &Landed) {
         "peak_mount_force": number "N", MOUNT_FORCE, "largest force of the mount on the housing" => run.record.largest_mount_force.value;
@@ -452,6 +455,9 @@ origins! {
     RUN_OVER: law "|α| + a_H/r > acos(1 - h/r_g): the ellipse reaches the shoulder",
         source "derived, book/src/theory/spatial.md, crates/model/src/spatial/record.rs",
         valid "errs to the safe side by 4 %; from there on the stress at the edge is not known, and the contact is computed as if its groove went on";
+    GROOVE_ENDS: law "acos(1 - h/r_g) of each race",
+        source "derived, book/src/theory/spatial.md",
+        valid "middle of a contact at the edge of the shoulder; its ellipse is cut off before";
     MOUNT_FORCE: law "largest |F| of spring, damper and all other parts, at the steps and near the largest ball load between them; the weight of the bearing is in it",
         source mount_results::SOURCE,
         valid "force of the outer race on its housing";
