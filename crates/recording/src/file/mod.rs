@@ -195,7 +195,7 @@ macro_rules! row {
 }
 
 /// The formats that can be read, the most certain signature first; text, which has none, is last.
-const FORMATS: &[Row] = &[
+static FORMATS: &[Row] = &[
     row!(Tdms, tdms, tdms::is_tdms),
     row!(Hdf5, hdf5, hdf5::is_hdf5),
     row!(Parquet, parquet, parquet::is_parquet),
@@ -257,7 +257,11 @@ fn is_text(head: &[u8]) -> bool {
 ///
 /// An error where the file cannot be opened, is of no readable format, or is text under the name of another format.
 pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
-    let path = path.as_ref();
+    opened(path.as_ref())
+}
+
+/// As [`open`]: what is not generic is compiled here alone, with the readers of all formats.
+fn opened(path: &Path) -> Result<Box<dyn Recording>, FileError> {
     let file = open_file(path)
         .map_err(|e| FileError::new(path, "", format!("cannot be opened ({e})"), ""))?;
     let mut source = source::Source::new(file, path)?;
@@ -287,7 +291,11 @@ pub fn open(path: impl AsRef<Path>) -> Result<Box<dyn Recording>, FileError> {
 ///
 /// The counts of the channels do not matter: the values that are appended count.
 pub fn create(path: impl AsRef<Path>, channels: &[Channel]) -> Result<Box<dyn Writer>, FileError> {
-    let path = path.as_ref();
+    created(path.as_ref(), channels)
+}
+
+/// As [`create`], compiled here alone.
+fn created(path: &Path, channels: &[Channel]) -> Result<Box<dyn Writer>, FileError> {
     match extension(path).as_str() {
         "tdms" => Ok(Box::new(tdms::TdmsWriter::create(path, channels)?)),
         "csv" => Ok(Box::new(csv::CsvWriter::create(path, channels)?)),
