@@ -131,7 +131,7 @@ fn a_force_comes_from_a_file() {
     assert!(
         read("")
             .unwrap_err()
-            .contains("channel_x, channel_y or channel_torque")
+            .contains("channel_x, channel_y, channel_z or channel_torque")
     );
     let both = read("channel_x = \"impact\"\ntimes = [\"0 s\"]\nx = [\"1 N\"]").unwrap_err();
     assert!(both.contains("one of the two"), "{both}");
