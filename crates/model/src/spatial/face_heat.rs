@@ -25,7 +25,7 @@ const SHARE: f64 = 0.05;
 const LONGEST: f64 = 1e-4;
 
 /// What has become of them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FaceHeat {
     states: [LayerState; 2],
     /// Until when the layers are known, s, and the heat since, J.
@@ -37,16 +37,6 @@ pub struct FaceHeat {
 }
 
 impl FaceHeat {
-    /// Before anything has touched.
-    pub fn new() -> Self {
-        FaceHeat {
-            states: Default::default(),
-            known: (0.0, 0.0),
-            touched: None,
-            rise: Peak::NONE,
-        }
-    }
-
     /// Takes the friction powers at both ends of a step, W.
     pub fn watch(
         &mut self,
@@ -108,7 +98,7 @@ mod tests {
             area: 3e-4,
         };
         let (power, step) = (20e3, 2e-5);
-        let mut heat = FaceHeat::new();
+        let mut heat = FaceHeat::default();
         for k in 0..1000 {
             let times = [k, k + 1].map(|k| step * f64::from(k));
             heat.watch(&surfaces, times, [power; 2]);

@@ -51,7 +51,7 @@ impl SpatialRecord {
             run_over: None,
             axial_force: Peak::NONE,
             first_axial_contact: None,
-            face_heat: FaceHeat::new(),
+            face_heat: FaceHeat::default(),
             loaded: vec![false; bearing.rows.len()],
         }
     }

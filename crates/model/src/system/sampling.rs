@@ -4,7 +4,7 @@ use super::energy::Content;
 use solve::{Machine, Step};
 
 /// The largest value of something, and when.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peak {
     /// Value.
     pub value: f64,
