@@ -155,7 +155,7 @@ fn a_force_comes_from_a_file() {
     );
     let nothing = parsed(&(free() + "[[rotor.force]]\nat = \"0.15 m\"\n"), &[]).unwrap_err();
     assert!(
-        nothing.contains("times with x, y or torque, or file"),
+        nothing.contains("times with x, y, z or torque, or file"),
         "{nothing}"
     );
 }

@@ -482,6 +482,7 @@ fn every_number_reaches_the_typed_scenario() {
             let name = match key.name() {
                 _ if key.path.starts_with("levitation.axial_") => "axial",
                 "face_radius" => "radius",
+                "face_width" => "width",
                 "face_stiffness" => "stiffness",
                 "misalignment_x" | "misalignment_y" => "misalignment",
                 "windage_constant" => "constant",

@@ -107,7 +107,11 @@ mod tests {
         let flux = 0.5 * power / surfaces.area;
         let time: f64 = heat.rise.time;
         let expected = 2.0 * flux * (time / std::f64::consts::PI).sqrt() / STEEL_HEAT.effusivity();
-        assert!(time > 0.0199 && (heat.rise.value / expected - 1.0).abs() < 0.01);
+        let ratio = heat.rise.value / expected;
+        assert!(
+            time > 0.0198 && (ratio - 1.0).abs() < 0.01,
+            "{time} {ratio}"
+        );
         // a face that rested is cooler, and heats from there
         let peak = heat.rise.value;
         heat.watch(&surfaces, [0.02, 0.02 + step], [power, 0.0]);
