@@ -183,6 +183,27 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
 }
 
 #[test]
+fn the_clearance_of_a_deep_groove_bearing_follows_its_heat() {
+    let sets = [
+        "bearing.fidelity=spatial",
+        "bearing.operating_diametral_clearance=5 um",
+        "run.duration=60 ms",
+        "heat.network=on",
+    ];
+    let hot = ran(AGAIN, &sets);
+    let least = number(&hot, "drive_end.smallest_clearance");
+    let rise = number(&hot, "drive_end.peak_inner_race_temperature") - 298.15;
+    // the inner ring closes by α d ΔT at most, the balls and the outer ring are cooler
+    let closed = 5e-6 - least;
+    let most = 11.5e-6 * 40e-3 * rise;
+    assert!(
+        closed > 0.2 * most && closed < 1.5 * most,
+        "{closed} {most}"
+    );
+    assert!(number(&hot, "energy_residual").abs() < 1e-5);
+}
+
+#[test]
 fn life_of_a_pair_is_that_of_both_its_rows() {
     const LOWER: &str = "auxiliary_bearing.lower.bearing.";
     let rating = format!("{LOWER}dynamic_load_rating=14 kN");

@@ -75,7 +75,7 @@ impl Follows {
 
     /// Whether its clearance follows: at an angle a preload is held by springs or by distances that are not given.
     pub fn closes(&self, bearing: &Bearing) -> bool {
-        self.feedback == Feedback::Full && bearing.contact_angle == 0.0 && bearing.spatial.is_none()
+        self.feedback == Feedback::Full && bearing.contact_angle == 0.0
     }
 
     /// Whether its contact angle follows, as that of a pair that springs press.
@@ -155,7 +155,8 @@ impl Follows {
         if self.tilts(bearing) {
             bearing.contact_angle = self.contact_angle(bearing, temperatures);
         }
-        if self.closes(bearing) {
+        // grooves in space expand by themselves
+        if self.closes(bearing) && !self.swells(bearing) {
             // its balls meet the growth of the inner track themselves
             bearing.operating_diametral_clearance = self.clearance(temperatures, 0.0);
             let clearance = self.clearance(temperatures, speed);
