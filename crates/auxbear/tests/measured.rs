@@ -176,13 +176,14 @@ fn an_estimate_finds_the_inputs_that_made_the_file() {
     assert_eq!(study.estimate(&run, &single).unwrap().unwrap(), estimate);
 }
 
-/// A study of two inputs beside a file that the machine itself made over 100 ms at other ones, with noise of 1 um and 1 rad/s.
-fn estimated(truth: &[&str], members: usize) -> auxbear::study::estimate::Estimate {
+/// A study of two inputs beside a file that the machine itself made over a duration at other ones, with noise of 1 um and 1 rad/s.
+fn estimated(truth: &[&str], duration: &str, members: usize) -> auxbear::study::estimate::Estimate {
     let folder = TempDir::new().unwrap();
     let machine = DROP.split("[[measured]]").next().unwrap();
     let tables = ["rotor.x", "rotor.y", "bearing.inner_race.speed"].map(|own| table(own, own, ""));
     let at = |name: &str| folder.path().join(name);
-    let sets = [truth, &["run.duration=100 ms"]].concat();
+    let duration = format!("run.duration={duration}");
+    let sets = [truth, &[duration.as_str()]].concat();
     fs::write(at("plain.toml"), machine).unwrap();
     let run = ran(&read(&at("plain.toml"), &sets).unwrap()).unwrap();
     let mut random = statistics::random::Random::new(5);
@@ -218,7 +219,7 @@ fn estimated(truth: &[&str], members: usize) -> auxbear::study::estimate::Estima
     let study = fs::read_to_string(shipped("study_measured_drop")).unwrap();
     let study = study.replace("\"measured_drop.toml\"", "\"a.toml\"");
     let study = study.replace("members = 64", &format!("members = {members}"));
-    let study = study.replace("[design]", "set = [\"run.duration=100 ms\"]\n\n[design]");
+    let study = study.replace("[design]", &format!("set = [\"{duration}\"]\n\n[design]"));
     fs::write(at("study.toml"), study).unwrap();
     let study = Study::new(StudyFile::read(&at("study.toml")).unwrap()).unwrap();
     let members: Vec<usize> = (0..study.members()).collect();
@@ -231,7 +232,7 @@ fn estimated(truth: &[&str], members: usize) -> auxbear::study::estimate::Estima
 /// Impacts late in a record make valleys that a search over the whole of it once stayed in, 3 to 300 standard uncertainties away.
 #[test]
 fn late_impacts_do_not_hold_a_search_in_a_valley() {
-    let found = estimated(&TRUTH, 16);
+    let found = estimated(&TRUTH, "100 ms", 16);
     assert!(
         found.explained && (found.misfit - 1.0).abs() < 0.1,
         "{found:?}"
@@ -245,7 +246,7 @@ fn late_impacts_do_not_hold_a_search_in_a_valley() {
 /// A mass off by 0.4 % leaves a misfit hardly above 1 and moves the damping by many uncertainties: the residuals repeat each other.
 #[test]
 fn a_small_error_of_the_model_is_not_taken_for_noise() {
-    let found = estimated(&[TRUTH[0], TRUTH[1], "rotor.mass=8.03 kg"], 8);
+    let found = estimated(&[TRUTH[0], TRUTH[1], "rotor.mass=8.03 kg"], "40 ms", 8);
     assert!(!found.explained && found.misfit < 2.5, "{found:?}");
     let why = &found.inputs[1].why;
     assert!(why.contains("only if the rest of the model holds"), "{why}");
