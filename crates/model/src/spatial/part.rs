@@ -447,7 +447,7 @@ impl<R: Real> Spatial<R> {
         let Assembly { inner, outer, .. } = &self.assembly;
         let own = at.own().start;
         let cages = (0..self.balls.len()).map(|row| own + BODY_STATES * row);
-        // a tied cage has its mass here, the rate of its place from the outer ring
+        // a tied cage moves with the outer ring, which does not count its mass here
         let cages = cages.zip(self.assembly.cage_masses());
         let rings = [(at.inner.channels().start, inner.inertia.mass, inner.held)];
         let rings =

@@ -133,10 +133,11 @@ impl<'a> Landed<'a> {
         let speed = 2.0 * PI * self.record.turns / self.context.finished.ending.time;
         let followed = self.context.followed(self.k);
         let factor = |share: f64| {
+            let radial = self.mean_load()?;
             let load = match (&given.spatial, given.dynamic_load_rating) {
                 // its thrust counts as much
                 (Some(_), Some(rating)) => load_of_damage(rating, share, self.record.turns),
-                _ => self.mean_load()?,
+                _ => radial,
             };
             let unknown = || "its temperatures are not followed".to_string();
             lubricant_factor(&followed.ok_or_else(unknown)?, load, speed)
