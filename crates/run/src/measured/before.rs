@@ -57,8 +57,8 @@ pub(super) fn turning(outcome: &Outcome, release: f64) -> Option<Turning> {
 pub(super) struct Before {
     /// Mean, where there are values.
     pub mean: Option<Uncertain>,
-    /// Displacement by the synchronous orbit at the release, where the rotor turns once at least.
-    pub orbit: Option<Uncertain>,
+    /// Displacement by the synchronous orbit at the release and a quarter of a turn later, where the rotor turns once at least.
+    pub orbit: Option<[Uncertain; 2]>,
     /// Noise of the channel, where it is known.
     pub noise: Option<Noise>,
     /// Deviation of the values before the release, whatever the file says.
@@ -86,7 +86,7 @@ impl Curve {
         };
         let found = orbit
             .flatten()
-            .map(|([mean, orbit], noise)| (mean, Some(orbit), noise));
+            .map(|(mean, orbit, noise)| (mean, Some(orbit), noise));
         let (mean, orbit, noise) = match found.or_else(alone) {
             Some((mean, orbit, noise)) => (Some(mean), orbit, noise),
             // of the whole, by differences that impacts do not raise
@@ -156,12 +156,12 @@ fn solved<const N: usize>(
     ))
 }
 
-/// Mean and synchronous orbit at the release, by times from it and angles of the rotor.
+/// Mean and synchronous orbit at the release and a quarter of a turn later, by times from it and angles of the rotor.
 fn synchronous(
     times: &[f64],
     mut angles: Vec<f64>,
     values: &[f64],
-) -> Option<([Uncertain; 2], Option<Noise>)> {
+) -> Option<(Uncertain, [Uncertain; 2], Option<Noise>)> {
     let rows = angles.iter().map(|angle| [1.0, angle.cos(), angle.sin()]);
     let ([mut mean, mut cosine, mut sine], mut noise) = solved(rows.collect(), values)?;
     let size = cosine.value.hypot(sine.value);
@@ -178,7 +178,7 @@ fn synchronous(
         let both = angles.iter_mut().zip(times);
         both.for_each(|(angle, time)| *angle += turned * time / -times[0]);
     }
-    Some(([mean, cosine], noise))
+    Some((mean, [cosine, sine], noise))
 }
 
 /// White noise of values that are smooth but for it.

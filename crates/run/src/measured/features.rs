@@ -10,7 +10,7 @@
 //! contact begins and ends anywhere between two samples. The phase of the measured orbit is that of the stretch before the release.
 
 use super::before::Before;
-use super::{Compared, Curve, NO_DEVIATION, NOTHING_COMMON, Run, root_mean_square};
+use super::{Compared, Curve, GAP, NO_DEVIATION, NOTHING_COMMON, Run, root_mean_square};
 use outcome::list::{List, origins, results};
 use statistics::interpolation::between;
 use statistics::local_fit::{Crossing, Samples, Side};
@@ -39,6 +39,7 @@ const WHIRLS: f64 = 0.5;
 const SHOWN: f64 = 3.0;
 
 const LATE: &str = "the file begins after the release";
+const AT_GAP: &str = "the channel has a gap at the release";
 
 fn no(why: &str) -> Found {
     Err(why.to_string())
@@ -89,7 +90,7 @@ impl Compared {
     fn begins_late(&self) -> bool {
         matches!(self.time[..], [first, second, ..] if first > 2.0 * (second - first))
     }
-    /// Features of the measured curve, with the mean before the release, and of the predicted one, without noise.
+    /// Features of the measured curve, with the mean before the release, and of the predicted one, without noise; of both up to the first gap.
     fn both<const N: usize>(
         &self,
         of: impl Fn(Samples, Option<Uncertain>) -> [Found; N],
@@ -99,25 +100,30 @@ impl Compared {
             (&self.measured, noise.clone().unwrap_or_default(), *mean),
             (&self.predicted, Noise::default(), None),
         ];
+        let rows = (self.gap).map_or(self.time.len(), |gap| {
+            self.time.partition_point(|time| *time <= gap)
+        });
+        let times = &self.time[..rows];
+        let why = match self.gap {
+            _ if self.time.is_empty() => Some(NOTHING_COMMON),
+            _ if self.begins_late() => Some(LATE),
+            Some(gap) if gap <= 0.0 || rows == 0 => Some(AT_GAP),
+            _ => None,
+        };
         let sides = sides.map(|(values, noise, mean)| {
-            let times = &self.time;
-            match values.is_empty() || self.begins_late() {
-                true => from_fn(|_| {
-                    no(if values.is_empty() {
-                        NOTHING_COMMON
-                    } else {
-                        LATE
-                    })
-                }),
-                false => of(
-                    Samples {
-                        times,
-                        values,
-                        noise: &noise,
-                    },
-                    mean,
-                ),
+            if let Some(why) = why {
+                return from_fn(|_| no(why));
             }
+            let samples = Samples {
+                times,
+                values: &values[..rows],
+                noise: &noise,
+            };
+            let before_gap = |why: String| match self.gap {
+                Some(_) => format!("{why} before the first gap of the channel"),
+                None => why,
+            };
+            of(samples, mean).map(|own| own.map_err(before_gap))
         });
         (sides, noise.is_some())
     }
@@ -182,10 +188,13 @@ fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 
     };
     let largest = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
     let peak = samples.extremum(largest.unwrap_or(first), 1.0, 0).value;
-    let peak = Ok(Uncertain::new(
-        peak.value,
-        peak.deviation.hypot(base.deviation),
-    ));
+    let peak = match own.gap {
+        None => Ok(Uncertain::new(
+            peak.value,
+            peak.deviation.hypot(base.deviation),
+        )),
+        Some(_) => no("a gap may hide the largest force"),
+    };
     let Some(begin) = samples.jump(level, 1.0, first) else {
         let none = || no("the force does not rise above the threshold");
         return [none(), none(), none(), peak];
@@ -331,9 +340,35 @@ impl Orbit<'_> {
         own?.clearance
     }
 
+    /// The measured synchronous orbit along both axes.
+    fn orbit(&self, run: &Run) -> [Option<[Uncertain; 2]>; 2] {
+        self.axes.map(|axis| run.all[axis].before.orbit)
+    }
+
+    /// Whether the measured orbit before the release turns against the rotor, beyond its noise: by the sign of the area that it surrounds.
+    fn is_backward(&self, run: &Run) -> bool {
+        let [Some(x), Some(y)] = self.orbit(run) else {
+            return false;
+        };
+        let value = |k: usize| [x[k].value, y[k].value];
+        let size = |k: usize| {
+            [
+                x[k].deviation * y[1 - k].value,
+                x[1 - k].value * y[k].deviation,
+            ]
+        };
+        let area = value(0)[0] * value(1)[1] - value(1)[0] * value(0)[1];
+        let deviation = [size(0), size(1)]
+            .concat()
+            .iter()
+            .map(|own| own * own)
+            .sum::<f64>();
+        area < -SHOWN * deviation.sqrt()
+    }
+
     /// Phases at the release, rad: of the measured orbit before it and of the run there.
     fn phases(&self, run: &Run) -> [Found; 2] {
-        let measured = self.axes.map(|axis| run.all[axis].before.orbit);
+        let measured = self.orbit(run).map(|own| own.map(|own| own[0]));
         let predicted =
             ["x", "y"].map(|axis| run.at(&format!("{}.{axis}", self.place), run.release));
         let [measured, mut predicted] = [measured, predicted.map(|own| own.map(Uncertain::exact))]
@@ -367,6 +402,10 @@ impl Orbit<'_> {
         let interval = self.axes.map(|axis| run.curves[axis].interval());
         let is_coarse = interval[0].max(interval[1]) * run.spin() * OF_THE_ROTOR > TAU;
         let noises = [points.noise.unwrap_or_default(), Noise::default()];
+        let gaps = self
+            .axes
+            .map(|axis| run.all[axis].gap.unwrap_or(f64::INFINITY));
+        let rows = (points.time).partition_point(|time| *time <= gaps[0].min(gaps[1]));
         let of = |(of, noise): (&Vec<[f64; 2]>, &Noise)| {
             let Some(clearance) = self.clearance(run) else {
                 return from_fn(|_| no("no bearing with a clearance is at this place"));
@@ -378,15 +417,22 @@ impl Orbit<'_> {
                 values,
                 noise,
             };
-            let contact = radii.crossing(clearance, first(times), Side::Before);
-            let contact = contact.map(|own| own.time);
+            let before_gap = Samples {
+                times: &times[..rows],
+                values: &values[..rows],
+                noise,
+            };
+            let contact = (rows > 0)
+                .then(|| before_gap.crossing(clearance, first(before_gap.times), Side::Before));
+            let contact = contact.flatten().map(|own| own.time);
             let turns = match is_coarse {
                 true => no("fewer than four samples a turn of the rotor do not show the sense"),
-                false => whirl(radii, of, WHIRLS * clearance),
+                false => whirl(radii, of, WHIRLS * clearance, GAP * interval[0]),
             };
             [
                 contact.ok_or_else(|| {
-                    "the curve does not cross the clearance beyond its noise".to_string()
+                    "the curve does not cross the clearance beyond its noise, or has a gap before"
+                        .to_string()
                 }),
                 turns,
             ]
@@ -408,32 +454,37 @@ impl Orbit<'_> {
     }
 }
 
-/// Net angle about the line of levitation over the time outside a radius; of each stretch outside, the noise of both ends is left.
-fn whirl(radii: Samples, points: &[[f64; 2]], radius: f64) -> Found {
-    let (mut angle, mut outside, mut rows, mut ends) = (0.0_f64, 0.0, 0, 0.0);
-    let is_outside = |row: &usize| radii.values.get(*row).is_some_and(|own| *own >= radius);
-    for row in (0..points.len()).filter(is_outside) {
-        let followed = is_outside(&(row + 1));
-        let preceded = row > 0 && is_outside(&(row - 1));
-        if followed != preceded {
-            ends += radii.values[row].powi(-2);
-        }
-        if followed {
+/// Net angle about the line of levitation over the time of the stretches outside a radius that go round once at least, which bounces do not; of
+/// each stretch the noise of both ends is left. Samples further apart than the longest interval end a stretch.
+pub(super) fn whirl(radii: Samples, points: &[[f64; 2]], radius: f64, longest: f64) -> Found {
+    let (mut angle, mut time, mut rows, mut ends) = (0.0_f64, 0.0, 0, 0.0);
+    let step = |row: usize| radii.times[row + 1] - radii.times[row];
+    let is_outside = |row: usize| radii.values[row] >= radius;
+    let goes_on = |row: usize| {
+        row + 1 < points.len() && is_outside(row) && is_outside(row + 1) && step(row) <= longest
+    };
+    let mut begin = 0;
+    for last in (0..points.len()).filter(|row| !goes_on(*row)) {
+        let turned = (begin..last).map(|row| {
             let [from, to] = [points[row], points[row + 1]];
-            angle += (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1]);
-            outside += radii.times[row + 1] - radii.times[row];
-            rows += 1;
+            (from[0] * to[1] - from[1] * to[0]).atan2(from[0] * to[0] + from[1] * to[1])
+        });
+        let turned: f64 = turned.sum();
+        if turned.abs() >= TAU {
+            angle += turned;
+            time += radii.times[last] - radii.times[begin];
+            rows += last - begin;
+            ends += radii.values[begin].powi(-2) + radii.values[last].powi(-2);
         }
+        begin = last + 1;
     }
-    match angle.abs() >= TAU {
-        true if angle.abs() * A_TURN > TAU * f64::from(rows) => {
-            no("fewer than eight samples a turn")
-        }
-        true => Ok(Uncertain::new(
-            angle / outside,
-            radii.noise.deviation * ends.sqrt() / outside,
+    match rows {
+        0 => no("it goes round less than once before it comes within half the clearance"),
+        _ if angle.abs() * A_TURN > TAU * rows as f64 => no("fewer than eight samples a turn"),
+        _ => Ok(Uncertain::new(
+            angle / time,
+            radii.noise.deviation * ends.sqrt() / time,
         )),
-        false => no("it goes round less than once outside half the clearance"),
     }
 }
 
@@ -447,11 +498,12 @@ pub(super) fn of_orbits(list: &mut List, curves: &[Curve], run: Option<&Run>) {
     }
 }
 
-/// Phases at the release of the pairs that show them: measured and predicted, rad.
-pub(super) fn phases(curves: &[Curve], run: &Run) -> Vec<(String, [Uncertain; 2])> {
+/// Of the pairs that show it: phases at the release, measured and predicted, rad, and whether the measured orbit turns against the rotor.
+pub(super) fn phases(curves: &[Curve], run: &Run) -> Vec<(String, [Uncertain; 2], bool)> {
     let pairs = orbits(curves).into_iter().filter_map(|own| {
         let [measured, predicted] = own.phases(run).map(Result::ok);
-        Some((own.name, [measured?, predicted?]))
+        let is_backward = own.is_backward(run);
+        Some((own.name, [measured?, predicted?], is_backward))
     });
     pairs.collect()
 }
@@ -508,7 +560,7 @@ origins! {
     CROSSING: law "distance from the line of levitation, by a local fit before it, reaches the radial air clearance",
         source LOCAL,
         valid "a race that is centred until then, sensors whose zero is the line of levitation";
-    WHIRL: law "net angle about the line of levitation over the time outside half the clearance",
+    WHIRL: law "net angle about the line of levitation over the time of all stretches outside half the clearance that go round once or more",
         source HERE,
-        valid "once round at least; eight samples a turn or more, and four a turn of the rotor";
+        valid "bounces, which go round less, do not count; eight samples a turn or more, and four a turn of the rotor";
 }

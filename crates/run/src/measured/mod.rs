@@ -31,6 +31,8 @@ use units::{Unit, number_text};
 const GAP: f64 = 3.5;
 /// Standard deviations of the band whose share is told.
 const BAND: f64 = 2.0;
+/// Deviations from which on a sample stands alone beside its neighbours; noise of 100 000 samples comes to six.
+const ALONE: f64 = 8.0;
 /// What names of results and columns begin with.
 const MEASURED: &str = "measured";
 
@@ -55,6 +57,8 @@ pub(crate) struct Compared {
     pub measured: Vec<f64>,
     pub predicted: Vec<f64>,
     before: Before,
+    /// Where its first gap after the release begins, s from the release.
+    gap: Option<f64>,
 }
 
 /// Reads the channels that a scenario names, and checks that the run has such columns.
@@ -214,6 +218,10 @@ impl Curve {
     fn compared(&self, outcome: &Outcome, release: f64, turning: Option<&Turning>) -> Compared {
         let mut compared = Compared {
             before: self.before(release, turning),
+            gap: self
+                .gaps(release, f64::INFINITY)
+                .next()
+                .map(|gap| gap[0] - release),
             ..Compared::default()
         };
         let [times, values] = ["time", &self.given.column]
@@ -245,6 +253,24 @@ impl Compared {
     pub fn residuals(&self) -> Option<Vec<f64>> {
         let deviation = self.deviation()?;
         Some(self.differences().map(|own| own / deviation).collect())
+    }
+
+    /// Rows of the samples that stand alone: beside the cubic through two neighbours on each side by more than noise.
+    fn alone(&self, values: &[f64]) -> Vec<usize> {
+        let Some(deviation) = self.deviation() else {
+            return Vec::new();
+        };
+        let five = values.windows(5);
+        let beside: Vec<f64> = five
+            .map(|own| (own[2] - (4.0 * (own[1] + own[3]) - own[0] - own[4]) / 6.0).abs())
+            .collect();
+        // beside one that stands alone its neighbours are off as well, by less
+        let largest = |row: &usize| {
+            let around = &beside[row.saturating_sub(2)..beside.len().min(row + 3)];
+            around.iter().all(|own| *own <= beside[*row])
+        };
+        let far = (0..beside.len()).filter(|row| beside[*row] > ALONE * deviation);
+        far.filter(largest).map(|row| row + 2).collect()
     }
 
     fn rms(&self) -> Result<f64, String> {

@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 const APART: (f64, f64) = (PI / 18.0, 3.0);
 /// A deviation that is given differs from the scatter before the release from this ratio on.
 const OTHER: f64 = 2.0;
+/// Samples that stand alone make a warning from so many more on than twice those of the prediction.
+const FEW: usize = 2;
 /// Rows are coarser than the file from this ratio of intervals on.
 const COARSER: f64 = 1.5;
 
@@ -15,16 +17,20 @@ problem::warnings! {
     /// Of measured channels beside predicted columns.
     pub enum MeasuredWarning {
         Coarse { part: text, interval: "s", rows: "s" } "AB2340" Note ("Channel of {part} is sampled every {:.3} ms, the run has a row every {:.3} ms: the prediction is straight between its rows. Choose run.output_interval as the interval of the file.", 1e3 * interval, 1e3 * rows);
-        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it. An orbit that is mirrored has exchanged channels, or one of the wrong sign.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
+        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
         PhaseUnknown "AB2342" Note ("The measured channels do not show the phase of the orbit at the release. Impacts after the first depend on the angle of the unbalance at the release, an input (rotor.unbalance_angle).");
         PartOfRun { part: text, from: "s", to: "s", end: "s" } "AB2343" Note ("File of {part} covers {from:.4} s to {to:.4} s of a run of {end:.4} s: compared there.");
-        Gaps { part: text, gaps: "", from: "s", to: "s" } "AB2344" Uncertain ("Channel of {part} has gaps ({gaps:.0}), the first from {from:.4} s to {to:.4} s: nothing is compared there, and features that fall into one are not those of the machine.");
+        Gaps { part: text, gaps: "", from: "s", to: "s" } "AB2344" Uncertain ("Channel of {part} has gaps ({gaps:.0}), the first from {from:.4} s to {to:.4} s: nothing is compared there, and features are those before the first one.");
         OtherNoise { part: text, given: "of the column", found: "of the column" } "AB2346" Uncertain ("Channel of {part}: measured.deviation is {given:.2e}, and its values before the release scatter by {found:.2e} about mean and synchronous orbit. Misfit and uncertainties count by the first.");
+        Alone { part: text, count: "", share: "1", at: "s" } "AB2347" Uncertain ("Channel of {part}: {count:.0} samples ({:.2} %) stand alone by more than 8 deviations of its noise, the first at {at:.4} s, and the prediction has no such ones: faults of the record, or motion that its interval does not resolve. They count in misfit, features and estimates as all others do.", 100.0 * share);
+        Backward { part: text } "AB2348" Invalid ("The orbit of {part} before the release turns against the rotor: x and y exchanged, or one of them of the wrong sign (scale = -1). Only between two critical speeds of unequal supports does unbalance make such an orbit. What is compared here is a mirrored motion.");
     }
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
-    use MeasuredWarning::{Coarse, Gaps, OtherNoise, PartOfRun, PhaseDiffers, PhaseUnknown};
+    use MeasuredWarning::{
+        Alone, Backward, Coarse, Gaps, OtherNoise, PartOfRun, PhaseDiffers, PhaseUnknown,
+    };
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
         .outcome
@@ -65,6 +71,15 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 list.push(OtherNoise { part, given, found });
             }
         }
+        let [alone, expected] = [&own.measured, &own.predicted].map(|values| own.alone(values));
+        if let (Some(first), true) = (alone.first(), alone.len() > 2 * expected.len() + FEW) {
+            list.push(Alone {
+                part: part(),
+                count: alone.len() as f64,
+                share: alone.len() as f64 / own.time.len() as f64,
+                at: own.time[*first] + run.release,
+            });
+        }
         if from > begin + interval || to < end - interval {
             let (part, from, to, end) = (part(), from.max(*begin), to.min(*end), *end);
             list.push(PartOfRun {
@@ -79,7 +94,11 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
     if phases.is_empty() && ["drop", "machine"].contains(&run.outcome.system) {
         list.push(PhaseUnknown);
     }
-    for (part, [measured, predicted]) in phases {
+    for (part, [measured, predicted], is_backward) in phases {
+        if is_backward {
+            list.push(Backward { part });
+            continue;
+        }
         let apart = measured.minus(predicted);
         if apart.value.abs() > APART.0.max(APART.1 * apart.deviation) {
             list.push(PhaseDiffers {

@@ -4,6 +4,8 @@ use super::*;
 use crate::Options;
 use outcome::Value;
 use scenario::BuiltIn;
+use statistics::local_fit::Samples;
+use statistics::noise::Noise;
 use statistics::random::Random;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -229,4 +231,112 @@ fn a_clearance_off_by_half_a_per_cent_shows_in_any_channel() {
             "{kind:?}: {right} {wrong}"
         );
     }
+}
+
+/// Codes of the warnings, and values of results, of channels that something is wrong with.
+fn damaged(
+    scenario: &Scenario,
+    run: &Outcome,
+    damage: impl Fn(&mut Curve),
+) -> (Vec<&'static str>, BTreeMap<String, f64>) {
+    let mut channels = curves(scenario, run, 2.5e-4, Some((Kind::White, 3)));
+    channels.iter_mut().for_each(damage);
+    let turning = before::turning(run, 0.0);
+    let compared = |curve: &Curve| curve.compared(run, 0.0, turning.as_ref());
+    let all: Vec<Compared> = channels.iter().map(compared).collect();
+    let both = Run {
+        outcome: run,
+        release: 0.0,
+        curves: &channels,
+        all: &all,
+    };
+    let codes = warnings::of(&channels, &both).into_iter();
+    (codes.map(|own| own.code).collect(), values(&channels, run))
+}
+
+#[test]
+fn damage_of_channels_is_found_and_hides_no_feature() {
+    let scenario = machine();
+    let never = AtomicBool::new(false);
+    let run = crate::built(&scenario)
+        .unwrap()
+        .run(&Options::unwatched(&never));
+    let (codes, whole) = damaged(&scenario, &run, |_| {});
+    let wrong = ["AB2344", "AB2347", "AB2348"];
+    assert!(codes.iter().all(|code| !wrong.contains(code)), "{codes:?}");
+
+    // every hundredth sample of one channel is off by 20 deviations
+    let (codes, _) = damaged(&scenario, &run, |curve| {
+        if curve.name == "rotor.x" {
+            let every = curve.values.iter_mut().skip(50).step_by(100);
+            every.for_each(|own| *own += 20e-6);
+        }
+    });
+    let alone = codes.iter().filter(|code| **code == "AB2347");
+    assert_eq!(alone.count(), 1, "{codes:?}");
+
+    // x and y exchanged, and y of the other sign
+    let mirrored = |curve: &mut Curve| match curve.name.as_str() {
+        "rotor.y" => curve.values.iter_mut().for_each(|own| *own = -*own),
+        _ => {}
+    };
+    let (codes, _) = damaged(&scenario, &run, mirrored);
+    assert!(
+        codes.contains(&"AB2348") && !codes.contains(&"AB2341"),
+        "{codes:?}"
+    );
+
+    // a gap over the first impact: features before it stay, those after it are not given
+    let contact = whole["measured.bearing.contact.force.first_contact.measured"];
+    let (codes, gapped) = damaged(&scenario, &run, |curve| {
+        let keep = |time: &f64| (time - contact).abs() > 3e-3;
+        let both = curve
+            .times
+            .iter()
+            .copied()
+            .zip(curve.values.iter().copied());
+        (curve.times, curve.values) = both.filter(|(time, _)| keep(time)).unzip();
+    });
+    assert!(codes.contains(&"AB2344"), "{codes:?}");
+    for feature in [
+        "bearing.contact.force.first_contact",
+        "bearing.contact.force.peak",
+        "rotor.first_contact",
+        "rotor.y.first_reversal",
+    ] {
+        let name = format!("measured.{feature}.measured");
+        assert!(
+            whole.contains_key(&name) && !gapped.contains_key(&name),
+            "{name}"
+        );
+    }
+    assert!(gapped.contains_key("measured.rotor.phase_at_release.measured"));
+}
+
+/// Net angle over all time outside half the clearance once gave bounces a frequency.
+#[test]
+fn bounces_do_not_whirl() {
+    let noise = Noise::default();
+    let turning = |angle: fn(f64) -> f64, radius: fn(f64) -> f64| {
+        let times: Vec<f64> = (0..400).map(|k| 1e-3 * f64::from(k)).collect();
+        let points: Vec<[f64; 2]> = (times.iter())
+            .map(|t| [radius(*t) * angle(*t).cos(), radius(*t) * angle(*t).sin()])
+            .collect();
+        let values: Vec<f64> = points.iter().map(|[x, y]| x.hypot(*y)).collect();
+        let samples = Samples {
+            times: &times,
+            values: &values,
+            noise: &noise,
+        };
+        features::whirl(samples, &points, 0.5, 3.5e-3)
+    };
+    // five turns of 50 ms outside, then arcs of a third of a turn between returns to the centre
+    let whirls = turning(|t| TAU * t / 0.05, |t| if t < 0.25 { 1.0 } else { 0.2 });
+    let rate = whirls.unwrap().value;
+    assert!((rate * 0.05 / TAU - 1.0).abs() < 1e-9, "{rate}");
+    let bounces = turning(
+        |t| TAU * t / 0.05,
+        |t| if (t / 0.016) % 1.0 < 0.9 { 1.0 } else { 0.2 },
+    );
+    assert!(bounces.is_err());
 }
