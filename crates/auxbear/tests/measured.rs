@@ -165,6 +165,15 @@ fn an_estimate_finds_the_inputs_that_made_the_file() {
         assert_eq!(own.why, "");
     }
     assert!((estimate.misfit - 1.0).abs() < 0.1 && estimate.rival.is_none());
+    // what its pictures show is what was fitted
+    let left = estimate.curves.iter().flat_map(|own| {
+        let both = own.measured.iter().zip(&own.predicted);
+        both.map(|(a, b)| ((a - b) / own.deviation.unwrap()).powi(2))
+    });
+    let left: Vec<f64> = left.collect();
+    assert_eq!(left.len() as f64, estimate.rows[0]);
+    let rms = (left.iter().sum::<f64>() / left.len() as f64).sqrt();
+    assert!((rms / estimate.misfit - 1.0).abs() < 1e-12, "{rms}");
     // members in lanes have the results of single runs
     let single = ran(&study.scenario(7).unwrap()).unwrap();
     assert_eq!(run.values(MISFIT)[7], Some(number(&single, MISFIT)));

@@ -74,6 +74,9 @@ fn a_document_judges_requirements_and_says_what_they_owe_to_inputs() {
         "once a year",
         "Thrust is carried",
         "2026-11-28",
+        "Few draws:",
+        "2 draws have no 5 % and 95 %",
+        "not in this model",
     ] {
         assert!(document.contains(text), "{text}");
     }

@@ -106,8 +106,14 @@ pub fn over_time(
             .position(|value| value.is_nan() || value.abs() > LARGEST)
     };
     if let Some(row) = beyond(&values).or(beyond(&times)) {
+        // readers of texts note the line
+        let own = recording.notes().iter();
+        let mut own = own.filter(|note| note.channel.as_deref().is_none_or(|own| own == name));
+        let note = own
+            .next()
+            .map_or(String::new(), |note| format!(" ({})", note.text));
         let found = format!(
-            "channel \"{name}\", whose value {} is no number below 1e100",
+            "channel \"{name}\", whose value {} is no number below 1e100{note}",
             row + 1
         );
         let needed = "a number in every row is needed";

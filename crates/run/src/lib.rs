@@ -11,7 +11,7 @@ mod before;
 mod cutoff;
 mod each;
 mod known;
-mod measured;
+pub mod measured;
 pub mod study;
 #[cfg(test)]
 mod tests;

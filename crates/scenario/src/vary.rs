@@ -345,15 +345,17 @@ pub fn one(path: &str, raw: &Raw, place: Place, all: &[Values]) -> Result<Vary> 
         number.ok_or_else(|| problem(Code::WrongType, raw.text(), "a number is needed"))
     };
     let numbers = |count: usize| -> Result<Vec<f64>> {
-        let needed = format!("a list of {count} values, rising, is needed");
+        let needed = format!(
+            "a list of {count} values, the last above the first and none below the one before, is needed"
+        );
         let Raw::List(list) = given else {
             return Err(problem(Code::WrongType, given.text(), &needed));
         };
         let values = list.iter().map(number).collect::<Result<Vec<_>, _>>()?;
         let rising = values.windows(2).all(|pair| pair[0] <= pair[1]);
-        if values.len() != count || !rising {
-            let found = format!("{} values", values.len());
-            return Err(problem(Code::OutOfRange, found, &needed));
+        let wide = values.first() < values.last();
+        if values.len() != count || !rising || !wide {
+            return Err(problem(Code::OutOfRange, given.shown(), &needed));
         }
         if !(values[count - 1] - values[0]).is_finite() {
             let needed = "a difference that is a number is needed";
@@ -485,6 +487,8 @@ fn of_part(path: &str, raw: &Raw, place: Place, file: &str) -> Result<Vary> {
         let rising = numbers.windows(2).all(|pair| {
             (0.0..f64::INFINITY).contains(&(pair[1].0 - pair[0].0)) && pair[0].1 == pair[1].1
         });
+        let wide = numbers.first().map(|own| own.0) < numbers.last().map(|own| own.0);
+        let rising = rising && wide;
         match (word.as_str(), numbers.as_slice()) {
             ("uniform", [(low, of), (high, _)]) if rising => {
                 (Distribution::Uniform(*low, *high), *of)

@@ -392,8 +392,9 @@ fn what_cannot_be_varied_is_refused() {
         ("vary.rotor.speed=9000 rpm", "9000 rpm"),
         (
             "vary.mount.stiffness={ uniform = [\"3e7 N/m\", \"1e7 N/m\"] }",
-            "2 values",
+            "3e7 N/m, 1e7 N/m",
         ),
+        ("vary.rotor.mass={ uniform = [\"2 kg\", \"2 kg\"] }", "2 kg"),
         ("vary.bearing.name={ lognormal = 0.2 }", "no real number"),
         (
             "vary.rotor.first_bending_frequency={ lognormal = 0.2 }",

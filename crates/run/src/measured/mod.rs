@@ -366,6 +366,42 @@ pub(crate) fn residuals(curves: &[Curve], outcome: &Outcome) -> Vec<Residuals> {
     each.filter_map(of).collect()
 }
 
+/// A channel of the first drop beside its prediction, for a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// What results call it.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Instants after the release, s.
+    pub time: Vec<f64>,
+    /// Measured values.
+    pub measured: Vec<f64>,
+    /// Predicted values.
+    pub predicted: Vec<f64>,
+    /// Standard deviation of a measured value, where it is known.
+    pub deviation: Option<f64>,
+}
+
+/// The channels of the first drop beside a run.
+pub(crate) fn fitted(curves: &[Curve], outcome: &Outcome) -> Vec<Fitted> {
+    let release = counted_from(&outcome.quantities).unwrap_or(0.0);
+    let turning = before::turning(outcome, release);
+    let first = curves.iter().filter(|curve| curve.given.drop == 1);
+    let of = |curve: &Curve| {
+        let own = curve.compared(outcome, release, turning.as_ref());
+        Fitted {
+            name: curve.name.clone(),
+            unit: curve.unit,
+            deviation: own.deviation(),
+            time: own.time,
+            measured: own.measured,
+            predicted: own.predicted,
+        }
+    };
+    first.map(of).collect()
+}
+
 /// Residuals of a channel.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Residuals {

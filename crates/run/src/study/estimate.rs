@@ -13,8 +13,8 @@
 use super::Study;
 use super::table::Table;
 use crate::Options;
-use crate::measured::{self, Curve, Residuals};
-use outcome::host;
+use crate::measured::{self, Curve, Fitted, Residuals};
+use outcome::{Outcome, host};
 use scenario::Vary;
 use statistics::design::Coordinate;
 use statistics::noise::Noise;
@@ -71,6 +71,8 @@ pub struct Estimate {
     pub runs: usize,
     /// The first member that fits as well elsewhere.
     pub rival: Option<usize>,
+    /// The channels beside the run of the estimate.
+    pub curves: Vec<Fitted>,
 }
 
 /// An input with its estimate.
@@ -208,6 +210,7 @@ impl Study {
             misfit,
             explained,
             runs: runs.into_inner(),
+            curves: (fit.outcome(&place)).map_or(Vec::new(), |own| measured::fitted(&curves, &own)),
         }))
     }
 
@@ -273,6 +276,13 @@ impl<const N: usize> Fit<'_, N> {
 
     /// Residuals of each channel at shares of the bounds; none of a run that does not end as planned.
     fn at(&self, shares: &[f64; N]) -> Option<Vec<Residuals>> {
+        let all = measured::residuals(self.curves, &self.outcome(shares)?);
+        let any = all.iter().any(|own| !own.values.is_empty());
+        any.then_some(all)
+    }
+
+    /// The run at shares of the bounds, if it ends as planned.
+    fn outcome(&self, shares: &[f64; N]) -> Option<Outcome> {
         if self.interrupted() {
             return None;
         }
@@ -288,9 +298,7 @@ impl<const N: usize> Fit<'_, N> {
         };
         let scenario = file.scenario.with(&values).ok()?;
         let outcome = crate::built(&scenario).ok()?.computed(&quiet);
-        let all = measured::residuals(self.curves, &outcome);
-        let any = all.iter().any(|own| !own.values.is_empty());
-        (outcome.stop.complete() && any).then_some(all)
+        outcome.stop.complete().then_some(outcome)
     }
 
     /// Mean of the squares of the residuals of the first part of each curve; beyond the bounds it grows.

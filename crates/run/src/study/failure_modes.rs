@@ -36,13 +36,21 @@ pub const FAILURE_MODES: &[FailureMode] = &[
         warnings: &["AB1002", "AB1005"],
     },
     FailureMode {
+        name: "ball over a shoulder, row without load",
+        results: &[
+            ("shoulder_run_over_time", Least),
+            ("smallest_preload", Least),
+        ],
+        warnings: &["AB2411", "AB2412", "AB2345"],
+    },
+    FailureMode {
         name: "jam of balls, cage",
         results: &[("peak_pocket_force", Most)],
         warnings: &["AB1070", "AB1015"],
     },
     FailureMode {
         name: "skid",
-        results: &[("inner_skid_share", Most), ("skid_temperature_index", Most)],
+        results: &[("ball_slip_energy", Most), ("skid_temperature_index", Most)],
         warnings: &["AB1017", "AB2303"],
     },
     FailureMode {
@@ -50,8 +58,9 @@ pub const FAILURE_MODES: &[FailureMode] = &[
         results: &[
             ("contact_temperature_index", Most),
             ("inner_race_rise_without_cooling", Most),
+            ("face_temperature_rise", Most),
         ],
-        warnings: &["AB2300", "AB2301", "AB2302", "AB2310", "AB2311"],
+        warnings: &["AB2300", "AB2301", "AB2302", "AB2310", "AB2311", "AB2416"],
     },
     FailureMode {
         name: "rolling fatigue",

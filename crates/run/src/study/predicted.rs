@@ -5,10 +5,13 @@ use super::table::Column;
 use crate::Options;
 use outcome::{Spread, host};
 use scenario::CASE;
+use std::f64::consts::TAU;
 use std::sync::atomic::Ordering;
 
-/// Rows of a predicted signal.
-const ROWS: f64 = 400.0;
+/// Rows of a predicted signal at least and at most.
+const ROWS: [f64; 2] = [400.0, 4000.0];
+/// Bandwidth that a test is planned with, in speeds of the rotor.
+pub const BANDWIDTH: f64 = 10.0;
 /// Draws that make a band, at most.
 const MOST_DRAWS: usize = 64;
 /// What a test can measure, by the ends of its columns.
@@ -23,6 +26,13 @@ const MEASURED: [&str; 7] = [
 ];
 /// Ends of the columns of a signal, in the order of a band.
 pub const BAND: [&str; 3] = [".5_percent", ".median", ".95_percent"];
+
+fn is_measured(name: &str) -> bool {
+    let is_end = |end: &&str| {
+        (name.strip_suffix(end)).is_some_and(|own| own.is_empty() || own.ends_with('.'))
+    };
+    name.starts_with("magnet.") || MEASURED.iter().any(is_end)
+}
 
 impl Study {
     /// The first member of the case that is to be tested, at the levels that are the values of the scenario, else at the last ones.
@@ -69,9 +79,13 @@ impl Study {
             interrupt: options.interrupt,
             progress: &|_| {},
         };
+        // two rows in each period of the bandwidth
+        let tested = self.file.scenario.with(&self.drawn(first).values).ok()?;
+        let bandwidth = BANDWIDTH * tested.drop()?.rotor.speed.abs() / TAU;
+        let rows = (2.0 * bandwidth * duration).ceil().clamp(ROWS[0], ROWS[1]);
         let rows = (
             "run.output_interval".to_string(),
-            format!("{} s", duration / ROWS),
+            format!("{} s", duration / rows),
         );
         let histories = host::in_pool(options.threads, || {
             host::each(&members, |_, member| {
@@ -79,7 +93,9 @@ impl Study {
                 values.push(rows.clone());
                 let scenario = self.file.scenario.with(&values).ok()?;
                 let outcome = crate::build(&scenario).ok()?.run(&quiet);
-                outcome.stop.complete().then_some(outcome.history)
+                let mut history = outcome.history;
+                history.retain(|own| own.name == "time" || is_measured(&own.name));
+                outcome.stop.complete().then_some(history)
             })
         });
         let histories: Vec<Vec<outcome::Column>> = histories.into_iter().flatten().collect();
@@ -99,13 +115,7 @@ impl Study {
             time.meaning.clone(),
             time.values.clone(),
         )];
-        for signal in one {
-            let named =
-                |end: &&&str| signal.name == **end || signal.name.ends_with(&format!(".{end}"));
-            let of_magnet = signal.name.starts_with("magnet.");
-            if !of_magnet && MEASURED.iter().find(named).is_none() {
-                continue;
-            }
+        for signal in &one[1..] {
             let same = histories
                 .iter()
                 .map(|history| history.iter().find(|own| own.name == signal.name));

@@ -43,22 +43,30 @@ impl Document<'_> {
                 let member = own
                     .member
                     .map_or(String::new(), |member| format!(" (run {member})"));
+                let why = match (own.value, own.result.value.why_absent()) {
+                    (None, Some(why)) => format!(" ({})", plain(why)),
+                    _ => String::new(),
+                };
                 format!(
-                    "{} {}{member}",
+                    "{} {}{member}{why}",
                     words(&own.result.name),
                     cell(own.value, own.result.unit)
                 )
             });
             let values: Vec<String> = values.collect();
+            let warned = match values.is_empty() {
+                true => "–".to_string(),
+                false => self.share_of(mode),
+            };
             let or = |list: Vec<String>, none: &str| match list.is_empty() {
                 true => none.to_string(),
                 false => list.join("<br>"),
             };
             vec![
                 mode.name.to_string(),
-                or(values, "no result"),
+                or(values, "<b class=\"open\">not in this model</b>"),
                 or(bounded, "<b class=\"open\">no requirement</b>"),
-                self.share_of(mode),
+                warned,
             ]
         };
         format!(
@@ -151,10 +159,11 @@ impl Document<'_> {
                 short(value)
             ))
         ));
-        out.push_str(&paragraph(
+        out.push_str(&paragraph(&format!(
             "Impacts are chaotic: a single late value of a single run means little, so requirements are judged over draws, and by the worst of them. Limits of the model: \
-             motion is planar (no axial drop, no tilt of the rings); dents do not change later motion; lubricant and surface are those of the inputs.",
-        ));
+             {}dents do not change later motion; lubricant and surface are those of the inputs.",
+            if self.is_planar() { "motion is planar (no axial drop, no tilt of the rings); " } else { "" }
+        )));
         let all = self.table.members.len();
         let warned = self.table.warned().into_iter();
         let warned = warned.filter(|own| own.severity() < Severity::Note);

@@ -2,8 +2,11 @@
 
 use super::{Document, note, paragraph, words};
 use crate::page::escape_text as plain;
-use crate::study::cells::{amount, rows};
+use crate::study::cells::{amount, cell, rows};
 use outcome::{Severity, Value};
+
+/// A run at a level is one at a critical speed that differs by this share at most.
+const AT_LEVEL: f64 = 0.02;
 
 /// What a table of the bearings says of each, by the paths of the keys.
 const OF_BEARINGS: [(&str, &str); 8] = [
@@ -128,6 +131,30 @@ impl Document<'_> {
         }
     }
 
+    /// Critical speeds of the rotor, levitated or on its auxiliary bearings, within the range of the speeds that were run but at none of them.
+    pub(super) fn critical_between_levels(&self) -> Option<String> {
+        let (rotor, _) = self.rotor?;
+        let candidates = self.answer.ranking.iter().flat_map(|one| &one.values);
+        let texts = candidates.filter(|(path, _)| path == "rotor.speed");
+        let speeds = texts.filter_map(|(_, text)| units::parse_quantity(text).ok());
+        let levels: Vec<f64> = speeds.map(|own| own.value_si.abs()).collect();
+        let is_speed = |name: &str| name.contains("critical_") && name.ends_with(".speed");
+        let between = rotor.quantities.iter().filter_map(|own| {
+            let Value::Number(speed) = own.value else {
+                return None;
+            };
+            (is_speed(&own.name) && is_between(speed, &levels))
+                .then(|| format!("{} ({})", cell(Some(speed), own.unit), words(&own.name)))
+        });
+        let list: Vec<String> = between.collect();
+        (!list.is_empty()).then(|| {
+            format!(
+                "No run is at a critical speed between the levels of rotor.speed: {}. A level there shows what it does.",
+                list.join(", ")
+            )
+        })
+    }
+
     /// Each case with what happens in it, and how often it is expected.
     pub(super) fn events(&self) -> String {
         let toml = self.study.file.scenario.resolved.toml();
@@ -174,8 +201,12 @@ impl Document<'_> {
             true => String::new(),
             false => format!(" at each level of {}", levels.join(", ")),
         };
+        let between = self.critical_between_levels();
+        let between = between.map_or(String::new(), |text| {
+            paragraph(&format!("<b class=\"open\">{text}</b>"))
+        });
         format!(
-            "{}{}",
+            "{}{between}{}",
             rows(&head, &body),
             paragraph(&format!(
                 "Each case runs{levels}, with {} draws of what is not certain; all cases meet the same draws. Other faults, and speeds between the levels, are not shown.",
@@ -183,6 +214,15 @@ impl Document<'_> {
             ))
         )
     }
+}
+
+/// Whether a speed lies between levels, at none of them.
+fn is_between(speed: f64, levels: &[f64]) -> bool {
+    let near = |level: &f64| (speed - level).abs() <= AT_LEVEL * speed;
+    let any = |side: fn(f64, f64) -> bool| levels.iter().any(|level| side(*level, speed));
+    any(|level, speed| level < speed)
+        && any(|level, speed| level > speed)
+        && !levels.iter().any(near)
 }
 
 /// Events and the motion of the base as a resolved file has them: the case that each is of, and its keys in a line.
@@ -232,6 +272,15 @@ fn tables_of(toml: &str) -> Vec<(Option<String>, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_critical_speed_between_levels_is_at_none_of_them() {
+        let levels = [1000.0, 2000.0, 3000.0];
+        let found =
+            [900.0, 1500.0, 1985.0, 2500.0, 3000.0, 3100.0].map(|own| is_between(own, &levels));
+        assert_eq!(found, [false, true, false, true, false, false]);
+        assert!(!is_between(1000.0, &[]) && !is_between(1500.0, &[1000.0]));
+    }
 
     #[test]
     fn events_of_a_resolved_file_are_told_with_their_cases() {

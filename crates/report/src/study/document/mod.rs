@@ -31,6 +31,8 @@ use std::fmt::Write;
 
 /// Severe warnings that the first page names.
 const NAMED: usize = 6;
+/// Fewer draws have no value that 5 % of them fall below.
+const FEW_DRAWS: usize = 20;
 
 /// What a document is made of.
 pub(super) struct Document<'a> {
@@ -271,15 +273,9 @@ impl Document<'_> {
                 )
             }
         };
-        let draws = self
-            .answer
-            .ranking
-            .iter()
-            .map(|one| one.draws[0])
-            .min()
-            .unwrap_or(0)
-            .max(1);
+        let draws = self.least_draws();
         let rare = percent(1.0 - 0.05f64.powf(1.0 / draws as f64));
+        let few = draws < FEW_DRAWS;
         let interim = match self.complete {
             true => String::new(),
             false => format!(
@@ -289,19 +285,42 @@ impl Document<'_> {
         };
         let _ = writeln!(
             out,
-            "<div class=\"tally {}\"><b>{met} of {} requirements met, {not} not met, {open} not shown.</b>{weak} {draws} draws of each case at each level that all hold leave room for up to \
-             {rare} of such runs that do not (95 % confidence).{interim}</div>",
-            if not > 0 || !self.complete { "bad" } else { "" },
+            "<div class=\"tally {}\"><b>{met} of {} requirements met, {not} not met, {open} not shown.</b>{weak} {}{draws} draws of each case at each level that all hold leave room for up to \
+             {rare} of such runs that do not (95 % confidence).{}{interim}</div>",
+            if not > 0 || few || !self.complete {
+                "bad"
+            } else {
+                ""
+            },
             met + not + open,
+            if few { "<b>Few draws:</b> " } else { "" },
+            if few { " 59 leave room for 5 %." } else { "" },
         );
         out.push_str(&self.gravest());
         out.push_str(&self.first_table(&requirements));
         out.push_str(&note(
             "Met: every run of every case in which it is required holds the bound. Not shown: the runs do not decide, or no result answers it. The margin is the distance to the bound as a \
-             share of the bound. Verdicts hold for the inputs of this hash alone: when one of them changes, run again. Motion is planar: forces and motion along the shaft \
-             are not in any result, so no requirement on them is met by this document.",
+             share of the bound. Verdicts hold for the inputs of this hash alone: when one of them changes, run again.",
         ));
+        out.push_str(&note(if self.is_planar() {
+            "Motion is planar: forces and motion along the shaft are not in any result, so no requirement on them is met by this document."
+        } else {
+            "Bearings in space: motion and forces along the shaft, and the tilt of the rings, are in the results."
+        }));
         (title, out)
+    }
+
+    /// Whether all bearings move in the plane across the shaft alone.
+    pub(super) fn is_planar(&self) -> bool {
+        let values = self.study.file.scenario.resolved.values.iter();
+        let mut fidelities = values.filter(|value| value.path == "bearing.fidelity");
+        fidelities.all(|value| value.text.as_deref() != Some("spatial"))
+    }
+
+    /// Draws of each case at each level, at least.
+    pub(super) fn least_draws(&self) -> usize {
+        let ranking = self.answer.ranking.iter();
+        ranking.map(|one| one.draws[0]).min().unwrap_or(0).max(1)
     }
 
     /// The gravest of what the runs warn of.
@@ -316,7 +335,10 @@ impl Document<'_> {
             let (code, title, share) = (plain(&own.code), plain(&own.title), own.share(all));
             format!("<li class=\"grave\"><code>{code}</code> {title}: {share}</li>\n")
         };
-        let list: String = severe.iter().take(NAMED).map(row).collect();
+        let mut list: String = severe.iter().take(NAMED).map(row).collect();
+        if let Some(between) = self.critical_between_levels() {
+            let _ = writeln!(list, "<li class=\"grave\">{between}</li>");
+        }
         let more = match severe.len().saturating_sub(NAMED) {
             0 => String::new(),
             more => format!("<li>{more} more in section 7</li>\n"),

@@ -1,19 +1,21 @@
 //! The test that this predicts: its plan, its signals with bands, what is watched in service, close clearances.
 
-use super::{Document, figure, note, paragraph, words};
+use super::{Document, FEW_DRAWS, figure, note, paragraph, words};
 use crate::page::escape_text as plain;
 use crate::picture::Panel;
 use crate::study::bars::{WIDTH, picture, room};
-use crate::study::cells::{amount, cell, scaled, short, table};
+use crate::study::cells::{amount, cell, percent, scaled, short, table};
 use outcome::Spread;
 use run::study::failure_modes::CloseClearances;
-use run::study::predicted::BAND;
+use run::study::predicted::{BAND, BANDWIDTH};
 use run::study::table::Column;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// Signals that are drawn.
 const DRAWN: usize = 12;
+/// Points of a line, at most.
+const POINTS: usize = 500;
 const HEIGHT: f64 = 230.0;
 const LINE: &str = "#1f5fa8";
 
@@ -37,10 +39,18 @@ impl Document<'_> {
             .results_of("bending")
             .flat_map(|own| self.values_of(own));
         let bends = bends.fold(0.0, f64::max);
-        let fastest = (10.0 * self.predicted_speed()).max(3.0 * bends) / TAU;
+        let fastest = (BANDWIDTH * self.predicted_speed()).max(3.0 * bends) / TAU;
+        let interval = self.interval();
+        let coarse = match interval * 2.0 * fastest > 1.01 {
+            true => format!(
+                "; the predicted signals, a row every {}, show less",
+                plain(&amount(interval, "s"))
+            ),
+            false => String::new(),
+        };
         let bandwidth = match fastest > 0.0 {
             true => format!(
-                " of {} Hz or more (ten times the speed, three times the first bending mode)",
+                " of {} Hz or more (ten times the speed, three times the first bending mode{coarse})",
                 short(fastest)
             ),
             false => String::new(),
@@ -76,6 +86,13 @@ impl Document<'_> {
         values.iter().map(|speed| speed.abs()).fold(0.0, f64::max)
     }
 
+    /// Interval of the rows of the predicted signals, s; 0 before they were computed.
+    fn interval(&self) -> f64 {
+        let time = self.predicted.first();
+        time.and_then(|time| time.values.get(1).copied())
+            .unwrap_or(0.0)
+    }
+
     pub(super) fn predicted_signals(&self) -> String {
         let (case, _) = self.tested();
         let Some((time, signals)) = self.predicted.split_first() else {
@@ -83,15 +100,28 @@ impl Document<'_> {
         };
         let mut out = paragraph(&format!(
             "{case}, over its draws. All signals stand in <code>predicted.csv</code> beside this document, a row every {}.",
-            plain(&amount(time.values.get(1).copied().unwrap_or(0.0), "s"))
+            plain(&amount(self.interval(), "s"))
         ));
         out.push_str("<div class=\"pair\">\n");
         for band in signals.chunks(BAND.len()).take(DRAWN) {
             out.push_str(&figure(&band_figure(time, band)));
         }
         out.push_str("</div>\n");
+        out.push_str(&self.band_of_few());
         out.push_str(&note("Line: median of the draws; band: 90 % of them. A band of chaotic motion is where it goes, not how: lay the measured signal over it, and compare instants, peaks and spreads."));
         out
+    }
+
+    /// What 5 % and 95 % of a few draws are worth.
+    fn band_of_few(&self) -> String {
+        let draws = self.least_draws();
+        if draws >= FEW_DRAWS {
+            return String::new();
+        }
+        let outside = percent(2.0 / (draws as f64 + 1.0));
+        paragraph(&format!(
+            "<b class=\"open\">{draws} draws have no 5 % and 95 %</b>: these are interpolated between them, and one more drop lies outside even their extremes with a probability of {outside}."
+        ))
     }
 
     /// What the first drop of the test shows, to be noted in service and compared drop by drop.
@@ -141,7 +171,7 @@ impl Document<'_> {
             table(
                 &[&format!("drop 1 of: {case}"), "5 %", "median", "95 %"],
                 body
-            ),
+            ) + &self.band_of_few(),
             note(
                 "Results of the first drop of the test over its draws; each has its law, source and range of validity in the page of a run."
             )
@@ -206,8 +236,9 @@ fn band_figure(time: &Column, band: &[Column]) -> String {
         x: room(time.values.iter().map(|t| t * seconds)),
         y: room(all.map(|value| value * factor)),
     };
+    let thinned = time.values.len().div_ceil(POINTS).max(1);
     let points = |column: &Column| -> Vec<String> {
-        let both = time.values.iter().zip(&column.values);
+        let both = time.values.iter().zip(&column.values).step_by(thinned);
         let known = both.filter(|(_, value)| value.is_finite());
         let placed = known.map(|(t, value)| axes.place(t * seconds, value * factor));
         placed.map(|(x, y)| format!("{x:.1},{y:.1}")).collect()
