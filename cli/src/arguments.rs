@@ -295,16 +295,16 @@ pub struct Stiffness {
     /// Diametral clearance of a deep-groove bearing, e.g. "10 um", from which the free contact angle follows
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub clearance: Option<String>,
-    /// single, DB (back to back), DF (face to face) or DT (tandem)
+    /// single, DB (back to back), DF (face to face), DT (tandem); sets TBT, TFT, TT, QBC, QFC, QBT, QFT, QT
     #[arg(long)]
     pub arrangement: Option<String>,
-    /// Preload of a pair as a force, e.g. "65 N"
+    /// Preload of a pair or set as a force, e.g. "65 N"
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
     pub preload: Option<String>,
-    /// Preload of a pair as the distance by which it is closed, e.g. "8 um"
+    /// Preload of a pair or set as the distance by which it is closed, e.g. "8 um"
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub offset: Option<String>,
-    /// Distance of the rows of a pair; else the width of a bearing
+    /// Distance of the rows; else the width of a bearing
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub spacing: Option<String>,
     /// Hypothesis of the balls' spin: half, outer, inner or outer_half

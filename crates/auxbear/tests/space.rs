@@ -31,6 +31,35 @@ fn a_vertical_rotor_falls_freely_onto_the_face_of_its_pair() {
 }
 
 #[test]
+fn a_set_of_three_rows_is_at_rest_under_its_preload() {
+    let of = |sets: &[&str]| {
+        let all = [sets, &["run.duration=8 ms", "run.output_interval=0.1 ms"]].concat();
+        ran(FLYWHEEL, &all)
+    };
+    let set = of(&["auxiliary_bearing.lower.bearing.arrangement=TBT"]);
+    let turned_round = of(&[
+        "auxiliary_bearing.lower.bearing.arrangement=TBT",
+        "auxiliary_bearing.lower.bearing.thrust_side=start",
+    ]);
+    for (run, signs) in [(&set, [1.0, 1.0, -1.0]), (&turned_round, [1.0, -1.0, -1.0])] {
+        let balls = (1..=99).map(|ball| format!("lower.bearing.ball_{ball:02}.inner_angle"));
+        let balls: Vec<_> = balls.map_while(|name| run.column(&name)).collect();
+        for (row, sign) in signs.into_iter().enumerate() {
+            let angle = balls[row * balls.len() / 3].values[0];
+            assert!(angle * sign > 0.1, "row {row}: {angle}");
+        }
+        // its weight presses the ring down by 20 nm until the shaft lands; rows that were closed alike would move it by a micrometre
+        let ring = &run.column("lower.bearing.inner_race.z").unwrap().values;
+        let moved = ring[..50]
+            .iter()
+            .fold(0.0, |most: f64, z| most.max(z.abs()));
+        assert!(moved < 5e-8, "{moved}");
+        assert!(number(run, "lower.peak_axial_force") > 60.0 * 9.81);
+        assert!(number(run, "energy_residual").abs() < 1e-5);
+    }
+}
+
+#[test]
 fn a_weight_that_is_given_in_part_is_warned_of() {
     let warned = |axial: &str| {
         let scenario = parsed(FLYWHEEL, &[&format!("gravity.axial={axial}")]).unwrap();

@@ -8,7 +8,7 @@
 //!   7010               no contact angle                    no bearing of this name: which ones have its size
 //! ```
 //! The catalogue has dimensions, not variants: seals, clearance, cage and grease are values of their own in a scenario.
-//! The arrangement DB, DF or DT of a pair is one too, which a scenario and a command take from the name.
+//! The arrangement of a pair (DB, DF, DT) or of a set (TBT, QBC ...) is one too, which a scenario and a command take from the name.
 
 /// What a designation stands for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,8 +68,10 @@ const ANGLES: &[(&str, &[&str])] = &[
 ];
 /// FAG's suffix of 25 deg, behind a prefix alone: others call a reinforced design so.
 const FAG_25_DEG: &str = "E";
-/// Arrangements of a pair.
-const PAIRED: [&str; 3] = ["DB", "DF", "DT"];
+/// Arrangements of pairs and sets.
+const PAIRED: [&str; 11] = [
+    "DB", "DF", "DT", "TBT", "TFT", "TT", "QBC", "QFC", "QBT", "QFT", "QT",
+];
 /// Letters behind an arrangement: the class of preload.
 const PRELOADS: &str = "ABCDLMH";
 /// Suffixes of angular contact bearings by what they mean.
@@ -412,6 +414,8 @@ mod tests {
             ("7210 BECBP", "7210 B", None, "arrangement"),
             ("7210-B-XL-TVP", "7210 B", None, "design"),
             ("7210BDF", "7210 B", Some("DF"), ""),
+            ("SKF 7010 CD/P4ATBTA", "7010 C", Some("TBT"), "preload A"),
+            ("7010 C QBC", "7010 C", Some("QBC"), ""),
         ] {
             match of(typed) {
                 Some(Designation::Known {
@@ -435,7 +439,7 @@ mod tests {
             ("HCB7010", "\"7010 C hybrid\", \"7010 AC hybrid\""),
             ("71910 X", "what \"X\" means is not known here"),
             ("7010 C DB DF", "what \"DF\" means is not known here"),
-            ("7010 C QBC", "what \"QBC\" means is not known here"),
+            ("7010 C QXC", "what \"QXC\" means is not known here"),
             ("7010 A", "\"7010 AC\""),
             ("7010 B", "\"7010 AC\""),
             ("7010 E", "what \"E\" means is not known here"),

@@ -185,7 +185,7 @@ impl Values {
         };
         let planar = self.text("bearing.arrangement").is_none();
         let rows = arrangement.filter(|_| planar).map(|own| {
-            format!("{own}, the second row (bearing.fidelity = \"spatial\" has both). {PAIRS}")
+            format!("{own}, the other rows (bearing.fidelity = \"spatial\" has all). {PAIRS}")
         });
         let left_out = Some(left_out).filter(|words| !words.is_empty());
         let words: Vec<String> = left_out.into_iter().chain(rows).collect();

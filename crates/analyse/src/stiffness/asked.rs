@@ -1,11 +1,12 @@
 //! What is asked of a bearing, read from the words of a command.
 
 use catalogue::Meant;
-use model::spatial::Arrangement;
 use model::spatial::statics::RaceControl;
 use physics::groove::{centre_distance, free_contact_angle};
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE};
+use problem::words::Words;
 use problem::{Code, Problem, Result, did_you_mean};
+use scenario::Arrangement;
 use std::f64::consts::FRAC_PI_3;
 use units::parse_quantity;
 
@@ -15,6 +16,12 @@ const CONTROLS: [(&str, RaceControl); 4] = [
     ("inner", RaceControl::Inner),
     ("outer_half", RaceControl::OuterHalf),
 ];
+
+/// Arrangements by their words.
+fn words() -> impl Iterator<Item = (&'static str, Arrangement)> {
+    let both = Arrangement::WORDS.iter().zip(Arrangement::ALL);
+    both.map(|(word, own)| (*word, *own))
+}
 
 /// A bearing, its loads and its speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,11 +46,11 @@ pub struct Asked {
     pub shoulder: Option<f64>,
     /// How rows stand.
     pub arrangement: Arrangement,
-    /// Distance of the rows, m.
+    /// Distance of the middles of neighbouring rows, m.
     pub spacing: f64,
     /// Preload, N.
     pub preload: Option<f64>,
-    /// Distance by which a pair is closed, m.
+    /// Distance by which the rows are closed, m.
     pub offset: Option<f64>,
     /// N.
     pub axial: f64,
@@ -129,9 +136,11 @@ impl Typed<'_> {
     /// How rows stand, by the option or by the bearing's designation.
     fn arrangement(&self, meant: &Meant<'_>) -> Result<Arrangement> {
         let option = "--arrangement";
-        let typed = self.word(option, &Arrangement::WORDS)?;
-        let mut words = Arrangement::WORDS.into_iter();
-        let named = words.find(|own| Some(own.0) == meant.arrangement);
+        let words: Vec<_> = words().collect();
+        let typed = self.word(option, &words)?;
+        let named = words
+            .into_iter()
+            .find(|own| Some(own.0) == meant.arrangement);
         match (named, self.text(option)) {
             (Some((word, named)), Some(text)) if typed != named => {
                 let needed = format!("{word} is needed, as the name of the bearing says, or none");
@@ -185,11 +194,10 @@ impl Asked {
             };
             let what = match arrangement {
                 Arrangement::Single => "a single bearing",
-                Arrangement::Tandem => "a tandem pair, whose rows do not press on each other",
-                Arrangement::BackToBack | Arrangement::FaceToFace => continue,
+                _ if arrangement.preloads() => continue,
+                _ => "a tandem, whose rows do not press on each other",
             };
-            let allowed =
-                "--arrangement DB or DF is needed; preload by a spring is an --axial load";
+            let allowed = "--arrangement DB or DF, or a set with rows on both sides, is needed; preload by a spring is an --axial load";
             return typed.refuse(
                 Code::Conflict,
                 option,
@@ -269,9 +277,7 @@ impl Asked {
     }
     /// Words of the arrangement and of the hypothesis.
     pub fn words(&self) -> [&'static str; 2] {
-        let arrangement = Arrangement::WORDS
-            .iter()
-            .find(|own| own.1 == self.arrangement);
+        let arrangement = words().find(|own| own.1 == self.arrangement);
         let control = CONTROLS.iter().find(|own| own.1 == self.control);
         [
             arrangement.map_or("", |own| own.0),

@@ -1,9 +1,9 @@
-//! Quasi-static equilibrium and stiffness of a ball bearing, or of a pair, under given loads and speed.
+//! Quasi-static equilibrium and stiffness of a ball bearing, a pair or a set, under given loads and speed.
 //!
 //! ```text
 //!   balls between toroidal grooves, centrifugal and gyroscopic loads (model::spatial::statics);  K = -∂(force, moment)/∂u
-//!   arrangements   single;  DB (O, back to back), DF (X, face to face), DT (tandem): rows at ± half the spacing
-//!   preload of a pair by an offset: the inner grooves are moved by it, so that the pair is closed by so much
+//!   arrangements   single;  DB (O, back to back), DF (X, face to face), DT (tandem), sets of three and four: rows a spacing apart
+//!   preload by an offset: the inner grooves are moved by half of it each, so that the rows are closed by so much
 //! ```
 //! A deep-groove bearing alone stands with its grooves opposite each other and takes thrust from both sides.
 
@@ -49,23 +49,25 @@ impl Asked {
     /// Rows, with the offset of a pair.
     fn rows(&self, contacts: &Contacts) -> Option<(StaticRows, f64)> {
         let geometry = RowGeometry {
-            arrangement: self.arrangement,
+            signs: match self.opposite {
+                true => vec![0.0],
+                false => self.arrangement.signs().to_vec(),
+            },
             spacing: self.spacing,
             balls: self.balls,
             ball_diameter: self.ball_diameter,
             pitch_diameter: self.pitch_diameter,
             curvatures: self.curvatures,
             free_angle: self.free_angle,
-            opposite: self.opposite,
-            reversed: false,
             contacts: [contacts.inner, contacts.outer],
         };
-        let offset = match (self.offset, self.preload) {
-            (Some(offset), _) => offset,
-            (None, Some(preload)) => geometry.offset_of(preload)?,
-            (None, None) => 0.0,
+        let closed = match (self.offset, self.preload) {
+            (Some(offset), _) => [0.5 * offset; 2],
+            (None, Some(preload)) => geometry.closed_by(preload)?,
+            (None, None) => [0.0; 2],
         };
-        let rows = geometry.grooves(offset).into_iter();
+        let offset = closed[0] + closed[1];
+        let rows = geometry.grooves(closed).into_iter();
         let rows = rows.map(|(_, [inner, outer])| StaticRow {
             balls: self.balls,
             first_azimuth: 0.0,

@@ -134,7 +134,7 @@ fn designations_as_people_type_them() {
         .try_into()
         .unwrap();
     assert!(
-        pair.contains("the 7005 C of the catalogue, without DB, the second row (bearing.fidelity"),
+        pair.contains("the 7005 C of the catalogue, without DB, the other rows (bearing.fidelity"),
         "{pair}"
     );
     for (name, parts) in [

@@ -1,13 +1,14 @@
-//! How the rows of a bearing stand: where their grooves are, and how far a pair is closed by its preload.
+//! Where the grooves of the rows of a bearing are, and how far its rows are closed by a preload.
 //!
 //! ```text
 //!   inner R_g = ½d_m + (f_i - ½) D cos α₀,   outer R_g = ½d_m - (f_o - ½) D cos α₀
-//!   z_g,i = h + σ((f_i - ½) D sin α₀ + ½ offset),   z_g,o = h - σ(f_o - ½) D sin α₀      h place, σ sign of the thrust a row takes
-//!   DB (O, back to back) σ = (+, -), DF (X, face to face) (-, +), DT (tandem) (+, +), rows by rising place
+//!   z_g,i = h + σ((f_i - ½) D sin α₀ + u_σ),   z_g,o = h - σ(f_o - ½) D sin α₀      h place, σ sign of the thrust a row takes
+//!   N u_± : Q(u_±) = preload/N_±        the N_+ rows of one sign press on the N_- of the other, the inner ring at rest in its middle
 //! ```
-//! The preload of a pair is that of its rows when the inner grooves alone are moved. A row without an angle has its grooves opposite
-//! each other and takes thrust from both sides.
+//! Inner grooves alone are moved by a preload. A row without an angle has its grooves opposite each other, σ = 0, and takes thrust from
+//! both sides.
 
+use super::ball::SpatialBall;
 use super::race::RaceGroove;
 use physics::groove::{
     axis_over_root_approach, centre_distance, contact_surface_radius, pure_axial_load,
@@ -15,48 +16,12 @@ use physics::groove::{
 use physics::hertz::PointContact;
 use physics::load_zone::joint_stiffness;
 
-/// How rows stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arrangement {
-    /// One row.
-    Single,
-    /// DB.
-    BackToBack,
-    /// DF.
-    FaceToFace,
-    /// DT.
-    Tandem,
-}
-
-impl Arrangement {
-    /// All of them with their words in files and commands.
-    pub const WORDS: [(&str, Arrangement); 4] = [
-        ("single", Arrangement::Single),
-        ("DB", Arrangement::BackToBack),
-        ("DF", Arrangement::FaceToFace),
-        ("DT", Arrangement::Tandem),
-    ];
-    /// Signs of the thrusts that its rows take on the inner ring, by rising place.
-    pub fn signs(self) -> &'static [f64] {
-        match self {
-            Arrangement::Single => &[1.0],
-            Arrangement::BackToBack => &[1.0, -1.0],
-            Arrangement::FaceToFace => &[-1.0, 1.0],
-            Arrangement::Tandem => &[1.0, 1.0],
-        }
-    }
-    /// Whether its rows press on each other.
-    pub fn preloads(self) -> bool {
-        matches!(self, Arrangement::BackToBack | Arrangement::FaceToFace)
-    }
-}
-
 /// Rows of equal balls and grooves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowGeometry {
-    /// How they stand.
-    pub arrangement: Arrangement,
-    /// Distance of their middles, m.
+    /// Signs of the thrusts that its rows take on the inner ring, by rising place; 0 of grooves that stand opposite each other.
+    pub signs: Vec<f64>,
+    /// Distance of the middles of neighbours, m.
     pub spacing: f64,
     /// Balls of a row.
     pub balls: usize,
@@ -68,36 +33,24 @@ pub struct RowGeometry {
     pub curvatures: [f64; 2],
     /// Free contact angle α₀, rad.
     pub free_angle: f64,
-    /// Whether the grooves of a single row stand opposite each other.
-    pub opposite: bool,
-    /// Whether a single row or a tandem takes thrust towards -z.
-    pub reversed: bool,
     /// Its contacts, inner and outer.
     pub contacts: [PointContact; 2],
 }
 
 impl RowGeometry {
-    /// Grooves of each row, inner and outer, of rows that are closed by an offset, m; with the place of the row, m.
-    pub fn grooves(&self, offset: f64) -> Vec<(f64, [RaceGroove<f64>; 2])> {
-        let signs = self.arrangement.signs();
-        let middle = 0.5 * (signs.len() - 1) as f64;
-        let offset = match self.arrangement.preloads() {
-            true => offset,
-            false => 0.0,
-        };
-        let rows = signs.iter().enumerate();
+    /// Grooves of each row, inner and outer, of rows that are closed by distances, m, those that take thrust towards +z and the others; with
+    /// the place of the row, m.
+    pub fn grooves(&self, closed: [f64; 2]) -> Vec<(f64, [RaceGroove<f64>; 2])> {
+        let middle = 0.5 * (self.signs.len() - 1) as f64;
+        let rows = self.signs.iter().enumerate();
         rows.map(|(row, sign)| {
             let place = (row as f64 - middle) * self.spacing;
-            let sign = match (self.opposite, self.reversed && !self.arrangement.preloads()) {
-                (true, _) => 0.0,
-                (_, true) => -sign,
-                _ => *sign,
-            };
-            (place, self.row(place, sign, offset))
+            let closed = closed[usize::from(*sign < 0.0)];
+            (place, self.row(place, *sign, closed))
         })
         .collect()
     }
-    fn row(&self, place: f64, sign: f64, offset: f64) -> [RaceGroove<f64>; 2] {
+    fn row(&self, place: f64, sign: f64, closed: f64) -> [RaceGroove<f64>; 2] {
         let (sine, cosine) = self.free_angle.sin_cos();
         let [inner, outer] = self.curvatures.map(|f| (f - 0.5) * self.ball_diameter);
         let groove = |race: usize, out: f64, along: f64| {
@@ -113,29 +66,62 @@ impl RowGeometry {
             }
         };
         [
-            groove(0, inner, sign * (inner * sine + 0.5 * offset)),
+            groove(0, inner, sign * (inner * sine + closed)),
             groove(1, -outer, -sign * outer * sine),
         ]
     }
-    /// Distance by which a pair is closed under a preload, N, at rest, m: twice the axial displacement of one row. None where no
-    /// contact angle below 86° carries it.
-    pub fn offset_of(&self, preload: f64) -> Option<f64> {
+    /// Distances by which rows are closed under a preload of the whole set, N, at rest, m: those that take thrust towards +z, and the
+    /// others. None where no contact angle below 86° carries it.
+    pub fn closed_by(&self, preload: f64) -> Option<[f64; 2]> {
+        let count = |side: f64| self.signs.iter().filter(|sign| **sign == side).count() as f64;
+        let [one, other] = [1.0, -1.0].map(|side| self.displacement(preload / count(side)));
+        Some([one?, other?])
+    }
+    /// Axial displacement of a row under a thrust, N: m.
+    fn displacement(&self, thrust: f64) -> Option<f64> {
         let stiffness = joint_stiffness(self.contacts[0].stiffness, self.contacts[1].stiffness);
         let distance = centre_distance(self.curvatures, self.ball_diameter);
         let at =
             |angle: f64| pure_axial_load(self.balls, stiffness, distance, self.free_angle, angle);
         let (mut low, mut high) = (self.free_angle, 1.5);
-        if at(high)[0] < preload {
+        if thrust.is_nan() || at(high)[0] < thrust {
             return None;
         }
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
-            if at(middle)[0] < preload {
+            if at(middle)[0] < thrust {
                 low = middle
             } else {
                 high = middle
             }
         }
-        Some(2.0 * at(high)[1])
+        Some(at(high)[1])
     }
+}
+
+/// Preload of rows at rest, N: what those of one side carry where the inner ring, moved along its axis, is in equilibrium. Each row by its
+/// number of balls and one of them.
+pub fn preload_at_rest(rows: &[(usize, SpatialBall<f64>)]) -> f64 {
+    let thrusts = |moved: f64| {
+        let one = move |(balls, ball): &(usize, SpatialBall<f64>)| {
+            *balls as f64 * ball.thrust_at_rest(moved)
+        };
+        rows.iter().map(one)
+    };
+    let reach = |(_, ball): &(usize, SpatialBall<f64>)| {
+        let [radial, axial] = ball.groove_distance();
+        radial.hypot(axial)
+    };
+    let farthest = rows.iter().map(reach).fold(0.0, f64::max);
+    let (mut low, mut high) = (-farthest, farthest);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        // the farther the ring, the more the rows push it back
+        if thrusts(middle).sum::<f64>() > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * thrusts(0.5 * (low + high)).map(f64::abs).sum::<f64>()
 }

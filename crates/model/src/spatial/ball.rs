@@ -83,13 +83,15 @@ impl SpatialBall<f64> {
             ..*self
         }
     }
-    /// Thrust of a ball at rest between concentric rings, N: K δ^1.5 sin α, both contacts in series.
-    pub fn thrust_at_rest(&self) -> f64 {
+    /// Thrust of a ball at rest between concentric rings on the inner one, which is moved along the axis by so much, m, N: K δ^1.5 sin α,
+    /// both contacts in series.
+    pub fn thrust_at_rest(&self, moved: f64) -> f64 {
         let [radial, axial] = self.groove_distance();
+        let axial = axial - moved;
         let distance = radial.hypot(axial);
         let approach = (distance - self.inner.slack - self.outer.slack).max(0.0);
         let stiffness = joint_stiffness(self.inner.stiffness, self.outer.stiffness);
-        stiffness * approach.powf(1.5) * axial.abs() / distance.max(f64::MIN_POSITIVE)
+        stiffness * approach.powf(1.5) * axial / distance.max(f64::MIN_POSITIVE)
     }
     /// From the centre of the inner groove to that of the outer one, rings concentric: radially and along the axis, m.
     pub fn groove_distance(&self) -> [f64; 2] {

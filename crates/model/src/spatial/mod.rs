@@ -45,7 +45,7 @@ pub mod rotor;
 pub mod row;
 pub mod statics;
 
-pub use arrangement::{Arrangement, RowGeometry};
+pub use arrangement::{RowGeometry, preload_at_rest};
 pub use assembly::{Assembly, AssemblyConstants, AssemblyProbe, InnerRing, LEDGER, OuterRing};
 pub use ball::SpatialBall;
 pub use frame::Frame;

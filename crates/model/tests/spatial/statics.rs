@@ -2,13 +2,13 @@
 
 use super::closed_forms::run;
 use super::setup::*;
-use model::spatial::RowConstants;
-use model::spatial::ball::Expansion;
+use model::spatial::ball::{Expansion, SpatialBall};
 use model::spatial::race::RaceGroove;
 use model::spatial::rigid_body::RigidBody;
 use model::spatial::statics::ball::Running;
 use model::spatial::statics::steady::steady_row;
 use model::spatial::statics::{RaceControl, RingLoad, StaticBall, StaticRow, StaticRows};
+use model::spatial::{RowConstants, RowGeometry, preload_at_rest};
 use number::Vec3;
 use physics::contact_nodes::matched;
 use physics::groove::{axis_over_root_approach, contact_surface_radius, pure_axial_load};
@@ -343,7 +343,8 @@ fn rings_that_heat_change_the_preload_as_their_geometry_says() {
         ball.outer.place = -6e-3 - b;
         let thrust = |strains: [f64; 3], seats: [f64; 2]| {
             ball.expanded(&Expansion { strains, seats })
-                .thrust_at_rest()
+                .thrust_at_rest(0.0)
+                .abs()
         };
         let mounted = thrust([0.0; 3], [0.0; 2]);
         let [radial, axial] = ball.groove_distance();
@@ -375,5 +376,64 @@ fn rings_that_heat_change_the_preload_as_their_geometry_says() {
         assert!((seat / expected - 1.0).abs() < 1e-4, "{seat} {expected}");
         let housing = (thrust([0.0; 3], [0.0, 1e-10]) / mounted - 1.0) / 1e-10;
         assert!((housing / expected + 1.0).abs() < 1e-4, "{housing}");
+    }
+}
+
+#[test]
+fn a_set_at_rest_carries_its_preload_on_both_sides() {
+    let modulus = contact_modulus(BEARING_STEEL, BEARING_STEEL);
+    let contacts = [Race::Inner, Race::Outer].map(|race| {
+        let geometry = BallRace {
+            ball_diameter: BALL,
+            pitch_diameter: 36e-3,
+            groove_curvature: 0.52,
+            contact_angle: ALPHA,
+            race,
+        };
+        PointContact::new(geometry.curvature(), modulus).unwrap()
+    });
+    let ball = row(0.07).ball;
+    let preload = 250.0;
+    for signs in [
+        vec![1.0, -1.0],
+        vec![1.0, 1.0, -1.0],
+        vec![-1.0, 1.0, 1.0],
+        vec![1.0, 1.0, -1.0, -1.0],
+        vec![-1.0, 1.0, 1.0, 1.0],
+    ] {
+        let geometry = RowGeometry {
+            signs: signs.clone(),
+            spacing: 12e-3,
+            balls: 14,
+            ball_diameter: BALL,
+            pitch_diameter: 36e-3,
+            curvatures: [0.52; 2],
+            free_angle: ALPHA,
+            contacts: contacts.clone(),
+        };
+        let closed = geometry.closed_by(preload).unwrap();
+        let rows = |closed| {
+            let grooves = geometry.grooves(closed).into_iter();
+            let of = |(_, [inner, outer]): (f64, [RaceGroove<f64>; 2])| SpatialBall {
+                inner,
+                outer,
+                ..ball
+            };
+            grooves.map(of).map(|ball| (14, ball)).collect::<Vec<_>>()
+        };
+        // rows of one side share the preload, and the ring is in equilibrium where it is
+        for ((balls, ball), sign) in rows(closed).iter().zip(&signs) {
+            let beside = signs.iter().filter(|own| *own == sign).count() as f64;
+            let thrust = *balls as f64 * ball.thrust_at_rest(0.0);
+            assert!(
+                (thrust * sign * beside / preload + 1.0).abs() < 1e-9,
+                "{signs:?} {thrust}"
+            );
+        }
+        assert!((preload_at_rest(&rows(closed)) / preload - 1.0).abs() < 1e-9);
+        // what one side is closed by less the other side takes over, whatever the place of the ring
+        let moved = [closed[0] + 1e-6, closed[1] - 1e-6];
+        assert!((preload_at_rest(&rows(moved)) / preload - 1.0).abs() < 1e-9);
+        assert!(preload_at_rest(&rows([-1e-6; 2])) < 1e-12);
     }
 }

@@ -89,15 +89,15 @@ impl Context<'_> {
             let needed = "the distance of the rows is needed, which is their width where they stand side by side";
             return self.refuse(Code::MissingKey, arrangement, found, needed);
         }
-        match (own.arrangement, bearing.axial_preload > 0.0) {
-            (Arrangement::Tandem, true) => refuse(
+        match (own.arrangement.preloads(), bearing.axial_preload > 0.0) {
+            (false, true) => refuse(
                 "bearing.axial_preload",
                 "none is needed of a tandem, whose rows do not press on each other",
             ),
-            (Arrangement::BackToBack | Arrangement::FaceToFace, false) => {
+            (true, false) => {
                 let found = format!("{} without bearing.axial_preload", self.text(arrangement));
                 let needed =
-                    "a preload above 0 N is needed: without it the pair is unloaded at rest";
+                    "a preload above 0 N is needed: without it the rows are unloaded at rest";
                 self.refuse(Code::MissingKey, arrangement, found, needed)
             }
             _ => Ok(()),

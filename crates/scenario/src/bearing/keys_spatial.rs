@@ -11,21 +11,29 @@ pub const IN_SPACE: &[Condition] = &[Condition::new("bearing.fidelity", &["spati
 
 const PAIRED: &[Condition] = &[
     IN_SPACE[0],
-    Condition::new("bearing.arrangement", &["DB", "DF", "DT"]),
+    Condition::new(
+        "bearing.arrangement",
+        &[
+            "DB", "DF", "DT", "TBT", "TFT", "TT", "QBC", "QFC", "QBT", "QFT", "QT",
+        ],
+    ),
 ];
 
 const ONE_SIDED: &[Condition] = &[
     IN_SPACE[0],
-    Condition::new("bearing.arrangement", &["single", "DT"]),
+    Condition::new(
+        "bearing.arrangement",
+        &["single", "DT", "TBT", "TFT", "TT", "QBT", "QFT", "QT"],
+    ),
 ];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
-    Key::new("bearing.arrangement", Kind::Word(Arrangement::WORDS), "DB", "How the rows of the bearing stand on their common rings: single; DB back to back (O), DF face to face (X), DT tandem. Rows of a DB or DF pair press on each other by bearing.axial_preload. Masses of rings and cage are those of one row.")
+    Key::new("bearing.arrangement", Kind::Word(Arrangement::WORDS), "DB", "How the rows of the bearing stand on their common rings: single; DB back to back (O), DF face to face (X), DT tandem; of three rows TBT and TFT two against one, TT tandem; of four QBC and QFC two against two, QBT and QFT three against one, QT tandem (B back to back, F face to face). Rows that stand against others press on them by bearing.axial_preload, the force of all rows of one side. Masses of rings and cage are those of one row.")
         .default("single", "one row; thrust from one side alone, unless its grooves stand opposite each other").when(IN_SPACE).only(MACHINE),
-    Key::new("bearing.row_spacing", Kind::Quantity("m"), "12 mm", "Distance of the middles of the rows of a pair.")
-        .positive().optional("the width of the bearing named: both stand side by side").when(PAIRED).only(MACHINE),
-    Key::new("bearing.thrust_side", Kind::Word(ThrustSide::WORDS), "end", "Direction of the rotor's thrust that a single angular contact row, or a tandem, carries: towards the end of the shaft or towards its start.")
+    Key::new("bearing.row_spacing", Kind::Quantity("m"), "12 mm", "Distance of the middles of neighbouring rows.")
+        .positive().optional("the width of the bearing named: they stand side by side").when(PAIRED).only(MACHINE),
+    Key::new("bearing.thrust_side", Kind::Word(ThrustSide::WORDS), "end", "Direction of the rotor's thrust that a single angular contact row, a tandem, or most rows of a set carry: towards the end of the shaft or towards its start.")
         .default("end", "one of the two; a row the other way round carries nothing").when(ONE_SIDED).only(MACHINE),
     Key::new("bearing.contact_nodes", Kind::Word(ContactNodes::WORDS), "matched", "Points of the contact ellipse at which slip is taken: matched are three that have the couple of pure spin under dry friction. One makes no spin couple; more are needed where spin is far above the slip that regularises the traction.")
         .default("matched", "right for pure sliding, pure spin and small slip; measured errors stand in the theory of bearings in space").when(IN_SPACE).only(MACHINE),

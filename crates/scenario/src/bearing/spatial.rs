@@ -13,6 +13,22 @@ pub enum Arrangement {
     /// X.
     FaceToFace = "DF",
     Tandem = "DT",
+    /// Two against one, O.
+    TwoBackToOne = "TBT",
+    /// Two against one, X.
+    TwoFaceToOne = "TFT",
+    /// Three in tandem.
+    Three = "TT",
+    /// Two against two, O.
+    TwoBackToTwo = "QBC",
+    /// Two against two, X.
+    TwoFaceToTwo = "QFC",
+    /// Three against one, O.
+    ThreeBackToOne = "QBT",
+    /// Three against one, X.
+    ThreeFaceToOne = "QFT",
+    /// Four in tandem.
+    Four = "QT",
 }
 }
 
@@ -43,9 +59,9 @@ pub enum ContactNodes {
 pub struct Spatial {
     /// How its rows stand.
     pub arrangement: Arrangement,
-    /// Distance of their middles, m; 0 of one row.
+    /// Distance of the middles of neighbours, m; 0 of one row.
     pub row_spacing: f64,
-    /// Side to which a single row or a tandem carries thrust.
+    /// Side to which a single row, a tandem or most rows of a set carry thrust.
     pub thrust_side: ThrustSide,
     /// Width of a row, m, where the catalogue knows it.
     pub row_width: Option<f64>,
@@ -56,16 +72,44 @@ pub struct Spatial {
 }
 
 impl Arrangement {
+    /// Signs of the thrusts that its rows take on the inner ring, by rising place, where most of them take that towards the end of the shaft.
+    pub fn signs(self) -> &'static [f64] {
+        match self {
+            Arrangement::Single => &[1.0],
+            Arrangement::BackToBack => &[1.0, -1.0],
+            Arrangement::FaceToFace => &[-1.0, 1.0],
+            Arrangement::Tandem => &[1.0, 1.0],
+            Arrangement::TwoBackToOne => &[1.0, 1.0, -1.0],
+            Arrangement::TwoFaceToOne => &[-1.0, 1.0, 1.0],
+            Arrangement::Three => &[1.0, 1.0, 1.0],
+            Arrangement::TwoBackToTwo => &[1.0, 1.0, -1.0, -1.0],
+            Arrangement::TwoFaceToTwo => &[-1.0, -1.0, 1.0, 1.0],
+            Arrangement::ThreeBackToOne => &[1.0, 1.0, 1.0, -1.0],
+            Arrangement::ThreeFaceToOne => &[-1.0, 1.0, 1.0, 1.0],
+            Arrangement::Four => &[1.0, 1.0, 1.0, 1.0],
+        }
+    }
     /// Number of rows.
     pub fn rows(self) -> usize {
-        match self {
-            Arrangement::Single => 1,
-            Arrangement::BackToBack | Arrangement::FaceToFace | Arrangement::Tandem => 2,
-        }
+        self.signs().len()
+    }
+    /// Whether its rows press on each other.
+    pub fn preloads(self) -> bool {
+        self.signs().contains(&-1.0)
     }
 }
 
 impl Spatial {
+    /// Signs of the thrusts that its rows take on the inner ring, by rising place: +1 towards the end of the shaft.
+    pub fn signs(&self) -> Vec<f64> {
+        let signs = self.arrangement.signs().iter();
+        match self.thrust_side {
+            ThrustSide::End => signs.copied().collect(),
+            // the same set, turned round
+            ThrustSide::Start => signs.rev().map(|sign| -sign).collect(),
+        }
+    }
+
     pub(super) fn of(values: &Values, bearing: &Section<'_>) -> Self {
         Spatial {
             arrangement: bearing.choice("arrangement"),

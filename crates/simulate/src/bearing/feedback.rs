@@ -14,9 +14,9 @@ use crate::bearing::contacts::ball_contacts;
 use crate::bearing::spatial;
 use crate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
-use model::spatial::RowConstants;
-use model::spatial::ball::Expansion;
+use model::spatial::ball::{Expansion, SpatialBall};
 use model::spatial::part::SpatialBearing;
+use model::spatial::preload_at_rest;
 use model::system::energy::{Content, Flows};
 use number::{Vec2, Vec3};
 use physics::viscosity::Viscosity;
@@ -42,8 +42,8 @@ pub(crate) struct Follows {
     unpreloaded: f64,
     /// At the start, °C.
     start: f64,
-    /// A row of a pair in space whose rows press on each other, at the start.
-    pair: Option<RowConstants>,
+    /// Rows in space that press on each other, at the start: balls of each, and one of them.
+    pressing: Option<Vec<(usize, SpatialBall<f64>)>>,
 }
 
 impl Follows {
@@ -56,7 +56,7 @@ impl Follows {
             unpreloaded: unpreloaded(&zone),
             zone,
             start: warm.heat.start_temperature - ICE_POINT,
-            pair: pair(bearing),
+            pressing: pressing(bearing),
         };
         let any = follows.thins(bearing)
             || follows.closes(bearing)
@@ -98,11 +98,14 @@ impl Follows {
         }
     }
 
-    /// Preload of a pair in space at rest and at these temperatures, °C: N; none where its rows do not press on each other.
+    /// Preload of rows in space at rest and at these temperatures, °C: N; none where they do not press on each other.
     pub fn preload(&self, temperatures: &[f64]) -> Option<f64> {
-        let row = self.pair.as_ref()?;
-        let ball = row.ball.expanded(&self.expansion(temperatures));
-        Some(row.balls as f64 * ball.thrust_at_rest())
+        let by = self.expansion(temperatures);
+        let rows = self.pressing.as_ref()?.iter();
+        let rows: Vec<_> = rows
+            .map(|(balls, ball)| (*balls, ball.expanded(&by)))
+            .collect();
+        Some(preload_at_rest(&rows))
     }
 
     /// Contact angle at these temperatures (°C), rad: cos α = 1 − P_d/(2A), of which P_d changes; A = (f_i + f_o − 1) D.
@@ -181,15 +184,15 @@ impl Follows {
     }
 }
 
-/// A row of a pair whose rows press on each other.
-fn pair(bearing: &Bearing) -> Option<RowConstants> {
+/// Rows in space that press on each other.
+fn pressing(bearing: &Bearing) -> Option<Vec<(usize, SpatialBall<f64>)>> {
     let own = bearing.spatial.as_ref()?;
     if bearing.axial_preload <= 0.0 {
         return None;
     }
     let contacts = ball_contacts(bearing).ok()?;
     let rows = spatial::rows((bearing, own), &contacts, Vec3::zero()).ok()?;
-    rows.into_iter().next()
+    Some(rows.into_iter().map(|row| (row.balls, row.ball)).collect())
 }
 
 /// A bearing that follows its temperatures.

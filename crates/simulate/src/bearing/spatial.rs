@@ -11,7 +11,7 @@ use model::spatial::part::SpatialBearing;
 use model::spatial::pocket::SpatialPocket;
 use model::spatial::rigid_body::Inertia;
 use model::spatial::{
-    Arrangement, CageConstants, CageGuide, LandingConstants, RowConstants, RowGeometry, SpatialLand,
+    CageConstants, CageGuide, LandingConstants, RowConstants, RowGeometry, SpatialLand,
 };
 use number::Vec3;
 use physics::contact_nodes::{ContactNode, legendre, matched, middle};
@@ -21,7 +21,7 @@ use physics::rolling::RollingSet;
 use problem::{Code, Problem};
 use scenario::{
     AuxiliaryBearing, Bearing, BearingType, Cage, ContactNodes, Guidance, Land, Separation,
-    Spatial, ThrustSide, problem_at,
+    Spatial, problem_at,
 };
 use std::f64::consts::TAU;
 use thermal::layer::Layer;
@@ -112,13 +112,13 @@ pub(crate) fn rows(
     gravity: Vec3<f64>,
 ) -> Result<Vec<RowConstants>, Box<Problem>> {
     let geometry = geometry(given, own, contacts);
-    let offset = match given.axial_preload > 0.0 {
-        true => geometry.offset_of(given.axial_preload).ok_or_else(|| {
+    let closed = match given.axial_preload > 0.0 {
+        true => geometry.closed_by(given.axial_preload).ok_or_else(|| {
             let found = format!("{} N, which no contact angle carries", given.axial_preload);
             let allowed = "a smaller preload is needed";
             problem_at(Code::Impossible, "bearing.axial_preload", found, allowed)
         })?,
-        false => 0.0,
+        false => [0.0; 2],
     };
     let Separation::Cage(cage) = &given.separation else {
         let allowed = "\"cage\" is needed of a bearing in space";
@@ -132,7 +132,7 @@ pub(crate) fn rows(
     let law = traction(given, contacts)?;
     let nodes = nodes(own.nodes, contacts);
     Ok(geometry
-        .grooves(offset)
+        .grooves(closed)
         .into_iter()
         .map(|(place, [inner, outer])| RowConstants {
             balls: given.ball_count,
@@ -168,11 +168,9 @@ fn geometry(given: &Bearing, own: &Spatial, contacts: &BallContacts) -> RowGeome
     let angular = given.kind == BearingType::AngularContact;
     let distance = centre_distance(curvatures, given.ball_diameter);
     RowGeometry {
-        arrangement: match own.arrangement {
-            scenario::Arrangement::Single => Arrangement::Single,
-            scenario::Arrangement::BackToBack => Arrangement::BackToBack,
-            scenario::Arrangement::FaceToFace => Arrangement::FaceToFace,
-            scenario::Arrangement::Tandem => Arrangement::Tandem,
+        signs: match angular {
+            true => own.signs(),
+            false => vec![0.0],
         },
         spacing: own.row_spacing,
         balls: given.ball_count,
@@ -183,8 +181,6 @@ fn geometry(given: &Bearing, own: &Spatial, contacts: &BallContacts) -> RowGeome
             true => given.contact_angle,
             false => free_contact_angle(given.operating_diametral_clearance, distance),
         },
-        opposite: !angular,
-        reversed: own.thrust_side == ThrustSide::Start,
         contacts: [
             PointContact {
                 stiffness: contacts.inner_stiffness,
