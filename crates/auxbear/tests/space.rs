@@ -122,6 +122,20 @@ fn an_axial_magnet_may_be_lost_alone() {
 }
 
 #[test]
+fn an_axial_magnet_that_is_never_lost_is_warned_of() {
+    let pairs = include_str!("../../../scenarios/machine_expander_pairs.toml");
+    let warned = |scenario: &str| {
+        let run = ran(scenario, &["run.duration=1 ms"]);
+        run.warnings.iter().any(|own| own.code == "AB2417")
+    };
+    let radial = "\"magnet lost\"\nmagnet = \"expander_end\"";
+    assert!(!warned(pairs) && warned(&pairs.replace("\"power lost\"", radial)));
+    assert!(!warned(
+        &pairs.replace("\"power lost\"", "\"axial magnet lost\"")
+    ));
+}
+
+#[test]
 fn a_shock_closes_the_ledger_of_bearings_in_space() {
     let shaken = ran(
         FLYWHEEL,

@@ -21,6 +21,16 @@ pub(super) fn motion(drop: &Drop, mass: f64) -> Option<AxialConstants<f64>> {
     })
 }
 
+/// Whether no event takes the power of an axial magnet.
+pub(super) fn holds_throughout(drop: &Drop) -> bool {
+    let (mut known, mut at_speeds) = (Vec::new(), Vec::new());
+    switches(drop, &mut known, &mut at_speeds);
+    let is_lost = |event: &Event| matches!(event, Event::Thrust(share) if *share == 0.0);
+    let at_speeds = at_speeds.iter().flat_map(|own| &own.then);
+    let mut all = known.iter().chain(at_speeds);
+    drop.levitation.axial.is_some() && !all.any(|(_, event)| is_lost(event))
+}
+
 /// What the axial magnet does when it or all radial ones lose their power, and when they have it again.
 pub(super) fn switches(drop: &Drop, known: &mut Vec<(f64, Event)>, at_speeds: &mut Vec<AtSpeed>) {
     let (Some(_), Some(shaft)) = (drop.levitation.axial, &drop.shaft) else {

@@ -27,6 +27,8 @@ problem::warnings! {
             ("The static radial load of {load:.0} N is {factor:.1} times the static load rating of {rating:.0} N: permanent dents must be expected, and the laws of contact and friction are outside their range.");
         OneMotion { bearings: "" } "AB1090" Invalid
             ("The rotor does not tilt: all {bearings} auxiliary bearings see one motion, wherever they stand on the shaft. Forces of bearings that differ, or of a rotor whose mass is not midway, are indicative only.");
+        AxialMagnetHolds "AB2417" Uncertain
+            ("The axial magnet keeps its power throughout: no event takes it (\"axial magnet lost\", or \"power lost\"). Shoulders and faces meet only what that magnet lets through, and nothing of this run shows an axial landing.");
         HardStop { gap: "m", time: "s", force: "N", peak_time: "s" } "AB1097" Invalid, each
             ("The mount hits its hard stop: the outer race closes the gap of {:.0} µm at {:.2} ms, and the stop carries up to {force:.0} N at {:.2} ms. The resilient part protects nothing then; a larger gap, a stiffer mount or more damping keeps them apart.", 1e6 * gap, 1e3 * time, 1e3 * peak_time);
         BendingUnknown { speed: "rad/s" } "AB1126" Note

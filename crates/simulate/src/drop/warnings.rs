@@ -9,7 +9,7 @@ use crate::drop::context::Context;
 use crate::drop::multirate::results::After;
 use crate::drop::quantities::residuals;
 use crate::drop::warning_table::{BENDING_SHARE, DropWarning};
-use crate::drop::{base, events, magnets, method, mount_results, shaft_results, surfaces};
+use crate::drop::{axial, base, events, magnets, method, mount_results, shaft_results, surfaces};
 use crate::stepping::Asked;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use model::system::sampling::Peak;
@@ -103,6 +103,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     let known = context.setup.machine.tangents();
     let stepping = method::stepping(context.setup.built, known);
     list.extend(asked(context).warnings(stepping.steps));
+    list.extend(held_along(context));
     if drop.rotor.planes > 1 {
         let planes = f64::from(drop.rotor.planes);
         list.push(DropWarning::Planes { planes }.into());
@@ -240,6 +241,14 @@ fn left_out(part: &AuxiliaryBearing) -> Option<String> {
         .map(|(_, words)| words)
         .collect();
     (!left.is_empty()).then(|| left.join("; "))
+}
+
+/// An axial magnet that holds the rotor for the whole run.
+fn held_along(context: &Context) -> Option<Warning> {
+    let machine = context.setup.machine;
+    let moves = machine.layout().rotor.axial;
+    (moves && axial::holds_throughout(context.setup.drop()))
+        .then(|| DropWarning::AxialMagnetHolds.into())
 }
 
 /// A rotor that moves along its axis where nothing stops it.
