@@ -3,7 +3,7 @@
 use crate::machine::{parsed, ran};
 use crate::outcomes::number;
 use auxbear::outcome::Value;
-use auxbear::run::{Options, run};
+use auxbear::run::{Options, run, stiffness};
 use std::sync::atomic::AtomicBool;
 
 const FLYWHEEL: &str = include_str!("../../../scenarios/vertical_flywheel.toml");
@@ -133,6 +133,36 @@ fn an_axial_magnet_that_is_never_lost_is_warned_of() {
     assert!(!warned(
         &pairs.replace("\"power lost\"", "\"axial magnet lost\"")
     ));
+}
+
+/// The rotor that rolls on a preloaded pair feels all its balls: the stiffness is that of `auxbear bearings stiffness`, not of a loose row.
+#[test]
+fn a_preloaded_pair_is_as_stiff_to_the_rotor_as_alone() {
+    let pairs = include_str!("../../../scenarios/machine_expander_pairs.toml");
+    let scenario = parsed(pairs, &["analysis.speed_count=11"]).unwrap();
+    let rotor = scenario.rotor_alone().unwrap().unwrap();
+    let never = AtomicBool::new(false);
+    let found = run(&rotor, &Options::unwatched(&never)).unwrap();
+    let of = |name: &str| {
+        number(
+            &found,
+            &format!("on_auxiliary_bearings.expander_end.{name}"),
+        )
+    };
+    let load = format!("{} N", of("static_load"));
+    let catalogue = auxbear::Catalogue::built_in();
+    let meant = catalogue.meant("7010 C hybrid DB", "test").unwrap();
+    let typed = stiffness::Typed {
+        texts: &[
+            ("--radial", Some(load.as_str())),
+            ("--preload", Some("240 N")),
+        ],
+        place: "test",
+    };
+    let asked = stiffness::Asked::read(&meant, &typed).unwrap();
+    let alone = stiffness::run(&asked, "test").unwrap();
+    let alone = alone.stiffness[0][0];
+    assert!((of("ball_stiffness") / alone - 1.0).abs() < 1e-3, "{alone}");
 }
 
 #[test]

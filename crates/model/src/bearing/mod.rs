@@ -114,8 +114,11 @@ impl BearingConstants {
                 let stiffness = joint_stiffness(ball.inner_stiffness, ball.outer_stiffness);
                 (stiffness, 2.0 * radial)
             }
-            // a preloaded one: each ball as it stands between concentric rings
             BearingConstants::Spatial(bearing) => {
+                if let Some(moved) = bearing.displacement_of_preloaded(load) {
+                    return moved;
+                }
+                // without preload: each ball as it stands between concentric rings
                 let ball = &bearing.rows[0].ball;
                 let [radial, axial] = ball.groove_distance();
                 let cosine = radial.abs() / radial.hypot(axial).max(f64::MIN_POSITIVE);

@@ -14,8 +14,11 @@ use super::ball::BALL_STATES;
 use super::face_heat::FaceSurfaces;
 use super::landing::{Landing, LandingConstants, LandingReaction};
 use super::mount::SpatialMount;
+use super::preload_at_rest;
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::row::{BallContacts, CageGuide, RowConstants};
+use super::statics::ball::Running;
+use super::statics::{RaceControl, RingLoad, StaticBall, StaticRow, StaticRows};
 use crate::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, Outlet, probe};
 use crate::base::Masses;
 use crate::bearing::ball_sums::largest;
@@ -96,6 +99,34 @@ impl SpatialBearing {
         let landing = [self.landing.stations.len(), self.landing.faces.len()];
         let nodes = self.rows.iter().map(|row| row.nodes.len());
         nodes.chain(landing).collect()
+    }
+    /// Displacement of the inner ring under a radial load, N, at rest, m, one ball of each row on the load line; none where no preload
+    /// presses its rows, or no equilibrium is found.
+    pub fn displacement_of_preloaded(&self, load: f64) -> Option<f64> {
+        let pressed: Vec<_> = self.rows.iter().map(|row| (row.balls, row.ball)).collect();
+        if preload_at_rest(&pressed) <= 0.0 {
+            return None;
+        }
+        let rows = pressed.into_iter().map(|(balls, ball)| StaticRow {
+            balls,
+            first_azimuth: 0.0,
+            ball: StaticBall {
+                radius: ball.radius,
+                mass: ball.mass,
+                inner: ball.inner,
+                outer: ball.outer,
+            },
+        });
+        let radial = RingLoad {
+            force: [load, 0.0, 0.0],
+            moment: [0.0; 2],
+        };
+        let at_rest = Running {
+            speed: 0.0,
+            control: RaceControl::Half,
+        };
+        let found = StaticRows(rows.collect()).settle(&radial, &at_rest).ok()?;
+        Some(found.displacement.shift[0])
     }
     /// Number of its own states.
     pub fn states(&self) -> usize {

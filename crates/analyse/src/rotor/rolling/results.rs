@@ -68,9 +68,9 @@ origins! {
     CONTACT: law "n N/d, N = k dⁿ",
         source "crates/physics/src/rolling_rotor.rs",
         valid VALID;
-    BALLS: law "slope of the load over the displacement of the inner race, Σ K(δ cos φ - P_d/2)^1.5 cos φ, one ball on the load line",
-        source "crates/physics/src/load_zone.rs",
-        valid "no centrifugal load; balls that pass change it";
+    BALLS: law "slope of the load over the displacement of the inner race, Σ K(δ cos φ - P_d/2)^1.5 cos φ, one ball on the load line; of a preloaded set in space by its equilibrium",
+        source "crates/physics/src/load_zone.rs, crates/model/src/spatial/statics/ring.rs",
+        valid "no centrifugal load; rings that do not tilt against each other; balls that pass change it";
     ALONG: law "1/(1/k_contact + 1/k_balls + 1/k_mount)",
         source "crates/analyse/src/rotor/rolling/mod.rs",
         valid "at rest; the race has its mass between link and mount in all other results";
