@@ -377,6 +377,7 @@ impl<R: Real> Assembly<R> {
         balls
     }
     /// Masses of the cages, kg.
+    #[inline(always)]
     pub(super) fn cage_masses(&self) -> impl Iterator<Item = R> + '_ {
         self.rows.iter().map(|row| row.cage.mass)
     }

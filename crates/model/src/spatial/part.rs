@@ -379,6 +379,7 @@ impl<R: Real> Spatial<R> {
 
     /// Rates of rings, cages and balls, heats, sources and probes of a bearing whose rotor does this, its mount across the axis with
     /// this force, N, and heat, W.
+    #[inline(always)]
     pub(crate) fn react(
         &self,
         at: &BearingAt,
@@ -468,6 +469,7 @@ impl<R: Real> Spatial<R> {
     }
 
     /// Adds an acceleration across the axis, m/s², that all bodies have alike, to the rates of rings, cages and balls; returns their masses.
+    #[inline(always)]
     pub(crate) fn shake(
         &self,
         at: &BearingAt,
@@ -514,6 +516,7 @@ impl<R: Real> Spatial<R> {
 
     /// Moment about the axis through the origin by drive, mount, weights, what holds the inner ring and what keeps the outer one from
     /// turning.
+    #[inline(always)]
     fn outside_moment(&self, bodies: &Bodies<R>, along: SpatialWrench<R>, across: Vec3<R>) -> R {
         let Assembly {
             gravity,
@@ -538,6 +541,7 @@ impl<R: Real> Spatial<R> {
         moment
     }
     /// The contact of a rotor in the bore, as the plane has it; `rings` is the inner ring's states.
+    #[inline(always)]
     pub(crate) fn contact(&self, rotor: &RigidBody<R>, ring: &[R]) -> ContactReaction<R> {
         let LandingReaction { bore, .. } =
             (self.landing).react(rotor, rotor.position, &RigidBody::read(ring));
@@ -557,6 +561,7 @@ impl<R: Real> Spatial<R> {
 }
 
 /// Largest u²Q of a ball at a race, from the detail.
+#[inline(always)]
 fn skid<R: Real>(detail: &[R], balls: usize, race: usize) -> R {
     let mut largest = R::zero();
     for ball in 0..balls {

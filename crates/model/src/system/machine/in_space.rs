@@ -6,7 +6,7 @@ use crate::contact::ContactReaction;
 use crate::rotor::in_space::AxialConstants;
 use crate::rotor::{RotorMotion, SpatialNode};
 use crate::spatial::rigid_body::RigidBody;
-use number::{Gather, Real, Vec2};
+use number::{Gather, Real, Vec2, Vectorized};
 
 /// The rotor along its axis, and its nodes in bearings in space.
 #[derive(Clone, Debug)]
@@ -81,7 +81,7 @@ impl<R: Real> Machines<R> {
     }
     /// What all bearings in space do, with their rates, and the rates of the rotor along its axis under a thrust from outside, N, on a base
     /// that adds to gravity, m/s².
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn act_in_space(
         &self,
         space: &InSpace<R>,
@@ -90,17 +90,68 @@ impl<R: Real> Machines<R> {
         state: &[R],
         (rate, probe): (&mut [R], &mut [R]),
     ) -> SpatialActs<R> {
-        let layout = &self.layout;
+        R::vectorized(Act {
+            machines: self,
+            space,
+            holds: mode.thrust,
+            thrust,
+            shaken,
+            rotor,
+            state,
+            rate,
+            probe,
+        })
+    }
+    /// The contact of the rotor with the bore of a bearing in space; none in one of the plane. The state goes to the inner ring's end.
+    pub(super) fn contact_in_space(&self, k: usize, state: &[R]) -> Option<ContactReaction<R>> {
+        let own = self.bearings[k].spatial.as_ref()?;
+        let node = self.space.as_ref()?.nodes[k].as_ref()?;
+        let centre = node.motion(&self.layout.rotor.motion(state), self.along(state));
+        let ring = self.layout.bearings[k].inner.channels();
+        Some(own.contact(&centre.body, &state[ring]))
+    }
+}
+
+/// The task of [`Machines::act_in_space`].
+struct Act<'a, R: Real> {
+    machines: &'a Machines<R>,
+    space: &'a InSpace<R>,
+    /// Share of its force with which the axial magnet holds.
+    holds: R,
+    thrust: R,
+    shaken: Option<Vec2<R>>,
+    rotor: &'a RotorMotion<'a, R>,
+    state: &'a [R],
+    rate: &'a mut [R],
+    probe: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for Act<'_, R> {
+    type Output = SpatialActs<R>;
+    #[inline(always)]
+    fn run(self) -> SpatialActs<R> {
+        let Act {
+            machines,
+            space,
+            holds,
+            thrust,
+            shaken,
+            rotor,
+            state,
+            rate,
+            probe,
+        } = self;
+        let layout = &machines.layout;
         let count = layout.rotor.coordinates;
-        let [place, speed] = self.along(state);
+        let [place, speed] = machines.along(state);
         let mut acts = SpatialActs::none();
         let axial = &space.axial;
-        let held = (axial.carried - axial.stiffness * place - axial.damping * speed) * mode.thrust;
+        let held = (axial.carried - axial.stiffness * place - axial.damping * speed) * holds;
         acts.magnet = held * speed;
         acts.thrust = thrust * speed;
         let mut along = held + thrust;
         for (k, node) in space.nodes.iter().enumerate() {
-            let (Some(node), part, at) = (node, &self.bearings[k], &layout.bearings[k]) else {
+            let (Some(node), part, at) = (node, &machines.bearings[k], &layout.bearings[k]) else {
                 continue;
             };
             let Some(own) = &part.spatial else { continue };
@@ -134,14 +185,6 @@ impl<R: Real> Machines<R> {
         rate[layout.rotor.place()] = speed;
         rate[layout.rotor.place() + 1] = along * space.inverse_mass + space.axial.gravity;
         acts
-    }
-    /// The contact of the rotor with the bore of a bearing in space; none in one of the plane. The state goes to the inner ring's end.
-    pub(super) fn contact_in_space(&self, k: usize, state: &[R]) -> Option<ContactReaction<R>> {
-        let own = self.bearings[k].spatial.as_ref()?;
-        let node = self.space.as_ref()?.nodes[k].as_ref()?;
-        let centre = node.motion(&self.layout.rotor.motion(state), self.along(state));
-        let ring = self.layout.bearings[k].inner.channels();
-        Some(own.contact(&centre.body, &state[ring]))
     }
 }
 
