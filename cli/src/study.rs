@@ -88,7 +88,11 @@ pub fn warn(done: &Done) {
     }
     if done.failed > 0 {
         let failed = done.failed;
-        console::report(&format!("{failed} members failed: summary.json says why"));
+        let why = done.answer.ranking.iter().find_map(|one| one.why.as_ref());
+        let why = why.map_or(String::new(), |why| format!(", one since {why}"));
+        console::report(&format!(
+            "{failed} members failed{why}: summary.json says why of each"
+        ));
     }
 }
 

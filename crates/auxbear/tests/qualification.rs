@@ -236,11 +236,18 @@ fn a_case_whose_event_never_comes_is_undecided() {
     let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
     let verdicts: Vec<Verdict> = done.answer.ranking.iter().map(|one| one.verdict).collect();
     let (pass, open) = (Verdict::Pass, Verdict::Undecided);
-    assert_eq!(verdicts, [open, open, pass, pass]);
+    // the shaken rotor slips on its races as well when its run ends, though its magnets have power
+    assert_eq!(verdicts, [open, open, pass, open]);
     let why = |case: usize| done.answer.ranking[case].open.as_deref().unwrap();
     assert!(why(1).contains("AB2083"), "{}", why(1));
     // the rotor has landed, and slips still when its run ends
-    assert!(why(0).starts_with("1 of 1 runs end before"), "{}", why(0));
+    for case in [0, 3] {
+        assert!(
+            why(case).starts_with("1 of 1 runs end while"),
+            "{}",
+            why(case)
+        );
+    }
     let (folder, study) = study_of(
         &machine(),
         &format!("set = [\"run.duration=8 ms\"]\n{QUALIFIED}{FORCE}"),
@@ -275,5 +282,6 @@ fn an_instant_that_did_not_come_is_judged_from_the_release_on() {
     };
     assert_eq!(judged("27 ms", "power lost"), Verdict::Undecided);
     assert_eq!(judged("23 ms", "power lost"), Verdict::Fail);
-    assert_eq!(judged("1 ms", "blade lost"), Verdict::Undecided);
+    // a race that the rotor does not touch comes to no speed, and need not
+    assert_eq!(judged("1 ms", "blade lost"), Verdict::Pass);
 }

@@ -64,10 +64,12 @@ fn a_document_judges_requirements_and_says_what_they_owe_to_inputs() {
     let folder = TempDir::new().unwrap();
     let (directory, found) = qualified(folder.path(), "out", "");
     assert!(found.complete && found.done.complete);
-    assert_eq!(found.tally, [1, 1, 1]);
+    // the run ends while a race slips: a force that holds so far is not shown
+    assert_eq!(found.tally, [0, 1, 2]);
     let document = fs::read_to_string(&found.document).unwrap();
     for text in [
-        "1 of 3 requirements met, 1 not met, 1 not shown.",
+        "0 of 3 requirements met, 1 not met, 2 not shown.",
+        "end while an inner race slips on the rotor",
         "A. &lt;Engineer&gt;",
         "drawing 4711",
         "no source is given",

@@ -16,8 +16,10 @@
 
 use crate::forbidden;
 use crate::list::NOT_GIVEN;
-use crate::whirl::spins_up;
-pub use crate::whirl::{SPIN_UP, is_of, seeks_whirl, sized, spin_up_times, whirl_sought};
+use crate::whirl::slips_in;
+pub use crate::whirl::{
+    CONTACTS, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked, whirl_sought,
+};
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
 use problem::{Code, Problem, Result, did_you_mean, question};
@@ -193,7 +195,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
         };
         let judged = forbidden::explained(judge(limit, unit, &values, &why), outcome);
         let judged = match seeks_whirl(limit, &outcome.quantities, declared) {
-            true => whirl_sought(judged, angles.len().max(1), !spins_up(limit, outcome)),
+            true => whirl_sought(judged, angles.len().max(1), slips_in(limit, outcome)),
             false => judged,
         };
         match no_qualification {
@@ -224,12 +226,21 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
     let from = crate::counted_from(&outcome.quantities).filter(|_| quantity.awaited);
     let beyond = |end: f64| (end - from? > bound).then_some(f64::INFINITY);
     let untouched = quantity.of_contacts.then_some(0.0);
+    // a race that the rotor does not touch comes to no speed, and need not
+    let contacts = contacts_of(&quantity.name);
+    let spared = |contacts: Option<f64>| (contacts == Some(0.0)).then_some(0.0);
     let asked = outcome.work.members;
     if asked > 1 {
         let members = &outcome.members;
         let values = members.values(&quantity.name).into_iter();
+        let count = contacts.map(|name| members.values(&name));
+        let count = |member: usize| *count.as_ref()?.get(member)?;
         let mut values: Vec<Option<f64>> = values
-            .map(|value| value.or(beyond(members.end)).or(untouched))
+            .enumerate()
+            .map(|(member, value)| {
+                let spared = spared(count(member));
+                value.or(spared).or(beyond(members.end)).or(untouched)
+            })
             .collect();
         let why = match values.len() < asked {
             true => early(),
@@ -240,6 +251,11 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
     }
     match (&quantity.value, outcome.stop.complete()) {
         (Value::None { .. }, true) if quantity.of_contacts => (vec![Some(0.0)], String::new()),
+        (Value::None { .. }, true)
+            if spared(contacts.and_then(|name| outcome.number(&name))).is_some() =>
+        {
+            (vec![Some(0.0)], "the rotor does not touch it".to_string())
+        }
         (Value::None { why }, _) => match (beyond(outcome.stop.time), quantity.awaited) {
             (Some(late), _) => (vec![Some(late)], format!("{why}, which is past the bound")),
             (None, true) => (vec![None], format!("{why}, which is not past the bound")),

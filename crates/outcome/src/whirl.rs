@@ -1,6 +1,6 @@
 //! What a limit of whirl asks for besides its bound: turns in either sense, angles of the unbalance, and runs that last until slip ends.
 
-use crate::{Judged, Outcome, Quantity, Value, Verdict};
+use crate::{Judged, Outcome, Quantity, Verdict};
 use problem::warning::Declared;
 use scenario::{Limit, Side};
 
@@ -25,23 +25,37 @@ pub fn seeks_whirl(limit: &Limit, known: &[Quantity], declared: &[&'static Decla
         && known.iter().any(|known| is_of(&known.name, WHIRL))
 }
 
-/// Whether the inner race of the bearing of a limit, of all of a limit of warnings, reaches 95 % of the speed in every member; so it is
-/// where it has none.
-pub(crate) fn spins_up(limit: &Limit, outcome: &Outcome) -> bool {
-    spin_up_times(limit, &outcome.quantities).all(|time| match &time.spread {
-        Some(spread) => spread.members == outcome.work.members,
-        None => matches!(time.value, Value::Number(_)),
+/// Contacts of a bearing.
+pub const CONTACTS: &str = "contact_count";
+/// Whether the rotor touches a bearing still at the end, and its inner race slips.
+pub const SLIPS: &str = "slips_at_end";
+/// Instants that a bearing has only where the rotor touches it.
+const OF_TOUCHED: [&str; 3] = [
+    SPIN_UP,
+    "inner_race_time_to_50_percent",
+    "cage_time_to_95_percent_of_rolling",
+];
+
+/// The contacts of the bearing of an instant that comes only where the rotor touches it; none of other results.
+pub fn contacts_of(name: &str) -> Option<String> {
+    let own = OF_TOUCHED.iter().find(|own| is_of(name, own))?;
+    Some(name.replace(own, CONTACTS))
+}
+
+/// Whether the bearing of a limit, or one of all of a limit of warnings, slips when a member ends.
+pub(crate) fn slips_in(limit: &Limit, outcome: &Outcome) -> bool {
+    let slips = |value: f64| value > 0.0;
+    slips_asked(limit, &outcome.quantities).any(|own| match &own.spread {
+        Some(spread) => slips(spread.largest),
+        None => outcome.number(&own.name).is_some_and(slips),
     })
 }
 
-/// Spin-up times that a limit of whirl asks for.
-pub fn spin_up_times<'a>(
-    limit: &Limit,
-    known: &'a [Quantity],
-) -> impl Iterator<Item = &'a Quantity> {
-    let name = limit.quantity.replace(WHIRL, SPIN_UP);
+/// The results that say whether bearings of a limit of whirl slip when a run ends.
+pub fn slips_asked<'a>(limit: &Limit, known: &'a [Quantity]) -> impl Iterator<Item = &'a Quantity> {
+    let name = limit.quantity.replace(WHIRL, SLIPS);
     let all = limit.forbids.is_some();
-    let asked = move |own: &&Quantity| own.name == name || all && is_of(&own.name, SPIN_UP);
+    let asked = move |own: &&Quantity| own.name == name || all && is_of(&own.name, SLIPS);
     known.iter().filter(asked)
 }
 
@@ -52,7 +66,9 @@ pub fn whirl_sought(judged: Judged, angles: usize, slips: bool) -> Judged {
         (true, _) => format!(
             "{angles} of at least {ANGLES_FOR_WHIRL} unbalance angles tried (--repeat {ANGLES_FOR_WHIRL})"
         ),
-        (false, true) => "it ends before the inner race reaches 95 % of the speed".to_string(),
+        (false, true) => {
+            "it ends while an inner race slips on the rotor, below 95 % of its speed".to_string()
+        }
         (false, false) => return judged,
     };
     match judged.verdict == Verdict::Pass {

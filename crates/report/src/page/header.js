@@ -108,10 +108,9 @@ const ANGLES_FOR_WHIRL = 8;
 function whirlNotSought(run) {
   const angles = unbalanceAngles(run);
   const few = angles < ANGLES_FOR_WHIRL ? `none seen from ${angles} unbalance ${angles === 1 ? "angle" : "angles"}; ${ANGLES_FOR_WHIRL} at least are needed (--repeat ${ANGLES_FOR_WHIRL})` : null;
-  const { value, spread, law } = quantityOf(run, "inner_race_time_to_95_percent");
-  const members = run.summary.members_total || list(run.summary.members).length;
-  const slips = law !== undefined && (spread ? spread.members < members : !isNumber(value));
-  return [few, slips ? "ends before the inner race reaches 95 % of the speed" : null].filter(Boolean);
+  const { value, spread } = quantityOf(run, "slips_at_end");
+  const slips = (spread ? spread.largest : value) > 0;
+  return [few, slips ? "ends while the inner race slips on the rotor, below 95 % of its speed" : null].filter(Boolean);
 }
 
 function whirlTile(run) {

@@ -15,7 +15,7 @@ const POINTS: usize = 800;
 const HEAD: [&str; 5] = [
     "input",
     "estimate",
-    "standard uncertainty",
+    "standard uncertainty by noise",
     "bounds",
     "determined",
 ];
@@ -53,7 +53,7 @@ pub fn rows(found: &Estimate) -> Vec<[String; 5]> {
 pub fn note(found: &Estimate) -> String {
     let [samples, independent] = found.rows.map(f64::round);
     let mut text = format!(
-        "Misfit {} over {samples} samples, of which {independent} count as independent; {} runs besides the members.",
+        "Misfit {} over {samples} samples, of which {independent} count as independent; {} runs besides the members. Uncertainties are those of noise alone: all inputs that were kept are taken as exact, and one that is off by what noise hides moves an estimate by many of them.",
         short(found.misfit),
         found.runs
     );

@@ -34,8 +34,11 @@ use std::sync::atomic::Ordering;
 const STUDY: &str = "study.toml";
 const MEMBERS: &str = "members";
 const TABLE: &str = "members.csv";
-/// Members that a thread has at a time, so that its lanes stay full.
+/// Members that a thread has at a time, at most and at first: so that its lanes stay full, and what is not written is soon done again.
 const A_THREAD: usize = 64;
+const AT_FIRST: usize = 16;
+/// What takes less time than this is written with more, s.
+const SOON: f64 = 10.0;
 
 /// A study with its directory, which no other process may use meanwhile.
 pub struct Directory {
@@ -142,36 +145,40 @@ impl Directory {
         progress: &(dyn Fn(f64) + Sync),
         after: &mut dyn FnMut() -> Result<()>,
     ) -> Result<()> {
-        let open = self.open_parts()?;
+        let mut lacking: Vec<usize> = Vec::new();
+        for part in self.open_parts()? {
+            let there = self.part_there(part)?.members;
+            lacking.extend(members_of(&self.study, part).filter(|own| !there.contains(own)));
+        }
         let threads = options.threads.map_or_else(host::threads, bounded);
-        let at_once = (threads * A_THREAD).div_ceil(PART).max(1);
+        // a kill takes what is not written: members of seconds are written by few, those of milliseconds by many
+        let (mut size, most) = (threads * AT_FIRST, (threads * A_THREAD).max(PART));
         let mut done = self.there;
-        for parts in open.chunks(at_once) {
-            let mut kept: Vec<Table> = (parts.iter())
-                .map(|part| self.part_there(*part))
-                .collect::<Result<_, _>>()?;
-            let lacking: Vec<usize> = (parts.iter().zip(&kept))
-                .flat_map(|(part, kept)| {
-                    members_of(&self.study, *part).filter(|member| !kept.members.contains(member))
-                })
-                .collect();
+        let mut rest = &lacking[..];
+        while !rest.is_empty() {
+            let some;
+            (some, rest) = rest.split_at(size.min(rest.len()));
             let plan = Options {
-                progress: &|fraction| progress(done as f64 + fraction * lacking.len() as f64),
+                progress: &|fraction| progress(done as f64 + fraction * some.len() as f64),
                 ..*options
             };
             // of an interrupted run those that had ended
-            let fresh = self.study.run(&lacking, &plan);
-            for (part, kept) in parts.iter().zip(&mut kept) {
-                let members = members_of(&self.study, *part);
+            let (fresh, seconds) = host::timed(|| self.study.run(some, &plan));
+            if seconds < SOON {
+                size = most.min(2 * size);
+            }
+            for part in some[0] / PART..=some[some.len() - 1] / PART {
+                let members = members_of(&self.study, part);
                 let of_part = |member: &usize| members.contains(member);
                 let begin = fresh.members.iter().position(of_part).unwrap_or(0);
                 let count = fresh.members.iter().filter(|own| of_part(own)).count();
                 if count == 0 {
                     continue;
                 }
+                let mut kept = self.part_there(part)?;
                 kept.append(fresh.part(begin..begin + count));
-                let table = self.study.in_order(std::mem::take(kept).sorted());
-                aside(&part_path(&self.path, *part), |file| {
+                let table = self.study.in_order(kept.sorted());
+                aside(&part_path(&self.path, part), |file| {
                     part::write(file, &table).map_err(super::directory::io_error)
                 })?;
             }

@@ -25,6 +25,8 @@ type Found = Result<Uncertain, String>;
 const THRESHOLD: f64 = 0.02;
 /// Deviations of an extremum of noise beyond the largest expected one that still count as noise.
 const BEYOND: f64 = 1.0;
+/// Amplitudes of the orbit before the release that the threshold of a reversal is at least: it moves by two.
+const ORBITS: f64 = 3.0;
 /// Deviations of its noise that the threshold of a force is at least.
 const CONTACT_NOISE: f64 = 2.0;
 /// Share of full speed at which a race has spun up.
@@ -80,11 +82,16 @@ fn sides<const N: usize>(list: &mut List, name: &str, table: Table<N>, both: Opt
 }
 
 impl Compared {
-    /// What noise alone does not reach, from its highest to its lowest value among so many, and a share of the range of the prediction.
+    /// What noise alone does not reach, from its highest to its lowest value among so many, nor the orbit before the release, and a share of
+    /// the range of the prediction.
     fn threshold(&self) -> f64 {
         let largest = (2.0 * (self.time.len().max(2) as f64).ln()).sqrt();
         let noise = 2.0 * (largest + BEYOND) * self.deviation().unwrap_or(0.0);
-        noise.max(THRESHOLD * self.range())
+        let orbit = self
+            .before
+            .orbit
+            .map_or(0.0, |[x, y]| x.value.hypot(y.value));
+        noise.max(THRESHOLD * self.range()).max(ORBITS * orbit)
     }
     /// Whether it begins more than two samples after the release.
     fn begins_late(&self) -> bool {
@@ -545,9 +552,9 @@ origins! {
     PEAK: law "largest force above its mean before the release, vertex of the local fit there",
         source LOCAL,
         valid "peak_contact_force of the prediction is that of dense output";
-    REVERSAL: law "first extremum from the release on, and the change from it to the next, by local fits; each turns by more than max(2 (1 + sqrt(2 ln n)) s, 0.02 R)",
+    REVERSAL: law "first extremum from the release on, and the change from it to the next, by local fits; each turns by more than max(2 (1 + sqrt(2 ln n)) s, 0.02 R, 3 a)",
         source LOCAL,
-        valid "s the deviation of the channel, n its samples, R the range of the prediction";
+        valid "s the deviation of the channel, n its samples, R the range of the prediction, a the amplitude of its orbit before the release";
     SPIN_UP: law "|ω_i| by a local fit reaches 95 % of the predicted rotor speed at the release, without a rotor of the largest predicted speed",
         source LOCAL,
         valid "noise below what the race ends above that speed";

@@ -31,8 +31,13 @@ use units::{Unit, number_text};
 const GAP: f64 = 3.5;
 /// Standard deviations of the band whose share is told.
 const BAND: f64 = 2.0;
+/// Values of a file within the run, at least.
+const FEWEST: usize = 2;
 /// Deviations from which on a sample stands alone beside its neighbours; noise of 100 000 samples comes to six.
 const ALONE: f64 = 8.0;
+/// Neighbouring samples of one value that are no chance, and the share of its range that the prediction moves meanwhile.
+const HELD: usize = 6;
+const MOVES: f64 = 0.05;
 /// What names of results and columns begin with.
 const MEASURED: &str = "measured";
 
@@ -129,14 +134,21 @@ impl Curve {
             values,
         };
         let [first, last] = curve.span();
-        if last >= 0.0 && first <= end {
+        let inside = curve
+            .times
+            .iter()
+            .filter(|time| (0.0..=end).contains(*time));
+        if inside.count() >= FEWEST {
             return Ok(curve);
         }
         let [first, last] = [first, last].map(|time| number_text((1e6 * time).round() / 1e6));
-        let found = format!("a file from {first} s to {last} s on the clock of the run");
+        let apart = number_text((1e6 * curve.interval()).round() / 1e6);
+        let found = format!(
+            "a file from {first} s to {last} s on the clock of the run, a value every {apart} s"
+        );
         let end = number_text(end);
         let needed = format!(
-            "one that overlaps the run, from 0 s to {end} s, is needed: clock_offset is the instant of the run at which time 0 of the file lies"
+            "one with {FEWEST} values at least within the run, from 0 s to {end} s, is needed: clock_offset is the instant of the run at which time 0 of the file lies, and the unit of its times is in the file"
         );
         Err(given.problem(Code::ChannelClock, "clock_offset", found, needed))
     }
@@ -253,6 +265,29 @@ impl Compared {
     pub fn residuals(&self) -> Option<Vec<f64>> {
         let deviation = self.deviation()?;
         Some(self.differences().map(|own| own / deviation).collect())
+    }
+
+    /// The longest stretch of neighbouring samples of one value over which the prediction moves by more than noise and a share of its range:
+    /// how many, the first row, and by how much the prediction moves.
+    fn held(&self) -> Option<(usize, usize, f64)> {
+        let least = (ALONE * self.deviation().unwrap_or(0.0)).max(MOVES * self.range());
+        let mut row = 0;
+        let stretches = self.measured.chunk_by(|one, next| one == next).map(|own| {
+            let predicted = &self.predicted[row..row + own.len()];
+            row += own.len();
+            let low = predicted.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = predicted.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            (own.len(), row - own.len(), high - low)
+        });
+        let held = stretches.filter(|(samples, _, moves)| *samples >= HELD && *moves > least);
+        held.max_by_key(|(samples, ..)| *samples)
+    }
+
+    /// Range of the measured values over that of the predicted ones.
+    fn ranges(&self) -> f64 {
+        let low = self.measured.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = (self.measured.iter().copied()).fold(f64::NEG_INFINITY, f64::max);
+        (high - low) / self.range()
     }
 
     /// Rows of the samples that stand alone: beside the cubic through two neighbours on each side by more than noise.
@@ -466,7 +501,7 @@ pub(crate) fn name(curves: &[Curve], run: Option<&Run>) -> Vec<Quantity> {
 
 results! {
     fn overall(setup: &(), run: &Run) {
-        "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" => {
+        "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" in tile "Misfit of the measurement" in bound "3" => {
 run.misfit()
         };
     }

@@ -10,6 +10,8 @@ const APART: (f64, f64) = (PI / 18.0, 3.0);
 const OTHER: f64 = 2.0;
 /// Samples that stand alone make a warning from so many more on than twice those of the prediction.
 const FEW: usize = 2;
+/// A range of measured values is another one from this ratio on.
+const SIZE: f64 = 4.0;
 /// Rows are coarser than the file from this ratio of intervals on.
 const COARSER: f64 = 1.5;
 
@@ -17,19 +19,22 @@ problem::warnings! {
     /// Of measured channels beside predicted columns.
     pub enum MeasuredWarning {
         Coarse { part: text, interval: "s", rows: "s" } "AB2340" Note ("Channel of {part} is sampled every {:.3} ms, the run has a row every {:.3} ms: the prediction is straight between its rows. Choose run.output_interval as the interval of the file.", 1e3 * interval, 1e3 * rows);
-        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle): impacts differ by it.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
+        PhaseDiffers { part: text, measured: "rad", uncertainty: "rad", predicted: "rad" } "AB2341" Uncertain ("Orbit of {part} at the release: measured at {:.0}° ± {:.0}°, predicted at {:.0}°. The angle of the unbalance at the release is an input (rotor.unbalance_angle), and a clock that is off by the time of that angle (clock_offset) shows the same: impacts differ by either.", measured.to_degrees(), uncertainty.to_degrees().ceil(), predicted.to_degrees());
         PhaseUnknown "AB2342" Note ("The measured channels do not show the phase of the orbit at the release. Impacts after the first depend on the angle of the unbalance at the release, an input (rotor.unbalance_angle).");
         PartOfRun { part: text, from: "s", to: "s", end: "s" } "AB2343" Note ("File of {part} covers {from:.4} s to {to:.4} s of a run of {end:.4} s: compared there.");
         Gaps { part: text, gaps: "", from: "s", to: "s" } "AB2344" Uncertain ("Channel of {part} has gaps ({gaps:.0}), the first from {from:.4} s to {to:.4} s: nothing is compared there, and features are those before the first one.");
         OtherNoise { part: text, given: "of the column", found: "of the column" } "AB2346" Uncertain ("Channel of {part}: measured.deviation is {given:.2e}, and its values before the release scatter by {found:.2e} about mean and synchronous orbit. Misfit and uncertainties count by the first.");
         Alone { part: text, count: "", share: "1", at: "s" } "AB2347" Uncertain ("Channel of {part}: {count:.0} samples ({:.2} %) stand alone by more than 8 deviations of its noise, the first at {at:.4} s, and the prediction has no such ones: faults of the record, or motion that its interval does not resolve. They count in misfit, features and estimates as all others do.", 100.0 * share);
+        Held { part: text, count: "", from: "s", to: "s", moves: "of the column" } "AB2349" Invalid ("Channel of {part} has one value from {from:.4} s to {to:.4} s ({count:.0} samples), where the prediction moves by {moves:.2e}: dead, stuck or at the end of its range. What is compared there is not the machine.");
+        OtherSize { part: text, ratio: "1" } "AB2350" Invalid ("Channel of {part} covers {ratio:.2e} times the range of the prediction: its unit, its scale or the channel is another one, or the machine does not do what this run predicts.");
         Backward { part: text } "AB2348" Invalid ("The orbit of {part} before the release turns against the rotor: x and y exchanged, or one of them of the wrong sign (scale = -1). Only between two critical speeds of unequal supports does unbalance make such an orbit. What is compared here is a mirrored motion.");
     }
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
     use MeasuredWarning::{
-        Alone, Backward, Coarse, Gaps, OtherNoise, PartOfRun, PhaseDiffers, PhaseUnknown,
+        Alone, Backward, Coarse, Gaps, Held, OtherNoise, OtherSize, PartOfRun, PhaseDiffers,
+        PhaseUnknown,
     };
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
@@ -70,6 +75,23 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 let part = part();
                 list.push(OtherNoise { part, given, found });
             }
+        }
+        if let Some((count, first, moves)) = own.held() {
+            let time = |row: usize| own.time[row] + run.release;
+            let (part, count) = (part(), count as f64);
+            let (from, to) = (time(first), time(first + count as usize - 1));
+            list.push(Held {
+                part,
+                count,
+                from,
+                to,
+                moves,
+            });
+        }
+        let ratio = own.ranges();
+        if ratio.is_finite() && !(1.0 / SIZE..SIZE).contains(&ratio) {
+            let part = part();
+            list.push(OtherSize { part, ratio });
         }
         let [alone, expected] = [&own.measured, &own.predicted].map(|values| own.alone(values));
         if let (Some(first), true) = (alone.first(), alone.len() > 2 * expected.len() + FEW) {

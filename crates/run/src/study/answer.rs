@@ -2,7 +2,7 @@
 
 use super::Study;
 use super::estimate::{Estimate, MISFIT};
-use super::selection::{CONTACTS, Candidate};
+use super::selection::Candidate;
 use super::table::Table;
 use outcome::limits;
 use outcome::{Judged, Spread, Value, Verdict};
@@ -166,14 +166,10 @@ impl Study {
         if !limits::seeks_whirl(&judged.limit, &self.known, &declared) {
             return judged;
         }
-        let mut times = limits::spin_up_times(&judged.limit, &self.known);
-        let slips = times.any(|time| {
-            let contacts = table.values(&time.name.replace(limits::SPIN_UP, CONTACTS));
-            let times = table.values(&time.name);
-            rows.iter()
-                .any(|row| times[*row].is_none() && contacts[*row] != Some(0.0))
+        let slips = limits::slips_asked(&judged.limit, &self.known).any(|own| {
+            let slips = table.values(&own.name);
+            rows.iter().any(|row| slips[*row] > Some(0.0))
         });
-        drop(times);
         limits::whirl_sought(judged, self.unbalance_angles(table), slips)
     }
 

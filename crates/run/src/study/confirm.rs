@@ -84,9 +84,16 @@ impl Study {
                 }
             }
             None => {
-                let values = self
-                    .decisive(table, &limit.quantity, limit.bound)
-                    .into_iter();
+                let mut values = self.decisive(table, &limit.quantity, limit.bound);
+                // a race that the rotor does not touch comes to no speed, and need not
+                let contacts = limits::contacts_of(&limit.quantity);
+                let contacts = contacts.map_or(Vec::new(), |name| table.values(&name));
+                for (value, contacts) in values.iter_mut().zip(contacts) {
+                    if contacts == Some(0.0) {
+                        *value = Some(0.0);
+                    }
+                }
+                let values = values.into_iter();
                 let mut known = self.known.iter();
                 let known = known.find(|known| known.name == limit.quantity);
                 // a member that ended as planned without a contact has none of its loads

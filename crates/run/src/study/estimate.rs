@@ -129,6 +129,16 @@ impl Study {
             curves: &curves,
             options,
         };
+        let at_best = fit.outcome(&self.shares(best));
+        let channels = at_best.map_or(Vec::new(), |own| measured::fitted(&curves, &own));
+        let unknown = channels.iter().filter(|own| own.deviation.is_none());
+        let unknown: Vec<&str> = unknown.map(|own| own.name.as_str()).collect();
+        if !unknown.is_empty() {
+            return Some(Err(format!(
+                "the noise of {} is not known (a channel that does not change, or too few values): measured.deviation is needed there, or no such table",
+                unknown.join(", ")
+            )));
+        }
         let step = 0.5 / (table.members.len() as f64).powf(1.0 / N as f64);
         let rows: usize = (fit.at(&self.shares(best)).iter().flatten())
             .map(|own| own.values.len())

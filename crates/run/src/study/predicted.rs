@@ -15,9 +15,11 @@ pub const BANDWIDTH: f64 = 10.0;
 /// Draws that make a band, at most.
 const MOST_DRAWS: usize = 64;
 /// What a test can measure, by the ends of its columns.
-const MEASURED: [&str; 7] = [
+const MEASURED: [&str; 9] = [
     "rotor.x",
     "rotor.y",
+    "rotor.z",
+    "contact.axial_force",
     "rotor.speed",
     "inner_race.speed",
     "cage.speed",

@@ -6,7 +6,7 @@
 
 use super::Study;
 use super::table::{LATE, Table};
-use outcome::limits;
+use outcome::limits::{self, CONTACTS};
 use outcome::{Judged, Verdict};
 use scenario::notes::NO_QUALIFICATION;
 use scenario::{Forbidden, Side};
@@ -15,8 +15,6 @@ use statistics::random::below;
 
 /// Warnings of events that did not happen, and of a motion of the base that the run cuts off.
 const NEVER: [&str; 2] = ["AB2083", "AB2085"];
-/// Contacts of a bearing.
-pub(super) const CONTACTS: &str = "contact_count";
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;
 /// Apart from the numbers of the design.
@@ -127,7 +125,13 @@ impl Study {
         most: bool,
         levels: &[usize],
     ) -> Candidate {
-        const LACKING: &str = "some draws failed, or have no such result";
+        let failed: Vec<&String> = (rows.iter())
+            .filter_map(|row| table.failed.get(&table.members[*row]))
+            .collect();
+        let lacking = match failed.len() {
+            0 => "some draws have no such result".to_string(),
+            count => format!("{count} of {} draws failed", rows.len()),
+        };
         let mut values = Vec::new();
         let coordinates = self.file.design.member(self.file.seed, member);
         for ((input, coordinate), count) in self.file.inputs.iter().zip(coordinates).zip(levels) {
@@ -144,7 +148,7 @@ impl Study {
         let own = own.filter(|limit| limit.case.is_none() || limit.case == case);
         let judged = own.map(|limit| {
             let values = of(&self.limited(table, limit));
-            let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, LACKING);
+            let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, &lacking);
             let judged = self.whirl_sought(judged, table, rows);
             let judged = if no_verdict {
                 limits::withheld(judged)
@@ -168,21 +172,18 @@ impl Study {
         });
         let (limits, worst): (Vec<Judged>, Vec<Option<usize>>) = judged.unzip();
         let own: Vec<f64> = of(ranked).into_iter().flatten().collect();
-        let failed = |row: &&usize| table.failed.contains_key(&table.members[**row]);
-        let lacking = rows.iter().filter(failed).count();
         let any = |verdict: Verdict| limits.iter().any(|judged| judged.verdict == verdict);
         let open = self.open(rows, table, limits.is_empty());
-        let undecided = any(Verdict::Undecided) || lacking > 0 || open.is_some();
+        let undecided = any(Verdict::Undecided) || !failed.is_empty() || open.is_some();
         let verdict = match (any(Verdict::Fail), undecided) {
             (true, _) => Verdict::Fail,
             (false, true) => Verdict::Undecided,
             (false, false) => Verdict::Pass,
         };
-        let first = rows.iter().find(|row| failed(row));
         Candidate {
             values,
             member,
-            draws: [rows.len(), lacking],
+            draws: [rows.len(), failed.len()],
             quantile: quantile(own.clone(), most),
             mean: (!own.is_empty()).then(|| own.iter().sum::<f64>() / own.len() as f64),
             first: 0.0,
@@ -190,7 +191,7 @@ impl Study {
             limits,
             worst,
             open,
-            why: first.and_then(|row| table.failed.get(&table.members[*row]).cloned()),
+            why: failed.first().map(|why| why.to_string()),
         }
     }
 
@@ -220,7 +221,7 @@ impl Study {
         never.next()
     }
 
-    /// Why what follows a loss of all power is not in these runs: the rotor has not landed when they end, or slips still.
+    /// Why what follows is not in these runs: of a loss of all power the rotor has not landed when they end, or a race slips on it still.
     fn cut_short(&self, rows: &[usize], table: &Table) -> Option<String> {
         let named = |last: &str| -> Vec<&str> {
             let known = self.known.iter().map(|known| known.name.as_str());
@@ -240,24 +241,26 @@ impl Study {
             })
             .collect();
         let released = |row: &&usize| lost[**row].is_some() && held[**row].is_none();
-        let rows: Vec<usize> = rows.iter().filter(released).copied().collect();
         let touched = |row: usize| {
             all.iter()
                 .filter(move |(contacts, _)| contacts[row] > Some(0.0))
         };
-        let falls = rows
-            .iter()
-            .filter(|row| touched(**row).count() == 0)
-            .count();
+        let slipping: Vec<_> = (named(limits::SLIPS).into_iter())
+            .map(|name| table.values(name))
+            .collect();
+        let slips_on = |row: &usize| slipping.iter().any(|slips| slips[*row] > Some(0.0));
+        let lands_late = |row: &usize| touched(*row).any(|(_, late)| late[*row].is_some());
+        let falls = rows.iter().filter(released);
+        let falls = falls.filter(|row| touched(**row).count() == 0).count();
         let slips = rows
             .iter()
-            .filter(|row| touched(**row).any(|(_, late)| late[**row].is_some()))
-            .count();
+            .filter(|row| slips_on(row) || released(row) && lands_late(row));
+        let slips = slips.count();
         let of = rows.len();
         match (falls, slips) {
             (0, 0) => None,
             (0, _) => Some(format!(
-                "{slips} of {of} runs end before the inner races reach 95 % of the speed"
+                "{slips} of {of} runs end while an inner race slips on the rotor, below 95 % of its speed"
             )),
             _ => Some(format!(
                 "the rotor has not landed when {falls} of {of} runs end"

@@ -262,7 +262,7 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
         .unwrap()
         .run(&Options::unwatched(&never));
     let (codes, whole) = damaged(&scenario, &run, |_| {});
-    let wrong = ["AB2344", "AB2347", "AB2348"];
+    let wrong = ["AB2344", "AB2347", "AB2348", "AB2349", "AB2350"];
     assert!(codes.iter().all(|code| !wrong.contains(code)), "{codes:?}");
 
     // every hundredth sample of one channel is off by 20 deviations
@@ -285,6 +285,37 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
         codes.contains(&"AB2348") && !codes.contains(&"AB2341"),
         "{codes:?}"
     );
+
+    // a probe at the end of its range, one that is dead, one whose unit is another
+    let floor = run.column("rotor.y").unwrap().values.iter();
+    let floor = 0.8 * floor.fold(0.0, |low: f64, y| low.min(*y));
+    let clipped = |curve: &mut Curve| {
+        if curve.name == "rotor.y" {
+            curve
+                .values
+                .iter_mut()
+                .for_each(|own| *own = own.max(floor));
+        }
+    };
+    let dead = |curve: &mut Curve| {
+        if curve.name == "rotor.y" {
+            curve.values.iter_mut().for_each(|own| *own = 0.0);
+        }
+    };
+    let small = |curve: &mut Curve| {
+        if curve.name == "rotor.y" {
+            curve.values.iter_mut().for_each(|own| *own *= 1e-3);
+        }
+    };
+    let (codes, _) = damaged(&scenario, &run, clipped);
+    assert!(codes.contains(&"AB2349"), "{codes:?}");
+    let (codes, _) = damaged(&scenario, &run, dead);
+    assert!(
+        codes.contains(&"AB2349") && codes.contains(&"AB2350"),
+        "{codes:?}"
+    );
+    let (codes, _) = damaged(&scenario, &run, small);
+    assert!(codes.contains(&"AB2350"), "{codes:?}");
 
     // a gap over the first impact: features before it stay, those after it are not given
     let contact = whole["measured.bearing.contact.force.first_contact.measured"];

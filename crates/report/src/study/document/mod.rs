@@ -162,10 +162,9 @@ impl Document<'_> {
             .find_map(|(one, ..)| Some((one, one.open.clone()?)));
         let failed = all.iter().find(|(one, ..)| one.draws[1] > 0);
         let failed = failed.map(|(one, ..)| {
-            (
-                one,
-                format!("{} of {} draws failed", one.draws[1], one.draws[0]),
-            )
+            let why = one.why.as_deref().unwrap_or_default();
+            let [draws, failed] = one.draws;
+            (one, format!("{failed} of {draws} draws failed: {why}"))
         });
         let undecided = any(Verdict::Undecided).map(|(one, judged, _)| (one, judged.why.clone()));
         let named = |(one, why): (&&Candidate, String)| {
@@ -186,7 +185,7 @@ impl Document<'_> {
                 broken + 1
             ))
         });
-        let (verdict, why) = match (any(Verdict::Fail), open.or(failed).or(undecided)) {
+        let (verdict, why) = match (any(Verdict::Fail), failed.or(open).or(undecided)) {
             _ if all.is_empty() => (Verdict::Undecided, "no case was judged by it".to_string()),
             (Some((one, judged, _)), _) => (Verdict::Fail, named((one, judged.why.clone()))),
             (None, _) if in_a_row.is_some() => (Verdict::Fail, in_a_row.unwrap_or_default()),
@@ -296,6 +295,7 @@ impl Document<'_> {
             if few { "<b>Few draws:</b> " } else { "" },
             if few { " 59 leave room for 5 %." } else { "" },
         );
+        out.push_str(&self.without_limit());
         out.push_str(&self.gravest());
         out.push_str(&self.first_table(&requirements));
         out.push_str(&note(
@@ -308,6 +308,25 @@ impl Document<'_> {
             "Bearings in space: motion and forces along the shaft, and the tilt of the rings, are in the results."
         }));
         (title, out)
+    }
+
+    /// Cases that no requirement judges.
+    fn without_limit(&self) -> String {
+        let limits = &self.study.file.limits;
+        if limits.iter().any(|limit| limit.case.is_none()) {
+            return String::new();
+        }
+        let judged = |case: &String| limits.iter().any(|limit| limit.case.as_ref() == Some(case));
+        let mut cases = self.cases();
+        let all = cases.len();
+        cases.retain(|case| !judged(case));
+        match cases.len() {
+            0 => String::new(),
+            count => paragraph(&format!(
+                "<b class=\"open\">No requirement judges {count} of {all} cases: {}.</b>",
+                plain(&cases.join(", "))
+            )),
+        }
     }
 
     /// Whether all bearings move in the plane across the shaft alone.

@@ -14,6 +14,15 @@ use std::fmt::Write;
 
 /// Signals that are drawn.
 const DRAWN: usize = 12;
+/// Ends of the signals that are drawn before others.
+const DRAWN_FIRST: [&str; 6] = [
+    "rotor.z",
+    "rotor.x",
+    "rotor.y",
+    "axial_force",
+    "mount.force",
+    "speed",
+];
 /// Points of a line, at most.
 const POINTS: usize = 500;
 const HEIGHT: f64 = 230.0;
@@ -103,7 +112,15 @@ impl Document<'_> {
             plain(&amount(self.interval(), "s"))
         ));
         out.push_str("<div class=\"pair\">\n");
-        for band in signals.chunks(BAND.len()).take(DRAWN) {
+        // of what a test measures first what its requirements are of: the rotor in each bearing, forces, speeds
+        let rank = |band: &&[Column]| {
+            let name = band[0].name.trim_end_matches(BAND[0]);
+            let first = DRAWN_FIRST.iter().position(|end| name.ends_with(end));
+            first.unwrap_or(DRAWN_FIRST.len())
+        };
+        let mut bands: Vec<&[Column]> = signals.chunks(BAND.len()).collect();
+        bands.sort_by_key(rank);
+        for band in bands.into_iter().take(DRAWN) {
             out.push_str(&figure(&band_figure(time, band)));
         }
         out.push_str("</div>\n");
@@ -194,9 +211,14 @@ impl Document<'_> {
             .filter(|own| !own.name.split('.').any(|part| landing.contains(&part)));
         let body: Vec<Vec<String>> = nodes
             .map(|own| {
+                let least = self.values_of(own).reduce(f64::min);
+                let shown = cell(least, own.unit);
                 vec![
                     words(&own.name),
-                    cell(self.values_of(own).reduce(f64::min), own.unit),
+                    match least.is_some_and(|own| own <= 0.0) {
+                        true => format!("<b class=\"failed\">{shown}</b>"),
+                        false => shown,
+                    },
                 ]
             })
             .collect();
