@@ -501,7 +501,7 @@ pub(crate) fn name(curves: &[Curve], run: Option<&Run>) -> Vec<Quantity> {
 
 results! {
     fn overall(setup: &(), run: &Run) {
-        "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" in tile "Misfit of the measurement" in bound "3" => {
+        "measured.misfit": number "1" headline, MISFIT, "root mean square of the misfits of all channels of the first drop" in tile "Measured less predicted, over noise" in bound "3" => {
 run.misfit()
         };
     }
