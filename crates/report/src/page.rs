@@ -72,6 +72,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("page/orders.js"),
     include_str!("page/maps.js"),
     include_str!("page/space.js"),
+    include_str!("page/space_view.js"),
     include_str!("page/energy.js"),
     include_str!("page/spin_up.js"),
     include_str!("page/torque.js"),

@@ -153,6 +153,6 @@ function spaceSection(runs) {
   return section(
     "space",
     "Bearings in space",
-    runs.map((run) => [ballsOf(run).some((ball) => ball.azimuth) ? loadFigure(run, runs) : null, axialFigures(run, runs)]),
+    runs.map((run) => [ballsOf(run).some((ball) => ball.azimuth) ? [loadFigure(run, runs), spaceView(run, runs)] : null, axialFigures(run, runs)]),
   );
 }
