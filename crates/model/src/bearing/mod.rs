@@ -376,6 +376,29 @@ impl BearingConstants {
             BearingConstants::Spatial(bearing) => bearing.azimuth(state, ball),
         }
     }
+    /// Shows the azimuth of each ball, rad, and its contacts at the inner and at the outer race.
+    pub fn each_contact(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        see: &mut dyn FnMut(usize, f64, [SlidingContact<f64>; 2]),
+    ) {
+        match self {
+            BearingConstants::Spatial(bearing) => {
+                bearing.touches(motion, state, |_, ball, azimuth, touches| {
+                    see(
+                        ball,
+                        azimuth,
+                        touches.each_ref().map(|touch| touch.slides()),
+                    );
+                });
+            }
+            _ => (0..self.balls()).for_each(|ball| {
+                let (azimuth, contacts) = self.contacts(motion, state, ball);
+                see(ball, azimuth, contacts);
+            }),
+        }
+    }
     /// Azimuth of a ball, rad, and its contacts at the inner and at the outer race; a ball that rolls has no slip.
     pub fn contacts(
         &self,

@@ -15,6 +15,7 @@ use super::face_heat::FaceSurfaces;
 use super::landing::{Landing, LandingConstants, LandingReaction};
 use super::mount::SpatialMount;
 use super::preload_at_rest;
+use super::race::{RingMotion, Touch};
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::row::{BallContacts, CageGuide, RowConstants};
 use super::statics::ball::Running;
@@ -223,6 +224,23 @@ impl SpatialBearing {
     /// Azimuth of a ball, rad.
     pub fn azimuth(&self, state: &[f64], ball: usize) -> f64 {
         state[self.azimuth_channel(ball)]
+    }
+    /// Shows where and how each ball touches both races: its row, its place among all balls, its azimuth, rad.
+    pub fn touches(
+        &self,
+        motion: &Motion<f64>,
+        state: &[f64],
+        mut see: impl FnMut(usize, usize, f64, &[Touch<f64>; 2]),
+    ) {
+        let rings = [&motion.inner, &motion.outer].map(|ring| RingMotion::of(&RigidBody::of(ring)));
+        let (mut first, mut ball) = (BODY_STATES * self.rows.len(), 0);
+        for (index, row) in self.rows.iter().enumerate() {
+            for (azimuth, touch) in row.touches([&rings[0], &rings[1]], &state[first..]) {
+                see(index, ball, azimuth, &touch);
+                ball += 1;
+            }
+            first += BALL_STATES * row.balls;
+        }
     }
     /// Contacts and pocket of a ball.
     pub fn contacts(&self, motion: &Motion<f64>, state: &[f64], ball: usize) -> BallContacts<f64> {

@@ -7,6 +7,7 @@ use super::face_heat::FaceHeat;
 use super::part::SpatialBearing;
 use crate::motion::Motion;
 use crate::system::sampling::Peak;
+use smallvec::SmallVec;
 
 /// An ellipse that is cut off by the shoulder of its groove.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,34 +76,30 @@ impl SpatialRecord {
         motion: &Motion<f64>,
         state: &[f64],
     ) {
-        let mut first = 0;
-        for (index, row) in bearing.rows.iter().enumerate() {
-            let mut pressed = false;
-            for ball in first..first + row.balls {
-                let found = bearing.contacts(motion, state, ball);
-                for (race, touch) in found.races.touch.iter().enumerate() {
-                    let load = touch.load.force;
-                    if load <= 0.0 {
-                        continue;
-                    }
-                    pressed |= race == 0;
-                    let angle = touch.triad.normal[1].asin().abs();
-                    self.largest_angles[race].raise(angle, time);
-                    let beyond = bearing
-                        .groove_ends
-                        .is_some_and(|ends| angle + touch.half_axis / row.ball.radius > ends[race]);
-                    if beyond && self.run_over.is_none() {
-                        self.run_over = Some(RunOver {
-                            time,
-                            ball,
-                            race,
-                            angle,
-                            load,
-                        });
-                    }
+        let mut pressed: SmallVec<[bool; 4]> = SmallVec::from_elem(false, bearing.rows.len());
+        bearing.touches(motion, state, |row, ball, _, touches| {
+            for (race, touch) in touches.iter().enumerate() {
+                let load = touch.load.force;
+                if load <= 0.0 {
+                    continue;
+                }
+                pressed[row] |= race == 0;
+                let angle = touch.triad.normal[1].asin().abs();
+                self.largest_angles[race].raise(angle, time);
+                let half = touch.half_axis / bearing.rows[row].ball.radius;
+                let beyond = (bearing.groove_ends).is_some_and(|ends| angle + half > ends[race]);
+                if beyond && self.run_over.is_none() {
+                    self.run_over = Some(RunOver {
+                        time,
+                        ball,
+                        race,
+                        angle,
+                        load,
+                    });
                 }
             }
-            first += row.balls;
+        });
+        for (index, pressed) in pressed.into_iter().enumerate() {
             if self.loaded[index] && !pressed {
                 self.unloaded[index].get_or_insert(time);
             }

@@ -50,6 +50,19 @@ impl CageConstants {
 }
 
 impl RowConstants {
+    /// Azimuth of each ball, rad, and where and how it touches inner and outer ring, in the states of its row.
+    pub(super) fn touches(
+        &self,
+        rings: [&RingMotion<f64>; 2],
+        state: &[f64],
+    ) -> impl Iterator<Item = (f64, [Touch<f64>; 2])> {
+        let lists = lists(state, 0, self.balls);
+        (0..self.balls).map(move |ball| {
+            let own = BallState::from_array(lists.map(|list| list[ball]));
+            let space = own.in_space(Turned::to(own.azimuth));
+            (own.azimuth, self.ball.touches(rings, &space))
+        })
+    }
     /// Contacts and pocket of a ball between inner ring, outer ring and cage, in the states of its row.
     pub fn contacts(
         &self,
@@ -188,6 +201,19 @@ pub(super) fn lists<R>(state: &[R], first: usize, balls: usize) -> [&[R]; BALL_S
 }
 
 impl<R: Real> SpatialBall<R> {
+    /// Where and how it touches inner and outer ring.
+    #[inline(always)]
+    pub(super) fn touches(
+        &self,
+        rings: [&RingMotion<R>; 2],
+        ball: &BallInSpace<R>,
+    ) -> [Touch<R>; 2] {
+        let groove = self.inner_at(rings[0].spin.dot(rings[0].axis));
+        [
+            groove.touch(rings[0], ball, self.radius, self.damping_time),
+            (self.outer).touch(rings[1], ball, self.radius, self.damping_time),
+        ]
+    }
     /// Its two contacts.
     #[inline(always)]
     pub(super) fn between<L: TractionLaw<R>>(
@@ -197,13 +223,10 @@ impl<R: Real> SpatialBall<R> {
         rings: [&RingMotion<R>; 2],
         ball: &BallInSpace<R>,
     ) -> BetweenRaces<R> {
-        let speed = rings[0].spin.dot(rings[0].axis);
-        let groove = self.inner_at(speed);
-        let inner = groove.touch(rings[0], ball, self.radius, self.damping_time);
-        let outer = (self.outer).touch(rings[1], ball, self.radius, self.damping_time);
+        let touch = self.touches(rings, ball);
         BetweenRaces {
-            traction: traction(law, nodes, [&inner, &outer]),
-            touch: [inner, outer],
+            traction: traction(law, nodes, [&touch[0], &touch[1]]),
+            touch,
         }
     }
 }

@@ -151,8 +151,8 @@ impl RaceRecord {
     pub fn look(&mut self, seen: &Seen) {
         let first = self.last.is_empty();
         let races = [&seen.motion.inner, &seen.motion.outer].map(|race| race.angle);
-        for ball in 0..seen.bearing.balls() {
-            let (azimuth, contacts) = seen.bearing.contacts(&seen.motion, seen.state, ball);
+        let (motion, state) = (&seen.motion, seen.state);
+        (seen.bearing).each_contact(motion, state, &mut |ball, azimuth, contacts| {
             let now = [0, 1].map(|race| {
                 let place = (azimuth - races[race]) * (POINTS as f64 / (2.0 * PI));
                 (place, contacts[race].load)
@@ -167,7 +167,7 @@ impl RaceRecord {
             }
             self.dents_and_flashes(seen, ball, &contacts);
             self.last[ball] = now;
-        }
+        });
     }
 
     fn dents_and_flashes(&mut self, seen: &Seen, ball: usize, contacts: &[SlidingContact<f64>; 2]) {
