@@ -44,6 +44,8 @@ pub enum Pause {
     Until,
     /// The landing of that index is taken, the last of those at one instant.
     Landing(usize),
+    /// The observer wanted it.
+    Wanted,
     /// A state event has happened, and no landing at its instant.
     Event,
     /// The run is over.
@@ -331,6 +333,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             match flow {
                 Flow::Continue => {}
                 Flow::Renew => wanted |= 1 << index,
+                Flow::Pause => lane.pause = Some(Pause::Wanted),
                 Flow::Halt(why) => lane.pause = Some(Pause::Ended(Stop::Halted(why))),
             }
         }
