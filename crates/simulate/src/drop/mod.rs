@@ -7,6 +7,8 @@ pub mod build;
 mod clearances;
 pub(crate) mod columns;
 pub(crate) mod context;
+pub mod driven;
+pub mod driven_columns;
 pub mod each;
 pub(crate) mod events;
 mod housings;
