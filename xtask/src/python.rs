@@ -7,7 +7,8 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the tests of the package need beside it.
-const PACKAGES: &str = "distributed numpy optuna pandas pint plotly polars pyarrow pytest";
+const PACKAGES: &str =
+    "distributed fmpy==0.3.26 numpy optuna pandas pint plotly polars pyarrow pytest";
 
 /// Builds the native part as the tests are built, puts the package together in a folder of its own, and runs its tests there.
 /// Where there is no Python, or nowhere to install from, it says so.

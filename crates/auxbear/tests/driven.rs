@@ -71,10 +71,9 @@ impl Controllers {
     }
     /// A sample: the commands.
     fn sample(&mut self, driven: &mut Driven) -> Vec<f64> {
-        let shown = driven.read().to_vec();
         let axes = self.signals.iter().zip(&mut self.states);
         axes.map(|(signal, states)| {
-            let error = [0.0 - shown[*signal]];
+            let error = [0.0 - driven.read(*signal)];
             let mut command = [0.0];
             self.filter.output(&states[..], &error, &mut command);
             let before = *states;
@@ -97,7 +96,7 @@ fn drive(driven: &mut Driven, controllers: &mut Controllers, first: Vec<f64>) {
             driven.change(axis, *command).unwrap();
         }
         let next = f64::from(k) * PERIOD;
-        if driven.read()[powered] == 0.0 || next >= 4e-3 {
+        if driven.read(powered) == 0.0 || next >= 4e-3 {
             break;
         }
         assert_eq!(driven.advance(next, &never), Reached::Time);

@@ -33,6 +33,7 @@ impl Watch {
     }
     /// The same with a record of an instant alone, s.
     pub fn at(&mut self, machine: &RotorMachine, time: f64, state: &[f64]) -> Self {
+        let machine = self.now.as_deref().unwrap_or(machine);
         Watch {
             record: self.record.now(machine, time, state),
             following: None,
@@ -41,10 +42,6 @@ impl Watch {
             warmed: self.warmed.clone(),
             looked: self.looked,
         }
-    }
-    /// The machine as it is now, where it was another one at the start.
-    pub fn now(&self) -> Option<&RotorMachine> {
-        self.now.as_deref()
     }
     pub fn finish(self, ending: Ending, member: &Member) -> Finished {
         let mut record = self.record;

@@ -68,8 +68,10 @@ pub struct Driven {
     inputs: Vec<(Variable, Target)>,
     values: Vec<f64>,
     changed: bool,
-    /// Values of the outputs, and the time to which they belong.
+    /// Values of the outputs at the time that is reached, where all were read.
     shown: Option<Vec<f64>>,
+    /// Outputs that the state alone shows, by their places.
+    quick: Vec<Option<table::Quick>>,
 }
 
 /// A machine at a stop, with all that its further steps depend on.
@@ -153,6 +155,7 @@ impl Driven {
             machine: &machine,
         };
         let inputs = inputs(setup, way.commands, &start, pushed.len());
+        let quick = table::quick(setup, &outputs(setup));
         let interval = way.keep_history.then_some(run.output_interval);
         let record = Record::with_taps(&machine, run.duration, interval, &[]);
         let record = record.staying_within(events::within(&built.drop));
@@ -163,6 +166,7 @@ impl Driven {
         };
         let settings = settings_at(run, stepping.tolerance);
         Ok(Driven {
+            quick,
             scenario: scenario.clone(),
             driver: driver(
                 member.machine.clone(),
@@ -193,11 +197,7 @@ impl Driven {
     }
     /// What comes out, in a fixed order; columns without values.
     pub fn outputs(&self) -> Vec<Column> {
-        let setup = self.setup();
-        let mut list = columns::history(setup, None);
-        list.extend(table::columns(setup, None));
-        list.retain(|own| !own.optional && own.name != "time");
-        list
+        outputs(self.setup())
     }
     /// Inputs, by their places, on which an output depends at once, without a step between.
     pub fn feeds(&self, output: &Column) -> Vec<usize> {
@@ -278,18 +278,15 @@ impl Driven {
         }
     }
 
-    /// Values of the outputs at the time that is reached.
-    pub fn read(&mut self) -> &[f64] {
+    /// The value of an output at the time that is reached; not a number where there is none.
+    pub fn read(&mut self, output: usize) -> f64 {
         self.act();
+        let (time, machine) = (self.driver.time(), &self.member.machine);
+        if let (None, Some(quick)) = (&self.shown, self.quick[output]) {
+            return quick.read(machine, time, &self.driver.state());
+        }
         if self.shown.is_none() {
-            let (time, state) = (self.driver.time(), self.driver.state());
-            let machine = self
-                .watch
-                .watch
-                .now()
-                .unwrap_or(&self.member.machine)
-                .clone();
-            let watch = self.watch.watch.at(&machine, time, &state);
+            let watch = self.watch.watch.at(machine, time, &self.driver.state());
             let finished = watch.finish(self.ending(), &self.member);
             let context = self.context(&finished);
             let mut list = columns::history(context.setup, Some(&context));
@@ -298,7 +295,8 @@ impl Driven {
             let last = |own: &Column| own.values.last().copied().unwrap_or(f64::NAN);
             self.shown = Some(list.iter().map(last).collect());
         }
-        self.shown.as_deref().unwrap_or(&[])
+        let shown = self.shown.as_ref().and_then(|list| list.get(output));
+        shown.copied().unwrap_or(f64::NAN)
     }
 
     /// What it stands at, to come back to.
@@ -362,10 +360,22 @@ impl Driven {
             end: finished.ending.time,
         }
     }
+    /// Its scenario.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
     /// How it is driven.
     pub fn way(&self) -> Way {
         self.way
     }
+}
+
+/// What comes out.
+fn outputs(setup: Setup) -> Vec<Column> {
+    let mut list = columns::history(setup, None);
+    list.extend(table::columns(setup, None));
+    list.retain(|own| !own.optional && own.name != "time");
+    list
 }
 
 /// What goes in.

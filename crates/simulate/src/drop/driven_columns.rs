@@ -6,6 +6,7 @@ use crate::drop::magnets::value_of;
 use crate::drop::{Shaft, events};
 use levitation::{Amplifier, Commands};
 use model::magnets::AxisConstants;
+use model::system::machine::RotorMachine;
 use outcome::Column;
 use outcome::columns::columns;
 
@@ -121,6 +122,56 @@ pub(super) fn feeds<'a>(
     places.map(|(place, _)| place).collect()
 }
 
+/// What a state alone shows, at no cost of a whole row: what controllers read at every sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Quick {
+    /// A channel of the state.
+    Channel(usize),
+    /// Displacement at an axis of a sensor.
+    Displacement(usize),
+    /// Signal of an axis of a sensor.
+    Signal(usize),
+    /// Whether any magnet has power.
+    Powered,
+}
+
+impl Quick {
+    pub fn read(self, machine: &RotorMachine, time: f64, state: &[f64]) -> f64 {
+        match self {
+            Quick::Channel(channel) => state[channel],
+            Quick::Displacement(axis) => machine.sensed(time, state)[axis].0,
+            Quick::Signal(axis) => machine.sensed(time, state)[axis].1,
+            Quick::Powered => f64::from(u8::from(machine.powered(state)[0])),
+        }
+    }
+}
+
+/// Which of the outputs a state alone shows.
+pub(super) fn quick(setup: Setup, outputs: &[Column]) -> Vec<Option<Quick>> {
+    let machine = setup.machine;
+    let mut known = vec![(
+        SPEED.to_string(),
+        Quick::Channel(machine.layout().rotor.spin()),
+    )];
+    if let Some(given) = setup.controlled() {
+        known.push((POWERED.to_string(), Quick::Powered));
+        for axis in 0..machine.axes().count() {
+            known.push((sensor(given, axis, SHOWN), Quick::Displacement(axis)));
+            known.push((sensor(given, axis, SIGNAL), Quick::Signal(axis)));
+        }
+    }
+    let of = |own: &Column| {
+        let found = known.iter().find(|(name, _)| *name == own.name);
+        found.map(|(_, quick)| *quick)
+    };
+    outputs.iter().map(of).collect()
+}
+
+const SPEED: &str = "rotor.speed";
+const POWERED: &str = "magnets.powered";
+const SHOWN: &str = "displacement";
+const SIGNAL: &str = "signal";
+
 /// Columns of an instant besides those of the history: sensors, power, contacts, events.
 pub(super) fn columns(setup: Setup, run: Option<&Context>) -> Vec<Column> {
     let machine = setup.machine;
@@ -128,14 +179,14 @@ pub(super) fn columns(setup: Setup, run: Option<&Context>) -> Vec<Column> {
     let mut table = Table::over(&of);
     if let Some(given) = setup.controlled() {
         for axis in 0..machine.axes().count() {
-            let [shown, signal] = ["displacement", "signal"].map(|what| sensor(given, axis, what));
+            let [shown, signal] = [SHOWN, SIGNAL].map(|what| sensor(given, axis, what));
             columns! { table.columns, |row|
                 "{shown}": "m", "displacement of the rotor that this axis of the sensor sees, before its filter" => machine.sensed(row.time, row.state)[axis].0;
                 "{signal}": "m", "signal of this axis of the sensor, behind its filter" => machine.sensed(row.time, row.state)[axis].1;
             }
         }
         columns! { table.columns, |row|
-            "magnets.powered": "1", "1 while any magnet has power, else 0" => f64::from(u8::from(machine.powered(row.state)[0]));
+            "{POWERED}": "1", "1 while any magnet has power, else 0" => f64::from(u8::from(machine.powered(row.state)[0]));
         }
     }
     for (k, part) in setup.parts().enumerate() {

@@ -1,0 +1,214 @@
+"""Machines as co-simulation units, driven by FMPy, another importer than ours."""
+
+import ctypes
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import auxbear
+
+fmpy = pytest.importorskip("fmpy")
+from fmpy.fmi2 import FMU2Slave  # noqa: E402
+from fmpy.fmi3 import FMU3Slave  # noqa: E402
+from fmpy.validation import validate_fmu  # noqa: E402
+
+SCENARIOS = Path(__file__).parents[2] / "scenarios"
+PERIOD, COMPUTING, LOSS, END = 50e-6, 20e-6, 4e-3, 12e-3
+COMMAND = os.environ.get("AUXBEAR_COMMAND", "auxbear")
+
+SETTINGS = {
+    "levitation.controller.sampling_period": "50 us",
+    "levitation.controller.computing_time": "20 us",
+    "levitation.controller.delay": "0 s",
+    "levitation.power_lost_at": "4 ms",
+    "auxiliary_bearing.drive_end.contact.radial_air_clearance": "30 um",
+    "run.duration": "12 ms",
+}
+
+
+def machine() -> auxbear.Scenario:
+    """The rig with samples, which loses its magnets after 4 ms and lands soon after."""
+    scenario = auxbear.Scenario.load(SCENARIOS / "amb_rig_drop.toml")
+    for path, value in SETTINGS.items():
+        scenario = scenario.set(path, value)
+    return scenario
+
+
+def export(folder: Path, *words: str) -> Path:
+    file = folder / "machine.toml"
+    file.write_text(machine().toml(), encoding="utf-8")
+    out = folder / "machine.fmu"
+    out.unlink(missing_ok=True)
+    called = subprocess.run([COMMAND, "fmu", file, "--out", out, *words], capture_output=True, text=True)
+    assert called.returncode == 0, called.stderr
+    return out
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    return {version: export(tmp_path_factory.mktemp(f"fmi{version}"), "--version", version) for version in "23"}
+
+
+class Unit:
+    """A unit of either version, by names."""
+
+    def __init__(self, file: Path, folder: Path, **start):
+        self.description = fmpy.read_model_description(str(file))
+        self.three = self.description.fmiVersion.startswith("3")
+        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
+        self.messages = []
+        unzipped = fmpy.extract(str(file), unzipdir=str(folder / file.stem))
+        known = self.description.guid if not self.three else self.description.instantiationToken
+        words = dict(
+            guid=known,
+            unzipDirectory=unzipped,
+            modelIdentifier=self.description.coSimulation.modelIdentifier,
+            instanceName="machine",
+        )
+        self.own = (FMU3Slave if self.three else FMU2Slave)(**words)
+        self.own.instantiate()
+        for name, value in start.items():
+            self.set(name, value)
+        if self.three:
+            self.own.enterInitializationMode(startTime=0.0)
+        else:
+            self.own.setupExperiment(startTime=0.0)
+            self.own.enterInitializationMode()
+        self.own.exitInitializationMode()
+
+    def get(self, *names):
+        references = [self.references[name] for name in names]
+        return (self.own.getFloat64 if self.three else self.own.getReal)(references)
+
+    def set(self, name, value):
+        references = [self.references[name]]
+        kind = {str: "String", bool: "Boolean"}.get(type(value), "Float64" if self.three else "Real")
+        getattr(self.own, f"set{kind}")(references, [value])
+
+    def step(self, start, end):
+        self.own.doStep(currentCommunicationPoint=start, communicationStepSize=end - start)
+
+    def end(self):
+        self.own.terminate()
+        self.own.freeInstance()
+
+
+AXES = [(end, number) for end in ("drive_end", "other_end") for number in (1, 2)]
+
+
+class Controllers:
+    """The controllers of the rig, as a user would write them: K_p + K_i/s + K_d s/(1 + T_d s) by the bilinear rule."""
+
+    def __init__(self):
+        kp, ki, kd, td = 8000.0, 8e4, 22.0, 45.47284088339867e-6
+        a, b = np.diag([0.0, -1.0 / td]), np.array([1.0, 1.0 / td])
+        c, d = np.array([ki, -kd / td]), kp + kd / td
+        half = a * (0.5 * PERIOD)
+        factor = np.linalg.inv(np.eye(2) - half)
+        entry = factor @ b * (0.5 * PERIOD)
+        self.a, self.b, self.c, self.d = factor @ (np.eye(2) + half), factor @ entry * 2.0, c, d + c @ entry
+        # states and commands behind the sample of the start
+        start = machine().simulation()
+        find = lambda end: [start[name] for name in start if name.endswith(end)]  # noqa: E731
+        self.states = np.array([find("integral"), find("derivative")]).T
+        self.commands = find("command computed")
+        assert self.states.shape == (4, 2) and len(self.commands) == 4
+
+    def sample(self, signals):
+        errors = [-signal for signal in signals]
+        self.commands = [self.c @ x + self.d * e for x, e in zip(self.states, errors)]
+        self.states = np.array([self.a @ x + self.b * e for x, e in zip(self.states, errors)])
+
+
+def drive(unit: Unit, until: float = END, shift: float = 0.0) -> None:
+    """Samples at k T_s and commands at k T_s + T_c until the power is lost, then one step to the end; steps end `shift` early besides."""
+    own, now = Controllers(), 0.0
+    signals = [f"sensor.{end}.signal_{number}" for end, number in AXES]
+
+    def go(end):
+        nonlocal now
+        for stop in [end - shift, end] if shift else [end]:
+            unit.step(now, stop)
+            now = stop
+
+    k = 0
+    while True:
+        go(k * PERIOD + COMPUTING)
+        for (end, number), command in zip(AXES, own.commands):
+            unit.set(f"magnet.{end}.current_command_{number}", command)
+        k += 1
+        if k * PERIOD >= LOSS:
+            break
+        go(k * PERIOD)
+        own.sample(unit.get(*signals))
+    go(until)
+
+
+@pytest.mark.parametrize("version", "23")
+def test_driven_by_its_own_controllers_it_is_its_run(exported, tmp_path, version) -> None:
+    run = machine().run()
+    unit = Unit(exported[version], tmp_path, run_directory=str(tmp_path / "run"))
+    drive(unit)
+    names = [name for name in run.history if name in unit.references and name != "time"]
+    assert len(names) > 100
+    last = dict(zip(names, unit.get(*names)))
+    unit.end()
+    written = auxbear.load(tmp_path / "run")
+    # as many steps, and contacts at the same instants
+    assert written["contact_start_times"] if "contact_start_times" in written else True
+    for name in names:
+        ours, theirs = written.history[name], run.history[name]
+        largest = np.nanmax(np.abs(theirs))
+        assert np.nanmax(np.abs(np.asarray(ours) - np.asarray(theirs))) <= 1e-12 * largest + 1e-300, name
+        assert abs(last[name] - theirs[-1]) <= 1e-12 * largest + 1e-300, name
+
+
+@pytest.mark.parametrize("version", "23")
+def test_importers_find_nothing_wrong(exported, version) -> None:
+    assert validate_fmu(str(exported[version])) == []
+
+
+def test_all_functions_of_the_headers_are_exported(exported, tmp_path) -> None:
+    headers = Path(fmpy.__file__).parent / "c-code"
+    names = []
+    for header in ("fmi2Functions.h", "fmi3Functions.h"):
+        text = (headers / header).read_text(encoding="utf-8")
+        names += re.findall(r"^FMI[23]_Export +fmi[23]\w+TYPE +(fmi[23]\w+);", text, re.M)
+    exchange = [name for name in names if name.startswith("fmi2")]
+    assert len(names) > 100 and "fmi3DoStep" in names and "fmi2DoStep" in exchange
+    unzipped = fmpy.extract(str(exported["3"]), unzipdir=str(tmp_path / "unzipped"))
+    library = ctypes.CDLL(str(next(Path(unzipped).glob("binaries/*/auxbear.*"))))
+    missing = [name for name in names if not hasattr(library, name)]
+    # those of model exchange in 2.0 are of another kind of unit
+    assert [name for name in missing if name.startswith("fmi3")] == []
+    assert len([name for name in missing if name.startswith("fmi2")]) <= 11, missing
+
+
+@pytest.mark.parametrize("version", "23")
+def test_a_state_gives_the_same_bits(exported, tmp_path, version) -> None:
+    unit = Unit(exported[version], tmp_path)
+    names = list(unit.references)
+    names = [v.name for v in unit.description.modelVariables if v.causality == "output"]
+    unit.step(0.0, 1e-3)
+    three = unit.three
+    state = unit.own.getFMUState() if three else unit.own.getFMUstate()
+    data = unit.own.serializeFMUState(state) if three else unit.own.serializeFMUstate(state)
+
+    def on(own):
+        own.set("magnet.drive_end.current_command_1", 0.7)
+        own.step(1e-3, 7e-3)
+        return [float(value).hex() for value in own.get(*names)]
+
+    first = on(unit)
+    (unit.own.setFMUState if three else unit.own.setFMUstate)(state)
+    assert on(unit) == first
+    other = Unit(exported[version], tmp_path / "other")
+    again = other.own.deserializeFMUState(data) if three else other.own.deSerializeFMUstate(data)
+    (other.own.setFMUState if three else other.own.setFMUstate)(again)
+    assert on(other) == first
+    other.end()
+    unit.end()
