@@ -250,3 +250,102 @@ def test_driven_at_other_points_it_is_one_more_of_its_perturbed_runs(tmp_path) -
     assert scattered > 40 and len(outside) < 0.4 * scattered, outside
     first = "drive_end.time_to_first_contact"
     assert found[first]["value"] == pytest.approx(float(members[0][first]), rel=1e-5)
+
+
+SOURCE = """
+from {module} import {names}
+
+C, A, B, D = {c!r}, {a!r}, {b!r}, {d!r}
+STATES, FIRST = {states!r}, {first!r}
+
+
+class Controllers({bases}):
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+        self.states, self.stepped = list(STATES), False
+        {time}
+        for axis in range({axes}):
+            setattr(self, f"signal_{{axis}}", 0.0)
+            setattr(self, f"command_{{axis}}", 0.0)
+            self.register_variable({real}(f"signal_{{axis}}", causality={causality}.input, {start}))
+            self.register_variable({real}(f"command_{{axis}}", causality={causality}.output))
+
+    def do_step(self, current_time, step_size):
+        for axis in range({axes}):
+            (x1, x2), e = self.states[axis % 4], 0.0 - getattr(self, f"signal_{{axis}}")
+            # the states are those behind the sample of the start
+            command = FIRST[axis % 4]
+            if self.stepped:
+                command = C[0] * x1 + C[1] * x2 + D * e
+                self.states[axis % 4] = (A[0] * x1 + B[0] * e, A[1] * x2 + B[1] * e)
+            setattr(self, f"command_{{axis}}", command)
+        self.stepped = True
+        return {done}
+"""
+
+VERSIONS = {
+    "2": dict(
+        module="pythonfmu",
+        names="Fmi2Causality, Fmi2Slave, Real",
+        bases="Fmi2Slave",
+        real="Real",
+        causality="Fmi2Causality",
+        time="",
+        start="start=0.0",
+        done="True",
+    ),
+    "3": dict(
+        module="pythonfmu3",
+        names="Fmi3Causality, Fmi3Slave, Fmi3Variability, Float64",
+        bases="Fmi3Slave",
+        real="Float64",
+        causality="Fmi3Causality",
+        time="self.time = 0.0\n        self.register_variable(Float64('time', causality=Fmi3Causality.independent, variability=Fmi3Variability.continuous))",
+        start="start=0.0",
+        done="True",
+    ),
+}
+
+
+def controller(folder: Path, version: str, axes: int = 4) -> Path:
+    """The controllers of the rig as a unit made by another program."""
+    words = VERSIONS[version]
+    own = Controllers()
+    source = folder / f"controllers{version}{axes}.py"
+    text = SOURCE.format(
+        **words, axes=axes, a=tuple(own.a), b=tuple(own.b), c=tuple(own.c), d=own.d, states=own.states, first=own.commands
+    )
+    source.write_text(text, encoding="utf-8")
+    builder = pytest.importorskip(words["module"] + ".builder").FmuBuilder
+    return Path(builder.build_FMU(source, dest=folder))
+
+
+@pytest.mark.parametrize("version", "23")
+def test_a_unit_as_controller_gives_the_numbers_of_the_built_in_one(tmp_path, version) -> None:
+    unit = controller(tmp_path, version)
+    run = machine().run()
+    controlled = machine().set("levitation.controller.fmu", str(unit)).run()
+    assert controlled.complete, controlled.stop
+    assert controlled.summary["work"]["steps"] == run.summary["work"]["steps"]
+    for name in run.history:
+        ours, theirs = np.asarray(controlled.history[name]), np.asarray(run.history[name])
+        assert np.nanmax(np.abs(ours - theirs)) <= 1e-12 * np.nanmax(np.abs(theirs)), name
+    controlled.write(tmp_path / "run")
+    assert (tmp_path / "run" / unit.name).read_bytes() == unit.read_bytes()
+
+
+def test_units_that_cannot_control_end_the_run_and_say_why(tmp_path) -> None:
+    few = controller(tmp_path, "2", axes=2)
+    text = tmp_path / "text.fmu"
+    text.write_text("no unit", encoding="utf-8")
+    for file, why in (
+        (few, "it has 2 inputs, and 4 axes of sensors give a signal each"),
+        (text, "is no unit that can be unpacked"),
+        (tmp_path / "none.fmu", "No such file"),
+    ):
+        result = machine().set("levitation.controller.fmu", str(file)).run()
+        assert not result.complete and why in str(result.stop), result.stop
+    standing = machine().set("levitation.controller.fmu", str(few))
+    with pytest.raises(auxbear.Problem, match="sampling_period"):
+        auxbear.Scenario.load(SCENARIOS / "amb_rig_drop.toml").set("levitation.controller.fmu", str(few)).check()
+    assert "fmu" in standing.toml()

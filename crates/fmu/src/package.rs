@@ -61,6 +61,16 @@ const PLATFORMS: [(&str, &str, &str); 7] = [
     ("win32", "x86-windows", "dll"),
 ];
 
+/// The platform on which this runs: its folder in units of version 2.0 and 3.0, and the end of the name of a library.
+pub(crate) fn here() -> Option<(&'static str, &'static str, &'static str)> {
+    let system = match std::env::consts::OS {
+        "macos" => "darwin",
+        other => other,
+    };
+    let tuple = format!("{}-{system}", std::env::consts::ARCH);
+    PLATFORMS.iter().find(|own| own.1 == tuple).copied()
+}
+
 /// The place of the platform of a library among [`PLATFORMS`], from its header: ELF, Mach-O or PE.
 fn platform(bytes: &[u8]) -> Option<usize> {
     let number = |at: usize| Some(u16::from_le_bytes(bytes.get(at..at + 2)?.try_into().ok()?));

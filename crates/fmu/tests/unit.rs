@@ -252,7 +252,9 @@ fn wrong_calls_are_refused_and_say_why() {
         (COMMAND, f64::NAN, "a finite number is needed"),
         (COMMAND, f64::INFINITY, "a finite number is needed"),
         (
-            "scenario.rotor.speed", 1000.0, "scenario.rotor.speed: is a parameter, fixed since the initialisation",
+            "scenario.rotor.speed",
+            1000.0,
+            "scenario.rotor.speed: is a parameter, fixed since the initialisation",
         ),
         (
             "magnets.powered",

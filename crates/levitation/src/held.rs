@@ -1,7 +1,7 @@
 //! A levitation without its controller: whoever drives the machine gives the commands, which are held between.
 
 use crate::levitation::{Layout, volts};
-use crate::parts::{Commands, Sensor};
+use crate::parts::{Actuator, Commands, Sensor};
 use crate::{Levitation, OfAxes, Signals};
 use physics::magnet::{Amplifier, Magnet, Timing};
 
@@ -44,6 +44,11 @@ impl Levitation {
             delay: None,
             layout,
         })
+    }
+    /// Whether any of its amplifiers takes volts for commands.
+    #[must_use]
+    pub fn takes_volts(&self) -> bool {
+        self.actuators.iter().any(Actuator::takes_volts)
     }
     /// Where the command of a magnet axis is held; nowhere where a controller gives it at every instant.
     #[must_use]

@@ -68,6 +68,7 @@ impl Study {
             threads: Some(1),
             interrupt: options.interrupt,
             progress: &|_| {},
+            controllers: options.controllers,
         };
         let rows = (
             "run.output_interval".to_string(),

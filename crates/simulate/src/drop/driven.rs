@@ -19,7 +19,7 @@ use model::system::machine::{MOST_LOADED, Mode, RotorMachine};
 use outcome::{Column, Outcome, Stop};
 use problem::{Code, Problem};
 use scenario::{Scenario, problem_at};
-use solve::{Ending, Flow, Observer, Pause, Saved, Step, Work};
+use solve::{Ending, Flow, Observer, Pause, Saved, Step};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -135,13 +135,18 @@ impl Driven {
     /// # Errors
     /// Where amplifiers take no such commands, forces would act at too many nodes, or it coasts on until its standstill.
     pub fn new(scenario: &Scenario, built: &Arc<Built>, way: Way) -> Result<Self, Box<Problem>> {
+        Self::of(&One::of(scenario, built.clone()), way)
+    }
+
+    /// The machine of a drop that is ready to run, at its start.
+    pub(super) fn of(one: &One, way: Way) -> Result<Self, Box<Problem>> {
+        let (scenario, built) = (one.scenario, &one.built);
         if built.drop.coast_down.is_some() {
             let found = "\"standstill\"";
             let needed = "\"duration\" is needed of a machine that is driven from outside: it stops where it is told to, at run.duration \
                           at the latest";
             return Err(problem_at(Code::Conflict, "run.until", found, needed));
         }
-        let one = One::of(scenario, built.clone());
         let (run, stepping) = (&built.drop.run, one.stepping);
         let own = &one.member.machine;
         let pushed: Vec<Vec<f64>> = match &built.shaft {
@@ -299,6 +304,17 @@ impl Driven {
         shown.copied().unwrap_or(f64::NAN)
     }
 
+    /// Whether any magnet has power.
+    pub(super) fn powered(&self) -> bool {
+        self.member.machine.powered(&self.driver.state())[0]
+    }
+    /// Signals of all sensor axes, m.
+    pub(super) fn signals(&self) -> Vec<f64> {
+        let state = self.driver.state();
+        let all = self.member.machine.sensed(self.driver.time(), &state);
+        all.into_iter().map(|(_, signal)| signal).collect()
+    }
+
     /// What it stands at, to come back to.
     pub fn save(&mut self) -> DrivenState {
         DrivenState {
@@ -342,7 +358,7 @@ impl Driven {
             stop: solve::Stop::Finished,
             time: self.driver.time(),
             state: self.driver.state(),
-            work: Work::default(),
+            work: self.driver.work(),
         })
     }
     fn setup(&self) -> Setup<'_> {

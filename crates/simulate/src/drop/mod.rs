@@ -7,6 +7,7 @@ pub mod build;
 mod clearances;
 pub(crate) mod columns;
 pub(crate) mod context;
+mod controlled;
 pub mod driven;
 pub mod driven_columns;
 pub mod each;

@@ -16,6 +16,7 @@ use ::levitation::Commands;
 use number::{Level, Real, Task, Vec2};
 use solve::{
     Ending, Explicit, Held, Implicit, Machine, Observer, Pause, Saved, Settings, Start, Stepper,
+    Work,
 };
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -142,6 +143,8 @@ pub trait Driver: Send {
     fn pause(&self) -> Option<&Pause>;
     /// How a run that is over ended; none before.
     fn ending(&self) -> Option<Ending>;
+    /// Its steps until now.
+    fn work(&self) -> Work;
     /// The machine as it is now.
     fn machine(&self) -> &RotorMachine;
     /// Goes on to a time, s, or to its end where that comes first; `observer` sees each step, and `interrupt` ends it.
@@ -173,6 +176,9 @@ macro_rules! driver {
             }
             fn ending(&self) -> Option<Ending> {
                 Stepper::ending(self, 0)
+            }
+            fn work(&self) -> Work {
+                Stepper::work(self, 0)
             }
             fn machine(&self) -> &RotorMachine {
                 Stepper::machine(self, 0)
