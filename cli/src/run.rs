@@ -61,6 +61,7 @@ pub fn execute(
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
+    auxbear_fmu::controller::check(scenario).inspect_err(|_| progress.end())?;
     drop(busy);
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {

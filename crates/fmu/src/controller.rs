@@ -4,7 +4,10 @@
 //! code: what it does to the process is its own.
 
 use crate::package;
+use auxbear::Scenario;
 use auxbear::outcome::options::{Controller, Controllers};
+use auxbear::problem::{Code, Problem};
+use auxbear::scenario::{Body, problem_at};
 use libloading::Library;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -32,6 +35,40 @@ impl Controllers for Units {
         fs::read(file).ok()
     }
 }
+
+/// Refuses the unit of a scenario that could not command its magnets, before a run: it is started once, and gone again.
+///
+/// # Errors
+/// Why it could not.
+pub fn check(scenario: &Scenario) -> Result<(), Box<Problem>> {
+    let Some((drop, Body::Flexible(shaft))) = scenario.drop().map(|drop| (drop, &drop.body)) else {
+        return Ok(());
+    };
+    let Some((magnets, file)) =
+        (shaft.rotor.levitation.as_ref()).and_then(|own| Some((own, own.unit.as_ref()?)))
+    else {
+        return Ok(());
+    };
+    let axes = 2 * magnets.magnets.len();
+    let fits = Unit::start(file).and_then(|unit| unit.fits(axes, axes));
+    let alone = fits.as_ref().is_ok_and(|alone| *alone) && drop.repeat.count > 1;
+    let found = match (fits, alone) {
+        (Ok(_), false) => return Ok(()),
+        (Ok(_), true) => format!("{file}, which {ONCE}"),
+        (Err(why), _) => format!("{file}: {why}"),
+    };
+    let needed = "a unit of FMI 2.0 or 3.0 for co-simulation is needed, with a signal of each sensor axis as input and a command of each magnet \
+                  axis as output, for this platform";
+    Err(scenario.locate(problem_at(
+        Code::Conflict,
+        "levitation.controller.fmu",
+        found,
+        needed,
+    )))
+}
+
+const ONCE: &str =
+    "may be instantiated once in a process, and more members run: repeat.count = 1 is needed";
 
 /// What a description says.
 #[derive(Default)]
@@ -230,7 +267,7 @@ impl Unit {
                 .lock()
                 .map_err(|_| "another unit has failed".to_string())?;
             if alone.iter().any(|own| own == file) {
-                return Err("may be instantiated once in a process, and more members run: repeat.count = 1 is needed".to_string());
+                return Err(ONCE.to_string());
             }
             alone.push(file.to_string());
         }
@@ -328,8 +365,32 @@ impl Unit {
     }
 }
 
+impl Unit {
+    /// Whether it is alone in its process; refused where it does not take so many signals and give so many commands.
+    fn fits(&self, signals: usize, commands: usize) -> Result<bool, String> {
+        let Description {
+            inputs,
+            outputs,
+            alone,
+            ..
+        } = &self.description;
+        match (inputs.len() == signals, outputs.len() == commands) {
+            (false, _) => Err(format!(
+                "it has {} inputs, and {signals} axes of sensors give a signal each",
+                inputs.len()
+            )),
+            (_, false) => Err(format!(
+                "it has {} outputs, and {commands} axes of magnets need a command each",
+                outputs.len()
+            )),
+            _ => Ok(*alone),
+        }
+    }
+}
+
 impl Controller for Unit {
     fn sample(&mut self, time: f64, signals: &[f64], period: f64) -> Result<Vec<f64>, String> {
+        self.fits(signals.len(), self.description.outputs.len())?;
         let Unit {
             component,
             description,
@@ -337,13 +398,6 @@ impl Controller for Unit {
             ..
         } = self;
         let (c, inputs, outputs) = (*component, &description.inputs, &description.outputs);
-        if inputs.len() != signals.len() {
-            return Err(format!(
-                "it has {} inputs, and {} axes of sensors give a signal each",
-                inputs.len(),
-                signals.len()
-            ));
-        }
         let mut commands = vec![f64::NAN; outputs.len()];
         SAID.take();
         if description.three {

@@ -105,7 +105,7 @@ impl Library {
     /// # Errors
     /// A file that cannot be read, or is no library of a known platform.
     pub fn read(path: &Path) -> Result<Library> {
-        let needed = "a library for co-simulation units is needed: cargo build --release --package auxbear-fmu makes it";
+        let needed = "a library for co-simulation units is needed: cargo build --release makes it";
         let bytes = fs::read(path).map_err(|error| {
             Problem::at_path(
                 Code::FileUnreadable,
@@ -135,10 +135,84 @@ impl Library {
     }
 }
 
-/// The name of the library beside the program, on the platform on which it runs.
-pub fn library_name() -> String {
-    let (before, after) = (std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    format!("{before}auxbear_fmu{after}")
+/// Writes a machine as a unit by words: what its commands are, `current`, `voltage` or `force`, and the version, `2` or `3`; of these
+/// libraries, or that in a folder. What it holds.
+///
+/// # Errors
+/// Words that are none of these, no library, and what [`Unit::write`] refuses.
+pub fn written(
+    scenario: &Scenario,
+    (input, version): (&str, &str),
+    libraries: &[PathBuf],
+    path: &Path,
+) -> Result<Written> {
+    let unknown = |key: &str, word: &str, words: &[&str]| {
+        let (found, needed) = (
+            format!("\"{word}\""),
+            format!("one of {} is needed", words.join(", ")),
+        );
+        Problem::new(Code::UnknownWord, "auxbear fmu", found, needed).on_key(key)
+    };
+    let commands = COMMANDS.iter().find(|(word, _)| *word == input);
+    let words = COMMANDS.map(|(word, _)| word);
+    let (_, commands) = commands.ok_or_else(|| unknown("--input", input, &words))?;
+    let version = match version {
+        "2" | "2.0" => Version::Two,
+        "3" | "3.0" => Version::Three,
+        other => return Err(unknown("--version", other, &["2", "3"])),
+    };
+    let libraries = libraries.iter().map(|path| Library::read(path));
+    let libraries = libraries.collect::<Result<Vec<_>>>()?;
+    let unit = Unit {
+        scenario,
+        commands: *commands,
+        version,
+        libraries: &libraries,
+    };
+    let variables = unit
+        .write(path)
+        .map_err(|problem| scenario.locate(problem))?;
+    let platforms = libraries
+        .iter()
+        .map(|own| (own.folder(version), own.path.clone()));
+    Ok(Written {
+        commands: *commands,
+        version,
+        platforms: platforms.collect(),
+        variables,
+    })
+}
+
+/// What a unit holds that was written.
+pub struct Written {
+    /// What its commands are.
+    pub commands: Commands,
+    /// Of the interface.
+    pub version: Version,
+    /// Folders of its libraries with their files.
+    pub platforms: Vec<(&'static str, PathBuf)>,
+    /// Its variables.
+    pub variables: Vec<Variable>,
+}
+
+/// The library in the folder of the program, or of the package.
+///
+/// # Errors
+/// Where none is there, with what makes one.
+pub fn library_in(folder: Option<&Path>) -> Result<PathBuf> {
+    let name = format!(
+        "{}auxbear_fmu{}",
+        std::env::consts::DLL_PREFIX,
+        std::env::consts::DLL_SUFFIX
+    );
+    let path = folder
+        .map(|folder| folder.join(&name))
+        .filter(|path| path.is_file());
+    path.ok_or_else(|| {
+        let found = format!("no {name} beside the program");
+        let needed = "it is needed there, or named by --library: cargo build --release makes it";
+        Problem::new(Code::FileUnreadable, "auxbear fmu", found, needed)
+    })
 }
 
 /// What a unit is made of.

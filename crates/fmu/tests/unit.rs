@@ -406,3 +406,47 @@ fn what_cannot_be_a_unit_is_not_written() {
             .contains("no library of Linux")
     );
 }
+
+/// Data files travel with a unit; the base moves besides its record.
+#[test]
+fn data_files_are_in_the_unit_and_inputs_add_to_what_the_file_gives() {
+    let source = tempfile::tempdir().unwrap();
+    let record = "time [s],shake [m/s^2]\n0,0\n0.001,1\n0.01,0\n";
+    fs::write(source.path().join("shake.csv"), record).unwrap();
+    let base = "[base]\nfile = \"shake.csv\"\nchannel_x = \"shake\"\n\n[run]\n";
+    let rig = include_str!("../../../scenarios/amb_rig_drop.toml").replace("[run]\n", base);
+    let path = source.path().join("rig.toml");
+    fs::write(&path, rig).unwrap();
+    let sets = SETS.map(str::to_string);
+    let scenario = Scenario::read(&path, &sets, &BuiltIn).unwrap();
+    let packed = packed(&scenario, Commands::Current);
+    let text = fs::read_to_string(packed.folder.path().join("resources/scenario.toml")).unwrap();
+    assert!(text.contains("file = \"data/1_"), "{text}");
+    drop(source);
+    let own = Instance::begun(&packed);
+    let other = Instance::begun(&packed);
+    assert_eq!(other.put("base.acceleration_x_added", 50.0), 0);
+    assert_eq!(other.put("rotor.drive_torque_added", 5.0), 0);
+    for instance in [&own, &other] {
+        assert_eq!(instance.step(0.0, 3e-3), 0, "{}", said());
+    }
+    let speed = |of: &Instance| of.get("rotor.speed");
+    assert!(speed(&other) > speed(&own));
+    let name = |of: &str| {
+        packed
+            .variables
+            .iter()
+            .find(|own| own.name.ends_with(of))
+            .unwrap()
+            .name
+            .clone()
+    };
+    // relative to the base the rotor moves the other way
+    let x = name("bearing.outer_race.x");
+    assert!(
+        other.get(&x) < own.get(&x),
+        "{} {}",
+        other.get(&x),
+        own.get(&x)
+    );
+}
