@@ -38,6 +38,8 @@ pub enum Command {
     Rotor(Measured),
     /// Show the dynamic stiffness of the mounts of a drop or machine over frequency, fit O-ring branches to a measured one
     Mount(Mount),
+    /// Write the machine of a drop or machine file without its controllers as a co-simulation unit, FMI 2.0 or 3.0
+    Fmu(Fmu),
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),
     /// Read and check a file, print it with every default and its unit; run nothing
@@ -221,6 +223,24 @@ pub struct Mount {
     pub amplitude: String,
     #[command(flatten)]
     pub output: Output,
+}
+
+#[derive(Debug, Args)]
+pub struct Fmu {
+    #[command(flatten)]
+    pub given: Given,
+    /// File to write [NAME.fmu of the file]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// What commands the magnets: current, voltage, force; with force stiffness, limits and loss of the magnets are the user's
+    #[arg(long, value_name = "KIND", default_value = "current")]
+    pub input: String,
+    /// Version of FMI: 2 or 3
+    #[arg(long, value_name = "N", default_value = "2")]
+    pub version: String,
+    /// Library of another platform, or another one than that beside the program; repeated for several platforms
+    #[arg(long, value_name = "FILE")]
+    pub library: Vec<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ mod bearings;
 mod console;
 mod digits;
 mod exit;
+mod fmu;
 mod import;
 mod limits;
 mod measured;
@@ -93,6 +94,7 @@ fn perform(command: &Command) -> Result<Exit> {
         Command::Rotor(wish) => return measured::perform(wish, SystemName::Rotor),
         Command::Mount(wish) => return mount::perform(wish),
         Command::Import(wish) => import::perform(wish)?,
+        Command::Fmu(wish) => fmu::perform(wish)?,
         Command::Check(given) => {
             let scenario = given.read()?;
             run::listen(false);

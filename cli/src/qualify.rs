@@ -35,6 +35,7 @@ pub fn perform(wish: &Qualify) -> Result<Exit> {
         threads: threads.map(usize::from),
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
+        controllers: Some(&auxbear_fmu::controller::Units),
     };
     let told = Mutex::new(begin);
     let interim = Cell::new(begin);

@@ -57,9 +57,11 @@ pub fn execute(
         threads: threads.map(usize::from),
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
+        controllers: Some(&auxbear_fmu::controller::Units),
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
+    auxbear_fmu::controller::check(scenario).inspect_err(|_| progress.end())?;
     drop(busy);
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {

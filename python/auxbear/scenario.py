@@ -159,6 +159,23 @@ class Scenario:
         """The machine at its start, to be driven step by step with inputs of one's own: a drop, a spin-up or a test on a rig."""
         return Simulation(self._native.simulation())
 
+    def fmu(
+        self,
+        path: str | PathLike[str],
+        *,
+        input: str = "current",
+        version: int | str = 2,
+        libraries: Sequence[str | PathLike[str]] | None = None,
+    ) -> Path:
+        """Writes a drop or machine, without the controllers of its magnets, as a co-simulation unit, and returns its path.
+
+        ``input`` is what commands the magnets, ``"current"``, ``"voltage"`` or ``"force"``, ``version`` that of FMI, 2 or 3. ``libraries``
+        are those of the platforms; without, the one of the package for this platform.
+        """
+        own = [Path(library) for library in libraries] if libraries else sorted(Path(__file__).parent.glob("*auxbear_fmu.*"))
+        self._native.unit(Path(path), input, str(version), own)
+        return Path(path)
+
     def evaluate(
         self,
         changes: Sequence[Mapping[str, Any]],

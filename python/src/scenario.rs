@@ -12,6 +12,7 @@ use auxbear::run::{Machine, build, of_other_cases};
 use auxbear::scenario::{self, BuiltIn};
 use auxbear::study::evaluate;
 use auxbear::units;
+use auxbear_fmu::package;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -110,6 +111,19 @@ impl Scenario {
             self.0.clone(),
             found.map_err(|problem| raised(py, problem))?,
         )
+    }
+
+    /// Writes it as a co-simulation unit.
+    fn unit(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        input: &str,
+        version: &str,
+        libraries: Vec<PathBuf>,
+    ) -> PyResult<()> {
+        let written = package::written(&self.0, (input, version), &libraries, &path);
+        written.map(|_| ()).map_err(|problem| raised(py, problem))
     }
 
     /// The machine at its start, to be driven from outside.

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the tests of the package need beside it.
-const PACKAGES: &str = "distributed numpy optuna pandas pint plotly polars pyarrow pytest";
+const PACKAGES: &str = "distributed fmpy==0.3.26 numpy optuna pandas pint plotly polars pyarrow pytest pythonfmu==0.7.0 pythonfmu3==0.3.4";
 
 /// Builds the native part as the tests are built, puts the package together in a folder of its own, and runs its tests there.
 /// Where there is no Python, or nowhere to install from, it says so.
@@ -37,6 +37,8 @@ fn put_together(repository: &Repository, native: &Path, folder: &Path) -> std::i
     let package = folder.join("auxbear");
     std::fs::create_dir_all(&package)?;
     std::fs::copy(native, package.join("_auxbear.abi3.so"))?;
+    let units = "libauxbear_fmu.so";
+    std::fs::copy(native.with_file_name(units), package.join(units))?;
     for file in repository.below("python/auxbear/", "") {
         let name = file.trim_start_matches("python/auxbear/");
         std::fs::copy(repository.root.join(file), package.join(name))?;

@@ -3,6 +3,7 @@
 mod bad_input;
 mod bearings;
 mod export;
+mod fmu;
 mod kills;
 mod limits;
 mod lists;

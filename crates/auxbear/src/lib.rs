@@ -139,7 +139,9 @@ pub use ::report::export::export;
 pub use ::run::study::answer::Answer;
 pub use ::run::study::table::Table;
 pub use ::run::study::{Study, evaluate};
-pub use ::run::{Input, Machine, Simulation, build, run};
+pub use ::run::{
+    Commands, Driven, DrivenState, Input, Machine, Reached, Simulation, Variable, Way, build, run,
+};
 pub use ::scenario::{
     BearingSource, BuiltIn, Limit, Resolved, Scenario, StudyFile, System, SystemName, schema,
     template,

@@ -80,6 +80,7 @@ fn until(folder: &Path, out: &str, share: f64) -> Done {
         threads: Some(1),
         interrupt: &interrupt,
         progress: &|_| {},
+        controllers: None,
     };
     directory(folder, out).run(&options, &stop).unwrap()
 }

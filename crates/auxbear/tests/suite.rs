@@ -11,6 +11,7 @@ mod coast_down;
 mod coast_down_returns;
 mod coast_loads;
 mod declared;
+mod driven;
 mod drop_method;
 mod events;
 mod extremes;

@@ -26,7 +26,9 @@ impl Levitation {
         let mut out = vec![0.0; self.states()];
         // sensors and controller stand first in both, currents last
         let first = match self.timing {
-            Timing::Sampled { .. } => self.blocks.last().map_or(0, |block| block.states.end),
+            Timing::Sampled { .. } | Timing::Held => {
+                self.blocks.last().map_or(0, |block| block.states.end)
+            }
             Timing::Continuous { .. } => {
                 let mut currents = self.layout.currents.iter();
                 currents.next().map_or(self.states(), |at| at.start)

@@ -12,7 +12,8 @@
 //! [`Levitation::rate`] itself ([`LinearControl`](crate::LinearControl)).
 //!
 //! With sampled control the controller steps by the bilinear rule and its rest between samples: at k T_s [`Levitation::sample`], at k T_s + T_c
-//! [`Levitation::release`] change the states; nothing else jumps.
+//! [`Levitation::release`] change the states; nothing else jumps. [Without a controller](Levitation::without_controller) its commands
+//! are states that whoever drives the machine changes.
 
 use crate::parts::{Actuator, Condition, Control, Sensor};
 use crate::{Refused, StateSpace, checks};
@@ -30,7 +31,7 @@ pub struct Levitation {
     pub(crate) blocks: Vec<Block>,
     pub(crate) timing: Timing,
     /// The Padé filter of one command; none without delay or with samples.
-    delay: Option<StateSpace>,
+    pub(crate) delay: Option<StateSpace>,
     pub(crate) layout: Layout,
 }
 
@@ -64,7 +65,7 @@ impl Block {
 /// Where states stand.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Layout {
-    sensors: Vec<Option<usize>>,
+    pub(crate) sensors: Vec<Option<usize>>,
     delays: Vec<usize>,
     /// Command computed at the last sample, command held.
     pub(crate) held: Vec<(usize, usize)>,
@@ -74,13 +75,36 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
+    /// With the states of sensors alone.
+    pub(crate) fn of(sensors: &[Sensor]) -> Self {
+        let mut layout = Layout::default();
+        for sensor in sensors {
+            let state = (sensor.corner).map(|_| layout.add(format!("{}.signal", sensor.axis.name)));
+            layout.sensors.push(state);
+        }
+        layout
+    }
+    /// Adds those of currents.
+    pub(crate) fn add_currents(&mut self, actuators: &[Actuator]) {
+        for actuator in actuators {
+            let first = self.names.len();
+            let name = &actuator.axis.name;
+            if actuator.has_coils() {
+                self.add(format!("{name}.current +"));
+                self.add(format!("{name}.current -"));
+            } else if actuator.amplifier != Amplifier::Direct {
+                self.add(format!("{name}.current"));
+            }
+            self.currents.push(first..self.names.len());
+        }
+    }
     /// States of filters, delays and held commands.
     fn filters(&self) -> Range<usize> {
         let first = self.sensors.iter().flatten().count();
         let currents = self.currents.iter().map(Range::len).sum::<usize>();
         first..self.names.len() - currents
     }
-    fn add(&mut self, name: String) -> usize {
+    pub(crate) fn add(&mut self, name: String) -> usize {
         self.names.push(name);
         self.names.len() - 1
     }
@@ -139,11 +163,7 @@ impl Levitation {
         actuators: Vec<Actuator>,
     ) -> Result<Self, Refused> {
         checks::all(nodes, &sensors, &control, timing, &actuators)?;
-        let mut layout = Layout::default();
-        for sensor in &sensors {
-            let state = (sensor.corner).map(|_| layout.add(format!("{}.signal", sensor.axis.name)));
-            layout.sensors.push(state);
-        }
+        let mut layout = Layout::of(&sensors);
         let blocks = blocks(&sensors, control, timing, &mut layout)?;
         let delay = match timing {
             Timing::Continuous { delay } if delay > 0.0 => Some(StateSpace::pade("delay", delay)?),
@@ -163,17 +183,7 @@ impl Levitation {
                 layout.held.push((computed, held));
             }
         }
-        for actuator in &actuators {
-            let first = layout.names.len();
-            let name = &actuator.axis.name;
-            if actuator.has_coils() {
-                layout.add(format!("{name}.current +"));
-                layout.add(format!("{name}.current -"));
-            } else if actuator.amplifier != Amplifier::Direct {
-                layout.add(format!("{name}.current"));
-            }
-            layout.currents.push(first..layout.names.len());
-        }
+        layout.add_currents(&actuators);
         Ok(Self {
             sensors,
             actuators,
@@ -238,7 +248,7 @@ impl Levitation {
             }
         }
         match self.timing {
-            Timing::Sampled { .. } => {
+            Timing::Sampled { .. } | Timing::Held => {
                 let held = self.layout.held.iter().flat_map(|(a, b)| [*a, *b]);
                 for at in self
                     .blocks
@@ -309,7 +319,7 @@ impl Levitation {
             block.output(states, signals);
         }
         match (&self.delay, self.timing) {
-            (_, Timing::Sampled { .. }) => {
+            (_, Timing::Sampled { .. } | Timing::Held) => {
                 for (command, (_, held)) in signals.commands.iter_mut().zip(&self.layout.held) {
                     *command = states[*held];
                 }
@@ -422,6 +432,13 @@ impl Levitation {
                 states[at] = inputs.displacements[index] + sensor.offset;
             }
         }
+        if self.timing == Timing::Held {
+            // commands stay those of whoever drives the machine
+            for at in &self.layout.currents {
+                states[at.clone()].fill(0.0);
+            }
+            return Ok(());
+        }
         let mut signals = self.signals();
         states[self.layout.filters()].fill(0.0);
         self.read(states, inputs, &mut signals);
@@ -459,7 +476,7 @@ fn blocks(
 ) -> Result<Vec<Block>, Refused> {
     let stepped = |filter: &StateSpace| match timing {
         Timing::Sampled { period, .. } => filter.stepped(period).ok_or(Refused::Singular).map(Some),
-        Timing::Continuous { .. } => Ok(None),
+        Timing::Continuous { .. } | Timing::Held => Ok(None),
     };
     let mut block = |filter: StateSpace, inputs: Range<usize>, name: &str| {
         let first = layout.names.len();
@@ -488,7 +505,7 @@ fn blocks(
 
 /// What a voltage amplifier would give without its limit, V.
 #[inline(always)]
-fn volts<R: Real>(gain: Option<f64>, command: R, current: R) -> R {
+pub(crate) fn volts<R: Real>(gain: Option<f64>, command: R, current: R) -> R {
     match gain {
         Some(gain) => R::splat(gain) * (command - current),
         None => command,

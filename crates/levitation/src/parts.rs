@@ -101,3 +101,14 @@ pub enum Control {
     /// One filter from all sensors to all magnet axes.
     Matrix(StateSpace),
 }
+
+/// What commands of magnet axes without a controller are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Commands {
+    /// Control currents as a controller commands them, A: amplifiers, limits, bias and its decay stay.
+    Current,
+    /// Voltages of the coils, V: inductance, resistance and limits stay.
+    Voltage,
+    /// Forces on the rotor, N, in place of the magnets.
+    Force,
+}

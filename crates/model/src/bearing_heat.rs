@@ -377,6 +377,16 @@ impl WarmBearing {
 }
 
 impl Warmth {
+    /// The same with no course but what is known last, from which on it is kept.
+    pub(crate) fn from_now_on(&self) -> Self {
+        let mut row = [0.0; NODES.len()];
+        row.copy_from_slice(&self.temperatures);
+        Warmth {
+            course: vec![(self.until, row)],
+            keep: true,
+            ..self.clone()
+        }
+    }
     /// At the start of a run; `keep` says whether its course is kept.
     pub fn new(part: &WarmBearing, keep: bool) -> Self {
         let mut beyond_data = None;

@@ -85,6 +85,8 @@ pub struct Attachment {
 pub enum Attached {
     /// A text.
     Text(String),
+    /// Any content.
+    Bytes(Vec<u8>),
     /// Channels of a measurement with their values; the name of the file gives the format.
     Recording(Vec<(recording::Channel, Vec<f64>)>),
 }

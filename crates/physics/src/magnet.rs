@@ -307,6 +307,8 @@ pub enum Timing {
         /// Time to compute T_c, s.
         computation: f64,
     },
+    /// No controller: whoever drives the machine changes its commands, which are held between.
+    Held,
 }
 
 impl Timing {
@@ -321,6 +323,7 @@ impl Timing {
                 period,
                 computation,
             } => computation + 0.5 * period,
+            Self::Held => 0.0,
         }
     }
 }

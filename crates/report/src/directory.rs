@@ -143,6 +143,7 @@ impl NewDirectory {
             let name = &attachment.name;
             written.push(match &attachment.content {
                 Attached::Text(text) => self.file(name, |file| file.write_all(text.as_bytes())),
+                Attached::Bytes(bytes) => self.file(name, |file| file.write_all(bytes)),
                 Attached::Recording(channels) => self.recording(name, channels),
             });
         }

@@ -96,6 +96,7 @@ fn staged<'a>(
         threads: Some(1),
         interrupt: options.interrupt,
         progress: &|_| {},
+        controllers: options.controllers,
     };
     let machine = match scenario.measured.is_empty() {
         true => build(scenario),

@@ -31,6 +31,8 @@ use problem::{Code, Result};
 #[cfg(feature = "files")]
 pub use recording::file::parquet::panic_is_caught;
 use scenario::{CASE, CoastDown, Rig, Scenario, SpinUp, System, problem_at};
+pub use simulate::drop::driven::{Commands, Driven, DrivenState, Reached, Way};
+pub use simulate::drop::driven_columns::Variable;
 pub use simulate::simulation::{Input, Simulation};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
@@ -143,6 +145,22 @@ impl Machine<'_> {
                 let found = self.scenario.system.name().word().to_string();
                 let needed =
                     "a drop, a machine, a spin-up or a rig is needed: nothing else moves in time";
+                Err(problem_at(Code::Impossible, "system", found, needed))
+            }
+        };
+        driven.map_err(|problem| self.scenario.locate(problem))
+    }
+
+    /// The machine at its start without the controllers of its magnets, to be driven from outside with all that its run shows.
+    ///
+    /// # Errors
+    /// Where it is no drop and no machine, takes no such commands, or is to coast on until its standstill.
+    pub fn driven(&self, way: Way) -> Result<Driven> {
+        let driven = match &self.system {
+            Built::Drop(built, _) => Driven::new(self.scenario, built, way),
+            _ => {
+                let found = self.scenario.system.name().word().to_string();
+                let needed = "a drop or a machine is needed: nothing else has magnets to drive";
                 Err(problem_at(Code::Impossible, "system", found, needed))
             }
         };

@@ -154,7 +154,11 @@ pub fn names_files(key: &Key) -> bool {
     let all = crate::signals::keys::FILES
         .iter()
         .chain(crate::identify::keys::FILES)
-        .chain(&[crate::drop::base::FILE, "rotor.force.file"]);
+        .chain(&[
+            crate::drop::base::FILE,
+            "rotor.force.file",
+            "levitation.controller.fmu",
+        ]);
     all.into_iter().any(|path| *path == key.path)
 }
 

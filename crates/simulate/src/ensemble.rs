@@ -4,7 +4,8 @@
 //! vector unit or the number of threads.
 
 use crate::bearing::warm::{Followed, Heated};
-use crate::following::{Following, Now, Warmed};
+use crate::following::{Following, Warmed};
+use crate::watch::Watch;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
@@ -53,7 +54,7 @@ pub struct Finished {
     /// What was watched and kept.
     pub record: Record,
     /// The machine as it was at the end, where it was another one at the start.
-    now: Option<Box<RotorMachine>>,
+    pub(crate) now: Option<Box<RotorMachine>>,
     /// What has followed its temperatures.
     pub(crate) warmed: Option<Box<Warmed>>,
     /// How it ended.
@@ -181,16 +182,9 @@ struct Report<'a> {
     progress: &'a (dyn Fn(f64) + Sync),
 }
 
-/// A record that also reports progress.
+/// A watch that also reports progress.
 struct Watched<'a> {
-    record: Record,
-    following: Option<&'a Following>,
-    /// The machine as it is now, where it was another one at the start.
-    now: Option<Box<RotorMachine>>,
-    unbalances: u16,
-    warmed: Option<Box<Warmed>>,
-    /// Until when temperatures were known when they were last looked at, s.
-    looked: f64,
+    watch: Watch,
     report: &'a Report<'a>,
     reported: u64,
     end: f64,
@@ -202,16 +196,12 @@ impl<'a> Watched<'a> {
         let interval = member.keep_rows.then_some(plan.interval);
         let record = Record::with_taps(&member.machine, end, interval, plan.taps);
         let record = record.staying_within(plan.within.clone());
+        let record = match plan.until_rolling {
+            Some(from) => record.until_rolling(from),
+            None => record,
+        };
         Watched {
-            record: match plan.until_rolling {
-                Some(from) => record.until_rolling(from),
-                None => record,
-            },
-            following: member.following.as_deref(),
-            now: None,
-            unbalances: 0,
-            warmed: (member.following.is_some()).then(Box::default),
-            looked: 0.0,
+            watch: Watch::of(member, record),
             report,
             reported: 0,
             end,
@@ -221,20 +211,7 @@ impl<'a> Watched<'a> {
         if ending.stop == solve::Stop::Finished {
             self.advance(1000);
         }
-        let mut record = self.record;
-        let machine = member.machine.clone();
-        let at_end = self.now.as_deref().unwrap_or(&machine);
-        record.finish(at_end, ending.time, &ending.state);
-        let start = member.start.clone();
-        Finished {
-            begun: (machine.content(&start), machine.flows(&start)),
-            machine,
-            start,
-            record,
-            now: self.now,
-            warmed: self.warmed,
-            ending,
-        }
+        self.watch.finish(ending, member)
     }
     /// Reports that this member stands at so many thousandths.
     fn advance(&self, thousandths: u64) {
@@ -251,21 +228,7 @@ impl Observer<RotorMachine> for Watched<'_> {
             self.advance(thousandths);
             self.reported = thousandths;
         }
-        let flow = self.record.step(step);
-        let (Flow::Continue, Some(following), Some(warmed)) = (flow, self.following, &self.warmed)
-        else {
-            return flow;
-        };
-        let now = |k| now(&self.record, step.machine, k);
-        let known = (self.record.bearings.iter())
-            .filter_map(|bearing| Some(bearing.warmth.as_ref()?.known_until()));
-        let known = known.fold(0.0, f64::max);
-        let is_new = known > self.looked;
-        self.looked = known;
-        match is_new && following.is_due(warmed, &now) || following.rubs(&now) {
-            true => Flow::Renew,
-            false => Flow::Continue,
-        }
+        self.watch.step(step)
     }
     fn renewed(
         &mut self,
@@ -273,11 +236,7 @@ impl Observer<RotorMachine> for Watched<'_> {
         time: f64,
         state: &[f64],
     ) -> Option<Box<RotorMachine>> {
-        let (following, warmed) = (self.following?, self.warmed.as_mut()?);
-        let now = |k| now(&self.record, machine, k);
-        let new = following.renewed(warmed, machine, (time, state), &now)?;
-        self.now = Some(new.clone());
-        Some(new)
+        self.watch.renewed(machine, time, state)
     }
     fn switched(
         &mut self,
@@ -286,22 +245,6 @@ impl Observer<RotorMachine> for Watched<'_> {
         time: f64,
         state: &[f64],
     ) -> Flow {
-        if mode.unbalances != self.unbalances {
-            self.unbalances = mode.unbalances;
-            self.now = Some(Box::new(machine.clone()));
-        }
-        self.record.switched(machine, mode, time, state)
+        self.watch.switched(machine, mode, time, state)
     }
-}
-
-/// Temperatures of a bearing, where they are followed.
-fn now<'a>(record: &'a Record, machine: &RotorMachine, bearing: usize) -> Option<Now<'a>> {
-    let kept = &record.bearings[bearing];
-    let warmth = kept.warmth.as_ref()?;
-    Some(Now {
-        nodes: &warmth.temperatures,
-        spin: warmth.spin(),
-        contact: kept.heat.as_ref().map_or(0.0, |heat| heat.rise),
-        friction: machine.constants.bearings[bearing].contact.friction,
-    })
 }

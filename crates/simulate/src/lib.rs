@@ -13,6 +13,8 @@
 //! | [`ensemble`] | runs machines, in lanes and threads |
 //! | `following` | what of a machine follows the temperatures of its bearings |
 //! | [`simulation`] | a machine that is driven from outside, from stop to stop |
+//! | [`drop::driven`] | a drop that is driven from outside without its controllers, with all that its run shows |
+//! | `watch` | what sees the steps of a machine |
 //! | `ending` | settings of the integration, and how a run ended |
 
 #![forbid(unsafe_code)]
@@ -33,3 +35,4 @@ pub mod simulation;
 pub mod spin_up;
 pub mod static_safety;
 pub mod stepping;
+mod watch;

@@ -60,6 +60,8 @@ pub enum Flow {
     Continue,
     /// Go on with the machine that [`Observer::renewed`] gives.
     Renew,
+    /// Pause at the end of this step.
+    Pause,
     /// This machine is done; the text says why.
     Halt(&'static str),
 }

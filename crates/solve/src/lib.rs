@@ -42,7 +42,7 @@ pub use attempt::Explicit;
 pub use bogacki_shampine::BOGACKI_SHAMPINE;
 pub use drive::{Ending, Flow, Observer, Settings, Steps, Stop, Work, run, run_implicit};
 pub use heun::HEUN;
-pub use implicit::Tangents;
+pub use implicit::{Implicit, Tangents};
 pub use lane::Held;
 pub use scheme::Scheme;
 pub use step::Step;

@@ -7,7 +7,7 @@
 //! stop is asked for (`until`), a known instant (a landing) and a state event are ends of steps.
 
 use crate::attempt::{Advance, Explicit};
-use crate::drive::{Ending, Flow, Observer, Settings, Stop};
+use crate::drive::{Ending, Flow, Observer, Settings, Stop, Work};
 use crate::implicit::{Implicit, Tangents};
 use crate::lane::{Held, Lane};
 use crate::method::{Method, Place};
@@ -44,6 +44,8 @@ pub enum Pause {
     Until,
     /// The landing of that index is taken, the last of those at one instant.
     Landing(usize),
+    /// The observer wanted it.
+    Wanted,
     /// A state event has happened, and no landing at its instant.
     Event,
     /// The run is over.
@@ -172,6 +174,10 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     /// Its state.
     pub fn state(&self, lane: usize) -> Vec<f64> {
         lane_of(&self.work.state, lane)
+    }
+    /// Its steps until now.
+    pub fn work(&self, lane: usize) -> Work {
+        self.lanes[lane].work
     }
     /// How a run that is over ended; none before.
     pub fn ending(&self, lane: usize) -> Option<Ending> {
@@ -331,6 +337,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             match flow {
                 Flow::Continue => {}
                 Flow::Renew => wanted |= 1 << index,
+                Flow::Pause => lane.pause = Some(Pause::Wanted),
                 Flow::Halt(why) => lane.pause = Some(Pause::Ended(Stop::Halted(why))),
             }
         }

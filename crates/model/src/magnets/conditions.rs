@@ -59,6 +59,16 @@ pub enum What {
     },
 }
 
+impl What {
+    /// Whether it happens to a sensor.
+    pub(super) fn is_of_sensor(&self) -> bool {
+        matches!(
+            self,
+            What::Stuck | What::Dead | What::Offset(_) | What::Noise(_)
+        )
+    }
+}
+
 /// Channels of a supply.
 const SUPPLY: [&str; 5] = ["on", "bias base", "bias change", "rate", "since"];
 /// Channels of a sensor.
@@ -175,12 +185,7 @@ impl Conditions {
             differ: changes.iter().any(changed),
             supplies,
             supply_of,
-            sensors: each(&SENSOR, &|what| {
-                matches!(
-                    what,
-                    What::Stuck | What::Dead | What::Offset(_) | What::Noise(_)
-                )
-            }),
+            sensors: each(&SENSOR, &What::is_of_sensor),
             references: each(
                 &REFERENCE,
                 &|what| matches!(what, What::Levitated { reference_rate, .. } if reference_rate.is_finite()),

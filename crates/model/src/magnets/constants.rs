@@ -1,7 +1,7 @@
 //! Constants of magnets, sensors and controllers.
 
-use super::conditions::{Change, Conditions};
-use ::levitation::{Levitation, LinearControl};
+use super::conditions::{Change, Conditions, What};
+use ::levitation::{Commands, Levitation, LinearControl};
 use number::Vec2;
 use physics::magnet::{Magnet, Timing};
 use std::sync::Arc;
@@ -60,6 +60,8 @@ pub struct ControlConstants {
     pub start: Vec<f64>,
     /// What happens during the run; when, the schedule of the machine says.
     pub changes: Arc<[Change]>,
+    /// Without a controller, the loop whose it was: errors of states count as there.
+    pub(super) reference: Option<Arc<Levitation>>,
     pub(super) conditions: Arc<Conditions>,
 }
 
@@ -88,7 +90,37 @@ impl ControlConstants {
             sensors,
             start,
             changes: changes.into(),
+            reference: None,
         }
+    }
+    /// The same without its controller, at these commands: A, V or N. Forces leave nothing for a loss, a re-levitation, a frozen
+    /// controller or limits to change.
+    ///
+    /// # Errors
+    /// The first axis whose amplifier takes no such command.
+    fn without_controller(&self, kind: Commands, commands: &[f64]) -> Result<Self, usize> {
+        let levitation = self.levitation.without_controller(kind)?;
+        let own = self.levitation.names();
+        let from = |name: &String| own.iter().position(|other| other == name);
+        let start = levitation.names().iter();
+        let start = start.map(|name| from(name).map_or(0.0, |at| self.start[at]));
+        let mut start: Vec<f64> = start.collect();
+        for (axis, command) in commands.iter().enumerate() {
+            if let Some(at) = levitation.command(axis) {
+                start[at] = *command;
+            }
+        }
+        let mut changes = self.changes.to_vec();
+        if kind == Commands::Force {
+            let magnets = |what: &What| !what.is_of_sensor();
+            // their places stay, at which events name them
+            let emptied = changes.iter_mut().filter(|own| magnets(&own.what));
+            emptied.for_each(|own| own.axes.clear());
+        }
+        Ok(ControlConstants {
+            reference: Some(self.levitation.clone()),
+            ..ControlConstants::new(levitation, self.sensors.clone(), start, changes)
+        })
     }
     /// Samples of the controller between two instants of a run, with what they do; the sample of the start is taken already.
     pub fn samples(&self, from: f64, to: f64) -> Vec<(f64, ControlEvent)> {
@@ -153,6 +185,30 @@ impl MagnetsConstants {
         }
     }
 
+    /// The same without their controllers, at these commands, A, V or N; none where there are none.
+    ///
+    /// # Errors
+    /// The first axis whose amplifier takes no such command.
+    pub fn without_controller(
+        &self,
+        kind: Commands,
+        commands: &[f64],
+    ) -> Result<Option<Self>, usize> {
+        let Some(control) = self.control() else {
+            return Ok(None);
+        };
+        let control = control.without_controller(kind, commands)?;
+        let mut magnets = self.magnets.clone();
+        let axes = magnets.iter_mut().flat_map(|magnet| &mut magnet.axes);
+        for (axis, own) in axes.zip(control.levitation.actuators()) {
+            axis.law = own.magnet;
+        }
+        Ok(Some(MagnetsConstants {
+            magnets,
+            supply: SupplyConstants::Control(control),
+        }))
+    }
+
     /// What controls the currents, where anything does.
     pub fn control(&self) -> Option<&ControlConstants> {
         match &self.supply {
@@ -177,8 +233,12 @@ impl MagnetsConstants {
     pub fn error_scale(&self, scale: &mut [f64], displacement: f64) {
         if let Some(control) = self.control() {
             scale.fill(1.0);
-            let own = LinearControl::scales(&control.levitation, displacement);
-            scale[..own.len()].copy_from_slice(&own);
+            let of = control.reference.as_ref().unwrap_or(&control.levitation);
+            let own = LinearControl::scales(of, displacement);
+            for (scale, name) in scale.iter_mut().zip(control.levitation.names()) {
+                let at = of.names().iter().position(|other| other == name);
+                *scale = at.map_or(1.0, |at| own[at]);
+            }
         }
     }
 

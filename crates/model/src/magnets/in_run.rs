@@ -51,6 +51,48 @@ impl Magnets<f64> {
         self.control.as_ref().map_or_else(OfAxes::new, limits)
     }
 
+    /// Of each axis: the command behind limits, A or V, and the voltage that its amplifier is asked for, V, where it has one.
+    pub fn commands(
+        &self,
+        time: f64,
+        rotor: &RotorMotion<f64>,
+        states: &[f64],
+    ) -> SmallVec<[(f64, Option<f64>); 8]> {
+        let of = |control| {
+            let signals = self.signals(control, time, rotor, states);
+            let axes = signals.commands.iter().enumerate();
+            axes.map(|(axis, command)| (*command, control.levitation.voltage(axis, &signals)))
+                .collect()
+        };
+        self.control.as_ref().map_or_else(SmallVec::new, of)
+    }
+
+    /// Of each sensor axis: what it shows of the rotor behind its faults, m, and its signal behind its filter, m.
+    pub fn sensed(
+        &self,
+        time: f64,
+        rotor: &RotorMotion<f64>,
+        states: &[f64],
+    ) -> SmallVec<[(f64, f64); 8]> {
+        let of = |control: &Control<f64>| {
+            let shown = Self::axes(control, time, rotor, states).shown;
+            let own = &states[..control.levitation.states()];
+            let signals = control.levitation.sensed(own, &shown);
+            shown.iter().copied().zip(signals).collect()
+        };
+        self.control.as_ref().map_or_else(SmallVec::new, of)
+    }
+
+    /// Force of each magnet along each of its axes, N.
+    pub fn forces(&self, time: f64, rotor: &RotorMotion<f64>, states: &[f64]) -> OfAxes<f64> {
+        let mut rates: SmallVec<[f64; 64]> = smallvec![0.0; states.len()];
+        let pulls = self.pull(time, rotor, states, &mut rates);
+        let magnets = self.list.iter().zip(&pulls);
+        magnets
+            .flat_map(|((_, axes), pull)| axes.iter().map(|axis| axis.direction.dot(pull.force)))
+            .collect()
+    }
+
     /// With power, of each axis: the voltage asked of its amplifier over the largest it has; empty where no voltage is limited.
     pub fn voltage_shares(
         &self,

@@ -202,6 +202,14 @@ impl Rows {
             probes,
         }
     }
+    /// Room for one row alone.
+    pub(crate) fn of_one(&self) -> Self {
+        Rows {
+            values: Vec::new(),
+            keep: true,
+            ..*self
+        }
+    }
     fn width(&self) -> usize {
         self.dimension + self.probes + EXTRA
     }

@@ -305,6 +305,7 @@ impl<const N: usize> Fit<'_, N> {
             threads: Some(1),
             interrupt: self.options.interrupt,
             progress: &|_| {},
+            controllers: self.options.controllers,
         };
         let scenario = file.scenario.with(&values).ok()?;
         let outcome = crate::built(&scenario).ok()?.computed(&quiet);

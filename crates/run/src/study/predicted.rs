@@ -80,6 +80,7 @@ impl Study {
             threads: Some(1),
             interrupt: options.interrupt,
             progress: &|_| {},
+            controllers: options.controllers,
         };
         // two rows in each period of the bandwidth
         let tested = self.file.scenario.with(&self.drawn(first).values).ok()?;

@@ -350,7 +350,7 @@ fn happens(part: &Part, rotor: &FlexibleRotor, values: &Values) -> Result<Happen
             // a sampled controller sees one value a sample
             let sampled = match magnets.timing {
                 Timing::Sampled { period, .. } => Some(period),
-                Timing::Continuous { .. } => None,
+                Timing::Continuous { .. } | Timing::Held => None,
             };
             let Some(period) = part.number("period").or(sampled) else {
                 let found = "noise without it, and controllers that take no samples";

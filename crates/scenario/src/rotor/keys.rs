@@ -352,6 +352,7 @@ pub(crate) const PARTS: &[PartKind] = &[
             lev!("controller", "d", Kind::Text, "8000 0; 0 8000", "Matrix D; given, the controller is that of the matrices.").optional("PID and filters"),
             lev!("controller", "delay", Kind::Quantity("s"), "50 us", "Delay of the commands.").not_negative().default("0 s", "none").unless(&["sampling_period"]),
             lev!("controller", "sampling_period", Kind::Quantity("s"), "50 us", "Period of a sampled controller; its delay is half of it and computing_time.").positive().optional("the controller runs at every instant"),
+            lev!("controller", "fmu", Kind::Text, "controller.fmu", "A co-simulation unit (FMI 2.0 or 3.0) whose commands act in place of those of this table, sampled at sampling_period and held from computing_time on; relative to this file. Its inputs, in the order of its description, are the signals of the sensors, m, its outputs the commands, A or V, both axes of each magnet in the order of the magnets. The gains here stay what the linear analysis and the start take.").optional("the gains here act").beside(&["sampling_period"]),
             lev!("controller", "computing_time", Kind::Quantity("s"), "25 us", "From a sample to its command.").not_negative().default("0 s", "none").beside(&["sampling_period"]),
         ],
         starting: &[],

@@ -16,6 +16,8 @@ pub struct Magnets {
     pub control: Control,
     /// When commands take effect.
     pub timing: Timing,
+    /// The file of a co-simulation unit whose commands act in place of those of the controllers.
+    pub unit: Option<String>,
     /// The table that answers for all of them: `levitation.controller.1`.
     pub path: String,
 }
@@ -147,11 +149,19 @@ pub(super) fn magnets<'a>(
         ]),
         None => Control::Channels(channels),
     };
+    let unit = controllers.iter().find(|part| part.text("fmu").is_some());
+    if let Some(part) = unit.filter(|_| controllers.len() > 1) {
+        let found = "a unit, and another controller";
+        let allowed = "one [levitation.controller] for all magnets is needed beside fmu";
+        return part.refuse(Code::Conflict, "fmu", found, allowed);
+    }
+    let unit = unit.and_then(|part| part.text("fmu")).map(str::to_string);
     let path = matrix.or(controllers.first()).unwrap_or(first).path.clone();
     Ok(Some(Magnets {
         magnets: list,
         control,
         timing,
+        unit,
         path,
     }))
 }

@@ -4,7 +4,7 @@ use crate::drop::build::{self, Built};
 use crate::drop::context::{Context, Setup};
 use crate::drop::events;
 use crate::drop::method::stepping;
-use crate::drop::{self, multirate};
+use crate::drop::{self, controlled, multirate};
 use crate::ending::settings_at;
 use crate::ensemble::{self, Member, Plan};
 use crate::following::Following;
@@ -15,6 +15,7 @@ use outcome::options::Options;
 use outcome::{Outcome, host};
 use problem::Problem;
 use scenario::{Drop, Scenario};
+use std::ops::Deref;
 use std::sync::{Arc, Mutex};
 
 /// A drop that is ready to run.
@@ -70,6 +71,11 @@ impl<'a> One<'a> {
             members: 1,
         }
     }
+    /// The file of the unit that commands its magnets, where one does.
+    pub(super) fn unit(&self) -> Option<&str> {
+        let model = self.built.drop.shaft.as_deref()?.model.deref();
+        model.levitation.as_ref()?.unit.as_deref()
+    }
     /// Whether it is the one member of its repetition that is kept whole, or no repetition.
     pub(crate) fn speaks(&self) -> bool {
         self.members == 1 || self.member.keep_rows
@@ -85,6 +91,16 @@ impl<'a> One<'a> {
 
 /// Runs all of them; they stand in their order.
 pub fn run(all: &[One], options: &Options) -> Vec<Outcome> {
+    if all.iter().any(|one| one.unit().is_some()) {
+        // a controller that is not of the file has one machine: each alone on its lane
+        return host::each(all, |_, one| match one.unit() {
+            Some(file) => Some(controlled::run(one, file, options)),
+            None => run(std::slice::from_ref(one), options).pop(),
+        })
+        .into_iter()
+        .flatten()
+        .collect();
+    }
     // those that can share lanes and settings
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, one) in all.iter().enumerate() {

@@ -83,7 +83,7 @@ pub(super) fn growths(
 }
 
 /// When an event happened, s; none where the rotor did not come to its speed.
-fn time_of(when: When, context: &Context) -> Option<f64> {
+pub(super) fn time_of(when: When, context: &Context) -> Option<f64> {
     match when {
         When::At(time) => Some(time),
         When::Speed {

@@ -20,6 +20,7 @@
 //! | [`record`] | what is watched and kept of a run |
 //! | [`unbalances`] | those that come on the way |
 //! | [`simulate`] | a run, alone or in lanes |
+//! | [`driven`] | one that is driven from outside, from stop to stop |
 //!
 //! The auxiliary bearing is a part: [`auxiliary_bearing`](crate::auxiliary_bearing).
 //!
@@ -31,6 +32,7 @@
 
 pub mod bearing_record;
 pub mod constants;
+pub mod driven;
 mod in_space;
 pub mod layout;
 pub mod ledger;
@@ -57,6 +59,7 @@ use crate::table::Piece;
 pub use constants::{
     AtSpeed, Event, MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES, MachineConstants, Reached,
 };
+use driven::Outside;
 use in_space::InSpace;
 use layout::Layout;
 use number::{Gather, Real, Vec2};
@@ -77,8 +80,10 @@ pub struct Mode<R> {
     pub load: Piece<R>,
     /// Loads from outside that have come, N.
     pub loads: [Vec2<R>; MOST_LOADED],
-    /// Recorded acceleration of the base along x and y, m/s².
+    /// Recorded acceleration of the base along x and y, m/s², with what is added from outside.
     pub base: [Piece<R>; 2],
+    /// What is given from outside between two stops.
+    pub outside: Outside,
     /// Torque, N m, or speed, rad/s, that is given on a rig; zero where neither is.
     pub drive: Piece<R>,
     /// Motor and clutch of a rig.
@@ -98,7 +103,7 @@ impl Mode<f64> {
         match event {
             Event::Brake(share) => self.brake = share,
             Event::Thrust(share) => self.thrust = share,
-            Event::Drive(torque) => self.driving = torque,
+            Event::Drive(torque) => self.driving = torque + self.outside.torque,
             Event::Load(place, force) => self.loads[place] = force,
             Event::Unbalance(plane) => self.unbalances |= 1 << plane,
             Event::Knot | Event::Control(_) => {}
@@ -237,7 +242,7 @@ impl RotorMachine {
     fn happen(&self, event: Event, time: f64, mode: &mut Mode<f64>, state: &mut [f64]) {
         let before = mode.unbalances;
         mode.happen(event);
-        mode.base = self.base_at(time);
+        mode.base = self.base_at(time, mode.outside.base);
         if mode.unbalances != before {
             self.unbalance([before, mode.unbalances], state);
         }
@@ -262,7 +267,8 @@ impl RotorMachine {
             brake: 0.0,
             driving: 0.0,
             loads: [Vec2::zero(); MOST_LOADED],
-            base: self.base_at(time),
+            base: self.base_at(time, Vec2::zero()),
+            outside: Outside::NONE,
             load,
             drive,
             clutch: ClutchMode::idle(),
@@ -270,10 +276,13 @@ impl RotorMachine {
             reached: [Reached::NEVER; MOST_SPEEDS],
         }
     }
-    /// The record of the base from an instant to its next point.
-    fn base_at(&self, time: f64) -> [Piece<f64>; 2] {
+    /// The record of the base from an instant to its next point, with what is added, m/s².
+    fn base_at(&self, time: f64, added: Vec2<f64>) -> [Piece<f64>; 2] {
         let base = self.constants.base.as_ref();
-        base.map_or([Piece::NONE; 2], |base| base.pieces(time))
+        let [mut x, mut y] = base.map_or([Piece::NONE; 2], |base| base.pieces(time));
+        x.value += added.x;
+        y.value += added.y;
+        [x, y]
     }
     /// What a rotor with a size of spin, rad/s, lacks of the nearest speed at which something happens, or from which on it may; infinite where all
     /// is reached.
@@ -536,6 +545,7 @@ impl<R: Real> Batch<R> for Machines<R> {
                 y: R::from_lanes(|lane| modes(lane).loads[k].y),
             }),
             base: [0, 1].map(|axis| Piece::from_lanes(&|lane| modes(lane).base[axis])),
+            outside: Outside::NONE,
             load: Piece::from_lanes(&|lane| modes(lane).load),
             drive: Piece::from_lanes(&|lane| modes(lane).drive),
             clutch: modes(0).clutch,

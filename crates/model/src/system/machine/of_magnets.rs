@@ -4,6 +4,7 @@ use super::{Event, RotorMachine};
 use crate::magnets::conditions::What;
 use crate::magnets::{AxisConstants, ControlEvent, CurrentsOfAxes};
 use ::levitation::OfAxes;
+use smallvec::SmallVec;
 
 impl RotorMachine {
     /// Whether controllers hold the rotor for a while.
@@ -64,6 +65,13 @@ impl RotorMachine {
         let states = &state[self.layout.magnets.clone()];
         let magnets = self.one.magnets.as_ref();
         magnets.map_or_else(OfAxes::new, |own| own.voltage_shares(time, &motion, states))
+    }
+    /// Of each sensor axis of magnets with controllers: displacement that it shows, m, and signal behind its filter, m.
+    pub fn sensed(&self, time: f64, state: &[f64]) -> SmallVec<[(f64, f64); 8]> {
+        let motion = self.layout.rotor.motion(state);
+        let states = &state[self.layout.magnets.clone()];
+        let magnets = self.one.magnets.as_ref();
+        magnets.map_or_else(SmallVec::new, |own| own.sensed(time, &motion, states))
     }
     /// How far the rotor has come to a pole along each axis of the magnets, of the gap there.
     pub fn towards_poles(&self, state: &[f64]) -> OfAxes<f64> {

@@ -189,6 +189,25 @@ impl Record {
     pub fn rig(&self) -> &RigRecord {
         self.rig.as_deref().expect("a machine on a rig")
     }
+    /// The same with one row alone, that of an instant, s.
+    #[must_use]
+    pub fn now(&mut self, machine: &RotorMachine, time: f64, state: &[f64]) -> Self {
+        let one = self.rows.of_one();
+        // the rows of a run are many
+        let rows = std::mem::replace(&mut self.rows, one);
+        let mut now = self.clone();
+        self.rows = rows;
+        for bearing in &mut now.bearings {
+            bearing.warmth = (bearing.warmth.take()).map(|own| Box::new(own.from_now_on()));
+        }
+        now.finish(machine, time, state);
+        now
+    }
+    /// Contacts of all bearings so far, those that last among them, and ends of contacts.
+    pub fn touched(&self) -> [usize; 2] {
+        let all = || self.bearings.iter().flat_map(|own| &own.contacts);
+        [all().count(), all().filter(|own| own.end.is_some()).count()]
+    }
     /// Number of rows.
     pub fn row_count(&self) -> usize {
         self.rows.count()

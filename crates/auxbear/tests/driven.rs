@@ -1,0 +1,149 @@
+//! A machine without its controllers, driven by the same controllers from outside: the run that it has with them.
+
+use crate::machine::parsed;
+use auxbear::outcome::Outcome;
+use auxbear::scenario::Scenario;
+use auxbear::{Commands, Driven, Machine, Options, Reached, Way, build, run};
+use levitation::StateSpace;
+use std::sync::atomic::AtomicBool;
+
+const PERIOD: f64 = 50e-6;
+const COMPUTING: f64 = 20e-6;
+
+/// The rig with samples, which loses its magnets after 4 ms and lands soon after.
+pub fn rig(more: &[&str]) -> Scenario {
+    let text = include_str!("../../../scenarios/amb_rig_drop.toml");
+    let own = [
+        "levitation.controller.sampling_period=50 us",
+        "levitation.controller.computing_time=20 us",
+        "levitation.controller.delay=0 s",
+        "levitation.power_lost_at=4 ms",
+        "auxiliary_bearing.drive_end.contact.radial_air_clearance=30 um",
+        "run.duration=12 ms",
+    ];
+    parsed(text, &[&own[..], more].concat()).unwrap()
+}
+
+const USUAL: Way = Way {
+    commands: Commands::Current,
+    keep_history: true,
+    stops_at_contacts: false,
+};
+
+/// The controllers of the rig, as a user would write them.
+struct Controllers {
+    filter: StateSpace,
+    states: Vec<[f64; 2]>,
+    signals: Vec<usize>,
+}
+
+fn place(driven: &Driven, name: &str) -> usize {
+    let outputs = driven.outputs();
+    let found = outputs.iter().position(|own| own.name == name);
+    found.unwrap_or_else(|| panic!("{name}"))
+}
+
+impl Controllers {
+    fn of(machine: &Machine, driven: &Driven) -> Self {
+        let pid = StateSpace::pid(8000.0, 8e4, 22.0, 45.47284088339867e-6).unwrap();
+        // the states of the start, from the machine that has them
+        let whole = machine.simulation().unwrap();
+        let all = |end: &str| -> Vec<f64> {
+            let names = whole.names().iter().filter(|name| name.ends_with(end));
+            names.map(|name| whole.value(name).unwrap()).collect()
+        };
+        let (filter, _) = pid.stepped(PERIOD).unwrap();
+        let [integral, derivative] = ["integral", "derivative"].map(all);
+        let axes = ["drive_end", "other_end"]
+            .map(|end| [1, 2].map(|k| format!("sensor.{end}.signal_{k}")));
+        let states = integral.into_iter().zip(derivative).map(|(a, b)| [a, b]);
+        assert_eq!(states.len(), 4, "{:?}", whole.names());
+        Controllers {
+            filter,
+            // the sample of the start has been taken: these are the states behind it
+            states: states.collect(),
+            signals: axes
+                .iter()
+                .flatten()
+                .map(|name| place(driven, name))
+                .collect(),
+        }
+    }
+    /// A sample: the commands.
+    fn sample(&mut self, driven: &mut Driven) -> Vec<f64> {
+        let axes = self.signals.iter().zip(&mut self.states);
+        axes.map(|(signal, states)| {
+            let error = [0.0 - driven.read(*signal)];
+            let mut command = [0.0];
+            self.filter.output(&states[..], &error, &mut command);
+            let before = *states;
+            self.filter.rates(&before, &error, states);
+            command[0]
+        })
+        .collect()
+    }
+}
+
+/// Drives it at every sample until its magnets have lost their power, then to its end.
+fn drive(driven: &mut Driven, controllers: &mut Controllers, first: Vec<f64>) {
+    let never = AtomicBool::new(false);
+    let powered = place(driven, "magnets.powered");
+    let mut commands = first;
+    for k in 1.. {
+        let at = f64::from(k - 1) * PERIOD + COMPUTING;
+        driven.advance(at, &never);
+        for (axis, command) in commands.iter().enumerate() {
+            driven.change(axis, *command).unwrap();
+        }
+        let next = f64::from(k) * PERIOD;
+        if driven.read(powered) == 0.0 || next >= 4e-3 {
+            break;
+        }
+        assert_eq!(driven.advance(next, &never), Reached::Time);
+        commands = controllers.sample(driven);
+    }
+    let reached = driven.advance(f64::INFINITY, &never);
+    assert!(matches!(reached, Reached::End(stop) if stop.complete()));
+}
+
+fn bits(outcome: &Outcome) -> Vec<(String, Vec<u64>)> {
+    let columns = outcome.history.iter();
+    columns
+        .map(|own| {
+            let values = own.values.iter().map(|value| value.to_bits());
+            (own.name.clone(), values.collect())
+        })
+        .collect()
+}
+
+#[test]
+fn driven_by_its_own_controllers_it_has_the_bits_of_its_run() {
+    let scenario = rig(&[]);
+    let machine = build(&scenario).unwrap();
+    let whole = run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+    let mut driven = machine.driven(USUAL).unwrap();
+    let mut controllers = Controllers::of(&machine, &driven);
+    // computed at the start, held from the computing time on
+    let whole_start = machine.simulation().unwrap();
+    let computed: Vec<f64> = whole_start
+        .names()
+        .iter()
+        .filter(|name| name.ends_with("command computed"))
+        .map(|name| whole_start.value(name).unwrap())
+        .collect();
+    drive(&mut driven, &mut controllers, computed);
+    let outcome = driven.outcome();
+    assert_eq!(outcome.work.steps, whole.work.steps);
+    let contacts = |own: &Outcome| {
+        own.contacts
+            .iter()
+            .map(|c| c.start.to_bits())
+            .collect::<Vec<_>>()
+    };
+    assert!(whole.contacts.len() > 3);
+    assert_eq!(contacts(&outcome), contacts(&whole));
+    for (ours, theirs) in bits(&outcome).iter().zip(&bits(&whole)) {
+        assert_eq!(ours.0, theirs.0);
+        assert!(ours.1 == theirs.1, "{}", ours.0);
+    }
+}
