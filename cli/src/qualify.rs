@@ -35,6 +35,7 @@ pub fn perform(wish: &Qualify) -> Result<Exit> {
         threads: threads.map(usize::from),
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
+        rows: None,
     };
     let told = Mutex::new(begin);
     let interim = Cell::new(begin);

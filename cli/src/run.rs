@@ -57,6 +57,7 @@ pub fn execute(
         threads: threads.map(usize::from),
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
+        rows: None,
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;

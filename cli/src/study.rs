@@ -57,6 +57,7 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
         threads: threads.map(usize::from),
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
+        rows: None,
     };
     let done = directory.run(&options, &|members| pace.show(members))?;
     if !wish.quiet {

@@ -55,6 +55,7 @@ pub fn watched<T: Send + 'static>(
             threads: threads.map(usize::from),
             interrupt: &is_over,
             progress: &tell,
+            rows: None,
         };
         let found = catch_unwind(AssertUnwindSafe(|| {
             in_living_pool(|| work(&options, &tell))

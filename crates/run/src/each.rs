@@ -94,8 +94,7 @@ fn staged<'a>(
     }
     let unwatched = Options {
         threads: Some(1),
-        interrupt: options.interrupt,
-        progress: &|_| {},
+        ..Options::unwatched(options.interrupt)
     };
     let machine = match scenario.measured.is_empty() {
         true => build(scenario),

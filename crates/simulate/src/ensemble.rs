@@ -5,13 +5,17 @@
 
 use crate::bearing::warm::{Followed, Heated};
 use crate::following::{Following, Now, Warmed};
+use model::auxiliary_bearing::BearingAt;
+use model::auxiliary_bearing::probe::NORMAL_FORCE;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
 use model::system::machine::{Mode, RotorMachine};
 use model::system::rig::Tap;
+use model::system::sampling::Row;
 use number::Level;
 use outcome::host;
+use outcome::options::{InterimBearing, InterimRow};
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -118,6 +122,8 @@ pub struct Plan<'a> {
     pub interrupt: &'a AtomicBool,
     /// Called with the fraction done.
     pub progress: &'a (dyn Fn(f64) + Sync),
+    /// Called with sampled rows of the member that keeps them.
+    pub rows: Option<&'a (dyn Fn(Vec<InterimRow>) + Sync)>,
 }
 
 /// Runs members that lanes may share, those of one layout and the same laws, on the threads of the pool in which this is called; the
@@ -128,6 +134,7 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
         done: &done,
         members: members.len(),
         progress: plan.progress,
+        rows: plan.rows,
     };
     let chunk = |members: &[Member]| side_by_side(members, plan, &report);
     let threads = host::threads();
@@ -179,6 +186,7 @@ struct Report<'a> {
     done: &'a AtomicU64,
     members: usize,
     progress: &'a (dyn Fn(f64) + Sync),
+    rows: Option<&'a (dyn Fn(Vec<InterimRow>) + Sync)>,
 }
 
 /// A record that also reports progress.
@@ -193,6 +201,8 @@ struct Watched<'a> {
     looked: f64,
     report: &'a Report<'a>,
     reported: u64,
+    /// Rows that were shown while the run goes on.
+    shown: usize,
     end: f64,
 }
 
@@ -214,6 +224,7 @@ impl<'a> Watched<'a> {
             looked: 0.0,
             report,
             reported: 0,
+            shown: 0,
             end,
         }
     }
@@ -244,12 +255,48 @@ impl<'a> Watched<'a> {
     }
 }
 
+impl Watched<'_> {
+    /// Shows the rows since the last time.
+    fn show(&mut self, machine: &RotorMachine) {
+        let Some(show) = self.report.rows else { return };
+        let fresh = self.record.rows().skip(self.shown);
+        let rows: Vec<InterimRow> = fresh.map(|row| interim(machine, &row)).collect();
+        self.shown += rows.len();
+        if !rows.is_empty() {
+            show(rows);
+        }
+    }
+}
+
+/// A row as pictures of a run in progress show it.
+fn interim(machine: &RotorMachine, row: &Row) -> InterimRow {
+    let layout = machine.layout();
+    let of_bearing = |(k, at): (usize, &BearingAt)| {
+        let bearing = &machine.constants.bearings[k].bearing;
+        let rotor = machine.node(k, row.state).position;
+        let race = at.inner.centre().map(|channel| row.state[channel]);
+        let own = &row.state[at.own()];
+        let ball = |ball| [bearing.azimuth(own, ball), row.probe[at.detail + ball]];
+        InterimBearing {
+            rotor: [rotor.x - race[0], rotor.y - race[1]],
+            force: row.probe[at.probe(NORMAL_FORCE)],
+            balls: (0..bearing.balls()).map(ball).collect(),
+        }
+    };
+    InterimRow {
+        time: row.time,
+        speed: row.state[layout.rotor.spin()],
+        bearings: layout.bearings.iter().enumerate().map(of_bearing).collect(),
+    }
+}
+
 impl Observer<RotorMachine> for Watched<'_> {
     fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.reported {
             self.advance(thousandths);
             self.reported = thousandths;
+            self.show(step.machine);
         }
         let flow = self.record.step(step);
         let (Flow::Continue, Some(following), Some(warmed)) = (flow, self.following, &self.warmed)

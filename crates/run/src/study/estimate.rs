@@ -285,6 +285,7 @@ impl<const N: usize> Fit<'_, N> {
             threads: Some(1),
             interrupt: self.options.interrupt,
             progress: &|_| {},
+            rows: None,
         };
         let scenario = file.scenario.with(&values).ok()?;
         let outcome = crate::built(&scenario).ok()?.computed(&quiet);

@@ -68,6 +68,7 @@ impl Study {
             threads: Some(1),
             interrupt: options.interrupt,
             progress: &|_| {},
+            rows: None,
         };
         let rows = (
             "run.output_interval".to_string(),
