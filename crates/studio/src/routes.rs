@@ -182,13 +182,13 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
                 })
                 .collect();
             let literal = keys::literal(asked.text("kind"), &names.join("."), asked.text("value"));
-            edited(edit::set(text, &steps, &literal))?
+            edited(text, edit::set(text, &steps, &literal))?
         }
         "/api/unset" => {
             let made: Vec<Made> =
                 serde_json::from_value(asked.body["made"].clone()).unwrap_or_default();
             let rest = edit::unset(text, &steps(asked)?, &made);
-            edited(rest.map(|text| Edited { text, made: None }))?
+            edited(text, rest.map(|text| Edited { text, made: None }))?
         }
         "/api/add" => {
             let keys: Vec<(String, String)> =
@@ -213,11 +213,15 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
                     (name, literal)
                 })
                 .collect();
-            edited(edit::add(text, &steps, &keys).map(|text| Edited { text, made: None }))?
+            edited(
+                text,
+                edit::add(text, &steps, &keys).map(|text| Edited { text, made: None }),
+            )?
         }
-        "/api/remove" => {
-            edited(edit::remove(text, &steps(asked)?).map(|text| Edited { text, made: None }))?
-        }
+        "/api/remove" => edited(
+            text,
+            edit::remove(text, &steps(asked)?).map(|text| Edited { text, made: None }),
+        )?,
         "/api/run" => {
             let task: Task = serde_json::from_value(asked.body["task"].clone())
                 .map_err(|error| wrong(error.to_string()))?;
@@ -248,8 +252,13 @@ fn steps(asked: &Asked) -> Result<Vec<Step>, (u16, String)> {
     serde_json::from_value(asked.body["path"].clone()).map_err(|error| wrong(error.to_string()))
 }
 
-fn edited(found: Result<Edited, String>) -> Answer {
-    Ok(Reply::json(&json!(found.map_err(|why| (422, why))?)))
+/// A text after a change; one that cannot be read has none yet.
+fn edited(text: &str, found: Result<Edited, String>) -> Answer {
+    match found {
+        Ok(edited) => Ok(Reply::json(&json!(edited))),
+        Err(_) if edit::typed(text).is_err() => Ok(Reply::json(&json!({ "broken": true }))),
+        Err(why) => Err((422, why)),
+    }
 }
 
 /// A starting file under a name that is free, with the scenario that a study names.

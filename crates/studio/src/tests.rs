@@ -332,14 +332,6 @@ fn a_run_is_stopped_and_keeps_what_it_has_and_the_queue_goes_on() {
 }
 
 #[test]
-fn one_of_each_kind_comes_out() {
-    let place = tempfile::tempdir().unwrap();
-    let mut lines = Vec::new();
-    crate::selftest::run(place.path(), &mut |line| lines.push(line.to_string())).unwrap();
-    assert_eq!(lines.len(), 6, "{lines:?}");
-}
-
-#[test]
 fn of_several_requests_the_last_counts() {
     let latest = Latest::default();
     let begun = AtomicBool::new(false);

@@ -5,18 +5,14 @@ let open = null;
 
 const TASKS = { study: [["study", "Run study"]], qualify: [["qualify", "Run qualification"], ["study", "Run study only"]], machine: [["run", "Run"], ["rotor", "Analyse rotor"]], rotor: [["run", "Analyse rotor"]] };
 
-async function openFile(name, key) {
-  if (open && open.name === name) {
-    if (key) open.ask(key);
-    return open.node;
-  }
+async function openFile(name) {
+  if (open && open.name === name) return open.node;
   if (open && open.dirty() && !window.confirm(`${open.name} has changes that are not saved. Leave them?`)) {
     go("edit", open.name);
     return open.node;
   }
   const { text, hash } = await ask(`/api/file?name=${encodeURIComponent(name)}`);
   open = await editorOf(name, text, hash);
-  if (key) open.ask(key);
   return open.node;
 }
 
@@ -162,14 +158,12 @@ async function editorOf(name, text, hash) {
   const act = {
     edit: (path, value) => inTurn(async (now) => {
       const there = typedAt(found.typed, path);
-      try {
-        if (value.trim() === "") return there === undefined ? { text: now } : await ask("/api/unset", { text: now, path, made });
-        return await ask("/api/set", { text: now, kind, path, value });
-      } catch (problem) {
-        if (!/not valid TOML/.test(problem.message)) throw problem;
-        waiting.push([path, value]);
-        return { text: now };
-      }
+      const empty = value.trim() === "";
+      if (empty && there === undefined) return { text: now };
+      const answer = await ask(empty ? "/api/unset" : "/api/set", { text: now, kind, path, value, made });
+      if (!answer.broken) return answer;
+      waiting.push([path, value]);
+      return { text: now };
     }),
     add: (path, keys) => inTurn((now) => ask("/api/add", { text: now, kind, path, keys })),
     remove: (path) => inTurn((now) => ask("/api/remove", { text: now, path })),
@@ -177,7 +171,7 @@ async function editorOf(name, text, hash) {
 
   // Saves; what somebody else wrote meanwhile is merged where both changed other lines, else asked for.
   async function save() {
-    await turn;
+    await settled();
     const now = past.now;
     const answer = await ask("/api/save", { name, text: now, hash: saved.hash });
     if (answer.theirs === undefined) {
@@ -216,7 +210,13 @@ async function editorOf(name, text, hash) {
     return false;
   }
 
+  async function settled() {
+    if (forms) forms.flush();
+    await turn;
+  }
+
   async function run(task) {
+    await settled();
     if (dirty() && !(await save())) return;
     const { id } = await ask("/api/run", { name, task });
     await refresh();

@@ -40,17 +40,24 @@ function field(path, key, edit) {
   };
   let waiting = 0;
   const send = () => {
-    clearTimeout(waiting);
+    waiting = 0;
     edit(path, input.value);
+  };
+  const flush = () => {
+    if (!waiting) return;
+    clearTimeout(waiting);
+    send();
   };
   input.addEventListener("input", () => {
     clearTimeout(waiting);
-    waiting = setTimeout(send, choices ? 0 : 120);
+    waiting = setTimeout(send, choices ? 0 : 20);
   });
+  input.addEventListener("change", flush);
   const node = el("div", { class: "field", "data-path": pathText(path) }, el("label", { for: id, title: key.doc }, words(key.name || path[path.length - 1])), input, el("span", { class: "unit" }, key.unit || ""), mark, question, fault, help);
   return {
     node,
     input,
+    flush,
     // value as typed (none where the text does not give it), what holds without it, its mark and where it comes from
     show({ typed, held, mark: word, note: why }) {
       const text = typed === undefined ? "" : typed;
@@ -265,6 +272,10 @@ function formsOf(table, act) {
       }
       row.node.classList.remove("idle");
       return true;
+    },
+    // What was typed just now is a change before anything else happens.
+    flush() {
+      for (const row of fields.values()) row.flush();
     },
     wait() {
       for (const row of fields.values()) row.wait(true);

@@ -66,7 +66,7 @@ const showView = attempt(async () => {
   head();
   view = null;
   let node;
-  if (wanted === "edit") node = await openFile(name, key);
+  if (wanted === "edit") node = await openFile(name);
   else if (wanted === "runs") node = await runsView();
   else if (wanted === "run") node = await runView(name);
   else if (wanted === "compare") node = compareView(name.split(","));
@@ -83,7 +83,10 @@ const showView = attempt(async () => {
   if (main.firstChild !== node) main.replaceChildren(node);
   files();
   if (view) await view.update();
-  if (wanted === "edit" && open) open.redraw();
+  if (wanted === "edit" && open) {
+    open.redraw();
+    if (key) open.ask(key);
+  }
 });
 
 const bearingNames = attempt(async () => {
