@@ -9,6 +9,7 @@ use chrono::Utc;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::{env, fs, process};
 use studio::{Settings, Studio, selftest};
 
@@ -25,12 +26,15 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
     };
     let studio = Arc::new(Studio::open(settings)?);
     let own = studio.clone();
+    let stopped = Arc::new(AtomicBool::new(false));
+    let told = stopped.clone();
     let mut interrupted = false;
     let handler = move || {
         if std::mem::replace(&mut interrupted, true) {
             process::exit(130);
         }
         if own.end() {
+            told.store(true, Ordering::Relaxed);
             console::report("stopping: what was computed is kept; a second interrupt ends at once");
         }
     };
@@ -44,7 +48,10 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
         console::report("No browser could be opened: open the address above in one.");
     }
     studio.serve();
-    Ok(Exit::Done)
+    match stopped.load(Ordering::Relaxed) {
+        true => Ok(Exit::Interrupted),
+        false => Ok(Exit::Done),
+    }
 }
 
 /// Opens the address in the browser that the system prefers; whether there was a program to ask.

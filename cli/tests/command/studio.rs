@@ -111,6 +111,17 @@ fn from_an_empty_folder_to_a_finished_drop_and_on() {
             .contains("Drop of a levitated rotor"),
         "{title}"
     );
+    // one cursor over everything that moves
+    let clicks_before = session.browser.clicks;
+    session.browser.click(".tabs button", "Motion");
+    session.browser.wait("document.querySelectorAll('.plots svg[role=img]').length >= 4 && document.querySelector('.live figcaption').textContent.includes('contact force 72')");
+    session.picture("motion");
+    session
+        .browser
+        .value("document.querySelector('.cursor input').focus()");
+    session.browser.key("Home", 36, 0);
+    session.browser.wait("document.querySelector('.cursor output').textContent.startsWith('0') && document.querySelector('.live figcaption').textContent.endsWith('force 0 N')");
+    session.browser.clicks = clicks_before;
     let (clicks, fields) = (session.browser.clicks, session.browser.fields);
     assert!(
         clicks <= 8 && fields <= 3,
@@ -316,6 +327,7 @@ fn small_and_dark_pages_by_keys_alone() {
         serde_json::json!({ "text": "friction_coeff" }),
     );
     session.browser.wait("[...document.querySelectorAll('.field')].filter((one) => one.getClientRects().length && one.dataset.path.includes('friction_coefficient')).length && ![...document.querySelectorAll('.section .field')].some((one) => one.getClientRects().length && one.dataset.path === 'rotor.speed')");
+    session.browser.fill(".filter", "");
     // parts: a key of one, a new one, one taken away
     session
         .browser

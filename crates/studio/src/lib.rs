@@ -16,6 +16,7 @@ pub mod edit;
 pub mod folder;
 pub mod jobs;
 pub mod keys;
+pub mod motion;
 mod routes;
 pub mod runs;
 pub mod selftest;

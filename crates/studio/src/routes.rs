@@ -14,11 +14,12 @@ use std::sync::atomic::AtomicBool;
 
 const PAGE: &str = include_str!("page/index.html");
 const STYLE: &str = include_str!("page/studio.css");
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 8] = [
     include_str!("page/base.js"),
     include_str!("page/text.js"),
     include_str!("page/forms.js"),
     include_str!("page/drawing.js"),
+    include_str!("page/motion.js"),
     include_str!("page/edit.js"),
     include_str!("page/runs.js"),
     include_str!("page/start.js"),
@@ -102,6 +103,11 @@ fn give(studio: &Studio, asked: &Asked) -> Answer {
         "/api/layout" => {
             let text = fs::read_to_string(folder.root().join(LAYOUT)).unwrap_or_default();
             Reply::json(&serde_json::from_str(&text).unwrap_or_else(|_| json!({})))
+        }
+        "/api/motion" => {
+            let path = folder.path(needed("run")?).map_err(|why| (404, why))?;
+            let run = directory::read(&path).map_err(|problem| wrong(problem.to_string()))?;
+            Reply::json(&crate::motion::motion(&run).unwrap_or_else(|| json!({ "none": true })))
         }
         "/page/compare" => {
             let names: Vec<String> = asked.all("run").map(str::to_string).collect();

@@ -5,11 +5,13 @@ use crate::jobs::run_name;
 use auxbear::report::directory::{page_run, read};
 use auxbear::report::page;
 use auxbear::{BuiltIn, Scenario};
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use std::{fs, io};
+use std::{fmt, fs, io};
 
 /// Most inputs that a table has as columns.
 const MOST_INPUTS: usize = 12;
@@ -175,19 +177,15 @@ fn row_of(path: &Path, summary: &Path) -> io::Result<Value> {
     let text = fs::read_to_string(summary)?;
     let summary: Value = serde_json::from_str(&text)?;
     let study = path.join("study.toml").exists();
-    let quantities = summary["quantities"].as_object();
-    let headline = |(name, quantity): (&String, &Value)| {
+    let quantities = serde_json::from_str::<Ordered>(&text)?.quantities.0;
+    let headline = |(name, quantity): &(String, Value)| {
         let words = quantity["shown"]["headline"].as_str()?;
         let short = name.rsplit('.').next().unwrap_or(name);
         Some(
             json!({ "name": name, "short": short.replace('_', " "), "words": words, "value": quantity["value"], "unit": quantity["unit"] }),
         )
     };
-    let results: Vec<Value> = quantities
-        .into_iter()
-        .flatten()
-        .filter_map(headline)
-        .collect();
+    let results: Vec<Value> = quantities.iter().filter_map(headline).collect();
     let limits = summary["limits"].as_array();
     let verdict = |word: &str| {
         limits
@@ -211,6 +209,35 @@ fn row_of(path: &Path, summary: &Path) -> io::Result<Value> {
         "study": study,
         "inputs": inputs,
     }))
+}
+
+/// Results of a summary in the order of the report.
+#[derive(Deserialize)]
+struct Ordered {
+    quantities: Entries,
+}
+
+/// Entries of an object in their order.
+struct Entries(Vec<(String, Value)>);
+
+impl<'de> Deserialize<'de> for Entries {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Entries, D::Error> {
+        struct InOrder;
+        impl<'de> Visitor<'de> for InOrder {
+            type Value = Entries;
+            fn expecting(&self, out: &mut fmt::Formatter) -> fmt::Result {
+                out.write_str("an object")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Entries(entries))
+            }
+        }
+        deserializer.deserialize_map(InOrder)
+    }
 }
 
 /// Inputs in which runs of one system differ, the first so many.

@@ -64,46 +64,43 @@ function drawMachine(holder, found) {
   return Boolean(picture);
 }
 
+// The orbit of the rotor in the clearance circle, and the balls around it, darker the more they carry.
+function drawOrbit(canvas, { clearance, path, force, balls }) {
+  const size = canvas.clientWidth || 280;
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = canvas.height = size * ratio;
+  const pen = canvas.getContext("2d");
+  pen.scale(ratio, ratio);
+  const reach = path.slice(-3000).reduce((most, [x, y]) => Math.max(most, Math.hypot(x, y)), Math.max(clearance || 0, 1e-9));
+  const middle = size / 2;
+  const scale = (0.6 * middle) / reach;
+  const disc = (x, y, r, fill) => {
+    pen.fillStyle = fill;
+    pen.beginPath();
+    pen.arc(x, y, r, 0, 2 * Math.PI);
+    pen.fill();
+  };
+  pen.strokeStyle = "#8995a0";
+  pen.lineWidth = 1;
+  pen.beginPath();
+  pen.arc(middle, middle, (clearance || 0) * scale, 0, 2 * Math.PI);
+  pen.stroke();
+  pen.strokeStyle = "#1f5fa8";
+  pen.beginPath();
+  path.forEach(([x, y], n) => (n ? pen.lineTo(middle + x * scale, middle - y * scale) : pen.moveTo(middle + x * scale, middle - y * scale)));
+  pen.stroke();
+  const last = path[path.length - 1];
+  if (last) disc(middle + last[0] * scale, middle - last[1] * scale, 4, force > 0 ? "#b3261e" : "#22303c");
+  const most = balls.reduce((largest, [, load]) => Math.max(largest, load), 1e-9);
+  const r = Math.max(3, Math.min(11, (1.7 * middle) / Math.max(balls.length, 6)));
+  for (const [angle, load] of balls) disc(middle + 0.84 * middle * Math.cos(angle), middle - 0.84 * middle * Math.sin(angle), r, load > 0 ? `rgba(194,87,26,${0.25 + (0.75 * load) / most})` : "#c7d0d8");
+}
+
 // The orbits and balls of a run that is computed.
 function liveView() {
   const holder = el("div", { class: "live" });
   const paths = [];
   let [round, from] = [0, 0];
-  const draw = (bearing, k, canvas) => {
-    const size = canvas.clientWidth || 280;
-    const ratio = window.devicePixelRatio || 1;
-    canvas.width = canvas.height = size * ratio;
-    const pen = canvas.getContext("2d");
-    pen.scale(ratio, ratio);
-    const path = paths[k];
-    const reach = Math.max(bearing.clearance || 0, ...path.slice(-3000).map(([x, y]) => Math.hypot(x, y)), 1e-9);
-    const middle = size / 2;
-    const scale = (0.6 * middle) / reach;
-    pen.strokeStyle = "#8995a0";
-    pen.lineWidth = 1;
-    pen.beginPath();
-    pen.arc(middle, middle, (bearing.clearance || 0) * scale, 0, 2 * Math.PI);
-    pen.stroke();
-    pen.strokeStyle = "#1f5fa8";
-    pen.beginPath();
-    path.forEach(([x, y], n) => (n ? pen.lineTo(middle + x * scale, middle - y * scale) : pen.moveTo(middle + x * scale, middle - y * scale)));
-    pen.stroke();
-    const last = path[path.length - 1];
-    if (last) {
-      pen.fillStyle = bearing.force > 0 ? "#b3261e" : "#22303c";
-      pen.beginPath();
-      pen.arc(middle + last[0] * scale, middle - last[1] * scale, 4, 0, 2 * Math.PI);
-      pen.fill();
-    }
-    const balls = bearing.balls || [];
-    const most = Math.max(...balls.map(([, load]) => load), 1e-9);
-    for (const [angle, load] of balls) {
-      pen.fillStyle = load > 0 ? `rgba(194,87,26,${0.25 + (0.75 * load) / most})` : "#c7d0d8";
-      pen.beginPath();
-      pen.arc(middle + 0.84 * middle * Math.cos(angle), middle - 0.84 * middle * Math.sin(angle), Math.max(3, Math.min(11, (1.7 * middle) / Math.max(balls.length, 6))), 0, 2 * Math.PI);
-      pen.fill();
-    }
-  };
   return {
     node: holder,
     async update(id) {
@@ -118,7 +115,7 @@ function liveView() {
       live.bearings.forEach((bearing, k) => {
         const figure = holder.children[k + 1];
         figure.firstChild.textContent = `${words(bearing.name || "orbit and balls")}: contact force ${FIGURES.text(bearing.force, "N")}`;
-        draw(bearing, k, figure.lastChild);
+        drawOrbit(figure.lastChild, { ...bearing, path: paths[k], balls: bearing.balls || [] });
       });
     },
   };

@@ -100,7 +100,7 @@ async function editorOf(name, text, hash) {
       tasks.replaceChildren(...(kind ? offered.map(([task, label], k) => button(label, attempt(() => run(task)), { class: k ? "" : "first", title: k ? "" : "Ctrl+Enter" })) : []));
     }
     if (forms) forms.show(answer);
-    editor.mark(answer.problem ? answer.problem.line : 0, answer.problem && answer.problem.line ? answer.problem.message : "");
+    editor.mark(answer.problem ? answer.problem.line : 0, "");
     shown(answer.problem);
     if (!answer.problem) drawing.classList.toggle("none", !drawMachine(drawing, answer));
     drawing.classList.toggle("old", Boolean(answer.problem));
@@ -128,7 +128,7 @@ async function editorOf(name, text, hash) {
     if (now !== past.now || built.dropped) return;
     if (built.problem) {
       shown(built.problem);
-      editor.mark(built.problem.line, built.problem.message);
+      editor.mark(built.problem.line, "");
       if (forms) forms.fault(built.problem);
     }
     const list = built.warnings || [];

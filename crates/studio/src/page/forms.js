@@ -93,6 +93,9 @@ function leavesOf(tree, path = []) {
   return Object.entries(tree).flatMap(([name, value]) => leavesOf(value, [...path, name]));
 }
 
+// Keys whose values are picked from lists: bearings of the catalogue, materials known by name.
+const pickers = { name: "bearings", material: "materials" };
+
 // The schema of what a path leads to.
 function schemaAt(schema, path) {
   let node = schema;
@@ -125,7 +128,7 @@ function formsOf(table, act) {
   };
   for (const section of table.sections) {
     const rows = section.keys.filter((key) => key.name !== "format" && key.path !== "system").map((key) => {
-      const list = key.path === "bearing.name" ? "bearings" : null;
+      const list = key.path === "bearing.name" ? pickers.name : null;
       return own(key.path.split("."), { ...key, list }).node;
     });
     if (!rows.length) continue;
@@ -135,14 +138,14 @@ function formsOf(table, act) {
   }
   const find = () => {
     const wanted = filter.value.trim().toLowerCase();
-    for (const box of sections.values()) {
+    for (const box of node.querySelectorAll(".section")) {
       let any = false;
       for (const row of box.querySelectorAll(".field")) {
         const hit = !wanted || row.dataset.path.includes(wanted) || row.querySelector("label").title.toLowerCase().includes(wanted);
         row.classList.toggle("missed", !hit);
         any = any || (hit && !row.classList.contains("idle"));
       }
-      box.classList.toggle("missed", !any);
+      box.classList.toggle("missed", Boolean(wanted) && !any);
       if (wanted && any) box.open = true;
     }
   };
@@ -158,7 +161,7 @@ function formsOf(table, act) {
       const rows = given.map(([inner, typed]) => {
         const whole = [...at, ...inner];
         const key = keys.find((known) => known.inner === pathText(inner)) || { name: pathText(inner), doc: "", words: [] };
-        const row = own(whole, { ...key, name: pathText(inner) });
+        const row = own(whole, { ...key, name: pathText(inner), list: pickers[inner[inner.length - 1]] && (inner.length > 1 || inner[0] === "material") ? pickers[inner[inner.length - 1]] : null });
         row.show({ typed });
         return row.node;
       });
@@ -171,7 +174,7 @@ function formsOf(table, act) {
       return el("div", { class: "card" }, el("div", { class: "card-head" }, el("b", {}, title), left.length ? more : null, several ? button("×", () => act.remove(at), { class: "remove", "aria-label": `Remove ${pathText(path)} ${title}` }) : null), rows);
     });
     const start = () => act.add(path, about.start || keys.filter((key) => key.required).map((key) => [key.inner, key.example]));
-    return el("details", { class: "section", open: state.layout[`open:${pathText(path)}`] !== false, ontoggle: (event) => keepLayout({ [`open:${pathText(path)}`]: event.target.open }) }, el("summary", {}, el("b", {}, `${pathText(path)} (${cards.length})`), el("span", { class: "about" }, about.doc || "")), el("div", { class: "cards" }, cards), button(`+ ${words(path[path.length - 1])}`, start, { class: "add" }));
+    return el("details", { class: "section", open: state.layout[`open:${pathText(path)}`] ?? cards.length > 0, ontoggle: (event) => keepLayout({ [`open:${pathText(path)}`]: event.target.open }) }, el("summary", {}, el("b", {}, `${pathText(path)} (${cards.length})`), el("span", { class: "about" }, about.doc || "")), el("div", { class: "cards" }, cards), button(`+ ${words(path[path.length - 1])}`, start, { class: "add" }));
   };
 
   // Everything of a text that no table of keys names: by its schema.
@@ -214,13 +217,16 @@ function formsOf(table, act) {
   };
 
   let shape = "";
+  let lastValues = [];
   return {
     node: el("div", { class: "form-side" }, el("div", { class: "form-tools" }, filter), node),
     filter,
     // Fields after a check that could read the text; those of a text that cannot be read keep what they have.
     show({ typed: tree, values, problem }) {
-      const held = new Map((values || []).filter((value) => !value.bearing).map((value) => [value.path, value]));
-      for (const value of values || []) if (value.bearing && !held.has(value.path)) held.set(value.path, value);
+      // beside a mistake the values from before it
+      lastValues = values || lastValues;
+      const held = new Map(lastValues.filter((value) => !value.bearing).map((value) => [value.path, value]));
+      for (const value of lastValues) if (value.bearing && !held.has(value.path)) held.set(value.path, value);
       const active = document.activeElement && document.activeElement.closest(".field");
       // rows are put in anew only where keys came or went
       const now = JSON.stringify(tree, (name, value) => (name === "=" || name === "line" ? 0 : value));

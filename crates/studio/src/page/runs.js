@@ -116,7 +116,14 @@ async function runView(directory) {
   const file = (name, label) => el("a", { class: "button", href: `/file?run=${coded}&file=${name}`, download: "" }, label);
   const page = (name) => frameOf(`/page/run?run=${coded}&file=${name}`, `Page of ${directory}`);
   const place = el("div", { class: "page-place" }, page("report.html"));
-  const tabs = row.document ? [button("Results", () => place.replaceChildren(page("report.html"))), button("Document", () => place.replaceChildren(page("document.html")))] : [];
+  const show = (make) => attempt(async (event) => {
+    place.replaceChildren(await make());
+    for (const tab of event.target.parentNode.children) tab.classList.toggle("on", tab === event.target);
+  });
+  const tabs = el("span", { class: "tabs" },
+    button("Results", show(() => page("report.html")), { class: "on" }),
+    row.document ? button("Document", show(() => page("document.html"))) : null,
+    row.study ? null : button("Motion", show(() => motionView(directory))));
   const differs = (row.differs || []).map(([path, then, now]) => `${path}: ${then} → ${now}`).join("\n");
   return el("div", { class: "run-view" },
     el("div", { class: "toolbar" }, el("h1", {}, directory), differs ? el("span", { class: "status stale", title: differs }, "stale: the file has changed") : null, tabs, el("span", { class: "grow" }),
